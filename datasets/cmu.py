@@ -1,0 +1,141 @@
+"""The CMU Graphics Lab Motion Capture Database: in a folder, in the cache, or to be downloaded.
+
+The original Acclaim files lie as on the server: ``subjects/35/35.asf``, ``subjects/35/35_02.amc``.
+A folder that the user names comes before the cache, and only `CMULibrary.fetch` downloads.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from hashlib import sha256
+from pathlib import Path
+
+from mocapbench.datasets.acclaim_motion import Motion
+from mocapbench.datasets.acclaim_motion_reader import read_motion
+from mocapbench.datasets.acclaim_skeleton_reader import read_skeleton
+from mocapbench.datasets.digests import (
+    DigestMismatch,
+    DigestRegistry,
+    read_digests,
+    with_unix_line_ends,
+)
+from mocapbench.datasets.download import Downloader
+from mocapbench.datasets.library import Library, split_key
+
+__all__ = ["CMU_ACKNOWLEDGEMENT", "CMU_URL", "CMULibrary", "registered_digests"]
+
+CMU_URL = "http://mocap.cs.cmu.edu/"
+
+CMU_ACKNOWLEDGEMENT = (
+    "The data used in this project was obtained from mocap.cs.cmu.edu. "
+    "The database was created with funding from NSF EIA-0196217."
+)
+
+
+def registered_digests() -> dict[str, str]:
+    """Return the digests that ship with the package, by path below the database's root."""
+    return read_digests(Path(__file__).with_name("cmu_digests.tsv"))
+
+
+class CMULibrary(Library):
+    """Recordings of the CMU database by key, ``SUBJECT_TRIAL``.
+
+    Parameters
+    ----------
+    data_dir : Path or None
+        A folder with the database's ``subjects/``, which is read and never written.
+    cache_dir : Path
+        Where downloads and the digests of unregistered files are kept.
+    base_url : str
+        Address of the database.
+    known : mapping of str to str or None
+        Digests by relative path; None stands for those that ship with the package.
+    retries : int
+        Further tries after a failed download.
+    backoff : float
+        Seconds before the second retry, doubled for each further one.
+    """
+
+    def __init__(
+        self,
+        data_dir: Path | None,
+        cache_dir: Path,
+        *,
+        base_url: str = CMU_URL,
+        known: Mapping[str, str] | None = None,
+        retries: int = 4,
+        backoff: float = 0.5,
+    ) -> None:
+        self.folders = [cache_dir] if data_dir is None else [data_dir, cache_dir]
+        self.cache_dir = cache_dir
+        self.digests = DigestRegistry(
+            registered_digests() if known is None else known, cache_dir / "digests.tsv"
+        )
+        self.downloader = Downloader(base_url, cache_dir, retries=retries, backoff=backoff)
+
+    def where(self, key: str) -> str:
+        """Return the path of the .amc file, or an empty string unless both files are here."""
+        found = [self._find(path) for path in _paths(key)]
+        return "" if None in found else str(found[-1])
+
+    def read(self, key: str) -> Motion:
+        """Return the motion, from files whose digests were verified.
+
+        Raises
+        ------
+        FileNotFoundError
+            If a file is not here.
+        DigestMismatch
+            If a file is not the registered or pinned one.
+        AcclaimError
+            If a file cannot be parsed.
+        """
+        skeleton_file, motion_file = (self._verified(path) for path in _paths(key))
+        return read_motion(motion_file, read_skeleton(skeleton_file))
+
+    def digest(self, key: str) -> str:
+        """Return the SHA-256 of the .asf followed by the .amc, line ends normalised to LF."""
+        files = (self._verified(path) for path in _paths(key))
+        return sha256(b"".join(with_unix_line_ends(f.read_bytes()) for f in files)).hexdigest()
+
+    def fetch(self, key: str) -> None:
+        """Download what is not here, or is wrong in the cache.
+
+        Raises
+        ------
+        FetchError
+            If the server does not deliver.
+        DigestMismatch
+            If what it delivers, or a file in the user's folder, is not the right one.
+        """
+        for path in _paths(key):
+            self._discard_wrong_download(path)
+            if self._find(path) is None:
+                self.downloader.fetch(path, partial(self.digests.check, path))
+
+    def _find(self, path: str) -> Path | None:
+        files = (folder / path for folder in self.folders)
+        return next((file for file in files if file.is_file()), None)
+
+    def _verified(self, path: str) -> Path:
+        file = self._find(path)
+        if file is None:
+            raise FileNotFoundError(f"{path} is in none of {', '.join(map(str, self.folders))}")
+        self.digests.check(path, file.read_bytes(), str(file))
+        return file
+
+    def _discard_wrong_download(self, path: str) -> None:
+        try:
+            self._verified(path)
+        except FileNotFoundError:
+            return
+        except DigestMismatch as problem:
+            if self.cache_dir not in Path(problem.file).parents:
+                raise
+            Path(problem.file).unlink()
+
+
+def _paths(key: str) -> tuple[str, str]:
+    subject, _ = split_key(key)
+    return f"subjects/{subject}/{subject}.asf", f"subjects/{subject}/{key}.amc"

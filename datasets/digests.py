@@ -1,0 +1,108 @@
+"""Digests of files, blind to line ends, and the registry that says which are right."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Mapping
+from contextlib import suppress
+from hashlib import sha256
+from pathlib import Path
+
+__all__ = [
+    "DigestMismatch",
+    "DigestRegistry",
+    "UnregisteredDigestWarning",
+    "read_digests",
+    "with_unix_line_ends",
+]
+
+_ROW = re.compile(r"^(\S+)\t([0-9a-f]{64})$", re.MULTILINE)
+
+
+class DigestMismatch(ValueError):  # noqa: N818
+    """A file that is not the one it should be.
+
+    Parameters
+    ----------
+    file : str
+        Its path or address.
+    expected, got : str
+        SHA-256 of the content with line ends normalised to LF.
+    """
+
+    def __init__(self, file: str, expected: str, got: str) -> None:
+        super().__init__(file, expected, got)
+        self.file = file
+        self.expected = expected
+        self.got = got
+
+    def __str__(self) -> str:
+        return (
+            f"{self.file}: expected SHA-256 (of LF lines) {self.expected}, got {self.got}; "
+            "the file is damaged or another edition: remove it and fetch it again"
+        )
+
+
+class UnregisteredDigestWarning(UserWarning):
+    """A file that no registry lists was accepted, and its digest pinned."""
+
+
+def with_unix_line_ends(data: bytes) -> bytes:
+    """Return the bytes with CRLF replaced by LF: copies of the database differ in that only."""
+    return data.replace(b"\r\n", b"\n")
+
+
+def read_digests(path: Path) -> dict[str, str]:
+    """Return the digests that a table of path and SHA-256 lists; none if it does not exist."""
+    if not path.exists():
+        return {}
+    return dict(_ROW.findall(path.read_text(encoding="utf-8")))
+
+
+class DigestRegistry:
+    """Known digests, and those pinned when a file without one was first seen.
+
+    Parameters
+    ----------
+    known : mapping of str to str
+        SHA-256 by relative path.
+    pins : Path
+        Table of the digests accepted so far on this machine.
+    """
+
+    def __init__(self, known: Mapping[str, str], pins: Path) -> None:
+        self.known = known
+        self.pins = pins
+
+    def check(self, path: str, data: bytes, file: str) -> None:
+        """Verify the content of ``file``, which claims to be ``path``; pin it if it is new.
+
+        Raises
+        ------
+        DigestMismatch
+            If its digest is not the known or pinned one.
+
+        Warns
+        -----
+        UnregisteredDigestWarning
+            If there was neither.
+        """
+        got = sha256(with_unix_line_ends(data)).hexdigest()
+        expected = (read_digests(self.pins) | dict(self.known)).get(path)
+        if expected is None:
+            self._pin(path, got, file)
+        elif got != expected:
+            raise DigestMismatch(file, expected, got)
+
+    def _pin(self, path: str, digest: str, file: str) -> None:
+        warnings.warn(
+            f"{file}: no digest is registered for {path}; accepted as {digest} "
+            f"and from now on held to it (in {self.pins})",
+            UnregisteredDigestWarning,
+            stacklevel=2,
+        )
+        with suppress(OSError):  # a cache that is not ours to write to cannot hold us to anything
+            self.pins.parent.mkdir(parents=True, exist_ok=True)
+            with self.pins.open("a", encoding="utf-8") as stream:
+                stream.write(f"{path}\t{digest}\n")

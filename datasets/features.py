@@ -1,0 +1,87 @@
+"""The channels of each paper's experiments, from the 62 of the CMU database."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.datasets.preprocessing import root_differences
+from mocapbench.datasets.recording import Recording
+
+__all__ = ["THESIS_CHANNELS", "gpdm_features", "hlm_features", "smoothness", "thesis_candidates"]
+
+# fmt: off
+THESIS_CHANNELS = (
+    "root.tx", "root.ty", "root.tz", "root.rx", "root.ry", "root.rz",
+    "lowerback.rx", "lowerback.ry", "lowerback.rz",
+    "upperback.ry", "upperback.rz",
+    "thorax.rx", "thorax.ry", "thorax.rz",
+    "lowerneck.rx", "lowerneck.ry",
+    "upperneck.rx", "upperneck.ry",
+    "head.rx", "head.ry",
+    "rhumerus.rx", "rhumerus.ry", "rhumerus.rz",
+    "rradius.rx",
+    "lhumerus.rx", "lhumerus.ry", "lhumerus.rz",
+    "lradius.rx",
+    "rfemur.rx", "rfemur.rz",
+    "rtibia.rx",
+    "rfoot.rx", "rfoot.rz",
+    "lfemur.rx", "lfemur.ry", "lfemur.rz",
+    "ltibia.rx",
+    "lfoot.rx", "lfoot.rz",
+)
+# fmt: on
+"""The 39 channels of every motion task of the thesis, which states how many, not which.
+
+The `thesis_candidates` but for the five of least `smoothness`, averaged over the 90 resampled
+frames of 02_01, 02_02 and 07_02.
+"""
+
+_THESIS_REJECTED = ("clavicle", "fingers", "wrist", "hand", "thumb", "toes")
+_GPDM_REJECTED = ("fingers", "thumb", "hand", "toes")
+_STEP = 4  # from 120 to the papers' 30 frames per second
+
+
+def smoothness(recording: Recording) -> NDArray[np.float64]:
+    """Return log₁₀(var x / var Δx) of each channel (D,), variances with ddof 0.
+
+    The criterion by which the five noisiest channels are left out of the thesis's tasks; a constant
+    channel gives NaN.
+    """
+    variance = recording.values.var(axis=0)
+    roughness = np.diff(recording.values, axis=0).var(axis=0)
+    moving = (variance > 0) & (roughness > 0)
+    ratio = np.divide(variance, roughness, out=np.full_like(variance, np.nan), where=moving)
+    return np.asarray(np.log10(ratio))
+
+
+def thesis_candidates(recording: Recording) -> Recording:
+    """Return the 44 channels from which `THESIS_CHANNELS` were chosen, without extremities."""
+    return _without(recording, _THESIS_REJECTED)
+
+
+def gpdm_features(recording: Recording) -> Recording:
+    """Return GPDM's 50 channels at every 4th frame from the first.
+
+    44 joint angles (no fingers, thumbs, hands or toes), the root's three rotations, and its
+    translation as differences of the frames kept. Cut a segment out first: the last difference is
+    copied within it.
+    """
+    kept = _without(_every_fourth(recording), _GPDM_REJECTED)
+    return root_differences(kept)
+
+
+def hlm_features(recording: Recording) -> Recording:
+    """Return HLM's 62 channels at every 4th frame, the root's translation as differences."""
+    return root_differences(_every_fourth(recording))
+
+
+def _without(recording: Recording, segments: tuple[str, ...]) -> Recording:
+    """Return the channels whose segment's name ends in none of ``segments``."""
+    return recording.select(
+        [name for name in recording.channels if not name.partition(".")[0].endswith(segments)]
+    )
+
+
+def _every_fourth(recording: Recording) -> Recording:
+    return recording.frames(np.arange(0, len(recording.times), _STEP))

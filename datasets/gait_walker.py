@@ -1,0 +1,114 @@
+"""A procedural walker: joint angles from Fourier curves, the root's path from the feet.
+
+A subject has amplitudes, phases, cadence and posture of its own; a trial has a style, slow drifts
+and sensor noise. The feet stand on the floor, which gives the root's height, and the foot that
+bears the walker pushes it forward, which gives its path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import pi
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from mocapbench.datasets.acclaim_motion import FRAME_RATE, Motion
+from mocapbench.datasets.acclaim_skeleton import Skeleton
+from mocapbench.datasets.gait_curves import CURVES, Style
+from mocapbench.datasets.kinematics import FrameByJointBy3, joint_positions
+from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
+
+__all__ = ["walk"]
+
+_SOLE = {"tibia": 0.7, "foot": 0.1, "toes": 0.1}
+"""Height of a segment's end above the floor where it stands, in the skeleton's unit."""
+
+_ROOT_PATH = ("root.tx", "root.ty", "root.tz")
+
+
+def walk(skeleton: Skeleton, style: Style, subject: int, trial: int) -> Motion:
+    """Return the motion of one subject in one trial, 300 to 360 frames, at `FRAME_RATE`.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        With the segments of the CMU database.
+    style : Style
+        The gait.
+    subject, trial : int
+        Seed the subject's habits and the trial's variation.
+    """
+    habits, rng = np.random.default_rng([subject]), np.random.default_rng([subject, trial])
+    n_frames = int(rng.integers(300, 361))
+    cadence = style.cadence * habits.normal(1.0, 0.06)
+    rate = 2 * pi * cadence / FRAME_RATE * (1 + 0.03 * _smooth(rng, n_frames, 60))
+    phase = rng.uniform(0, 2 * pi) + np.cumsum(rate)
+    channels = [f"{name}.{dof}" for name, dofs in skeleton.moving.items() for dof in dofs]
+    curves = {
+        channel: _angle(channel, phase, style, habits, rng)
+        for channel in channels
+        if channel not in _ROOT_PATH
+    }
+    path = _root_path(skeleton, curves, phase, style) + 0.01 * rng.standard_normal((n_frames, 3))
+    curves |= dict(zip(_ROOT_PATH, path.T, strict=True))
+    values = np.column_stack([curves[channel] for channel in channels])
+    return Motion(skeleton, tuple(skeleton.moving), values)
+
+
+def _angle(
+    channel: str, phase: Frames, style: Style, habits: np.random.Generator, rng: np.random.Generator
+) -> Frames:
+    """Return the curve (N,) of one channel, in degrees; one without harmonics is constant."""
+    name, lag, sign = _side(channel)
+    offset, harmonics = CURVES[name]
+    posture = offset + style.offsets.get(name, 0.0) + habits.normal(0.0, 1.5)
+    swing = style.swing(name) * habits.normal(1.0, 0.08)
+    lag += habits.normal(0.0, 0.08)
+    if not harmonics:
+        return np.full(len(phase), sign * posture)
+    drift = 1 + 0.04 * _smooth(rng, len(phase), 60)
+    noise = 0.5 * _smooth(rng, len(phase), 12) + 0.15 * rng.standard_normal(len(phase))
+    waves = [a * np.cos(k * (phase + lag) + p) for k, (a, p) in enumerate(harmonics, 1)]
+    return np.asarray(sign * (posture + swing * drift * np.sum(waves, axis=0)) + noise)
+
+
+def _side(channel: str) -> tuple[str, float, float]:
+    """Return the curve's name, how far it is behind the left side, and its sign."""
+    if channel in CURVES:
+        return channel, 0.0, 1.0
+    if channel[0] == "l":
+        return channel[1:], 0.0, 1.0
+    return channel[1:], pi, 1.0 if channel.endswith("rx") else -1.0
+
+
+def _root_path(
+    skeleton: Skeleton, curves: Mapping[str, Frames], phase: Frames, style: Style
+) -> FrameByChannel:
+    """Return the root's translation (N, 3) in the skeleton's unit of length."""
+    soles = _soles(skeleton, curves)
+    # The foot that bears the walker stays where it is, so the root gains what that foot recedes.
+    balls = gaussian_filter1d(soles[:, 1::3, 2], 3, axis=0)
+    pace = -np.gradient(balls, axis=0).min(axis=1)
+    flight = style.flight * np.clip(np.cos(2 * phase + 0.6), 0.0, None)
+    height = flight - gaussian_filter1d(soles[..., 1].min(axis=1), 3)
+    return np.column_stack([0.35 * np.sin(phase), height, np.cumsum(gaussian_filter1d(pace, 8))])
+
+
+def _soles(skeleton: Skeleton, curves: Mapping[str, Frames]) -> FrameByJointBy3:
+    """Return where heel, ball and toe of both soles are, the root being at the origin."""
+    times = np.arange(len(curves["root.rx"])) / FRAME_RATE
+    angles = Recording(
+        "gait", times, np.column_stack(list(curves.values())), tuple(curves), ("deg",) * len(curves)
+    )
+    names = [segment.name for segment in skeleton.segments]
+    ends = [names.index(side + name) for side in "lr" for name in _SOLE]
+    soles = joint_positions(skeleton, angles)[:, ends] / skeleton.centimetres_per_unit
+    soles[..., 1] -= [*_SOLE.values()] * 2
+    return soles
+
+
+def _smooth(rng: np.random.Generator, n_frames: int, width: float) -> Frames:
+    """Return smooth noise of about unit variance whose correlation falls over ``width`` frames."""
+    gain = np.sqrt(2 * width * np.sqrt(pi))  # of the Gaussian kernel's energy
+    return np.asarray(gain * gaussian_filter1d(rng.standard_normal(n_frames), width))

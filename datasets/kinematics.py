@@ -1,0 +1,83 @@
+"""Forward kinematics: where the joints are, given the angles.
+
+A segment's rotation is stated in its own local frame: with C the rotation of the segment's axis and
+M that of its degrees of freedom, it turns by C M C⁻¹ within its parent, and its end lies at the
+parent's end plus ``length * direction`` so turned (Acclaim ASF/AMC specification).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from mocapbench.datasets.acclaim_skeleton import Segment, Skeleton
+from mocapbench.datasets.recording import Frames, Recording
+
+__all__ = ["FrameByJointBy3", "joint_positions"]
+
+FrameByJointBy3 = NDArray[np.float64]
+"""(N, J, 3) centimetres."""
+
+
+def joint_positions(skeleton: Skeleton, recording: Recording) -> FrameByJointBy3:
+    """Return the end of every segment in centimetres, in the order of ``skeleton.segments``.
+
+    The root's end is the root joint itself; ``skeleton.parents`` says which joints a bone joins.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Whose degrees of freedom the channels name.
+    recording : Recording
+        N complete frames. Degrees of freedom without a channel are zero: the rest pose.
+
+    Returns
+    -------
+    ndarray of shape (N, J, 3)
+
+    Raises
+    ------
+    ValueError
+        If a channel is not a degree of freedom of the skeleton, or an entry is hidden.
+    """
+    curves = _curves(skeleton, recording)
+    root, *segments = skeleton.segments
+    n_frames = len(recording.times)
+    translation = np.column_stack([curves[f"{root.name}.{dof}"] for dof in ("tx", "ty", "tz")])
+    ends = {root.name: translation}
+    rotations = {root.name: _rotation(root, curves)}
+    for segment in segments:
+        rotation = rotations[segment.parent] * _rotation(segment, curves)
+        bone = segment.length * np.asarray(segment.direction)
+        rotations[segment.name] = rotation
+        ends[segment.name] = ends[segment.parent] + rotation.apply(bone)
+    return np.stack(list(ends.values()), axis=1).reshape(n_frames, -1, 3) * (
+        skeleton.centimetres_per_unit
+    )
+
+
+def _curves(skeleton: Skeleton, recording: Recording) -> dict[str, Frames]:
+    """Return the curve of every degree of freedom."""
+    names = [f"{segment.name}.{dof}" for segment in skeleton.segments for dof in segment.dof]
+    unknown = [name for name in recording.channels if name not in names]
+    if unknown or not recording.visible.all():
+        raise ValueError(
+            f"recording {recording.name!r}: expected complete frames of the skeleton's degrees of "
+            f"freedom, got {np.count_nonzero(~recording.visible)} hidden entries and "
+            f"the unknown channels {unknown}"
+        )
+    rest = dict.fromkeys(names, np.zeros(len(recording.times)))
+    return rest | dict(zip(recording.channels, recording.values.T, strict=True))
+
+
+def _rotation(segment: Segment, curves: dict[str, Frames]) -> Rotation:
+    """Return C M C⁻¹ at every frame."""
+    rest = np.zeros_like(curves["root.tx"])
+    angles = np.column_stack(
+        [curves.get(f"{segment.name}.r{axis.lower()}", rest) for axis in segment.order]
+    )
+    # Lower case: about the fixed axes, the first named first, as the format has it.
+    moved = Rotation.from_euler(segment.order.lower(), angles, degrees=True)
+    axis = Rotation.from_euler("xyz", segment.axis, degrees=True)
+    return axis * moved * axis.inv()

@@ -1,0 +1,116 @@
+"""Choosing frames of a recording, and stating the root's path as differences.
+
+Every function is pure, `Recording` in, `Recording` out; frames keep their own times.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.datasets.recording import Recording
+
+__all__ = ["clip", "excerpt", "integrate_root", "resample", "root_differences"]
+
+_ROOT_PATH = ("root.tx", "root.ty", "root.tz")
+_ROOT_VELOCITY = ("root.dtx", "root.dty", "root.dtz")
+
+
+def clip(recording: Recording, start: int, stop: int) -> Recording:
+    """Return frames ``start`` to ``stop`` (0-based, half open), as far as the recording has them.
+
+    Raises
+    ------
+    ValueError
+        If it has none of them.
+    """
+    frames = np.arange(len(recording.times))[start:stop]
+    if not 0 <= start < stop or not len(frames):
+        raise ValueError(
+            f"recording {recording.name!r}: expected a window 0 <= start < stop that begins within "
+            f"its {len(recording.times)} frames, got [{start}, {stop})"
+        )
+    return recording.frames(frames)
+
+
+def excerpt(recording: Recording, first: int, last: int) -> Recording:
+    """Return frames ``first`` to ``last``, 1-based and inclusive, as GPDM §5.4 states them.
+
+    Raises
+    ------
+    ValueError
+        If the recording does not have all of them.
+    """
+    if not 1 <= first <= last <= len(recording.times):
+        raise ValueError(
+            f"recording {recording.name!r}: expected frames within 1 to {len(recording.times)}, "
+            f"got {first} to {last}"
+        )
+    return clip(recording, first - 1, last)
+
+
+def resample(recording: Recording, n_frames: int) -> Recording:
+    """Return ``n_frames`` of the frames, at ``round(linspace(first, last, n_frames))``.
+
+    Raises
+    ------
+    ValueError
+        If the recording has fewer.
+    """
+    available = len(recording.times)
+    if not 1 <= n_frames <= available:
+        raise ValueError(
+            f"recording {recording.name!r}: expected to choose 1 to {available} of its frames, "
+            f"got {n_frames}"
+        )
+    return recording.frames(np.round(np.linspace(0, available - 1, n_frames)))
+
+
+def root_differences(recording: Recording) -> Recording:
+    """Return the recording with the root's translation as differences, ``root.dtx`` and so on.
+
+    The difference of a frame is next minus current; the last frame repeats the one before.
+
+    Raises
+    ------
+    ValueError
+        If there is but one frame, or a channel of the root's translation is missing.
+    """
+    columns = _columns(recording, _ROOT_PATH)
+    if len(recording.times) < 2:
+        raise ValueError(f"recording {recording.name!r}: expected two frames or more, got one")
+    values = recording.values.copy()
+    values[:-1, columns] = np.diff(values[:, columns], axis=0)
+    values[-1, columns] = values[-2, columns]
+    return _renamed(recording, values, dict(zip(_ROOT_PATH, _ROOT_VELOCITY, strict=True)))
+
+
+def integrate_root(recording: Recording) -> Recording:
+    """Return the recording with the root's path from its differences, starting at the origin.
+
+    Undoes `root_differences` but for where the path started.
+
+    Raises
+    ------
+    ValueError
+        If a channel of the root's differences is missing.
+    """
+    columns = _columns(recording, _ROOT_VELOCITY)
+    values = recording.values.copy()
+    values[1:, columns] = np.cumsum(values[:-1, columns], axis=0)
+    values[0, columns] = 0.0
+    return _renamed(recording, values, dict(zip(_ROOT_VELOCITY, _ROOT_PATH, strict=True)))
+
+
+def _columns(recording: Recording, channels: tuple[str, ...]) -> list[int]:
+    missing = [name for name in channels if name not in recording.channels]
+    if missing:
+        raise ValueError(f"recording {recording.name!r} has no channels {missing}")
+    return [recording.channels.index(name) for name in channels]
+
+
+def _renamed(recording: Recording, values: NDArray[np.float64], names: dict[str, str]) -> Recording:
+    channels = tuple(names.get(name, name) for name in recording.channels)
+    return replace(recording, values=values, channels=channels)

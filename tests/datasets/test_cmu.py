@@ -1,0 +1,160 @@
+"""The CMU library: folder before cache, cache before server, and only right files."""
+
+import pickle
+from hashlib import sha256
+
+import numpy as np
+import pytest
+
+from mocapbench.datasets import (
+    CMU_ACKNOWLEDGEMENT,
+    AcclaimError,
+    CMULibrary,
+    DigestMismatch,
+    FetchError,
+    UnregisteredDigestWarning,
+)
+
+ASF, AMC = "subjects/01/01.asf", "subjects/01/01_02.amc"
+
+
+@pytest.fixture
+def files(skeleton_text, motion_text):
+    return {ASF: skeleton_text.encode(), AMC: motion_text.encode()}
+
+
+@pytest.fixture
+def known(files):
+    return {path: sha256(content).hexdigest() for path, content in files.items()}
+
+
+@pytest.fixture
+def library(server, files, known, tmp_path):
+    """A library with an empty folder and an empty cache before a server that has all files."""
+    server.files = dict(files)
+    return CMULibrary(
+        tmp_path / "data",
+        tmp_path / "cache",
+        base_url=server.url,
+        known=known,
+        retries=1,
+        backoff=0.0,
+    )
+
+
+def store(folder, files):
+    for path, content in files.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_bytes(content)
+
+
+def test_a_recording_that_is_nowhere_is_not_downloaded_by_reading(library, server):
+    assert library.where("01_02") == ""
+    with pytest.raises(FileNotFoundError, match=ASF):
+        library.read("01_02")
+    assert not server.requests
+
+
+def test_fetching_makes_it_readable(library, tmp_path):
+    library.fetch("01_02")
+    assert library.where("01_02") == str(tmp_path / "cache" / AMC)
+    assert library.read("01_02").values.shape == (3, 12)
+
+
+def test_fetching_again_asks_for_what_is_missing_only(library, server, files, known, tmp_path):
+    library.fetch("01_02")
+    server.files["subjects/01/01_03.amc"] = files[AMC]
+    known["subjects/01/01_03.amc"] = known[AMC]
+    server.requests.clear()
+    library.fetch("01_02")
+    library.fetch("01_03")
+    assert dict(server.requests) == {"subjects/01/01_03.amc": 1}
+
+
+def test_the_users_folder_comes_first_and_needs_no_server(library, server, files, tmp_path):
+    library.fetch("01_02")
+    store(tmp_path / "data", files)
+    server.requests.clear()
+    library.fetch("01_02")
+    assert library.where("01_02") == str(tmp_path / "data" / AMC)
+    assert not server.requests
+
+
+def test_folder_and_cache_complete_each_other(library, files, tmp_path):
+    store(tmp_path / "data", {ASF: files[ASF]})
+    store(tmp_path / "cache", {AMC: files[AMC]})
+    assert library.read("01_02").values.shape == (3, 12)
+
+
+def test_one_file_of_two_is_not_a_recording(library, files, tmp_path):
+    store(tmp_path / "data", {AMC: files[AMC]})
+    assert library.where("01_02") == ""
+
+
+def test_the_digest_is_that_of_both_files_and_blind_to_line_ends(library, files, tmp_path):
+    expected = sha256(files[ASF] + files[AMC]).hexdigest()
+    store(tmp_path / "data", files)
+    assert library.digest("01_02") == expected
+    store(tmp_path / "data", {p: c.replace(b"\n", b"\r\n") for p, c in files.items()})
+    assert library.digest("01_02") == expected
+    np.testing.assert_array_equal(library.read("01_02").values[0, :3], [1, 2, 3])
+
+
+def test_a_wrong_download_is_refused_and_not_kept(library, server, known):
+    server.files[AMC] += b"4\n"
+    with pytest.raises(DigestMismatch, match=known[AMC]):
+        library.fetch("01_02")
+    assert library.where("01_02") == ""
+
+
+def test_a_wrong_file_in_the_cache_is_refused_and_fetched_anew(library, files, tmp_path):
+    store(tmp_path / "cache", {**files, AMC: b"damaged"})
+    with pytest.raises(DigestMismatch, match="01_02"):
+        library.read("01_02")
+    library.fetch("01_02")
+    assert (tmp_path / "cache" / AMC).read_bytes() == files[AMC]
+
+
+def test_a_wrong_file_in_the_users_folder_is_refused_and_left_alone(library, files, tmp_path):
+    store(tmp_path / "data", {**files, AMC: b"mine"})
+    with pytest.raises(DigestMismatch, match="data"):
+        library.fetch("01_02")
+    assert (tmp_path / "data" / AMC).read_bytes() == b"mine"
+
+
+def test_without_a_registered_digest_the_first_one_seen_holds(library, known, files, tmp_path):
+    del known[AMC]
+    with pytest.warns(UnregisteredDigestWarning, match=AMC):
+        library.fetch("01_02")
+    assert library.read("01_02").values.shape == (3, 12)
+    store(tmp_path / "data", {AMC: files[AMC].replace(b"shin 42", b"shin 43")})
+    with pytest.raises(DigestMismatch, match="data"):
+        library.read("01_02")
+
+
+def test_a_file_that_the_server_lacks_is_an_error_and_keeps_the_rest(library, tmp_path):
+    with pytest.raises(FetchError, match="404"):
+        library.fetch("01_77")
+    assert (tmp_path / "cache" / ASF).exists()
+
+
+def test_a_right_but_unreadable_file_is_an_acclaim_error(library, known, files, tmp_path):
+    known[AMC] = sha256(b"nonsense\n").hexdigest()
+    store(tmp_path / "data", {**files, AMC: b"nonsense\n"})
+    with pytest.raises(AcclaimError, match=r"01_02\.amc, line 1"):
+        library.read("01_02")
+
+
+@pytest.mark.parametrize("key", ["", "35", "35_2", "../../etc_02", "35_02.amc", "cmu:35_02"])
+def test_a_malformed_key_is_refused(library, key):
+    with pytest.raises(ValueError, match="SUBJECT_TRIAL"):
+        library.where(key)
+
+
+def test_a_library_can_be_sent_to_another_process(library, files, tmp_path):
+    store(tmp_path / "data", files)
+    assert pickle.loads(pickle.dumps(library)).digest("01_02") == library.digest("01_02")
+
+
+def test_the_acknowledgement_names_the_grant():
+    assert "NSF EIA-0196217" in CMU_ACKNOWLEDGEMENT

@@ -1,0 +1,83 @@
+"""The laws of a recording: immutable, consistent, and honest about what is hidden."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from mocapbench.datasets import Recording
+
+
+def recorded(values, channels=("a", "b", "c")):
+    return Recording("r", np.arange(len(values)), values, channels, ("deg",) * len(channels))
+
+
+VALUES = np.arange(12.0).reshape(4, 3)
+entries = arrays(np.bool_, (4, 3))
+
+
+def test_it_keeps_copies_that_cannot_be_changed():
+    values = VALUES.copy()
+    recording = recorded(values)
+    values[0, 0] = 99.0
+    assert recording.values[0, 0] == 0.0
+    for array in (recording.values, recording.times):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+
+
+@given(entries)
+def test_hidden_entries_are_those_that_are_not_visible(hidden):
+    recording = recorded(VALUES).hide(hidden)
+    np.testing.assert_array_equal(recording.visible, ~hidden)
+    np.testing.assert_array_equal(recording.values[~hidden], VALUES[~hidden])
+
+
+@given(entries, entries)
+def test_hiding_twice_hides_both(first, second):
+    both = recorded(VALUES).hide(first).hide(second)
+    np.testing.assert_array_equal(both.values, recorded(VALUES).hide(first | second).values)
+
+
+@given(st.permutations("abc"), st.integers(0, 3))
+def test_selection_follows_the_names(order, n):
+    chosen = recorded(VALUES).select(order[:n])
+    assert chosen.channels == tuple(order[:n])
+    assert chosen.units == ("deg",) * n
+    np.testing.assert_array_equal(chosen.values, VALUES[:, ["abc".index(c) for c in order[:n]]])
+
+
+def test_an_unknown_channel_cannot_be_selected():
+    with pytest.raises(ValueError, match=r"no channels \['d'\]"):
+        recorded(VALUES).select(["a", "d"])
+
+
+def test_frames_keep_their_times():
+    some = recorded(VALUES).frames([1, 3])
+    np.testing.assert_array_equal(some.times, [1, 3])
+    np.testing.assert_array_equal(some.values, VALUES[[1, 3]])
+
+
+@pytest.mark.parametrize(
+    ("fields", "expected"),
+    [
+        ({"values": VALUES[:3]}, r"shape \(4, 3\)"),
+        ({"values": VALUES[:, :2]}, r"shape \(4, 3\)"),
+        ({"channels": ("a", "b", "a")}, "distinct"),
+        ({"units": ("deg", "deg")}, "one unit for each"),
+        ({"times": [0, 1, 1, 2]}, "increasing"),
+        ({"times": [0, 1, np.nan, 2]}, "increasing"),
+        ({"values": np.where(VALUES == 5, np.inf, VALUES)}, "infinity"),
+    ],
+)
+def test_what_does_not_fit_is_refused(fields, expected):
+    right = {
+        "name": "r",
+        "times": np.arange(4),
+        "values": VALUES,
+        "channels": ("a", "b", "c"),
+        "units": ("deg",) * 3,
+    }
+    with pytest.raises(ValueError, match=expected):
+        Recording(**{**right, **fields})
