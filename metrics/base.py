@@ -1,0 +1,125 @@
+"""What a metric is: a pure function of an outcome, with a direction."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Direction", "Imputation", "Metric", "Score", "Synthesis"]
+
+Array = NDArray[np.float64]
+
+
+class Direction(Enum):
+    """Which way a metric improves."""
+
+    LOWER = "lower"
+    HIGHER = "higher"
+    TARGET = "target"
+
+
+@dataclass(frozen=True, eq=False)
+class Imputation:
+    """What an imputation is judged by; recordings are concatenated along the frames.
+
+    Parameters
+    ----------
+    truth : ndarray of shape (N, D)
+        The observed, noisy values, complete.
+    mean : ndarray of shape (N, D)
+        Predicted values.
+    variance : ndarray of shape (N, D) or None
+        Predictive variance of an observation, positive at hidden entries.
+    hidden : ndarray of bool, shape (N, D)
+        The entries to score.
+    visible_mean, visible_variance : ndarray of shape (D,)
+        Mean and variance (ddof 0) of each output's visible entries over all recordings that the
+        model was given: the trivial Gaussian of the MSLL.
+    """
+
+    truth: Array
+    mean: Array
+    variance: Array | None
+    hidden: NDArray[np.bool_]
+    visible_mean: Array
+    visible_variance: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Synthesis:
+    """What a synthesis is judged by.
+
+    Parameters
+    ----------
+    samples : ndarray of shape (S, N, D)
+        Sampled recordings, noise included.
+    references : ndarray of shape (M, N, D)
+        Reference recordings on the same number of frames.
+    """
+
+    samples: Array
+    references: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """A metric's value and what it is the mean of.
+
+    Parameters
+    ----------
+    value : float
+        The aggregate.
+    parts : mapping of str to ndarray
+        The values along ``"output"`` (D,), ``"frame"`` (N,), ``"sample"`` (S,), ``"reference"``
+        (M,), ``"reference_sd"`` (M,) over samples, or ``"bin"``, where the metric has them; NaN
+        where an item was left out.
+    left_out : int
+        How many outputs were left out as degenerate.
+    """
+
+    value: float
+    parts: Mapping[str, Array] = field(default_factory=dict)
+    left_out: int = 0
+
+
+OutcomeT = TypeVar("OutcomeT", Imputation, Synthesis)
+
+
+@dataclass(frozen=True)
+class Metric(Generic[OutcomeT]):
+    """A named, directed, pure function of an outcome.
+
+    Parameters
+    ----------
+    name : str
+        Name in tables and records, for example ``"smse_pooled"``.
+    title : str
+        Heading for people, for example ``"SMSE (pooled)"``.
+    direction : Direction
+        Which way it improves.
+    outcome : type
+        `Imputation` or `Synthesis`: the kind of outcome it takes.
+    statistic : callable
+        From the outcome to a `Score`; its docstring states formula, axis and ddof.
+    needs_variance : bool
+        Whether it is defined only for a predictive distribution.
+    target : float or None
+        The ideal value where the direction is ``TARGET``.
+    """
+
+    name: str
+    title: str
+    direction: Direction
+    outcome: type[OutcomeT]
+    statistic: Callable[[OutcomeT], Score]
+    needs_variance: bool = False
+    target: float | None = None
+
+    def __call__(self, outcome: OutcomeT) -> Score:
+        """Return the score of ``outcome``."""
+        return self.statistic(outcome)

@@ -1,0 +1,84 @@
+import pickle
+
+import numpy as np
+import pytest
+
+from mocapbench.metrics import BUILTIN, Direction, Imputation, Synthesis
+
+
+@pytest.fixture
+def outcomes(draw):
+    rng = np.random.default_rng(0)
+    synthesis = Synthesis(rng.normal(size=(3, 8, 2)), rng.normal(size=(4, 8, 2)))
+    return {Imputation: draw(0), Synthesis: synthesis}
+
+
+def test_names_are_distinct_and_targets_belong_to_targeted_metrics():
+    assert len({metric.name for metric in BUILTIN}) == len(BUILTIN)
+    for metric in BUILTIN:
+        assert (metric.target is not None) == (metric.direction is Direction.TARGET)
+
+
+@pytest.mark.parametrize("metric", BUILTIN, ids=lambda metric: metric.name)
+def test_score_is_finite_and_parts_are_along_known_axes(metric, outcomes):
+    score = metric(outcomes[metric.outcome])
+    lengths = {
+        Imputation: {"frame": 12, "output": 4, "bin": 10},
+        Synthesis: {"sample": 3, "reference": 4, "reference_sd": 4, "output": 2},
+    }[metric.outcome]
+    assert np.isfinite(score.value)
+    assert {name: part.shape for name, part in score.parts.items()} == {
+        name: (lengths[name],) for name in score.parts
+    }
+
+
+@pytest.mark.parametrize("metric", BUILTIN, ids=lambda metric: metric.name)
+def test_metrics_travel_to_other_processes(metric, outcomes):
+    outcome = outcomes[metric.outcome]
+    assert pickle.loads(pickle.dumps(metric))(outcome).value == metric(outcome).value
+
+
+@pytest.mark.parametrize("metric", [m for m in BUILTIN if m.needs_variance], ids=lambda m: m.name)
+@pytest.mark.parametrize(
+    ("variance", "message"),
+    [(None, "needs one"), (0.0, "positive"), (-1.0, "positive"), (np.nan, "positive")],
+)
+def test_metrics_of_distributions_refuse_what_is_none(make, metric, variance, message):
+    with pytest.raises(ValueError, match=message):
+        metric(make([[1.0, 2.0]], 0.0, variance))
+
+
+@pytest.mark.parametrize(
+    "metric", [m for m in BUILTIN if m.outcome is Imputation], ids=lambda m: m.name
+)
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"hidden": np.zeros((2, 2), dtype=bool)}, "at least one hidden entry"),
+        ({"hidden": np.ones((2, 3), dtype=bool)}, "expected hidden of shape"),
+        ({"visible_mean": np.zeros(3)}, "expected visible_mean of shape"),
+        ({"truth": np.zeros((2, 2, 1))}, "truth of shape"),
+        ({"truth": np.full((2, 2), np.nan)}, "finite truth"),
+        ({"mean": np.inf}, "finite mean"),
+    ],
+)
+def test_unsound_outcomes_are_refused(make, metric, changes, message):
+    sound = {"truth": np.zeros((2, 2)), "mean": 0.0, "variance": 1.0}
+    with pytest.raises(ValueError, match=message):
+        metric(make(**(sound | changes)))
+
+
+@pytest.mark.parametrize(
+    "metric", [m for m in BUILTIN if m.outcome is Imputation], ids=lambda m: m.name
+)
+def test_visible_entries_do_not_count(draw, make, metric):
+    outcome = draw(3)
+    changed = make(
+        np.where(outcome.hidden, outcome.truth, np.nan),
+        np.where(outcome.hidden, outcome.mean, np.nan),
+        outcome.variance,
+        outcome.hidden,
+        visible_mean=outcome.visible_mean,
+        visible_variance=outcome.visible_variance,
+    )
+    assert metric(changed).value == metric(outcome).value
