@@ -1,0 +1,153 @@
+"""The best-matching stretches of training motion, stretched in time and averaged.
+
+Motions of one kind repeat: what happens in a gap has happened in training, a little faster or
+slower. So every stretch of every training recording is laid over the gap at several tempi, and
+the stretches that agree with the frames beside the gap fill it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.gaps import hidden_frames, runs
+from mocapbench.baselines.pooling import check_channels, check_recordings
+from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
+from mocapbench.datasets import FrameByChannel, Recording
+
+__all__ = ["AlignedWindow"]
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+_SCALES = np.arange(75, 136, 5) / 100
+_N_CONTEXT = 3
+
+
+@dataclass(frozen=True, eq=False)
+class _Tempo:
+    """A training run (n, D) read at ``offsets`` (L,) frames from each possible first frame."""
+
+    run: FrameByChannel
+    offsets: Array
+
+    @property
+    def starts(self) -> Index:
+        """(A,) the first frames from which the window stays within the run; maybe none."""
+        return np.arange(len(self.run) - int(np.ceil(self.offsets[-1])))
+
+    def at(self, starts: Index, rows: Index) -> Array:
+        """Return ``rows`` (k,) of the windows from ``starts`` (A,), by linear interpolation."""
+        places = starts[:, None] + self.offsets[rows]
+        before, after = np.floor(places).astype(np.intp), np.ceil(places).astype(np.intp)
+        weight = (places - before)[:, :, None]
+        return np.asarray((1 - weight) * self.run[before] + weight * self.run[after])
+
+    def errors(self, rows: Index, values: FrameByChannel) -> Array:
+        """Return the squared errors (A,) of the windows' ``rows`` against ``values`` (k, D)."""
+        return np.asarray(np.sum((self.at(self.starts, rows) - values) ** 2, axis=(1, 2)))
+
+
+class AlignedWindow(FrameImputer, Inductive):
+    """Fill a gap with the mean of the training windows that match the frames beside it.
+
+    A window spans the gap and up to three frames on each side, at 0.75, 0.80 … 1.35 training
+    frames per frame, from every training frame, linearly interpolated. Its error is the sum of
+    squares over the visible ones of those frames beside the gap: of one side only where the gap
+    touches an end of the recording. The unweighted mean of the best windows is the fill; values
+    are neither shifted nor scaled. Gaps are filled apart. Time is counted in frames, so that all
+    recordings should have one frame rate. There is no predictive distribution.
+
+    Parameters
+    ----------
+    n_windows : int, default=5
+        How many of the best windows are averaged.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    runs_ : list of ndarray (n, D)
+        The stretches of frames without hidden entries.
+    """
+
+    def __init__(self, n_windows: int = 5) -> None:
+        self.n_windows = n_windows
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Keep the complete stretches of the recordings.
+
+        Raises
+        ------
+        ValueError
+            If `n_windows` is below 1, there is no recording, channels differ, or a name repeats.
+        """
+        if self.n_windows < 1:
+            raise ValueError(f"expected n_windows of at least 1, got {self.n_windows}")
+        checked = check_recordings(recordings)
+        self.channels_ = checked[0].channels
+        self.runs_ = [
+            recording.values[run]
+            for recording in checked
+            for run in runs(np.asarray(recording.visible.all(axis=1)))
+        ]
+        return self
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the mean of the best windows in each gap.
+
+        Raises
+        ------
+        ValueError
+            If channels differ, a frame is hidden in part, no frame beside a gap is visible, or no
+            complete stretch of training is long enough.
+        """
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_)
+        return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
+
+    def _filled(self, recording: Recording) -> FrameByChannel:
+        hidden = hidden_frames(recording)
+        filled = recording.values.copy()
+        for gap in runs(hidden):
+            first, last = gap[0] - _N_CONTEXT, gap[-1] + _N_CONTEXT
+            window = np.arange(max(first, 0), min(last + 1, len(hidden)))
+            beside = ~hidden[window]
+            if not beside.any():
+                raise ValueError(
+                    f"recording {recording.name!r}: expected a visible frame beside frames "
+                    f"{gap[0]} to {gap[-1]}, got none"
+                )
+            filled[gap] = self._best(beside, recording.values[window[beside]])[gap - window[0]]
+        return filled
+
+    def _best(self, beside: NDArray[np.bool_], values: FrameByChannel) -> FrameByChannel:
+        """Return the mean (L, D) of the windows that fit ``values`` where ``beside`` (L,)."""
+        tempi = self._tempi(len(beside))
+        context = np.flatnonzero(beside)
+        errors = np.concatenate([tempo.errors(context, values) for tempo in tempi])
+        starts = np.concatenate([tempo.starts for tempo in tempi])
+        owners = np.repeat(np.arange(len(tempi)), [len(tempo.starts) for tempo in tempi])
+        best = np.argsort(errors, kind="stable")[: self.n_windows]
+        rows = np.arange(len(beside))
+        windows = [tempi[owners[i]].at(starts[[i]], rows)[0] for i in best]
+        return np.asarray(np.mean(windows, axis=0))
+
+    def _tempi(self, length: int) -> list[_Tempo]:
+        """Return the runs at all tempi at which they hold a window of ``length`` frames."""
+        # Rounded so that 0.8 · 5 is the frame 4, not something just above it.
+        offsets = np.round(np.outer(_SCALES, np.arange(length)), 9)
+        tempi = [_Tempo(run, row) for row in offsets for run in self.runs_]
+        long_enough = [tempo for tempo in tempi if len(tempo.starts)]
+        if not long_enough:
+            longest = max((len(run) for run in self.runs_), default=0)
+            raise ValueError(
+                f"expected a complete training stretch of {int(np.ceil(offsets[0, -1])) + 1} "
+                f"frames for a window of {length}, got {longest} at most; train on longer ones"
+            )
+        return long_enough

@@ -1,0 +1,92 @@
+"""Recordings on one time grid, and the patterns in which they are visible.
+
+A *pattern* is a set of replicates with the same visible entries. Exact inference needs nothing of
+a pattern but its mean curve and the deviations from it, whence its cost does not grow with the
+number of replicates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.datasets import Recording
+
+__all__ = ["Pattern", "Replicates"]
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Pattern:
+    """Replicates with the same visible entries.
+
+    Parameters
+    ----------
+    members : ndarray of int, shape (R_p,)
+        Their indices.
+    observed : ndarray of bool, shape (D, N)
+        What is visible of each.
+    """
+
+    members: Index
+    observed: NDArray[np.bool_]
+
+    @property
+    def size(self) -> int:
+        """R_p, the number of replicates."""
+        return len(self.members)
+
+
+@dataclass(frozen=True, eq=False)
+class Replicates:
+    """R replicates of D outputs on the union of their visible times.
+
+    Parameters
+    ----------
+    times : ndarray of shape (N,)
+        All times at which something is visible.
+    data : ndarray of shape (R, D, N)
+        The values, 0 where hidden.
+    observed : ndarray of bool, shape (R, D, N)
+        Which entries are visible.
+    """
+
+    times: Array
+    data: Array
+    observed: NDArray[np.bool_]
+
+    @classmethod
+    def align(cls, recordings: Sequence[Recording]) -> Replicates:
+        """Put recordings with the same channels on one grid."""
+        seen = [recording.visible.any(axis=1) for recording in recordings]
+        times = np.unique(
+            np.concatenate([rec.times[rows] for rec, rows in zip(recordings, seen, strict=True)])
+        )
+        values = np.full((len(recordings), len(recordings[0].channels), len(times)), np.nan)
+        for replicate, recording, rows in zip(values, recordings, seen, strict=True):
+            columns = np.searchsorted(times, recording.times[rows])
+            replicate[:, columns] = recording.values[rows].T
+        observed = ~np.isnan(values)
+        return cls(times, np.where(observed, values, 0.0), observed)
+
+    @cached_property
+    def patterns(self) -> tuple[Pattern, ...]:
+        """The patterns in order of first appearance; replicates that show nothing have none."""
+        groups: dict[bytes, list[int]] = {}
+        for r, visible in enumerate(self.observed):
+            groups.setdefault(visible.tobytes(), []).append(r)
+        return tuple(
+            Pattern(np.array(members), self.observed[members[0]])
+            for members in groups.values()
+            if self.observed[members[0]].any()
+        )
+
+    def means(self) -> Array:
+        """Return (P, D, N), the mean curve of each pattern."""
+        return np.stack([self.data[pattern.members].mean(axis=0) for pattern in self.patterns])

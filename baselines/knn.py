@@ -1,0 +1,137 @@
+"""Nearest neighbours: of frames where a part is hidden, of transitions where the whole is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.impute import KNNImputer
+from sklearn.neighbors import NearestNeighbors
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.gaps import hidden_frames, runs
+from mocapbench.baselines.pooling import (
+    check_recordings,
+    check_visible,
+    pool,
+    stack,
+    visible_moments,
+)
+from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
+from mocapbench.baselines.transitions import Steps, fill_gap
+from mocapbench.datasets import FrameByChannel, Recording
+
+__all__ = ["KNN"]
+
+Array = NDArray[np.float64]
+
+
+class KNN(Imputer, Inductive):
+    """Fill hidden entries from the nearest frames of all recordings.
+
+    A recording whose frames are all visible or all hidden as a whole has each gap filled by the
+    transition model: the path from one end of the gap to the other whose steps are nearest to the
+    mean steps of the training frames around it (`mocapbench.baselines.transitions`). Any other
+    recording goes through scikit-learn's `KNNImputer` on the stacked frames of all recordings,
+    with time as one more column, in units that give it the median channel's spread.
+
+    Both look at the recordings given to `fit` and at the recording to fill, whose visible entries
+    are training data too. There is no predictive distribution.
+
+    Parameters
+    ----------
+    n_neighbors : int, default=15
+        How many neighbours are averaged; all there are, if they are fewer.
+
+    Attributes
+    ----------
+    recordings_ : tuple of Recording
+        The recordings given to `fit`.
+
+    Notes
+    -----
+    Wang, Fleet and Hertzmann (2008), Table 2, has a column "KNN-15" whose objective is not
+    printed; this model does not reproduce it.
+    """
+
+    def __init__(self, n_neighbors: int = 15) -> None:
+        self.n_neighbors = n_neighbors
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Keep the recordings.
+
+        Raises
+        ------
+        ValueError
+            If `n_neighbors` is below 1, there is no recording, channels differ, or a name repeats.
+        """
+        if self.n_neighbors < 1:
+            raise ValueError(f"expected n_neighbors of at least 1, got {self.n_neighbors}")
+        self.recordings_ = check_recordings(recordings)
+        return self
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return each recording filled, apart from the others given here.
+
+        Raises
+        ------
+        ValueError
+            If channels differ, a channel is visible nowhere, a recording is hidden as a whole, or
+            no two consecutive frames are visible from which to learn a transition.
+        """
+        check_is_fitted(self)
+        return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
+
+    def _filled(self, recording: Recording) -> FrameByChannel:
+        pooled = pool(self.recordings_, [recording])
+        complete = recording.visible.all(axis=1)
+        whole = complete == recording.visible.any(axis=1)
+        fill = _fill_frames if whole.all() and not complete.all() else _fill_entries
+        return fill(recording, pooled, self.n_neighbors)
+
+
+def _fill_entries(
+    recording: Recording, pooled: Sequence[Recording], n_neighbors: int
+) -> FrameByChannel:
+    """Return the recording filled from frames that are near where both are visible."""
+    check_visible(pooled)
+    _, variance = visible_moments(pooled)
+    times = np.concatenate([other.times for other in pooled])
+    scale = np.median(np.sqrt(variance)) / (times.std() or 1.0)
+    imputer = KNNImputer(n_neighbors=n_neighbors)
+    imputer.fit(np.column_stack([stack(pooled), scale * times]))
+    frames = np.column_stack([recording.values, scale * recording.times])
+    return np.asarray(imputer.transform(frames)[:, :-1])
+
+
+def _fill_frames(
+    recording: Recording, pooled: Sequence[Recording], n_neighbors: int
+) -> FrameByChannel:
+    """Return the recording with each gap filled by the transition model."""
+    filled = recording.values.copy()
+    steps = _mean_steps(pooled, n_neighbors)
+    for gap in runs(hidden_frames(recording)):
+        path = np.arange(max(gap[0] - 1, 0), min(gap[-1] + 2, len(filled)))
+        if len(path) == len(gap):
+            raise ValueError(f"recording {recording.name!r}: expected a visible frame, got none")
+        filled[path] = fill_gap(recording.values[path], steps)
+    return filled
+
+
+def _mean_steps(recordings: Sequence[Recording], n_neighbors: int) -> Steps:
+    """Return the function from frames to the mean step of the training frames nearest to them."""
+    steps = np.concatenate([np.diff(recording.values, axis=0) for recording in recordings])
+    frames = np.concatenate([recording.values[:-1] for recording in recordings])
+    known = ~np.isnan(steps).any(axis=1)
+    if not known.any():
+        raise ValueError("expected two consecutive visible frames in some recording, got none")
+    steps, frames = steps[known], frames[known]
+    index = NearestNeighbors(n_neighbors=min(n_neighbors, len(frames))).fit(frames)
+
+    def mean_steps(places: FrameByChannel) -> Array:
+        neighbours = index.kneighbors(places, return_distance=False)
+        return np.asarray(steps[neighbours].mean(axis=1))
+
+    return mean_steps

@@ -1,0 +1,32 @@
+r"""One multiple-output Gaussian process of which every recording is a draw of its own.
+
+:math:`f_r \sim \mathcal{GP}(0, K_f)` independently, :math:`y_r = f_r + \varepsilon_r`: recordings
+share their statistics but not their shape. It is to the MOHGP what the thesis lacks, a baseline
+with the same covariances and no hierarchy.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from mocapbench.baselines.gp.estimator import GaussianProcess
+from mocapbench.baselines.gp.parameters import CHILD
+from mocapbench.baselines.gp.reduction import Reduction, independent
+from mocapbench.baselines.gp.replicates import Replicates
+
+__all__ = ["LMCIndependent"]
+
+
+class LMCIndependent(GaussianProcess):
+    """Recordings are independent draws of one process.
+
+    `impute` conditions each recording on its own visible entries. `sample` draws from the prior.
+    Parameters and attributes are those of `GaussianProcess`.
+    """
+
+    layers: ClassVar[tuple[str, ...]] = (CHILD,)
+
+    @staticmethod
+    def reduce(replicates: Replicates) -> Reduction:
+        """Return the likelihood of replicates in standard units as block problems."""
+        return independent(replicates)

@@ -1,0 +1,33 @@
+r"""MOA, the thesis's reference model: one multiple-output Gaussian process.
+
+All recordings are noisy observations of the *same* function, :math:`g \sim \mathcal{GP}(0, K_g)`,
+:math:`y_r = g + \varepsilon_r`. What tells one recording from another is taken for noise, which is
+why it interpolates so poorly (thesis §5.1).
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from mocapbench.baselines.gp.estimator import GaussianProcess
+from mocapbench.baselines.gp.parameters import PARENT
+from mocapbench.baselines.gp.reduction import Reduction, pooled
+from mocapbench.baselines.gp.replicates import Replicates
+
+__all__ = ["MOA"]
+
+
+class MOA(GaussianProcess):
+    """Recordings are noisy observations of one function.
+
+    `impute` gives the posterior of that function. `sample` takes its posterior mean as the trend
+    and draws with the prior covariance around it. Parameters and attributes are those of
+    `GaussianProcess`.
+    """
+
+    layers: ClassVar[tuple[str, ...]] = (PARENT,)
+
+    @staticmethod
+    def reduce(replicates: Replicates) -> Reduction:
+        """Return the likelihood of replicates in standard units as block problems."""
+        return pooled(replicates)

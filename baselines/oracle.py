@@ -1,0 +1,167 @@
+r"""The limit on toy data: the generating process with its true parameters.
+
+The children are :math:`y_r = g + (f_r - g) + \varepsilon_r` with blocks
+:math:`\operatorname{cov}(y_r, y_s) = K_g + \delta_{rs}(K_f + \sigma^2 I)`. Children that show the
+same entries form a *pattern*, of size :math:`R_p`. Their mean and the deviations from it are
+independent, and only the means know about :math:`g`, so the parent is inferred from one curve per
+pattern, with covariance :math:`K_g + \delta_{pq}(K_f + \sigma^2 I)/R_p`.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.pooling import check_recordings
+from mocapbench.baselines.protocols import Imputer, Informed, Prediction
+from mocapbench.datasets import Mask, Recording, ToyProcess
+
+__all__ = ["Oracle"]
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class _Pattern:
+    """Children that show the same ``entries`` (n,) of a curve; their ``values`` are (R_p, n)."""
+
+    entries: Index
+    values: Array
+
+    @property
+    def size(self) -> int:
+        return len(self.values)
+
+    @property
+    def mean(self) -> Array:
+        return np.asarray(self.values.mean(axis=0))
+
+
+class Oracle(Imputer, Informed):
+    """Condition the true process on all that is visible.
+
+    Exact mean and variance of the hidden observations, noise included, given the visible entries
+    of all recordings in `fit`, which are children of one parent.
+
+    Attributes
+    ----------
+    process_ : ToyProcess
+        The generating process.
+    times_ : ndarray of shape (N,)
+        All times of the recordings; a curve on this grid is a vector (D N,), outputs slowest.
+    """
+
+    def inform(self, process: ToyProcess) -> Self:
+        """Take the process that generated the recordings."""
+        self.process_ = process
+        return self
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Condition on the means of the patterns.
+
+        Raises
+        ------
+        ValueError
+            If no process is known, the recordings' channels differ or are not its outputs, a name
+            repeats, or nothing is visible.
+        """
+        check_is_fitted(self, "process_", msg="expected a generating process: call inform first")
+        checked = check_recordings(recordings)
+        if len(checked[0].channels) != self.process_.n_outputs:
+            raise ValueError(
+                f"expected the process's {self.process_.n_outputs} outputs, "
+                f"got recordings of {len(checked[0].channels)} channels"
+            )
+        self.times_ = np.unique(np.concatenate([recording.times for recording in checked]))
+        self._parent = self.process_.parent.covariance(self.times_)
+        self._within = self.process_.child.covariance(self.times_)
+        self._within += self.process_.noise * np.eye(len(self._within))
+        self._group(checked)
+        self._condition()
+        return self
+
+    def _group(self, recordings: Sequence[Recording]) -> None:
+        """Find the patterns, and for each recording its pattern and its row there."""
+        groups: dict[bytes, list[Recording]] = defaultdict(list)
+        for recording in recordings:
+            groups[self._entries(recording, recording.visible).tobytes()].append(recording)
+        self._patterns = [self._pattern(group) for group in groups.values()]
+        self._places = {
+            recording.name: (p, row)
+            for p, group in enumerate(groups.values())
+            for row, recording in enumerate(group)
+        }
+
+    def _pattern(self, group: Sequence[Recording]) -> _Pattern:
+        entries = self._entries(group[0], group[0].visible)
+        values = [recording.values.T[recording.visible.T] for recording in group]
+        return _Pattern(entries, np.stack(values))
+
+    def _entries(self, recording: Recording, mask: Mask) -> Index:
+        """Return where the entries under ``mask`` (N, D) stand in a curve."""
+        columns = np.searchsorted(self.times_, recording.times)
+        rows = len(self.times_) * np.arange(len(recording.channels))
+        return np.asarray((rows[:, None] + columns)[mask.T])
+
+    def _condition(self) -> None:
+        """Factorise the covariance of the patterns' means."""
+        sizes = [len(pattern.entries) for pattern in self._patterns]
+        if not sum(sizes):
+            raise ValueError("expected visible entries to condition on, got none")
+        self._owner = np.repeat(np.arange(len(sizes)), sizes)
+        self._seen = np.concatenate([pattern.entries for pattern in self._patterns])
+        means = np.concatenate([pattern.mean for pattern in self._patterns])
+        replicates = np.array([pattern.size for pattern in self._patterns])[self._owner]
+        block = np.ix_(self._seen, self._seen)
+        same = self._owner[:, None] == self._owner
+        covariance = self._parent[block] + np.where(same, self._within[block], 0.0) / replicates
+        self._factor = cho_factor(covariance, lower=True)
+        self._weights = cho_solve(self._factor, means)
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the exact conditional mean and variance of the hidden entries.
+
+        Raises
+        ------
+        ValueError
+            If a recording was not given to `fit`.
+        """
+        check_is_fitted(self, "times_")
+        return [self._prediction(recording) for recording in recordings]
+
+    def _prediction(self, recording: Recording) -> Prediction:
+        if recording.name not in self._places:
+            raise ValueError(
+                f"recording {recording.name!r} was not given to fit; expected one of "
+                f"{sorted(self._places)}"
+            )
+        hidden = ~recording.visible
+        mean, variance = np.zeros(hidden.shape), np.zeros(hidden.shape)
+        mean.T[hidden.T], variance.T[hidden.T] = self._conditional(
+            *self._places[recording.name], self._entries(recording, hidden)
+        )
+        return Prediction.around(recording, mean, variance)
+
+    def _conditional(self, p: int, row: int, hidden: Index) -> tuple[Array, Array]:
+        """Return mean and variance of the ``hidden`` entries of child ``row`` of pattern ``p``."""
+        pattern = self._patterns[p]
+        own = self._within[np.ix_(hidden, self._seen)] * (self._owner == p)
+        cross = self._parent[np.ix_(hidden, self._seen)] + own / pattern.size
+        mean = cross @ self._weights
+        variance = np.diag(self._parent)[hidden] + np.diag(self._within)[hidden]
+        variance -= np.sum(cross * cho_solve(self._factor, cross.T).T, axis=1)
+
+        # What the child's deviation from its pattern's mean adds: nothing if it is alone.
+        child = self._within[np.ix_(hidden, pattern.entries)]
+        gain = np.linalg.solve(self._within[np.ix_(pattern.entries, pattern.entries)], child.T).T
+        mean += gain @ (pattern.values[row] - pattern.mean)
+        variance -= (1 - 1 / pattern.size) * np.sum(gain * child, axis=1)
+        return mean, variance

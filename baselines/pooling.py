@@ -1,0 +1,100 @@
+"""Recordings as models take them: checked, and pooled over fit and impute."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.datasets import FrameByChannel, Recording
+
+__all__ = [
+    "check_channels",
+    "check_recordings",
+    "check_visible",
+    "pool",
+    "stack",
+    "visible_moments",
+]
+
+Array = NDArray[np.float64]
+
+
+def check_recordings(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
+    """Return the recordings as a tuple, once they can be stacked.
+
+    Raises
+    ------
+    ValueError
+        If there is none, channels differ, or a name repeats.
+    """
+    checked = tuple(recordings)
+    if not checked:
+        raise ValueError("expected at least one recording, got none")
+    check_channels(checked, checked[0].channels)
+    names = [recording.name for recording in checked]
+    if len(set(names)) != len(names):
+        repeated = sorted({name for name in names if names.count(name) > 1})
+        raise ValueError(f"expected recordings with distinct names, got {repeated} repeatedly")
+    return checked
+
+
+def check_channels(recordings: Sequence[Recording], channels: tuple[str, ...]) -> None:
+    """Check that every recording has the given channels, in the same order.
+
+    Raises
+    ------
+    ValueError
+        If one has not.
+    """
+    for recording in recordings:
+        if recording.channels != channels:
+            raise ValueError(
+                f"recording {recording.name!r}: expected channels {channels}, "
+                f"got {recording.channels}; select the same channels of every recording"
+            )
+
+
+def check_visible(recordings: Sequence[Recording]) -> None:
+    """Check that every channel is visible somewhere.
+
+    Raises
+    ------
+    ValueError
+        If one is hidden in all recordings.
+    """
+    seen = ~np.isnan(stack(recordings)).all(axis=0)
+    if not seen.all():
+        channels = [recordings[0].channels[d] for d in np.flatnonzero(~seen)]
+        raise ValueError(f"expected a visible entry of every channel, got none of {channels}")
+
+
+def pool(fitted: Sequence[Recording], given: Sequence[Recording]) -> tuple[Recording, ...]:
+    """Return the recordings given to fit and impute, each name once, as given last.
+
+    Raises
+    ------
+    ValueError
+        As `check_recordings`.
+    """
+    by_name = {recording.name: recording for recording in (*fitted, *given)}
+    return check_recordings(tuple(by_name.values()))
+
+
+def stack(recordings: Sequence[Recording]) -> FrameByChannel:
+    """Return the values of all recordings, one below the other: (ΣN, D)."""
+    return np.concatenate([recording.values for recording in recordings])
+
+
+def visible_moments(recordings: Sequence[Recording]) -> tuple[Array, Array]:
+    """Return the mean and variance (ddof 0) of each channel's visible entries: (D,) each.
+
+    NaN where a channel has none.
+    """
+    values = stack(recordings)
+    seen = ~np.isnan(values)
+    counts = np.where(seen.any(axis=0), seen.sum(axis=0), np.nan)
+    mean = np.where(seen, values, 0.0).sum(axis=0) / counts
+    variance = np.where(seen, (values - mean) ** 2, 0.0).sum(axis=0) / counts
+    return mean, variance

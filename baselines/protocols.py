@@ -1,0 +1,114 @@
+r"""What a model is, and what it may be able to do.
+
+A model learns from recordings, hidden entries included, and then has abilities. Each ability is
+an abstract base class, so that a model says what it can do by what it inherits:
+
+* `FrameImputer` fills whole hidden frames: the mean, and if the model has one the variance, of
+  :math:`p(y_{\text{hidden}} \mid y_{\text{visible}})` where every frame is visible or hidden
+  as a whole;
+* `Imputer` does so for any set of hidden entries, and is therefore a `FrameImputer`;
+* `Inductive` marks an imputer that also fills recordings which `fit` has not seen;
+* `Synthesiser` draws new recordings from :math:`p(y_{\text{new}} \mid y_{\text{visible}})`;
+* `Informed` is told the generating process (the oracle).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.base import BaseEstimator
+
+from mocapbench.datasets import FrameByChannel, Frames, Recording, ToyProcess
+
+__all__ = [
+    "FrameImputer",
+    "Imputer",
+    "Inductive",
+    "Informed",
+    "Model",
+    "Prediction",
+    "SampleByFrameByChannel",
+    "Synthesiser",
+]
+
+SampleByFrameByChannel = NDArray[np.float64]
+"""(n, N, D) n sampled recordings."""
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """A predictive distribution of the observations of one recording.
+
+    Parameters
+    ----------
+    mean : ndarray of shape (N, D)
+        Visible entries are copied.
+    variance : ndarray of shape (N, D) or None
+        Variance of an observation, noise included, and 0 at visible entries. None says that the
+        model has no predictive distribution.
+    """
+
+    mean: FrameByChannel
+    variance: FrameByChannel | None = None
+
+    @classmethod
+    def around(
+        cls, recording: Recording, mean: FrameByChannel, variance: FrameByChannel | None = None
+    ) -> Prediction:
+        """Return ``mean`` and ``variance`` at the hidden entries, the data at the visible ones."""
+        visible = recording.visible
+        return cls(
+            np.where(visible, recording.values, mean),
+            None if variance is None else np.where(visible, 0.0, variance),
+        )
+
+
+class Model(BaseEstimator, ABC):  # type: ignore[misc]
+    """A scikit-learn style estimator of motion: ``__init__`` stores, `fit` learns."""
+
+    @abstractmethod
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Learn from recordings with the same channels, incomplete ones included."""
+
+
+class FrameImputer(Model):
+    """A model that fills frames which are hidden as a whole."""
+
+    @abstractmethod
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return one prediction per recording, in order.
+
+        Unless the model is `Inductive`, each recording must have been seen in `fit` under the
+        same name.
+        """
+
+
+class Imputer(FrameImputer):
+    """A model that fills any set of hidden entries."""
+
+
+class Inductive(Model):
+    """Marks an imputer whose `impute` also takes recordings that `fit` has not seen."""
+
+
+class Synthesiser(Model):
+    """A model that draws new recordings."""
+
+    @abstractmethod
+    def sample(
+        self, times: Frames, n_samples: int, random_state: int | np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Return ``n_samples`` new recordings at ``times`` (N,), noise included: (n, N, D)."""
+
+
+class Informed(Model):
+    """A model that is served only where the data have a known generating process."""
+
+    @abstractmethod
+    def inform(self, process: ToyProcess) -> Self:
+        """Take the process that generated the recordings; called before `fit`."""

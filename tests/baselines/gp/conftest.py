@@ -1,0 +1,195 @@
+"""A brute-force oracle: the joint Gaussian of every visible entry of every replicate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from hypothesis import strategies as st
+
+from mocapbench.baselines.gp.coregionalisation import Coregionalisation
+from mocapbench.baselines.gp.kernels import KERNELS, Kernel
+from mocapbench.baselines.gp.parameters import CHILD, PARENT, Layer, Parameters
+from mocapbench.baselines.gp.reduction import Reduction, hierarchical, independent, pooled
+from mocapbench.baselines.gp.replicates import Replicates
+
+
+@dataclass(frozen=True)
+class Structure:
+    """A reduction and the layers that its model has."""
+
+    reduce: Callable[[Replicates], Reduction]
+    layers: tuple[str, ...]
+
+
+STRUCTURES = {
+    "hierarchical": Structure(hierarchical, (PARENT, CHILD)),
+    "pooled": Structure(pooled, (PARENT,)),
+    "independent": Structure(independent, (CHILD,)),
+}
+
+
+@dataclass(frozen=True)
+class Case:
+    """Everything that a likelihood depends on."""
+
+    structure: Structure
+    replicates: Replicates
+    parameters: Parameters
+    kernel: Kernel
+
+    @property
+    def reduction(self) -> Reduction:
+        return self.structure.reduce(self.replicates)
+
+
+class BruteForce:
+    """The dense joint Gaussian, from the definition of the model and nothing else."""
+
+    def __init__(self, case: Case) -> None:
+        self.case = case
+        self.rows = np.argwhere(case.replicates.observed)
+        self.data = case.replicates.data[case.replicates.observed]
+
+    def log_likelihood(self, parameters: Parameters) -> float:
+        covariance = self.covariance(parameters)
+        sign, log_determinant = np.linalg.slogdet(2.0 * np.pi * covariance)
+        assert sign > 0
+        return -0.5 * float(log_determinant + self.data @ np.linalg.solve(covariance, self.data))
+
+    def gradient(self, parameters: Parameters) -> np.ndarray:
+        flat, step = parameters.flat, 1e-5
+        ascent = [
+            (
+                self.log_likelihood(parameters.at(flat + step * unit))
+                - self.log_likelihood(parameters.at(flat - step * unit))
+            )
+            / (2.0 * step)
+            for unit in np.eye(len(flat))
+        ]
+        return np.array(ascent)
+
+    def posterior(
+        self, times: np.ndarray, replicate: int | None, layers: tuple[str, ...]
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return mean and variance (D, M) of the sum of ``layers``; None is a new replicate."""
+        parameters = self.case.parameters
+        n_outputs = len(parameters.log_noise)
+        index = -1 if replicate is None else replicate
+        targets = [(index, d, t) for d in range(n_outputs) for t in times]
+        points = self._points()
+        cross = self._signal(parameters, targets, points, layers)
+        prior = self._signal(parameters, targets, targets, layers)
+        solved = np.linalg.solve(self.covariance(parameters), cross.T)
+        variance = np.diagonal(prior) - np.einsum("ij,ji->i", cross, solved)
+        shape = (n_outputs, len(times))
+        return (self.data @ solved).reshape(shape), variance.reshape(shape)
+
+    def covariance(self, parameters: Parameters) -> np.ndarray:
+        points = self._points()
+        signal = self._signal(parameters, points, points, tuple(parameters.layers))
+        return signal + np.diag(parameters.noise[self.rows[:, 1]])
+
+    def _points(self) -> list[tuple[int, int, float]]:
+        times = self.case.replicates.times
+        return [(int(r), int(d), float(times[t])) for r, d, t in self.rows]
+
+    def _signal(self, parameters, left, right, layers) -> np.ndarray:
+        (r1, d1, t1), (r2, d2, t2) = (
+            map(np.array, zip(*side, strict=True)) for side in (left, right)
+        )
+        total = np.zeros((len(left), len(right)))
+        for name in layers:
+            layer = parameters.layers[name]
+            shared = np.ones_like(total) if name == PARENT else np.equal.outer(r1, r2)
+            for b, scale in zip(layer.coregionalisation.matrices, layer.lengthscales, strict=True):
+                kernel = self.case.kernel.value(np.subtract.outer(t1, t2), scale)
+                total += shared * b[np.ix_(d1, d2)] * kernel
+        return total
+
+
+def draw_case(
+    rng: np.random.Generator,
+    *,
+    structure: str = "hierarchical",
+    kernel: str = "matern32",
+    n_outputs: int = 2,
+    n_replicates: int = 3,
+    n_times: int = 6,
+    n_components: int = 1,
+    rank: int = 1,
+    masks: str = "mixed",
+) -> Case:
+    """Draw data, masks and parameters."""
+    shape = (n_replicates, n_outputs, n_times)
+    observed = MASKS[masks](rng, shape)
+    if not observed.any():
+        observed[0, 0, 0] = True
+    data = np.where(observed, rng.standard_normal(shape), 0.0)
+    times = np.sort(rng.uniform(0.0, 3.0, n_times)) + 0.05 * np.arange(n_times)
+    layers = {
+        name: Layer(
+            rng.uniform(-1.0, 0.5, n_components),
+            Coregionalisation(
+                rng.standard_normal((n_components, n_outputs, rank)),
+                rng.uniform(-1.0, 1.0, (n_components, n_outputs)),
+            ),
+        )
+        for name in STRUCTURES[structure].layers
+    }
+    parameters = Parameters(layers, rng.uniform(-3.0, 0.0, n_outputs))
+    replicates = Replicates(times, data, observed)
+    return Case(STRUCTURES[structure], replicates, parameters, KERNELS[kernel])
+
+
+def _mixed(rng: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
+    """Half of the replicates complete, one empty at times, the others with masks of their own."""
+    observed = rng.random(shape) < 0.6
+    observed[rng.random(shape[0]) < 0.5] = True
+    observed[rng.random(shape[0]) < 0.15] = False
+    return observed
+
+
+MASKS: Mapping[str, Callable[..., np.ndarray]] = {
+    "complete": lambda _, shape: np.ones(shape, dtype=bool),
+    "frames": lambda rng, shape: np.broadcast_to(
+        rng.random((shape[0], 1, shape[2])) < 0.6, shape
+    ).copy(),
+    "mixed": _mixed,
+    "shared": lambda rng, shape: np.broadcast_to(rng.random(shape[1:]) < 0.6, shape).copy(),
+}
+
+
+@st.composite
+def _cases(draw: st.DrawFn) -> Case:
+    return draw_case(
+        np.random.default_rng(draw(st.integers(0, 2**32 - 1))),
+        structure=draw(st.sampled_from(sorted(STRUCTURES))),
+        kernel=draw(st.sampled_from(sorted(KERNELS))),
+        n_outputs=draw(st.integers(1, 3)),
+        n_replicates=draw(st.integers(1, 4)),
+        n_times=draw(st.integers(1, 6)),
+        n_components=draw(st.integers(1, 2)),
+        rank=draw(st.integers(0, 2)),
+        masks=draw(st.sampled_from(sorted(MASKS))),
+    )
+
+
+@pytest.fixture(scope="session")
+def cases() -> st.SearchStrategy[Case]:
+    """A strategy over cases of every structure, kernel, size and mask."""
+    return _cases()
+
+
+@pytest.fixture(scope="session")
+def case() -> Callable[..., Case]:
+    """The function that draws one case."""
+    return draw_case
+
+
+@pytest.fixture(scope="session")
+def brute_force() -> Callable[[Case], BruteForce]:
+    """The oracle of a case."""
+    return BruteForce

@@ -1,0 +1,124 @@
+"""What the state-space solver promises beside the laws of all solvers."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocapbench.baselines.gp.block import Target
+from mocapbench.baselines.gp.coregionalisation import Coregionalisation
+from mocapbench.baselines.gp.dense import Dense
+from mocapbench.baselines.gp.parameters import Layer, Parameters
+from mocapbench.baselines.gp.replicates import Replicates
+from mocapbench.baselines.gp.solver import SingularCovarianceError
+from mocapbench.baselines.gp.state_model import StateModel
+from mocapbench.baselines.gp.state_space import StateSpace
+
+MATERN = ("matern12", "matern32", "matern52")
+
+
+def _permuted(parameters, order):
+    layers = {
+        name: Layer(
+            layer.log_lengthscales,
+            Coregionalisation(
+                layer.coregionalisation.weights[:, order],
+                layer.coregionalisation.kappa_roots[:, order],
+            ),
+        )
+        for name, layer in parameters.layers.items()
+    }
+    return Parameters(layers, parameters.log_noise[order])
+
+
+@pytest.mark.parametrize("kernel", MATERN)
+def test_the_order_of_outputs_is_immaterial(kernel, case):
+    rng = np.random.default_rng(2)
+    example = case(rng, kernel=kernel, n_outputs=4, n_components=2)
+    order = rng.permutation(4)
+    replicates, parameters = example.replicates, example.parameters
+    shuffled = replace(
+        example,
+        replicates=Replicates(
+            replicates.times, replicates.data[:, order], replicates.observed[:, order]
+        ),
+        parameters=_permuted(parameters, order),
+    )
+    value, gradient = example.reduction.evaluate(StateSpace(example.kernel), parameters)
+    other, by_other = shuffled.reduction.evaluate(StateSpace(example.kernel), shuffled.parameters)
+    assert other == pytest.approx(value, rel=1e-12)
+    np.testing.assert_allclose(
+        by_other, _permuted(parameters.at(gradient), order).flat, rtol=1e-10, atol=1e-10
+    )
+
+
+@pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-12])
+@pytest.mark.parametrize("kernel", MATERN)
+def test_frames_may_be_arbitrarily_close(kernel, gap, case):
+    example = case(np.random.default_rng(3), kernel=kernel, n_times=8)
+    replicates = example.replicates
+    times = replicates.times.copy()
+    times[4] = times[3] + gap
+    close = replace(
+        example, replicates=Replicates(times, replicates.data, replicates.observed)
+    ).reduction
+    value, gradient = close.evaluate(StateSpace(example.kernel), example.parameters)
+    expected, slope = close.evaluate(Dense(example.kernel), example.parameters)
+    assert value == pytest.approx(expected, rel=1e-10)
+    np.testing.assert_allclose(gradient, slope, rtol=1e-8, atol=1e-8)
+
+
+@pytest.mark.parametrize("kernel", MATERN)
+def test_predictions_are_continuous_across_frames(kernel, case):
+    example = case(np.random.default_rng(4), kernel=kernel)
+    block = example.reduction.blocks[0]
+    posterior = StateSpace(example.kernel).condition(block, example.parameters)
+    target = Target({name: np.ones(factor.shape[1]) for name, factor in block.units.items()}, {})
+    at = posterior.predict(target, block.times)
+    for side in (-1e-10, 1e-10):
+        for value, beside in zip(at, posterior.predict(target, block.times + side), strict=True):
+            np.testing.assert_allclose(value, beside, atol=1e-8)
+
+
+@pytest.mark.parametrize("kernel", MATERN)
+def test_far_from_the_data_the_prior_returns(kernel, case):
+    example = case(np.random.default_rng(5), kernel=kernel, n_components=2)
+    block = example.reduction.blocks[0]
+    posterior = StateSpace(example.kernel).condition(block, example.parameters)
+    target = Target({name: np.ones(factor.shape[1]) for name, factor in block.units.items()}, {})
+    mean, variance = posterior.predict(target, np.array([-1e6, 1e6]))
+    prior = sum(
+        target.prior_scale(name) * layer.coregionalisation.variances
+        for name, layer in example.parameters.layers.items()
+    )
+    np.testing.assert_allclose(mean, 0.0, atol=1e-12)
+    np.testing.assert_allclose(variance, np.stack([prior, prior], axis=1), rtol=1e-12)
+
+
+def test_writing_is_the_adjoint_of_reading(case):
+    example = case(np.random.default_rng(6), n_components=2, n_outputs=3)
+    block = example.reduction.blocks[0]
+    model = StateModel.of(example.kernel, block, example.parameters)
+    rng = np.random.default_rng(7)
+    states = rng.standard_normal((model.size, 1))
+    entries = rng.standard_normal((block.observed[..., 0].size, 1))
+    assert np.vdot(entries, model.read(model.units, states)) == pytest.approx(
+        np.vdot(model.write(model.units, entries), states), rel=1e-12
+    )
+
+
+def test_copies_without_noise_are_singular(case):
+    example = case(np.random.default_rng(8), structure="independent", masks="complete")
+    copies = Layer(np.zeros(1), Coregionalisation(np.ones((1, 2, 1)), np.zeros((1, 2))))
+    hopeless = Parameters({"child": copies}, np.full(2, -80.0))
+    with pytest.raises(SingularCovarianceError, match=r"raise the noise.*"):
+        example.reduction.evaluate(StateSpace(example.kernel), hopeless)
+
+
+def test_a_kernel_without_a_finite_state_is_refused(case):
+    example = case(np.random.default_rng(9), kernel="rbf")
+    solver, block = StateSpace(example.kernel), example.reduction.blocks[0]
+    assert solver.work(block, example.parameters) == np.inf
+    for method in (solver.evaluate, solver.condition):
+        with pytest.raises(ValueError, match=r"expected a kernel with a finite state.*got RBF"):
+            method(block, example.parameters)
