@@ -1,0 +1,170 @@
+"""What was found, in plain sentences: whose mean is best where, and better than the paper's models.
+
+A model without a counterpart in the paper whose mean is better than that of one of the paper's
+models is news: it is often a simple baseline that the paper lacks. Means over folds are all that
+is compared here.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+
+from mocapbench.reports.bundle import CaseLayout
+from mocapbench.reports.published import PublishedValue
+from mocapbench.reports.results import TaskResults
+from mocapbench.reports.scoretables import case_name
+from mocapbench.reports.tables import counted, decimals, number
+
+__all__ = ["Finding", "Win", "lead_findings", "printed_findings", "win_findings", "wins"]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A sentence: the subject stands out, the text says the rest."""
+
+    subject: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Win:
+    """The cases where the mean of ``winner`` is better, of the ``shared`` ones that both scored.
+
+    ``means`` are the two entrants' means over ``cases``, the winner's first.
+    """
+
+    winner: str
+    loser: str
+    cases: tuple[CaseLayout, ...]
+    shared: int
+    means: tuple[float, float]
+
+
+def lead_findings(results: TaskResults, metric: str) -> list[Finding]:
+    """Say whose mean is best in which cases and by how much, most cases first."""
+    scored = _judged(results, metric)
+    champions = Counter(results.ranking(case.name, metric)[0] for case in scored)
+    return [
+        Finding(label, _lead(results, metric, label, scored))
+        for label, _ in champions.most_common()
+    ]
+
+
+def _judged(results: TaskResults, metric: str) -> list[CaseLayout]:
+    """Return the cases with scores; generated motion counts only where there is no other."""
+    scored = [case for case in results.cases if results.ranking(case.name, metric)]
+    return [case for case in scored if not case.synthetic] or scored
+
+
+def _lead(results: TaskResults, metric: str, label: str, scored: Sequence[CaseLayout]) -> str:
+    led = [case for case in scored if results.ranking(case.name, metric)[0] == label]
+    title, where = results.metrics[metric].title, _where(led, len(scored))
+    seconds = [results.ranking(case.name, metric)[1:2] for case in led]
+    if not all(seconds):
+        return f"is the only entrant with a score in {where} ({title})."
+    own = _mean(results, metric, led, [label] * len(led))
+    other = _mean(results, metric, led, [second for (second,) in seconds])
+    one, two = _same_places(own, other)
+    return f"has the best mean {title} in {where}: on average {one} there, next best {two}."
+
+
+def _where(cases: Sequence[CaseLayout], total: int) -> str:
+    if len(cases) < total:
+        return f"{len(cases)} of {total} cases ({', '.join(map(case_name, cases))})"
+    synthetic = sum(case.synthetic for case in cases)
+    every = {1: "the only case", 2: "both cases"}.get(total, f"all {total} cases")
+    return every + (f" ({synthetic} synthetic)" if synthetic else "")
+
+
+def _same_places(*values: float) -> list[str]:
+    return [number(value, decimals(values)) for value in values]
+
+
+def _mean(
+    results: TaskResults, metric: str, cases: Sequence[CaseLayout], labels: Sequence[str]
+) -> float:
+    pairs = zip(cases, labels, strict=True)
+    return float(
+        np.mean([results.estimates[case.name, label, metric].mean for case, label in pairs])
+    )
+
+
+def wins(results: TaskResults, metric: str) -> list[Win]:
+    """Return where the mean of a label without a published counterpart betters one that has one.
+
+    Losers come in table order; for each, the winner of most cases comes first.
+    """
+    ours = [label for label in results.layout.ranked if label in results.layout.published_models]
+    others = [label for label in results.layout.ranked if label not in ours]
+    found = [
+        win
+        for loser in ours
+        for winner in others
+        if (win := _win(results, metric, winner, loser)) is not None
+    ]
+    return sorted(found, key=lambda win: (ours.index(win.loser), -len(win.cases)))
+
+
+def _win(results: TaskResults, metric: str, winner: str, loser: str) -> Win | None:
+    judged = _judged(results, metric)
+    orders = {case.name: results.ranking(case.name, metric) for case in judged}
+    shared = [case for case in judged if {winner, loser} <= set(orders[case.name])]
+    won = [case for case in shared if _beats(results, metric, case.name, winner, loser)]
+    if not won:
+        return None
+    means = [_mean(results, metric, won, [label] * len(won)) for label in (winner, loser)]
+    return Win(winner, loser, tuple(won), len(shared), (means[0], means[1]))
+
+
+def _beats(results: TaskResults, metric: str, case: str, winner: str, loser: str) -> bool:
+    loss = results.metrics[metric].loss
+    one, other = (results.estimates[case, label, metric].mean for label in (winner, loser))
+    return loss(one) < loss(other)
+
+
+def win_findings(results: TaskResults, metric: str) -> list[Finding]:
+    """Say, for each of the paper's models, which models that it lacks have a better mean."""
+    by_loser = groupby(wins(results, metric), key=lambda win: win.loser)
+    return [_defeat(loser, list(group)) for loser, group in by_loser]
+
+
+def _defeat(loser: str, found: Sequence[Win]) -> Finding:
+    first, *rest = found
+    one, two = _same_places(*first.means)
+    text = f"in {_where(first.cases, first.shared)}: on average {one} there against {two}."
+    others = ", ".join(f"{win.winner} ({len(win.cases)} of {win.shared})" for win in rest)
+    return Finding(
+        f"{first.winner} has a better mean than {loser}",
+        f"{text} Also: {others}." if rest else text,
+    )
+
+
+def printed_findings(results: TaskResults, metric: str) -> list[Finding]:
+    """Say where the paper prints a value that no entrant of this run reaches."""
+    loss = results.metrics[metric].loss
+    tops = {case.name: _best_printed(results, case, metric) for case in results.cases}
+    compared = [(case, top) for case, top in tops.items() if top and results.ranking(case, metric)]
+    better = [
+        f"{case}: {top.model} {top.value:g}"
+        for case, top in compared
+        if loss(top.value) < _best_loss(results, case, metric)
+    ]
+    where = f"in {len(better)} of {counted(len(compared), 'case')} ({'; '.join(better)})."
+    return [Finding("The paper prints better values than any here", where)] if better else []
+
+
+def _best_printed(results: TaskResults, case: CaseLayout, metric: str) -> PublishedValue | None:
+    row = (None if case.synthetic else case.published, results.layout.published_metrics.get(metric))
+    printed = [value for value in results.published.values() if (value.case, value.metric) == row]
+    loss = results.metrics[metric].loss
+    return min(printed, key=lambda value: loss(value.value), default=None)
+
+
+def _best_loss(results: TaskResults, case: str, metric: str) -> float:
+    best = results.ranking(case, metric)[0]
+    return results.metrics[metric].loss(results.estimates[case, best, metric].mean)

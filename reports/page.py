@@ -1,0 +1,70 @@
+"""The page: one HTML file that holds everything and asks the network for nothing."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from importlib.resources import files
+
+from jinja2 import Environment, StrictUndefined, Template
+from markupsafe import Markup
+
+from mocapbench.reports.bundle import STATUSES, Bundle
+from mocapbench.reports.downloads import to_csv, to_latex
+from mocapbench.reports.results import DATA_MISSING, task_results, troubles
+from mocapbench.reports.scoretables import MISSING_ID
+from mocapbench.reports.sections import missing_data, task_view
+from mocapbench.reports.tables import Table, counted, slug
+
+__all__ = ["render"]
+
+
+def render(bundle: Bundle) -> str:
+    """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
+    tasks = [task_view(task_results(bundle, layout)) for layout in bundle.layouts]
+    every = troubles(bundle)
+    return _template().render(
+        bundle=bundle,
+        provenance=bundle.provenance,
+        tasks=tasks,
+        statuses=_statuses(bundle),
+        entrants=bundle.records["label"].nunique(),
+        folds=bundle.records["fold"].nunique(),
+        fold_counts=_fold_counts(bundle),
+        failures=[trouble for trouble in every if trouble.status != DATA_MISSING],
+        missing=missing_data(trouble for trouble in every if trouble.status == DATA_MISSING),
+        missing_id=MISSING_ID,
+        downloads=_downloads(table for task in tasks for table in task.tables),
+        css=Markup(_resource("report.css")),
+        js=Markup(_resource("report.js")),
+    )
+
+
+def _template() -> Template:
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.globals["slug"] = slug
+    environment.filters["counted"] = counted
+    return environment.from_string(_resource("report.html.j2"))
+
+
+def _resource(name: str) -> str:
+    return (files(__package__) / name).read_text(encoding="utf-8")
+
+
+def _statuses(bundle: Bundle) -> dict[str, int]:
+    counts = Counter(bundle.records["status"])
+    return {status: counts[status] for status in STATUSES if counts[status]}
+
+
+def _fold_counts(bundle: Bundle) -> str:
+    """Return how many folds the cases with scores have, for example "1, 3 or 12 folds"."""
+    done = bundle.records[bundle.records["status"] == "ok"]
+    *most, last = sorted(set(done.groupby(["task", "case"])["fold"].nunique())) or [0]
+    others = ", ".join(map(str, most))
+    return f"{others} or {counted(last, 'fold')}" if most else counted(last, "fold")
+
+
+def _downloads(tables: Iterable[Table]) -> dict[str, dict[str, str]]:
+    return {table.id: {"csv": to_csv(table), "tex": to_latex(table)} for table in tables}

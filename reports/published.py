@@ -1,0 +1,78 @@
+"""The papers' numbers, as printed.
+
+``published.csv`` holds one row per (source, case, metric, model), where ``source`` is the paper's
+table, ``case`` its row and ``two_sd`` the ± that it prints, empty where it prints none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from io import StringIO
+
+import pandas as pd
+
+__all__ = ["PublishedTask", "PublishedValue", "parse_published", "published_values"]
+
+KEY = ["source", "case", "metric", "model"]
+COLUMNS = ["source", "task", "case", "settings", "metric", "model", "value", "two_sd"]
+
+PublishedTask = dict[tuple[str, str, str], "PublishedValue"]
+"""The values of one task by (case, metric, model), all in the paper's names."""
+
+
+@dataclass(frozen=True)
+class PublishedValue:
+    """A number in a paper's table, and its ± where there is one."""
+
+    source: str
+    task: str
+    case: str
+    metric: str
+    model: str
+    value: float
+    two_sd: float | None
+
+
+def parse_published(text: str) -> tuple[PublishedValue, ...]:
+    """Return the rows of a CSV table of published values.
+
+    Raises
+    ------
+    ValueError
+        If the header is another, a value is not a number, or a (source, case, metric, model)
+        occurs twice.
+    """
+    frame = pd.read_csv(StringIO(text), dtype=str, keep_default_na=False)
+    if list(frame) != COLUMNS:
+        raise ValueError(f"published values: expected the columns {COLUMNS}, got {list(frame)}")
+    twice = frame[frame.duplicated(KEY)]
+    if len(twice):
+        raise ValueError(f"published values: {KEY} occurs twice: {list(twice.iloc[0][KEY])}")
+    return tuple(_value(line, row) for line, row in enumerate(frame.to_dict("records"), start=2))
+
+
+def _value(line: int, row: Mapping[Hashable, str]) -> PublishedValue:
+    names = {field: row[field] for field in ("source", "task", "case", "metric", "model")}
+    try:
+        two_sd = float(row["two_sd"]) if row["two_sd"] else None
+        return PublishedValue(**names, value=float(row["value"]), two_sd=two_sd)
+    except ValueError as error:
+        raise ValueError(
+            f"published values, line {line}: expected numbers for value and two_sd, "
+            f"got {row['value']!r} and {row['two_sd']!r}"
+        ) from error
+
+
+@cache
+def _shipped() -> tuple[PublishedValue, ...]:
+    return parse_published((files(__package__) / "published.csv").read_text(encoding="utf-8"))
+
+
+def published_values(task: str) -> PublishedTask:
+    """Return the published values of ``task`` by (case, metric, model); empty if there are none."""
+    return {
+        (value.case, value.metric, value.model): value for value in _shipped() if value.task == task
+    }

@@ -1,0 +1,156 @@
+"""One task's results as a grid: estimates and troubles by case, label and metric."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+
+from mocapbench.reports.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.published import PublishedTask, published_values
+
+__all__ = ["Estimate", "TaskResults", "Trouble", "task_results", "troubles"]
+
+DATA_MISSING = "data-missing"
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A mean over folds.
+
+    Parameters
+    ----------
+    mean : float
+    two_sd : float or None
+        Two standard deviations (ddof 1) over folds; None for a single fold.
+    n : int
+        Number of folds.
+    """
+
+    mean: float
+    two_sd: float | None
+    n: int
+
+    @classmethod
+    def of(cls, values: Sequence[float]) -> Estimate:
+        """Return the estimate of one or more finite values, one a fold."""
+        two_sd = 2.0 * float(np.std(values, ddof=1)) if len(values) > 1 else None
+        return cls(float(np.mean(values)), two_sd, len(values))
+
+    @property
+    def half_width(self) -> float | None:
+        """Half the 95 % interval of the mean by Student's t; None for a single fold.
+
+        It takes the folds for independent draws.
+        """
+        if self.two_sd is None:
+            return None
+        quantile = float(stats.t.ppf(0.975, self.n - 1))
+        return quantile * 0.5 * self.two_sd / math.sqrt(self.n)
+
+
+@dataclass(frozen=True)
+class Trouble:
+    """A job that gave no score; ``id`` is its place in the page."""
+
+    id: str
+    task: str
+    case: str
+    fold: int
+    label: str
+    status: str
+    message: str
+    traceback: str
+
+
+@dataclass(frozen=True, eq=False)
+class TaskResults:
+    """What is known of one task.
+
+    Parameters
+    ----------
+    layout : TaskLayout
+    metrics : mapping of str to MetricInfo
+    scores, records : DataFrame
+        The task's rows of the bundle's tables; scores that are not finite are left out.
+    estimates : mapping of (case, label, metric) to Estimate
+    troubles : mapping of (case, label) to tuple of Trouble
+        Jobs that failed or whose data are missing.
+    published : mapping of (case, metric, model) to PublishedValue
+        In the paper's names.
+    """
+
+    layout: TaskLayout
+    metrics: Mapping[str, MetricInfo]
+    scores: pd.DataFrame
+    records: pd.DataFrame
+    estimates: Mapping[tuple[str, str, str], Estimate]
+    troubles: Mapping[tuple[str, str], tuple[Trouble, ...]]
+    published: PublishedTask
+
+    @property
+    def cases(self) -> tuple[CaseLayout, ...]:
+        """The cases that ran, in table order."""
+        ran = set(self.records["case"])
+        return tuple(case for case in self.layout.cases if case.name in ran)
+
+    def estimate(self, case: str, label: str, metric: str) -> Estimate | None:
+        """Return the estimate, or None where the label has no score there."""
+        return self.estimates.get((case, label, metric))
+
+    def ranking(self, case: str, metric: str) -> list[str]:
+        """Return the competing labels that have a score, best first; ties in table order."""
+        scored = {
+            label: self.metrics[metric].loss(estimate.mean)
+            for label in self.layout.ranked
+            if (estimate := self.estimate(case, label, metric)) is not None
+        }
+        return sorted(scored, key=scored.__getitem__)
+
+    def best(self, case: str, metric: str) -> set[str]:
+        """Return the labels whose mean no competitor's surpasses."""
+        order = self.ranking(case, metric)
+        means = {label: self.estimates[case, label, metric].mean for label in order}
+        loss = self.metrics[metric].loss
+        return {label for label in order if loss(means[label]) == loss(means[order[0]])}
+
+
+def task_results(bundle: Bundle, layout: TaskLayout) -> TaskResults:
+    """Return the results of the task that ``layout`` describes."""
+    scores = bundle.scores[bundle.scores["task"] == layout.name]
+    scores = scores[np.isfinite(scores["value"].to_numpy(float))].sort_values("fold", kind="stable")
+    groups = scores.groupby(["case", "label", "metric"], sort=False)["value"]
+    by_address: dict[tuple[str, str], tuple[Trouble, ...]] = {}
+    for trouble in troubles(bundle):
+        if trouble.task == layout.name:
+            address = (trouble.case, trouble.label)
+            by_address[address] = (*by_address.get(address, ()), trouble)
+    return TaskResults(
+        layout=layout,
+        metrics=bundle.metrics,
+        scores=scores,
+        records=bundle.records[bundle.records["task"] == layout.name],
+        estimates={key: Estimate.of(values.to_list()) for key, values in groups},
+        troubles=by_address,
+        published=published_values(layout.name),
+    )
+
+
+def troubles(bundle: Bundle) -> tuple[Trouble, ...]:
+    """Return every job without a score, in the order of the records."""
+    rows = bundle.records[bundle.records["status"] != "ok"]
+    return tuple(
+        Trouble(
+            id=f"job-{number}",
+            fold=int(row["fold"]),
+            **{
+                field: "" if pd.isna(row[field]) else str(row[field])
+                for field in ("task", "case", "label", "status", "message", "traceback")
+            },
+        )
+        for number, row in enumerate(rows.to_dict("records"), start=1)
+    )

@@ -1,0 +1,173 @@
+"""The paper's table of one metric: a row per case, a column per entrant, mean ± 2 sd."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+from mocapbench.reports.bundle import CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.results import DATA_MISSING, Estimate, TaskResults, Trouble
+from mocapbench.reports.tables import (
+    ABSENT,
+    Cell,
+    Table,
+    counted,
+    decimals,
+    headings,
+    number,
+    slug,
+)
+
+__all__ = ["case_name", "score_table", "settings_of"]
+
+MISSING_ID = "missing-data"
+WINDOWS = "spread over overlapping windows (2 sd)"
+
+
+def case_name(case: CaseLayout) -> str:
+    """Return the case's name, marked where it stands on generated motion."""
+    return f"{case.name} (synthetic)" if case.synthetic else case.name
+
+
+def settings_of(cases: Sequence[CaseLayout]) -> list[str]:
+    """Return the names of the settings of all cases, in order of first appearance."""
+    return list(dict.fromkeys(key for case in cases for key in case.settings))
+
+
+def score_table(results: TaskResults, metric: str) -> Table:
+    """Return the table of ``metric``; columns that only the paper has come last."""
+    info, cases, labels = results.metrics[metric], results.cases, results.layout.labels
+    settings, foreign = settings_of(cases), _published_only(results, metric)
+    places = decimals(e.mean for (_, _, name), e in results.estimates.items() if name == metric)
+    rows = tuple(
+        (
+            Cell(case.name, note=_case_note(case)),
+            *(Cell(str(case.settings.get(key, ""))) for key in settings),
+            Cell(f"n={_n_folds(results, case.name, metric)}"),
+            *_scores(results, case.name, metric, places),
+            *(_foreign_cell(results, case, metric, model, places) for model in foreign),
+        )
+        for case in cases
+    )
+    columns = (
+        *headings(["case", *settings, "folds", *labels]),
+        *headings([f"{model} (published)" for model in foreign], "published"),
+    )
+    return Table(
+        id=slug(results.layout.name, metric),
+        caption=f"{info.title}: {_meaning(results.layout, info)}",
+        columns=columns,
+        rows=rows,
+        data=_tidy(results, metric),
+        notes=_notes(results, metric),
+    )
+
+
+def _meaning(layout: TaskLayout, info: MetricInfo) -> str:
+    goal = info.direction.value if info.target is None else f"closest to {info.target:g}"
+    spread = "2 sd over folds" if layout.independent_folds else WINDOWS
+    return f"mean ± {spread}, {goal} is better, best mean in bold"
+
+
+def _case_note(case: CaseLayout) -> str:
+    return " · ".join(filter(None, ["synthetic" if case.synthetic else "", case.remark]))
+
+
+def _n_folds(results: TaskResults, case: str, metric: str) -> int:
+    found = (results.estimate(case, label, metric) for label in results.layout.labels)
+    return max((estimate.n for estimate in found if estimate), default=0)
+
+
+def _scores(results: TaskResults, case: str, metric: str, places: int) -> list[Cell]:
+    labels = results.layout.labels
+    records = results.records[results.records["case"] == case]
+    if (records["status"] == DATA_MISSING).all():
+        return [Cell("data missing", kind="trouble", link=MISSING_ID, span=len(labels))]
+    best, expected = results.best(case, metric), _n_folds(results, case, metric)
+    return [
+        _score(
+            results.estimate(case, label, metric),
+            results.troubles.get((case, label), ()),
+            "best" if label in best else "",
+            expected,
+            places,
+        )
+        for label in labels
+    ]
+
+
+def _score(
+    estimate: Estimate | None, troubles: Sequence[Trouble], kind: str, expected: int, places: int
+) -> Cell:
+    counts = Counter(trouble.status.replace("-", " ") for trouble in troubles)
+    link = _explanation(troubles[0]) if troubles else ""
+    if estimate is None:
+        return Cell(", ".join(counts), kind="trouble", link=link) if troubles else ABSENT
+    remaining = "" if expected == estimate.n else f"n={estimate.n}"
+    lost = [f"{count} {status}" for status, count in counts.items()]
+    return Cell(
+        text=number(estimate.mean, places),
+        spread="" if estimate.two_sd is None else number(estimate.two_sd, places),
+        note=", ".join(filter(None, [remaining, *lost])),
+        kind=kind,
+        link=link,
+    )
+
+
+def _explanation(trouble: Trouble) -> str:
+    return MISSING_ID if trouble.status == DATA_MISSING else trouble.id
+
+
+def _published_only(results: TaskResults, metric: str) -> list[str]:
+    """Return the paper's models of this metric that none of our labels stands for."""
+    name = results.layout.published_metrics.get(metric)
+    models = dict.fromkeys(model for _, other, model in results.published if other == name)
+    return [model for model in models if model not in results.layout.published_models.values()]
+
+
+def _foreign_cell(
+    results: TaskResults, case: CaseLayout, metric: str, model: str, places: int
+) -> Cell:
+    key = (case.published or "", results.layout.published_metrics[metric], model)
+    value = results.published.get(key)
+    if value is None or case.synthetic:
+        return ABSENT
+    spread = "" if value.two_sd is None else number(value.two_sd, places)
+    return Cell(number(value.value, places), spread=spread, kind="published")
+
+
+def _notes(results: TaskResults, metric: str) -> tuple[str, ...]:
+    left_out = int(
+        max(results.scores.loc[results.scores["metric"] == metric, "left_out"], default=0)
+    )
+    degenerate = (
+        f"Left out as degenerate: up to {counted(left_out, 'output')} a fold." if left_out else ""
+    )
+    limit = (
+        f"{results.layout.oracle} knows the generating process: a limit, not ranked."
+        if results.layout.oracle in results.layout.labels
+        else ""
+    )
+    return tuple(filter(None, [*results.layout.remarks, degenerate, limit]))
+
+
+def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:
+    """Return one row per (case, label), with n = 0 where there is no score."""
+    return pd.DataFrame(
+        [
+            {
+                "task": results.layout.name,
+                "case": case.name,
+                **case.settings,
+                "synthetic": case.synthetic,
+                "label": label,
+                "metric": metric,
+                **vars(results.estimate(case.name, label, metric) or Estimate(np.nan, None, 0)),
+            }
+            for case in results.cases
+            for label in results.layout.labels
+        ]
+    )

@@ -1,0 +1,101 @@
+"""The sections of the page: what each task shows, assembled from its results."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from mocapbench.reports.bundle import TaskLayout
+from mocapbench.reports.figures import ErrorBars, error_bars
+from mocapbench.reports.headlines import Finding, lead_findings, printed_findings, win_findings
+from mocapbench.reports.results import TaskResults, Trouble
+from mocapbench.reports.scoretables import case_name, score_table
+from mocapbench.reports.summaries import calibration_table, cost_table, oracle_table
+from mocapbench.reports.tables import Table, slug
+from mocapbench.reports.verdicts import Tally, comparisons, tally
+from mocapbench.reports.verdicttables import verdict_table
+
+__all__ = ["MetricView", "MissingData", "TaskView", "missing_data", "task_view"]
+
+
+@dataclass(frozen=True, eq=False)
+class MetricView:
+    """One metric of a task: its table, its figure, and the published values beside ours."""
+
+    title: str
+    table: Table
+    figure: ErrorBars | None
+    published: Table | None
+    verdicts: Tally
+
+
+@dataclass(frozen=True, eq=False)
+class TaskView:
+    """One section of the page."""
+
+    id: str
+    layout: TaskLayout
+    leads: Sequence[Finding]
+    wins: Sequence[Finding]
+    verdicts: Tally
+    metrics: Sequence[MetricView]
+    summaries: Sequence[Table]
+    cases: Sequence[str]
+    not_run: Sequence[str]
+
+    @property
+    def tables(self) -> list[Table]:
+        """Every table of the section."""
+        pairs = [each for view in self.metrics for each in (view.table, view.published)]
+        return [table for table in [*pairs, *self.summaries] if table is not None]
+
+
+@dataclass(frozen=True)
+class MissingData:
+    """Jobs that want for the same data: what to do, and which cases wait for it."""
+
+    message: str
+    cases: tuple[str, ...]
+    jobs: int
+
+
+def task_view(results: TaskResults) -> TaskView:
+    """Return the section of one task."""
+    layout, first = results.layout, results.layout.metrics[0]
+    pairs = [pair for metric in layout.metrics for pair in comparisons(results, metric)]
+    summaries = [build(results) for build in (oracle_table, calibration_table, cost_table)]
+    ran = {case.name for case in results.cases}
+    return TaskView(
+        id=slug("task", layout.name),
+        layout=layout,
+        leads=[*lead_findings(results, first), *printed_findings(results, first)],
+        wins=win_findings(results, first),
+        verdicts=tally(pairs),
+        metrics=[_metric_view(results, metric) for metric in layout.metrics],
+        summaries=[table for table in summaries if table is not None],
+        cases=[case_name(case) for case in results.cases],
+        not_run=[case_name(case) for case in layout.cases if case.name not in ran],
+    )
+
+
+def _metric_view(results: TaskResults, metric: str) -> MetricView:
+    return MetricView(
+        title=results.metrics[metric].title,
+        table=score_table(results, metric),
+        figure=error_bars(results, metric),
+        published=verdict_table(results, metric),
+        verdicts=tally(comparisons(results, metric)),
+    )
+
+
+def missing_data(jobs: Iterable[Trouble]) -> list[MissingData]:
+    """Group the jobs that lack data by their message."""
+    by_message: dict[str, list[Trouble]] = {}
+    for job in jobs:
+        by_message.setdefault(job.message, []).append(job)
+    return [
+        MissingData(
+            message, tuple(dict.fromkeys(f"{job.task}: {job.case}" for job in group)), len(group)
+        )
+        for message, group in by_message.items()
+    ]

@@ -1,0 +1,164 @@
+"""The page in a real browser, with the network cut off."""
+
+from pathlib import Path
+
+import pytest
+
+CHROMIUM = Path("/usr/bin/chromium")
+sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+pytestmark = pytest.mark.skipif(not CHROMIUM.exists(), reason=f"no browser at {CHROMIUM}")
+
+VIEWS = [(width, scheme) for width in (390, 1280) for scheme in ("light", "dark")]
+
+CONTRAST = """
+() => {
+  const channel = (c) => (c /= 255) <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+  const parse = (colour) => colour.match(/[\\d.]+/g).map(Number);
+  const light = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+  const behind = (node) => {
+    for (; node; node = node.parentElement) {
+      const colour = parse(getComputedStyle(node).backgroundColor);
+      if (colour.length === 3) return colour;
+    }
+  };
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  const faint = [];
+  while (walker.nextNode()) {
+    const node = walker.currentNode.parentElement;
+    if (!walker.currentNode.data.trim() || !node.checkVisibility()) continue;
+    const style = getComputedStyle(node);
+    const ink = parse(node.closest("svg") ? style.fill : style.color);
+    const [high, low] = [light(ink), light(behind(node))].sort((a, b) => b - a);
+    if ((high + 0.05) / (low + 0.05) < 4.5) faint.push(walker.currentNode.data.trim());
+  }
+  return faint;
+}
+"""
+
+LETTERS = """
+drawings => drawings.map(svg => {
+  const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
+  const sizes = [...svg.querySelectorAll("text")].map(text => getComputedStyle(text).fontSize);
+  return scale * Math.min(...sizes.map(parseFloat));
+})
+"""
+
+
+@pytest.fixture(scope="module")
+def address(page, tmp_path_factory):
+    path = tmp_path_factory.mktemp("report") / "report.html"
+    path.write_text(page, encoding="utf-8")
+    return path.as_uri()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with sync_api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=str(CHROMIUM), args=["--no-sandbox"], timeout=60_000
+        )
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def visit(browser, address):
+    """Return a function that opens the page and notes complaints and requests."""
+    contexts = []
+
+    def open_page(width=1280, scheme="light", fragment="", **options):
+        context = browser.new_context(
+            viewport={"width": width, "height": 900}, color_scheme=scheme, **options
+        )
+        contexts.append(context)
+        tab = context.new_page()
+        tab.complaints = []
+        tab.on("console", lambda message: tab.complaints.append(message.text))
+        tab.on("pageerror", lambda error: tab.complaints.append(str(error)))
+        tab.route("**/*", lambda route: _only(address, route, tab.complaints))
+        tab.goto(address + fragment)
+        return tab
+
+    yield open_page
+    for context in contexts:
+        context.close()
+
+
+def _only(address, route, complaints):
+    if route.request.url.partition("#")[0] == address:
+        route.continue_()
+    else:
+        complaints.append(f"asked for {route.request.url}")
+        route.abort()
+
+
+def unfold(tab):
+    tab.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true })")
+
+
+@pytest.mark.parametrize(("width", "scheme"), VIEWS)
+def test_it_renders_without_complaint_request_or_overflow(visit, width, scheme):
+    tab = visit(width, scheme)
+    unfold(tab)
+    assert tab.complaints == []
+    assert tab.evaluate("document.documentElement.scrollWidth") == width
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_a_legend_is_never_cut_and_a_drawing_stays_legible(visit, width):
+    tab = visit(width)
+    unfold(tab)
+    ends = tab.eval_on_selector_all(
+        ".legend li", "keys => keys.map(key => key.getBoundingClientRect().right)"
+    )
+    assert 0 < max(ends) <= width
+    sizes = tab.eval_on_selector_all("figure .scroll svg", LETTERS)
+    assert min(sizes) >= 9.0
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_text_has_contrast(visit, scheme):
+    tab = visit(scheme=scheme)
+    unfold(tab)
+    assert tab.evaluate(CONTRAST) == []
+
+
+def test_the_themes_differ(visit):
+    backgrounds = {
+        visit(scheme=scheme).evaluate("getComputedStyle(document.body).backgroundColor")
+        for scheme in ("light", "dark")
+    }
+    assert len(backgrounds) == 2
+
+
+def test_the_first_screen_says_what_was_found(visit):
+    tab = visit(width=390)
+    heading = tab.locator(".cards article h3").first.bounding_box()
+    assert heading["y"] < 900
+
+
+def test_it_reads_without_scripts(visit):
+    tab = visit(java_script_enabled=False)
+    assert tab.locator("table").first.is_visible()
+    assert tab.locator("figure svg").first.is_visible()
+    assert not tab.locator(".downloads").first.is_visible()
+
+
+def test_a_link_to_a_failure_opens_it(visit):
+    tab = visit(fragment="#job-1")
+    assert tab.locator("#job-1").get_attribute("open") is not None
+
+
+def test_a_table_downloads_as_csv(visit, bundle):
+    tab = visit(accept_downloads=True)
+    with tab.expect_download() as caught:
+        tab.locator("button[data-format=csv]").first.click()
+    assert caught.value.suggested_filename == "toy-interpolation-1-mse.csv"
+    header = Path(caught.value.path()).read_text(encoding="utf-8").splitlines()[0]
+    assert header.startswith("task,case,noise,outputs,children")
+
+
+def test_the_keyboard_reaches_the_results_first(visit):
+    tab = visit()
+    tab.keyboard.press("Tab")
+    assert tab.evaluate("document.activeElement.getAttribute('href')") == "#main"
