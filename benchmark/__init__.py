@@ -1,0 +1,1 @@
+"""The harness: tasks, seeds, jobs, store, execution and the command line."""

@@ -1,0 +1,32 @@
+"""Errors of the harness, and the exit codes that the command line turns them into."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Collection
+from enum import IntEnum
+
+__all__ = ["ExitCode", "UnknownNameError", "UsageError"]
+
+
+class ExitCode(IntEnum):
+    """What the process's exit code means."""
+
+    OK = 0
+    USAGE = 2
+    JOBS_FAILED = 3
+    NOTHING_RAN = 4
+    INTERRUPTED = 130
+
+
+class UsageError(ValueError):
+    """The user asked for something that cannot be done; the message says what to do."""
+
+
+class UnknownNameError(UsageError):
+    """A name that is not registered, with the nearest ones that are."""
+
+    def __init__(self, kind: str, name: str, known: Collection[str]) -> None:
+        near = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
+        advice = f"did you mean {' or '.join(near)}?" if near else f"known: {', '.join(known)}"
+        super().__init__(f"unknown {kind} {name!r}: {advice}")

@@ -1,0 +1,71 @@
+"""Provenance: what a number was computed with and on."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import platform
+import shlex
+import subprocess
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+__all__ = ["cpu_name", "provenance"]
+
+_LIBRARIES = ("mocapbench", "numpy", "scipy", "pandas", "scikit-learn")
+
+
+def provenance(command: Sequence[str]) -> Mapping[str, str]:
+    """Return versions, commit, machine and ``command``, by name.
+
+    Parameters
+    ----------
+    command : sequence of str
+        The command line that started the run.
+    """
+    versions = {f"{name} version": importlib.metadata.version(name) for name in _LIBRARIES}
+    return {
+        **versions,
+        "commit": _commit(),
+        "python version": platform.python_version(),
+        "platform": platform.platform(),
+        "CPU": cpu_name(),
+        "cores": str(os.cpu_count()),
+        "threads": "one per job",
+        "command line": shlex.join(command),
+    }
+
+
+def cpu_name() -> str:
+    """Return the processor's name, as the system gives it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return platform.processor() or "unknown"
+    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(names, platform.processor() or "unknown")
+
+
+def _commit() -> str:
+    """Return the checkout's commit, marked when files differ from it."""
+    file = Path(__file__)
+    folder = file.parent
+    # An installed copy may lie inside somebody else's repository.
+    if not _git(folder, "ls-files", "--error-unmatch", file.name):
+        return "not a checkout"
+    commit = _git(folder, "rev-parse", "HEAD")
+    return f"{commit} (modified)" if _git(folder, "status", "--porcelain") else commit
+
+
+def _git(folder: Path, *arguments: str) -> str:
+    try:
+        done = subprocess.run(
+            ["git", "-C", str(folder), *arguments],
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=10,
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return done.stdout.strip() if done.returncode == 0 else ""

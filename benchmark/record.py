@@ -1,0 +1,133 @@
+"""Records: what one job found, as one immutable row."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields, replace
+from enum import StrEnum
+from typing import Any, Self
+
+__all__ = ["Record", "RecordError", "Status"]
+
+FORMAT = 1
+
+
+class Status(StrEnum):
+    """How a job ended."""
+
+    OK = "ok"
+    FAILED = "failed"
+    TIMEOUT = "timeout"
+    OUT_OF_MEMORY = "out-of-memory"
+    DATA_MISSING = "data-missing"
+
+    @property
+    def broken(self) -> bool:
+        """Whether something went wrong that the user should look at."""
+        return self in {Status.FAILED, Status.TIMEOUT, Status.OUT_OF_MEMORY}
+
+
+class RecordError(ValueError):
+    """A file that does not hold a record."""
+
+
+@dataclass(frozen=True)
+class Record:
+    """One row per (task, case, fold, entrant).
+
+    Parameters
+    ----------
+    key, fit_key : str
+        The score key, which names the record, and the fit key, which names its predictions.
+    task, version, case, fold, seed : str, int, str, int, int
+        The address of the problem.
+    label, model, parameters : str, str, mapping
+        The entrant.
+    status, message, traceback : Status, str, str
+        How it ended, and why.
+    scores : mapping of str to float
+        Metric values; NaN where the metric is not defined.
+    parts : mapping of str to mapping of str to list of float
+        Per-output, per-frame … values by metric.
+    left_out : mapping of str to int
+        Degenerate outputs left out, by metric.
+    fit_seconds, predict_seconds, peak_memory_mb : float or None
+    iterations, converged : int or None, bool or None
+        Of the optimisation, where the model has one.
+    warnings : tuple of str
+        Warnings that the model or the data raised.
+    provenance : mapping of str to str
+        Versions, commit, CPU, threads, data digests, command line.
+    """
+
+    key: str
+    fit_key: str
+    task: str
+    version: int
+    case: str
+    fold: int
+    seed: int
+    label: str
+    model: str
+    parameters: Mapping[str, Any]
+    status: Status
+    message: str = ""
+    traceback: str = ""
+    scores: Mapping[str, float] = field(default_factory=dict)
+    parts: Mapping[str, Mapping[str, list[float]]] = field(default_factory=dict)
+    left_out: Mapping[str, int] = field(default_factory=dict)
+    fit_seconds: float | None = None
+    predict_seconds: float | None = None
+    peak_memory_mb: float | None = None
+    iterations: int | None = None
+    converged: bool | None = None
+    warnings: tuple[str, ...] = ()
+    provenance: Mapping[str, str] = field(default_factory=dict)
+
+    def ended(self, status: Status, message: str, traceback: str = "") -> Record:
+        """Return this record with another ending."""
+        return replace(self, status=status, message=message, traceback=traceback)
+
+    def to_json(self) -> str:
+        """Return the record as strict JSON; NaN becomes null."""
+        return json.dumps({"format": FORMAT, **_without_nan(asdict(self))}, indent=1)
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """Read a record back.
+
+        Raises
+        ------
+        RecordError
+            If the text is not a whole record of this format.
+        """
+        try:
+            document = json.loads(text)
+            if document.pop("format") != FORMAT:
+                raise RecordError("the record has another format")
+            document["status"] = Status(document["status"])
+            document["warnings"] = tuple(document["warnings"])
+            document["scores"] = {
+                name: math.nan if value is None else value
+                for name, value in document["scores"].items()
+            }
+            missing = {item.name for item in fields(cls)} ^ set(document)
+            if missing:
+                raise RecordError(f"fields missing or unknown: {sorted(missing)}")
+            return cls(**document)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise RecordError(f"not a whole record: {error}") from error
+
+
+def _without_nan(value: Any) -> Any:
+    match value:
+        case dict():
+            return {str(key): _without_nan(item) for key, item in value.items()}
+        case list() | tuple():
+            return [_without_nan(item) for item in value]
+        case float() if not math.isfinite(value):
+            return None
+        case _:
+            return value

@@ -1,0 +1,47 @@
+"""The problem of drawing new recordings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mocapbench.baselines import Synthesiser
+from mocapbench.benchmark.problem import InvalidPredictionError, Problem, Solution
+from mocapbench.datasets import FrameByChannel, Frames
+from mocapbench.metrics import Synthesis
+
+__all__ = ["SynthesiseProblem"]
+
+
+@dataclass(frozen=True, eq=False)
+class SynthesiseProblem(Problem):
+    """Draw new recordings that resemble the references.
+
+    Parameters
+    ----------
+    times : ndarray of shape (N,)
+        When to draw.
+    n_samples : int
+    references : tuple of ndarray (N, D)
+        Recordings that no model sees.
+    """
+
+    times: Frames
+    n_samples: int
+    references: tuple[FrameByChannel, ...]
+
+    def solve(self, model: Synthesiser, random_state: int) -> Solution:
+        """Return ``samples`` (n, N, D)."""
+        samples = np.asarray(model.sample(self.times, self.n_samples, random_state))
+        expected = (self.n_samples, *self.references[0].shape)
+        if samples.shape != expected or not np.isfinite(samples).all():
+            raise InvalidPredictionError(
+                f"sample: expected finite samples of shape {expected}, got shape {samples.shape} "
+                f"with {int((~np.isfinite(samples)).sum())} entries that are NaN or infinite"
+            )
+        return {"samples": samples}
+
+    def outcome(self, solution: Solution) -> Synthesis:
+        """Set the samples beside the references."""
+        return Synthesis(solution["samples"], np.stack(self.references))

@@ -1,0 +1,64 @@
+"""Records as tables: what `export` writes and what the report reads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pandas as pd
+
+from mocapbench.benchmark.record import Record
+
+__all__ = ["job_table", "score_table"]
+
+_ADDRESS = ["task", "case", "fold", "label", "model"]
+_COSTS = ["fit_seconds", "predict_seconds", "peak_memory_mb", "iterations", "converged"]
+
+
+def score_table(records: Sequence[Record]) -> pd.DataFrame:
+    """Return one row per (task, case, fold, label, metric).
+
+    Columns: ``task, case, fold, label, model, metric, value, left_out``, and what tells two
+    rows of one address apart: ``parameters, version, seed, commit, key``.
+    """
+    rows = [
+        {
+            **{name: getattr(record, name) for name in _ADDRESS},
+            "metric": metric,
+            "value": value,
+            "left_out": record.left_out.get(metric, 0),
+            "parameters": _parameters(record),
+            "version": record.version,
+            "seed": record.seed,
+            "commit": record.provenance.get("commit", ""),
+            "key": record.key,
+        }
+        for record in records
+        for metric, value in record.scores.items()
+    ]
+    columns = [*_ADDRESS, "metric", "value", "left_out", "parameters", "version", "seed", "commit"]
+    columns += ["key"]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def job_table(records: Sequence[Record]) -> pd.DataFrame:
+    """Return one row per job, with how it ended and what it cost.
+
+    Columns: ``task, case, fold, label, model, parameters, status, message, traceback``,
+    ``fit_seconds, predict_seconds, peak_memory_mb, iterations, converged``.
+    """
+    rows = [
+        {
+            **{name: getattr(record, name) for name in (*_ADDRESS, *_COSTS)},
+            "parameters": _parameters(record),
+            "status": record.status.value,
+            "message": record.message,
+            "traceback": record.traceback,
+        }
+        for record in records
+    ]
+    columns = [*_ADDRESS, "parameters", "status", "message", "traceback", *_COSTS]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def _parameters(record: Record) -> str:
+    return ", ".join(f"{name}={value}" for name, value in record.parameters.items())

@@ -1,0 +1,166 @@
+"""Tasks: named, versioned protocols with cases, folds and entrants."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from mocapbench.baselines import Informed, Model
+from mocapbench.benchmark.errors import UnknownNameError
+from mocapbench.benchmark.problem import Problem
+from mocapbench.benchmark.seeds import Seeds
+from mocapbench.datasets import Archive
+
+__all__ = ["Case", "Entrant", "Selection", "Task"]
+
+Setting = str | int | float
+
+
+@dataclass(frozen=True)
+class Case:
+    """One row of the paper's table.
+
+    Parameters
+    ----------
+    name : str
+        Unique within the task; part of seeds and keys.
+    settings : mapping
+        What the row varies, as columns of its table.
+    sources : tuple of str
+        Addresses of the recordings it needs, such as ``cmu:02_01``.
+    published : str or None
+        The row's name in the published values, None where the paper has no such row.
+    synthetic : bool
+        Whether it stands on generated gait rather than recordings of people.
+    remark : str
+        Shown where its numbers stand.
+    """
+
+    name: str
+    settings: Mapping[str, Setting]
+    sources: tuple[str, ...] = ()
+    published: str | None = None
+    synthetic: bool = False
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """A model with parameters, under the label that tables, records and seeds use."""
+
+    label: str
+    model: str
+    parameters: Mapping[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Selection:
+    """What a profile runs of a task.
+
+    Parameters
+    ----------
+    cases : tuple of str
+        Names of cases.
+    folds : int
+        How many folds, from the first.
+    budget : mapping
+        Parameters set on every model that has them, for example ``{"max_iter": 20}``.
+    """
+
+    cases: tuple[str, ...]
+    folds: int
+    budget: Mapping[str, object] = field(default_factory=dict)
+
+
+class Task(ABC):
+    """A protocol: from an address (case, fold) and seeds to a `Problem`.
+
+    Attributes
+    ----------
+    name, version : str, int
+        Identity; the version rises whenever the same address would give another problem.
+    title, reference, description : str
+        Heading, place in the paper, and one or two sentences for readers of the report.
+    kind : str
+        ``"impute"`` or ``"synthesise"``: what the report calls it.
+    requires : tuple of type
+        The abilities a model must have; others are not applicable.
+    has_process : bool
+        Whether its data come from a known process, which informed models need.
+    cases : tuple of Case
+    max_folds : int or None
+        How many folds there are, None where each draws anew.
+    independent_folds : bool
+        Whether folds are independent draws of the protocol, as overlapping windows are not.
+    entrants : tuple of Entrant
+        Configured models; a registered model without an entry enters with its defaults.
+    metrics : tuple of str
+        The tables to show, in order; the first is the one that headlines speak of.
+    profiles : mapping of str to Selection
+    published_models, published_metrics : mapping of str to str
+        From our labels and metrics to the paper's names.
+    not_comparable : mapping of (label, metric) to str
+        Why a published value cannot be set beside ours; metric ``"*"`` stands for all.
+    remarks : tuple of str
+        Errata and cautions shown with the tables.
+    """
+
+    name: str
+    version: int
+    title: str
+    reference: str
+    description: str
+    kind: str = "impute"
+    requires: tuple[type[Model], ...]
+    has_process: bool = False
+    cases: tuple[Case, ...]
+    max_folds: int | None = None
+    independent_folds: bool = True
+    entrants: tuple[Entrant, ...] = ()
+    metrics: tuple[str, ...]
+    profiles: Mapping[str, Selection]
+    published_models: Mapping[str, str] = {}
+    published_metrics: Mapping[str, str] = {}
+    not_comparable: Mapping[tuple[str, str], str] = {}
+    remarks: tuple[str, ...] = ()
+
+    @abstractmethod
+    def problem(self, case: Case, seeds: Seeds, archive: Archive) -> Problem:
+        """Return the problem of ``case`` at fold ``seeds.fold``: a pure function of all three.
+
+        Raises
+        ------
+        RecordingUnavailable
+            If a recording that the case needs is not at hand.
+        """
+
+    def accepts(self, model: type[Model]) -> bool:
+        """Return whether ``model`` has what the task requires, and the task what it requires."""
+        able = all(issubclass(model, ability) for ability in self.requires)
+        return able and (self.has_process or not issubclass(model, Informed))
+
+    def case(self, name: str) -> Case:
+        """Return the case called ``name``.
+
+        Raises
+        ------
+        UnknownNameError
+            If there is none.
+        """
+        for case in self.cases:
+            if case.name == name:
+                return case
+        raise UnknownNameError(f"case of {self.name}", name, [case.name for case in self.cases])
+
+    def selection(self, profile: str) -> Selection:
+        """Return what ``profile`` runs of this task.
+
+        Raises
+        ------
+        UnknownNameError
+            If the task has no such profile.
+        """
+        if profile not in self.profiles:
+            raise UnknownNameError(f"profile of {self.name}", profile, tuple(self.profiles))
+        return self.profiles[profile]

@@ -1,0 +1,124 @@
+"""Filling half a second or more of whole missing frames (GPDM §5.4, Table 2)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mocapbench.baselines import FrameImputer, Inductive
+from mocapbench.benchmark.imputation import ImputeProblem, Unit
+from mocapbench.benchmark.masks import hide_frames
+from mocapbench.benchmark.seeds import Seeds
+from mocapbench.benchmark.task import Case, Selection, Task
+from mocapbench.datasets import Archive, Recording, excerpt, gpdm_features
+
+__all__ = ["MissingFrames", "missing_frames"]
+
+N_TEST_FRAMES = 50
+N_HIDDEN = 31
+FIRST_HIDDEN = 4  # frame 5 of the paper, counted from 1
+N_WINDOWS = 12
+
+# The paper's frames: counted from 1 at 120 Hz, both ends included.
+TRAINING = {
+    "35_02": (55, 338),
+    "10_04": (222, 499),
+    "12_01": (22, 328),
+    "16_15": (62, 342),
+}
+GROUPS = {
+    "four-walkers": ("35_02", "10_04", "12_01", "16_15"),
+    "three-walkers": ("35_02", "12_01", "16_15"),
+}
+TESTS = ("35_03", "12_02", "16_21", "12_03", "07_01", "07_02", "08_01", "08_02")
+SYNTHETIC_TRAINING = ("gait:01_01", "gait:02_01", "gait:03_01")
+SYNTHETIC_TESTS = ("gait:01_02", "gait:04_01")
+
+_REMARKS = {
+    "four-walkers": "",
+    "three-walkers": "Without the training walker 10_04, which the paper had.",
+}
+
+
+def _cases() -> tuple[Case, ...]:
+    real = [
+        Case(
+            f"{test.replace('_', '-')} {group}",
+            {"recording": test.replace("_", "-"), "training": group},
+            (f"cmu:{test}", *(f"cmu:{trial}" for trial in trials)),
+            published=test.replace("_", "-"),
+            remark=_REMARKS[group],
+        )
+        for group, trials in GROUPS.items()
+        for test in TESTS
+    ]
+    synthetic = [
+        Case(
+            f"synthetic {number}",
+            {"recording": f"gait {number}", "training": "three generated walkers"},
+            (test, *SYNTHETIC_TRAINING),
+            synthetic=True,
+            remark="Generated gait, not recordings of people.",
+        )
+        for number, test in enumerate(SYNTHETIC_TESTS, start=1)
+    ]
+    return (*real, *synthetic)
+
+
+class MissingFrames(Task):
+    """Table 2: 31 of 50 frames are hidden as a whole, in twelve overlapping windows."""
+
+    name = "missing-frames"
+    version = 1
+    title = "Missing frames"
+    reference = "GPDM §5.4, Table 2"
+    description = (
+        "Fifty frames at 30 Hz of a walker that the model has not been trained on; 31 whole "
+        "frames in a row are hidden. A fold is one of twelve overlapping windows, from frames "
+        "5–35 to 16–46. Values are 44 joint angles, three root rotations and three root "
+        "translation differences; the error is the mean Euclidean norm per hidden frame."
+    )
+    requires = (FrameImputer, Inductive)
+    cases = _cases()
+    max_folds = N_WINDOWS
+    independent_folds = False
+    metrics = ("rms_per_frame",)
+    profiles = {
+        "smoke": Selection(("synthetic 1",), folds=1),
+        "quick": Selection(
+            tuple(case.name for case in cases if "four" not in case.name), folds=N_WINDOWS
+        ),
+        "paper": Selection(tuple(case.name for case in cases), folds=N_WINDOWS),
+    }
+    published_models = {"cubic-spline": "cubic-spline", "knn": "KNN-15"}
+    published_metrics = {"rms_per_frame": "RMS per frame"}
+    not_comparable = {
+        ("knn", "*"): "the paper does not print its KNN objective, and no reading of it so far "
+        "gives its column"
+    }
+    remarks = ("The paper's “error per frame” is the mean Euclidean norm of the 50-channel error.",)
+
+    def problem(self, case: Case, seeds: Seeds, archive: Archive) -> ImputeProblem:
+        """Hide the fold's window of the test recording's first fifty frames."""
+        test_uri, *training_uris = case.sources
+        test = gpdm_features(archive.read(test_uri).recording(test_uri))
+        test = test.frames(np.arange(N_TEST_FRAMES))
+        start = FIRST_HIDDEN + seeds.fold
+        given = test.hide(hide_frames(start, start + N_HIDDEN, *test.values.shape))
+        train = tuple(_training_walk(archive, uri) for uri in training_uris)
+        return ImputeProblem(
+            train=train,
+            process=None,
+            given=(given,),
+            truth=(test.values,),
+            unit=Unit.natural(len(test.channels)),
+        )
+
+
+def _training_walk(archive: Archive, uri: str) -> Recording:
+    """Return a training walk, cut to the paper's frames where it names them."""
+    recording = archive.read(uri).recording(uri)
+    first, last = TRAINING.get(uri.removeprefix("cmu:"), (1, len(recording.times)))
+    return gpdm_features(excerpt(recording, first, last))
+
+
+missing_frames = MissingFrames()

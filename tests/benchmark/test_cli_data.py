@@ -1,0 +1,88 @@
+"""``mocapbench data``, and what a run does about recordings that are not here."""
+
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from mocapbench.datasets import GaitLibrary, archive, format_motion, format_skeleton
+
+NOBODY = "http://127.0.0.1:9/"
+
+
+@pytest.fixture
+def database(tmp_path, monkeypatch):
+    """A folder with one made recording, an empty cache, and a server that does not answer."""
+    motion = GaitLibrary().read("01_01")
+    folder = tmp_path / "database" / "subjects" / "99"
+    folder.mkdir(parents=True)
+    (folder / "99.asf").write_text(format_skeleton(motion.skeleton))
+    (folder / "99_01.amc").write_text(format_motion(motion))
+    monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
+    monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path / "cache"))
+    unreachable = partial(archive.CMULibrary, base_url=NOBODY, retries=0)
+    monkeypatch.setattr(archive, "CMULibrary", unreachable)
+    return tmp_path / "database"
+
+
+def test_status_says_what_is_here_and_what_is_not(cli, database):
+    assert cli("data", "status", "99_01", "99_02", "--data-dir", database) == 0
+    assert "cmu:99_01 │ available" in cli.printed
+    assert "cmu:99_02 │ missing" in cli.printed
+
+
+def test_status_without_names_lists_what_the_tasks_use(cli, database):
+    assert cli("data", "status") == 0
+    assert all(f"cmu:{trial}" in cli.printed for trial in ("02_01", "35_03", "10_04"))
+    assert "gait" not in cli.printed
+
+
+def test_verify_finds_a_file_that_changed(cli, database):
+    assert cli("data", "verify", "99_01", "--data-dir", database) == 0
+    assert "verified" in cli.printed
+    file = database / "subjects" / "99" / "99_01.amc"
+    file.write_text(file.read_text().replace("1", "2", 1))
+    assert cli("data", "verify", "99_01", "--data-dir", database) == 2
+    assert "expected SHA-256" in cli.printed
+
+
+def test_verify_names_the_line_of_a_malformed_file(cli, database):
+    file = database / "subjects" / "99" / "99_01.amc"
+    file.write_text(file.read_text().replace("lfemur", "lfemuur", 1))
+    assert cli("data", "verify", "99_01", "--data-dir", database) == 2
+    assert "99_01.amc" in cli.printed
+    assert "lfemuur" in cli.printed
+
+
+def test_fetch_without_a_network_says_what_to_do(cli, database):
+    assert cli("data", "fetch", "99_02", "--data-dir", database) == 2
+    assert "the server does not answer" in cli.printed
+    assert "check the network" in cli.printed
+
+
+@pytest.mark.parametrize("name", ["foo", "x:1", "35"])
+@pytest.mark.parametrize("command", ["status", "fetch", "verify"])
+def test_a_name_that_is_no_recording_exits_with_2(cli, database, command, name):
+    assert cli("data", command, name) == 2
+    assert "expected" in cli.printed
+
+
+def test_a_run_without_a_network_works_without(cli, records, database, tmp_path):
+    chosen = ("--tasks", "missing-frames", "--cases", "35-03 three*,synthetic 1")
+    arguments = ("--models", "cubic-spline", "--folds", 1, "--out", tmp_path / "run")
+    assert cli("run", *chosen, *arguments) == 0
+    assert "working without 4 recordings" in cli.printed
+    assert "data missing: 35_03" in cli.printed
+    statuses = {case: r["status"] for (_, case, _, _), r in records(tmp_path / "run").items()}
+    assert statuses == {"35-03 three-walkers": "data-missing", "synthetic 1": "ok"}
+
+
+def test_a_run_on_a_recording_that_is_not_the_registered_one_stops_first(cli, database, tmp_path):
+    wrong = database / "subjects" / "35"
+    wrong.mkdir()
+    for name, source in (("35.asf", "99.asf"), ("35_03.amc", "99_01.amc")):
+        (wrong / name).write_bytes((database / "subjects" / "99" / source).read_bytes())
+    arguments = ("--tasks", "missing-frames", "--cases", "35-03*", "--data-dir", database)
+    assert cli("run", "--offline", *arguments, "--out", tmp_path / "run") == 2
+    assert "expected SHA-256" in cli.printed
+    assert not Path(tmp_path / "run").exists()

@@ -1,0 +1,69 @@
+"""A model that misbehaves costs its own record and nothing else."""
+
+import pytest
+
+ENDINGS = {
+    "raises": ("failed", "RuntimeError: the model <b>raised</b>"),
+    "singular": ("failed", "LinAlgError"),
+    "not-a-number": ("failed", "expected a finite mean"),
+    "wrong-shape": ("failed", "expected a mean of shape (50, 3), got (2, 2)"),
+    "wrong-count": ("failed", "expected a list of 1 Prediction, got []"),
+    "no-variance": ("failed", "expected a positive variance"),
+    "hangs": ("timeout", "killed after 5 s"),
+    "exits": ("failed", "SystemExit: 5"),
+    "interrupts": ("failed", "KeyboardInterrupt"),
+    "arrays": ("failed", "expected a list of 1 Prediction"),
+    "unlocks": ("failed", "cannot set WRITEABLE flag"),
+    "counts": ("ok", ""),
+    "dies": ("failed", "exit code 7"),
+    "hungry": ("out-of-memory", "raise --memory"),
+    "well-behaved": ("ok", ""),
+}
+
+
+@pytest.fixture
+def arguments(tmp_path, broken_models):
+    return [
+        *("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--folds", 1),
+        *("--model-file", broken_models, "--out", tmp_path / "run", "--offline", "--jobs", 2),
+    ]
+
+
+@pytest.mark.slow
+def test_each_ending_is_recorded_and_the_others_run(cli, records, arguments, tmp_path):
+    assert cli(*arguments, "--models", ",".join(ENDINGS), "--timeout", 5) == 3
+    found = {label: record for (_, _, label, _), record in records(tmp_path / "run").items()}
+    assert {label: record["status"] for label, record in found.items()} == {
+        label: status for label, (status, _) in ENDINGS.items()
+    }
+    for label, (_, message) in ENDINGS.items():
+        assert message in found[label]["message"]
+    assert "RuntimeError" in found["raises"]["traceback"]
+    assert found["well-behaved"]["scores"]["mse"] > 0
+    page = (tmp_path / "run" / "report.html").read_text()
+    assert "the model &lt;b&gt;raised" in page
+    assert "<b>raised" not in page
+
+
+def test_a_parameter_that_is_no_plain_value_is_refused(cli, tmp_path, arguments):
+    source = (
+        "from mocapbench.baselines.trivial import Trivial\n"
+        "class M(Trivial):\n"
+        "    def __init__(self, kernel=object()):\n"
+        "        self.kernel = kernel\n"
+        "MODELS = {'with-object': M}\n"
+    )
+    (tmp_path / "models.py").write_text(source)
+    chosen = ("--models", "with-object", "--model-file", tmp_path / "models.py")
+    assert cli(*arguments, *chosen) == 2
+    assert "expected parameters that JSON can hold" in cli.printed
+
+
+@pytest.mark.slow
+def test_a_broken_job_is_tried_again_and_a_finished_one_is_not(cli, records, arguments, tmp_path):
+    assert cli(*arguments, "--models", "raises,well-behaved") == 3
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/records").iterdir()}
+    assert cli(*arguments, "--models", "raises,well-behaved") == 3
+    changed = [p for p, when in before.items() if p.stat().st_mtime_ns != when]
+    assert "1 of 2 jobs are in" in cli.printed
+    assert len(changed) == 1

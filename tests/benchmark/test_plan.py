@@ -1,0 +1,17 @@
+import pytest
+
+from mocapbench.benchmark.plan import Request, plan, required_sources
+from mocapbench.datasets import open_archive
+
+
+def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
+    assert required_sources(Request(tasks=("missing-frames",), models=("mohgp",))) == ()
+    wanted = required_sources(Request(tasks=("missing-frames",), models=("cubic-spline",)))
+    assert "cmu:35_03" in wanted
+    assert len(set(wanted)) == len(wanted)
+
+
+@pytest.mark.parametrize("profile", ["smoke", "quick", "paper"])
+def test_every_job_of_a_profile_has_keys_of_its_own(profile):
+    jobs = plan(Request(profile), open_archive())
+    assert len({job.key for job in jobs}) == len({job.fit_key for job in jobs}) == len(jobs)
