@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.gp.estimator import GaussianProcess
@@ -50,5 +51,6 @@ class MOHGP(GaussianProcess):
     def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the posterior mean and variance of g at ``times`` (N,): (N, D) each."""
         check_is_fitted(self)
-        (trend,) = self._infer([self.reduction_.trend], [times])
+        with self._at_work() as process:
+            (trend,) = process.infer([self.reduction_.trend], [np.asarray(times, dtype=np.float64)])
         return trend

@@ -1,21 +1,25 @@
-"""Factorisation and inversion of positive definite matrices, those of size 0 included."""
+"""Inversion of positive definite matrices in place, those of size 0 included."""
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lapack, solve_triangular
 
+from mocapbench.baselines.gp.lapack import potrf, potri
 from mocapbench.baselines.gp.parameters import Parameters
 from mocapbench.baselines.gp.solver import SingularCovarianceError
 
-__all__ = ["factorise", "invert", "invert_factor", "solve_lower"]
+__all__ = ["invert"]
 
 Array = NDArray[np.float64]
 
 
-def factorise(matrix: Array, parameters: Parameters) -> tuple[Array, float]:
-    """Return lower Cholesky factor and log-determinant of a matrix, which is overwritten.
+def invert(matrix: Array, parameters: Parameters) -> float:
+    """Overwrite a C-ordered matrix, of which the lower triangle counts, with its inverse.
+
+    Returns its log-determinant.
 
     Raises
     ------
@@ -23,31 +27,15 @@ def factorise(matrix: Array, parameters: Parameters) -> tuple[Array, float]:
         If the matrix, built from ``parameters``, is not numerically positive definite.
     """
     if not matrix.size:
-        return matrix, 0.0
-    factor, info = lapack.dpotrf(matrix.T, lower=1, clean=1, overwrite_a=1)
-    if info != 0:
+        return 0.0
+    if potrf(matrix) != 0:
         raise SingularCovarianceError(parameters)
-    return factor, 2.0 * float(np.log(np.diagonal(factor)).sum())
+    log_determinant = 2.0 * float(np.log(np.diagonal(matrix)).sum())
+    potri(matrix)
+    np.copyto(matrix, matrix.T, where=_above_diagonal(len(matrix)))
+    return log_determinant
 
 
-def invert_factor(factor: Array) -> Array:
-    """Return (L Lᵀ)⁻¹ for a lower Cholesky factor L."""
-    if not factor.size:
-        return factor
-    lower, _ = lapack.dpotri(factor, lower=1)
-    inverse = lower + lower.T
-    inverse.reshape(-1)[:: len(inverse) + 1] *= 0.5
-    return np.asarray(inverse)
-
-
-def invert(matrix: Array, parameters: Parameters) -> tuple[Array, float]:
-    """Return inverse and log-determinant of a matrix, which is overwritten; see `factorise`."""
-    factor, log_determinant = factorise(matrix, parameters)
-    return invert_factor(factor), log_determinant
-
-
-def solve_lower(factor: Array, right: Array) -> Array:
-    """Return L⁻¹ R for a lower Cholesky factor L."""
-    if not factor.size:
-        return right
-    return np.asarray(solve_triangular(factor, right, lower=True, check_finite=False))
+@lru_cache(maxsize=128)
+def _above_diagonal(size: int) -> NDArray[np.bool_]:
+    return ~np.tri(size, dtype=bool)

@@ -1,16 +1,14 @@
-"""The visible entries of a block, output by output, and its grid of pairs of entries.
+"""The visible entries of a block, output by output.
 
-Given the latent functions the outputs are independent, so that matrices over the entries come in
-two forms: one for each output over its n_d visible entries, which is factorised, and *grids*
-(P, P, D, N, N) over all pairs of units and times, which meet the kernels. Output by output the
-matrices are small enough to stay in the processor's cache.
+A *site* is a unit and a time at which some output is visible. Given the latent functions the
+outputs are independent, so that matrices come one for each output, over the sites and with zeros
+where the output is hidden: masks then vanish from the formulae. What must be factorised is picked
+from them first.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,56 +17,96 @@ __all__ = ["Entries"]
 
 Array = NDArray[np.float64]
 
+CHUNK = 2**18
+"""Entries of the matrices of a run of outputs: two megabytes."""
+
+Positions = slice | NDArray[np.intp]
+"""Sites of an output: a slice where all are visible, which spares copies."""
+
 
 @dataclass(frozen=True, eq=False)
 class Entries:
-    """The visible entries of every output.
+    """The m sites of a block and which of them each output shows.
 
     Parameters
     ----------
-    shape : tuple of int
-        P, D and N.
-    positions : tuple of ndarray of int, shape (n_d,)
-        For each output its visible entries, as indices into its flat (P, N) grid.
+    unit, time : ndarray of int, shape (m,)
+        The sites, by unit and then by time.
+    spans : tuple of slice
+        The sites of each unit.
+    positions : tuple of slice or ndarray of int
+        The sites that each output shows.
+    visible : ndarray of bool, shape (D, m)
+        The same as a mask.
+    n_times : int
+        The number N of times.
     """
 
-    shape: tuple[int, int, int]
-    positions: tuple[NDArray[np.intp], ...]
+    unit: NDArray[np.intp]
+    time: NDArray[np.intp]
+    spans: tuple[slice, ...]
+    positions: tuple[Positions, ...]
+    visible: NDArray[np.bool_]
+    n_times: int
 
     @classmethod
     def of(cls, observed: NDArray[np.bool_]) -> Entries:
         """List the entries that are True in ``observed`` (P, D, N)."""
-        n_units, n_outputs, n_times = observed.shape
-        by_output = observed.transpose(1, 0, 2).reshape(n_outputs, n_units * n_times)
-        positions = tuple(np.flatnonzero(seen) for seen in by_output)
-        return cls((n_units, n_outputs, n_times), positions)
+        unit, time = np.nonzero(observed.any(axis=1))
+        ends = np.cumsum(np.bincount(unit, minlength=len(observed))).tolist()
+        spans = tuple(slice(start, end) for start, end in zip([0, *ends], ends, strict=False))
+        visible = observed[unit, :, time].T
+        positions = tuple(slice(None) if seen.all() else np.flatnonzero(seen) for seen in visible)
+        return cls(unit, time, spans, positions, visible, observed.shape[2])
 
-    @cached_property
-    def pairs(self) -> tuple[NDArray[np.intp], ...]:
-        """For each output its pairs of entries (n_d, n_d), as indices into a flat grid."""
-        n_units, n_outputs, n_times = self.shape
-        size = n_outputs * n_times**2
-        unit_and_time = [np.divmod(positions, n_times) for positions in self.positions]
-        return tuple(
-            np.add.outer(unit * n_units * size + time * n_times, unit * size + time)
-            + d * n_times**2
-            for d, (unit, time) in enumerate(unit_and_time)
-        )
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """(D, m, m), that of one matrix for each output."""
+        return (*self.visible.shape, self.visible.shape[1])
 
-    def zeros(self) -> Array:
-        """Return a grid (P, P, D, N, N) of zeros."""
-        n_units, n_outputs, n_times = self.shape
-        return np.zeros((n_units, n_units, n_outputs, n_times, n_times))
+    @property
+    def chunks(self) -> tuple[slice, ...]:
+        """The outputs in runs whose matrices fit into a processor's cache together."""
+        n_outputs, n_sites = self.visible.shape
+        size = max(1, CHUNK // max(n_sites, 1) ** 2)
+        return tuple(slice(d, min(d + size, n_outputs)) for d in range(0, n_outputs, size))
 
-    def pick(self, values: Array) -> list[Array]:
-        """Return for each output the entries (n_d, h) of ``values`` (P, D, N, h)."""
-        by_output = values.transpose(1, 0, 2, 3).reshape(self.shape[1], -1, values.shape[3])
-        return [rows[own] for rows, own in zip(by_output, self.positions, strict=True)]
+    def at_sites(self, values: Array) -> Array:
+        """Return (D, m, h), the ``values`` (h, P, D, N) at the sites."""
+        return np.ascontiguousarray(values[:, self.unit, :, self.time].transpose(2, 0, 1))
 
-    def place(self, values: Iterable[Array], width: int) -> Array:
-        """Return (P, D, N, ``width``), the ``values`` (n_d, width) of each output, else 0."""
-        n_units, n_outputs, n_times = self.shape
-        by_output = np.zeros((n_outputs, n_units * n_times, width))
-        for rows, own, one in zip(by_output, self.positions, values, strict=True):
-            rows[own] = one
-        return by_output.reshape(n_outputs, n_units, n_times, width).transpose(1, 0, 2, 3)
+    def pick(self, matrix: Array, output: int) -> Array:
+        """Return the part (n_d, n_d) of ``matrix`` (m, m) that the output shows.
+
+        It is C-ordered, and ``matrix`` itself if the output shows all sites.
+        """
+        shown = self.positions[output]
+        return np.ascontiguousarray(matrix[shown][:, shown])
+
+    def place(self, part: Array, output: int, matrix: Array) -> None:
+        """Write ``part`` (n_d, n_d) into ``matrix`` (m, m) and zeros everywhere else."""
+        shown = self.positions[output]
+        rows = np.zeros((len(part), len(matrix)))
+        rows[:, shown] = part
+        matrix[...] = 0.0
+        matrix[shown] = rows
+
+    def fold(self, loadings: Array, values: Array) -> Array:
+        """Return (N, …), the sum over units p of loadings[p] times ``values`` (m, …) at p."""
+        folded = np.zeros((self.n_times, *values.shape[1:]))
+        for p in np.flatnonzero(loadings):
+            folded[self.time[self.spans[p]]] += loadings[p] * values[self.spans[p]]
+        return folded
+
+    def unfold(self, loadings: Array, curves: Array) -> Array:
+        """Return (m, …), at a site of unit p loadings[p] times ``curves`` (N, …): the adjoint."""
+        scale = loadings[self.unit].reshape(-1, *(1,) * (curves.ndim - 1))
+        return np.asarray(scale * curves[self.time])
+
+    def add_unfolded(self, rows: Array, columns: Array, block: Array, total: Array) -> None:
+        """Add to ``total`` (m, m) what unfolds ``block`` (N, N) by ``rows`` and ``columns``."""
+        for p in np.flatnonzero(rows):
+            part = rows[p] * block[self.time[self.spans[p]]]
+            for q in np.flatnonzero(columns):
+                span = self.spans[q]
+                total[self.spans[p], span] += columns[q] * part[:, self.time[span]]

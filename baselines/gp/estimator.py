@@ -3,25 +3,32 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
-from numbers import Integral
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import ClassVar, Self
 
 import numpy as np
+from joblib import effective_n_jobs
 from numpy.typing import NDArray
-from sklearn.utils import check_scalar
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.gp.coordinates import Coordinates
+from mocapbench.baselines.gp.fitted import FittedProcess
 from mocapbench.baselines.gp.kernels import KERNELS
-from mocapbench.baselines.gp.parameters import Parameters
-from mocapbench.baselines.gp.planner import PLANS
-from mocapbench.baselines.gp.prediction import infer
+from mocapbench.baselines.gp.parameters import CHILD, PARENT, Parameters
+from mocapbench.baselines.gp.planner import PLANS, name_of, reason, with_mapper
 from mocapbench.baselines.gp.reduction import Reduction, Share
 from mocapbench.baselines.gp.replicates import Replicates
-from mocapbench.baselines.gp.sampling import draw_layer
 from mocapbench.baselines.gp.scaling import Standardisation
+from mocapbench.baselines.gp.settings import (
+    check_choice,
+    check_count,
+    check_positive,
+    components_of,
+)
 from mocapbench.baselines.gp.start import bounds, data_driven, perturbed
-from mocapbench.baselines.gp.training import Training, maximise
+from mocapbench.baselines.gp.training import Budget, Space, Step, Training, maximise
+from mocapbench.baselines.gp.workers import mapping
 from mocapbench.baselines.pooling import check_recordings
 from mocapbench.baselines.protocols import (
     Imputer,
@@ -29,7 +36,7 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
-from mocapbench.datasets import FrameByChannel, Frames, Recording
+from mocapbench.datasets import Frames, Recording
 
 __all__ = ["GaussianProcess"]
 
@@ -41,8 +48,9 @@ class GaussianProcess(Imputer, Synthesiser):
 
     Parameters
     ----------
-    n_components : int, default=1
-        Number Q of components of each layer.
+    n_components : int or mapping of str to int, default=1
+        Number Q of components of each layer, or of every layer by its name, such as
+        ``{"parent": 3, "child": 1}``.
     rank : int, default=1
         Number of columns of each W_q; 0 makes the outputs independent.
     kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
@@ -51,8 +59,21 @@ class GaussianProcess(Imputer, Synthesiser):
         Number of searches; the first starts from the data, the others at random around it.
     max_iter : int, default=1000
         Largest number of iterations of a search.
-    solver : {"auto", "dense", "latent-split", "state-space"}, default="auto"
+    tol : float, default=1e-7
+        A search has converged when an iteration gains less than this share of the log-likelihood
+        of the recordings in standard units.
+    max_seconds : float or None, default=None
+        Time for all searches together; None sets no limit. When it is spent the best point so far
+        is taken, and `training_` says so. Results then depend on the machine.
+    warm_start : bool, default=False
+        Whether `fit` starts from the parameters of the last one, where there was one.
+    verbose : bool, default=False
+        Whether `fit` prints a line for every iteration.
+    solver : {"auto", "dense", "latent-split", "state-space", "kronecker"}, default="auto"
         How the likelihood is computed; "auto" takes the solver with the least counted work.
+    n_jobs : int or None, default=None
+        Number of threads over outputs, to which results owe nothing. None means 1, unless in a
+        ``joblib.parallel_config`` context; −1 means all processors.
     random_state : int, numpy.random.Generator or None, default=None
         Seed of the random starts.
 
@@ -63,11 +84,14 @@ class GaussianProcess(Imputer, Synthesiser):
     log_likelihood_ : float
         Log-likelihood of the recordings in their own units.
     training_ : Training
-        The searches, with their counts and messages.
+        The searches, with their traces and messages; log-likelihoods there are those of the
+        recordings in standard units.
     converged_, n_iterations_, n_evaluations_ : bool, int, int
         Those of the best search.
     solver_ : str
-        The solver that was used.
+        The solvers that were used, such as "latent-split" or "dense+kronecker".
+    engine_ : str
+        The same, and the work that every solver alone would have had.
     coregionalisation_ : dict of str to ndarray of shape (Q, D, D)
         The matrices B_q of each layer, in the outputs' own units.
     noise_ : ndarray of shape (D,)
@@ -80,12 +104,17 @@ class GaussianProcess(Imputer, Synthesiser):
     def __init__(
         self,
         *,
-        n_components: int = 1,
+        n_components: int | Mapping[str, int] = 1,
         rank: int = 1,
         kernel: str = "matern32",
         n_restarts: int = 1,
         max_iter: int = 1000,
+        tol: float = 1e-7,
+        max_seconds: float | None = None,
+        warm_start: bool = False,
+        verbose: bool = False,
         solver: str = "auto",
+        n_jobs: int | None = None,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
         self.n_components = n_components
@@ -93,7 +122,12 @@ class GaussianProcess(Imputer, Synthesiser):
         self.kernel = kernel
         self.n_restarts = n_restarts
         self.max_iter = max_iter
+        self.tol = tol
+        self.max_seconds = max_seconds
+        self.warm_start = warm_start
+        self.verbose = verbose
         self.solver = solver
+        self.n_jobs = n_jobs
         self.random_state = random_state
 
     @staticmethod
@@ -108,7 +142,7 @@ class GaussianProcess(Imputer, Synthesiser):
         ------
         ValueError
             If a parameter is out of range, there is no recording, channels differ, a name
-            repeats, or a channel is nowhere visible.
+            repeats, a channel is nowhere visible, or a warm start has other parameters.
         SingularCovarianceError
             If the covariance is singular at a start.
         """
@@ -130,11 +164,9 @@ class GaussianProcess(Imputer, Synthesiser):
             If a recording was not given to `fit`, or not with these times and values.
         """
         check_is_fitted(self)
-        names = list(self.recordings_)
-        for recording in recordings:
-            self._check_seen(recording)
-        shares = [self.reduction_.replicates[names.index(rec.name)] for rec in recordings]
-        curves = self._infer(shares, [recording.times for recording in recordings])
+        shares = [self._shares(recording) for recording in recordings]
+        with self._at_work() as process:
+            curves = process.infer(shares, [recording.times for recording in recordings])
         return [
             Prediction.around(recording, mean, variance + self.noise_)
             for recording, (mean, variance) in zip(recordings, curves, strict=True)
@@ -147,11 +179,76 @@ class GaussianProcess(Imputer, Synthesiser):
         check_is_fitted(self)
         rng = np.random.default_rng(random_state)
         times = np.asarray(times, dtype=np.float64)
-        layer = self.parameters_.layers[self.layers[-1]]
-        draws = draw_layer(KERNELS[self.kernel], layer, times, n_samples, rng)
-        draws += np.sqrt(self.parameters_.noise) * rng.standard_normal(draws.shape)
-        ((trend, _),) = self._infer([self.reduction_.trend], [times])
-        return trend + self.scaling_.scale * draws
+        with self._at_work() as process:
+            return process.observe_new(self.layers[-1], times, n_samples, rng)
+
+    def posterior_covariance(self, recording: Recording, times: Frames | None = None) -> Array:
+        """Return the joint covariance of a recording's curve given all that is visible.
+
+        Noise is left out: for observations add `noise_` to the diagonal.
+
+        Parameters
+        ----------
+        recording : Recording
+            One that `fit` has seen.
+        times : ndarray of shape (M,), optional
+            In seconds, in any order; the recording's own if left out.
+
+        Returns
+        -------
+        ndarray of shape (D M, D M)
+            In the outputs' own units; outputs are slowest, as in `covariance`. Symmetric, and
+            positive semi-definite up to rounding. It takes memory for D M data vectors; for
+            curves rather than their covariance, `posterior_draws` is cheaper.
+
+        Raises
+        ------
+        ValueError
+            If the recording was not given to `fit`, or not with these times and values.
+        """
+        check_is_fitted(self)
+        curve, times = self._shares(recording), _or_own(times, recording)
+        with self._at_work() as process:
+            return process.joint_covariance(curve, times)
+
+    def posterior_draws(
+        self,
+        recording: Recording,
+        n_samples: int,
+        random_state: int | np.random.Generator,
+        times: Frames | None = None,
+    ) -> SampleByFrameByChannel:
+        """Return draws of a recording's curve given all that is visible.
+
+        Noise is left out. Hidden and visible entries are drawn alike, as one function of time.
+
+        Parameters
+        ----------
+        recording : Recording
+            One that `fit` has seen.
+        n_samples : int
+            Number n of draws.
+        random_state : int or numpy.random.Generator
+            Seed of the draws; they do not depend on the solver, rounding aside.
+        times : ndarray of shape (M,), optional
+            In seconds, in any order; the recording's own if left out.
+
+        Returns
+        -------
+        ndarray of shape (n, M, D)
+            In the outputs' own units.
+
+        Raises
+        ------
+        ValueError
+            If the recording was not given to `fit`, or not with these times and values, or the
+            number of draws is not a positive integer.
+        """
+        check_is_fitted(self)
+        check_count("n_samples", n_samples, 1)
+        curve, times = self._shares(recording), _or_own(times, recording)
+        with self._at_work() as process:
+            return process.draw(curve, times, n_samples, np.random.default_rng(random_state))
 
     def covariance(self, layer: str, times: Frames) -> Array:
         """Return Σ_q B_q ⊗ k_q of a layer in the outputs' own units, (D N, D N).
@@ -159,12 +256,7 @@ class GaussianProcess(Imputer, Synthesiser):
         Outputs are slowest, as in `ToyProcess`.
         """
         check_is_fitted(self)
-        lags = np.subtract.outer(times, times)
-        scales = self.parameters_.layers[layer].lengthscales[:, None, None]
-        kernels = KERNELS[self.kernel].value(lags, scales)
-        blocks = np.tensordot(self.coregionalisation_[layer], kernels, axes=(0, 0))
-        size = len(self.noise_) * len(lags)
-        return blocks.transpose(0, 2, 1, 3).reshape(size, size)
+        return self._process.prior_covariance(layer, np.asarray(times, dtype=np.float64))
 
     @property
     def coregionalisation_(self) -> Mapping[str, Array]:
@@ -180,42 +272,78 @@ class GaussianProcess(Imputer, Synthesiser):
 
     def _train(self, replicates: Replicates) -> None:
         reduction = self.reduction_
-        start = data_driven(
-            replicates, self.layers, self.n_components, self.rank, reduction.within_variance
-        )
+        start = self._start(replicates)
         rng = np.random.default_rng(self.random_state)
         others = [perturbed(start, rng) for _ in range(self.n_restarts - 1)]
-        self._solver = PLANS[self.solver](KERNELS[self.kernel], reduction, start)
-        self.training_: Training = maximise(
-            lambda parameters: reduction.evaluate(self._solver, parameters),
-            [start, *others],
-            bounds(start, replicates.times),
-            self.max_iter,
-        )
+        kernel = KERNELS[self.kernel]
+        solvers = PLANS[self.solver](kernel, reduction, start)
+        with mapping(effective_n_jobs(self.n_jobs)) as mapper:
+            at_work = with_mapper(solvers, mapper)
+            self.training_: Training = maximise(
+                lambda parameters: reduction.evaluate(at_work, parameters),
+                [start, *others],
+                Space(Coordinates.around(start, self._draws), *bounds(start, replicates.times)),
+                Budget(self.tol, self.max_iter, self.max_seconds),
+                self._print if self.verbose else _say_nothing,
+            )
         best = self.training_.best
         self.parameters_: Parameters = best.parameters
+        self._process = FittedProcess(kernel, reduction, solvers, best.parameters, self.scaling_)
         self.log_likelihood_ = best.log_likelihood + self.scaling_.log_jacobian
         self.converged_, self.n_iterations_ = best.converged, best.n_iterations
-        self.n_evaluations_, self.solver_ = best.n_evaluations, self._solver.name
+        self.n_evaluations_, self.solver_ = best.n_evaluations, name_of(solvers)
+        self.engine_ = f"{self.solver_} ({reason(kernel, reduction, start)})"
 
-    def _infer(
-        self, curves: Sequence[tuple[Share, ...]], times: Sequence[Frames]
-    ) -> list[tuple[FrameByChannel, FrameByChannel]]:
-        """Return mean and variance of noise-free curves in the outputs' own units."""
-        inferred = infer(self.reduction_, self._solver, self.parameters_, curves, times)
-        return [
-            (self.scaling_.restore(mean), variance * self.scaling_.scale**2)
-            for mean, variance in inferred
-        ]
+    @contextmanager
+    def _at_work(self) -> Iterator[FittedProcess]:
+        """Give the fitted process with its threads running."""
+        with mapping(effective_n_jobs(self.n_jobs)) as mapper:
+            yield self._process.working_with(mapper)
+
+    @property
+    def _draws(self) -> Mapping[str, int]:
+        """How many draws of each layer are behind the recordings."""
+        numbers = {PARENT: 1, CHILD: len(self.recordings_)}
+        return {layer: numbers[layer] for layer in self.layers}
+
+    def _start(self, replicates: Replicates) -> Parameters:
+        """Return where the first search begins."""
+        start = data_driven(
+            replicates,
+            components_of(self.n_components, self.layers),
+            self.rank,
+            self.reduction_.within_variance,
+        )
+        if not (self.warm_start and hasattr(self, "parameters_")):
+            return start
+        if self.parameters_.shapes != start.shapes:
+            raise ValueError(
+                f"expected the parameters of the last fit to have the shapes {start.shapes} for a "
+                f"warm start, got {self.parameters_.shapes}: set warm_start=False"
+            )
+        return self.parameters_
+
+    def _print(self, search: int, step: Step) -> None:
+        log_likelihood = step.log_likelihood + self.scaling_.log_jacobian
+        print(
+            f"search {search + 1} of {self.n_restarts}, iteration {step.iteration}: "
+            f"log-likelihood {log_likelihood:.3f}, {step.seconds:.1f} s"
+        )
 
     def _check_parameters(self) -> None:
-        for name, least in (("n_components", 1), ("rank", 0), ("n_restarts", 1), ("max_iter", 1)):
-            check_scalar(getattr(self, name), name, Integral, min_val=least)
-        for name, choices in (("kernel", KERNELS), ("solver", PLANS)):
-            if getattr(self, name) not in choices:
-                raise ValueError(
-                    f"expected {name} to be one of {sorted(choices)}, got {getattr(self, name)!r}"
-                )
+        components_of(self.n_components, self.layers)
+        for name, least in (("rank", 0), ("n_restarts", 1), ("max_iter", 1)):
+            check_count(name, getattr(self, name), least)
+        check_positive("tol", self.tol)
+        if self.max_seconds is not None:
+            check_positive("max_seconds", self.max_seconds)
+        check_choice("kernel", self.kernel, KERNELS)
+        check_choice("solver", self.solver, PLANS)
+
+    def _shares(self, recording: Recording) -> tuple[Share, ...]:
+        """Return the shares of a recording that `fit` has seen."""
+        self._check_seen(recording)
+        return self.reduction_.replicates[list(self.recordings_).index(recording.name)]
 
     def _check_seen(self, recording: Recording) -> None:
         fitted = self.recordings_.get(recording.name)
@@ -232,3 +360,12 @@ class GaussianProcess(Imputer, Synthesiser):
                 f"recording {recording.name!r} differs from the one of that name given to fit: "
                 "expected the same times, visible values and hidden entries; fit again"
             )
+
+
+def _say_nothing(search: int, step: Step) -> None:
+    """Report no step."""
+
+
+def _or_own(times: Frames | None, recording: Recording) -> Frames:
+    """Return ``times``, or the recording's own."""
+    return recording.times if times is None else np.asarray(times, dtype=np.float64)

@@ -37,8 +37,10 @@ __all__ = ["LatentSplit"]
 
 Array = NDArray[np.float64]
 
-OVERHEAD = 4e8
-"""What a block costs besides its factorisations, as operations (about ten milliseconds)."""
+OVERHEAD = 6e7
+"""What a block costs besides its factorisations, as operations (about four milliseconds)."""
+OUTPUT_OVERHEAD = 1.5e6
+"""The same for each output (about a tenth of a millisecond)."""
 
 
 class LatentSplit(Solver):
@@ -48,22 +50,23 @@ class LatentSplit(Solver):
 
     def evaluate(self, block: Block, parameters: Parameters) -> tuple[float, Parameters]:
         """Return the log-density of the block's data and its gradient."""
-        split = Split.of(self.kernel, block, parameters)
-        return split.log_density, split_gradient(split)
+        split = Split.of(self.kernel, block, parameters, self.mapper)
+        return split.log_density, split_gradient(split, self.mapper)
 
     def condition(self, block: Block, parameters: Parameters) -> Posterior:
         """Return the posterior given the block's data."""
-        return _SplitPosterior(Split.of(self.kernel, block, parameters))
+        return _SplitPosterior(Split.of(self.kernel, block, parameters, self.mapper))
 
     def work(self, block: Block, parameters: Parameters) -> float:
-        """Return 5 Σ_d n_d³ + 2 (latents × N)³ and an overhead."""
+        """Return 5 Σ_d n_d³ + 1.5 K³ and overheads, K counting the frames that latents see."""
         own = block.observed.sum(axis=(0, 2)).astype(np.float64)
-        n_latents = sum(
-            factor.shape[1] * parameters.layers[name].coregionalisation.weights[:, 0].size
-            for name, factor in block.units.items()
-        )
-        shared = float(n_latents * len(block.times))
-        return 5.0 * float((own**3).sum()) + 2.0 * shared**3 + OVERHEAD
+        shared = 0.0
+        for name, factor in block.units.items():
+            seen = (factor != 0.0).T @ block.observed.any(axis=1) > 0
+            n_columns = parameters.layers[name].coregionalisation.weights[:, 0].size
+            shared += float(n_columns * seen.sum())
+        overhead = OVERHEAD + OUTPUT_OVERHEAD * len(own)
+        return 5.0 * float((own**3).sum()) + 1.5 * shared**3 + overhead
 
 
 class _SplitPosterior(Posterior):
@@ -82,16 +85,17 @@ class _SplitPosterior(Posterior):
 
     def predict(self, target: Target, times: Array) -> tuple[Array, Array]:
         split, latents = self.split, self.split.latents
-        shared, coefficients = latents.at(times), latents.spread(latents.coefficients(target))
+        shared, coefficients = latents.at(times), latents.coefficients(target)
+        loadings = self._white_loadings()
         variance = np.repeat(self._prior(target)[:, None], len(times), axis=1)
         mean = np.empty((len(split.block.data), *variance.shape))
-        for d, curves in enumerate(self._own_cross(target, times)):
-            cross = curves[:, split.block.entries.positions[d]]
+        for d, cross in enumerate(self._own_cross(target, times)):
             regression = shared * coefficients[:, d]
-            weighted = cross @ split.precision.matrices[d]
+            weighted = cross @ split.own.precision[d]
             variance[d] -= np.square(regression).sum(axis=1)
             mean[:, d] = (regression @ split.white + cross @ split.alpha[d]).T
-            regression -= weighted @ self._white_loadings(d)
+            for weight, of_column in zip(latents.weights[:, d], loadings, strict=True):
+                regression -= weight * (weighted @ of_column)
             variance[d] += np.einsum("mi,mi->m", regression @ split.inverse, regression)
             variance[d] -= np.einsum("mi,mi->m", weighted, cross)
         return mean, split.block.share_of_variance * np.maximum(variance, 0.0)
@@ -105,22 +109,22 @@ class _SplitPosterior(Posterior):
             )
         )
 
-    def _white_loadings(self, d: int) -> Array:
-        """Return A_d Λ at the output's visible entries, (n_d, K)."""
-        latents = self.split.latents
-        unit, time = np.divmod(self.split.block.entries.positions[d], latents.n_times)
-        loadings = latents.spread(latents.loadings[:, d].T)
-        return np.asarray(loadings[:, unit].T * latents.root[time])
+    def _white_loadings(self) -> Array:
+        """Return (n, m, K), what each column of weights multiplies in terms of u."""
+        latents, entries = self.split.latents, self.split.block.entries
+        loadings = np.zeros((len(latents.columns), len(entries.unit), latents.n_white))
+        for latent in latents.functions:
+            loadings[latent.column, :, latent.white] = entries.unfold(latent.units, latent.values)
+        return loadings
 
     def _own_cross(self, target: Target, times: Array) -> Array:
-        """Return c, (D, M, P N), the covariance of the own parts with the grid of entries."""
-        split = self.split
-        n_units, n_outputs, n_times = split.block.observed.shape
-        cross = np.zeros((n_outputs, len(times), n_units, n_times))
-        lags = np.subtract.outer(times, split.block.times)
+        """Return c, (D, M, m), the covariance of the own parts with the sites."""
+        split, entries = self.split, self.split.block.entries
+        cross = np.zeros((split.own.precision.shape[0], len(times), len(entries.unit)))
+        lags = np.subtract.outer(times, split.block.times[entries.time])
         for name, factor in split.block.units.items():
             layer = split.parameters.layers[name]
-            kernels = split.kernel.value(lags, layer.lengthscales[:, None, None])
-            curves = np.tensordot(layer.coregionalisation.kappa, kernels, axes=(0, 0))
-            cross += (factor @ target.weights[name])[:, None] * curves[:, :, None]
-        return cross.reshape(n_outputs, len(times), n_units * n_times)
+            kernels = split.own.kernel.value(lags, layer.lengthscales[:, None, None])
+            curves = np.tensordot(layer.coregionalisation.kappa.T, kernels, axes=1)
+            cross += (factor @ target.weights[name])[entries.unit] * curves
+        return cross

@@ -1,9 +1,14 @@
-"""The latent functions behind the shared part of a block's covariance."""
+"""The latent functions behind the shared part of a block's covariance.
+
+Every column of a W_q mixes one latent function for each independent draw of its layer. A column
+says how the outputs load on its functions, a draw how the units do.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -11,127 +16,141 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.block import Block, Target
 from mocapbench.baselines.gp.kernels import Kernel
-from mocapbench.baselines.gp.parameters import Layer, Parameters
+from mocapbench.baselines.gp.parameters import Parameters
 from mocapbench.baselines.gp.pivoted import PivotedRoot
 
-__all__ = ["Label", "Latents"]
+__all__ = ["Column", "Latent", "Latents"]
 
 Array = NDArray[np.float64]
 
 
-class Label(NamedTuple):
-    """Which latent function: one for each column of W_q and each draw of the layer."""
+class Column(NamedTuple):
+    """A column of a coregionalisation factor: layer, component q, number within W_q."""
 
     layer: str
     component: int
+    number: int
+
+
+@dataclass(frozen=True, eq=False)
+class Latent:
+    """One latent function v = Λ u, with white u.
+
+    Parameters
+    ----------
+    column : int
+        Index of its column.
+    draw : int
+        Index of its draw of the layer.
+    units : ndarray of shape (P,)
+        c, how the units load on it.
+    seen : ndarray of int
+        The times at which a unit that loads on it has a visible entry.
+    root : PivotedRoot
+        Λ as a function of time, factorised at the times seen.
+    white : slice
+        Its coordinates u among those of all latent functions.
+    values : ndarray of shape (N, rank)
+        Λ at the block's times, 0 at those not seen.
+    """
+
     column: int
     draw: int
+    units: Array
+    seen: NDArray[np.intp]
+    root: PivotedRoot
+    white: slice
+    values: Array
 
 
 @dataclass(frozen=True, eq=False)
 class Latents:
-    """A block's latent functions v_i = Λ_i u_i, with white u_i.
+    """All latent functions of a block.
 
     Parameters
     ----------
-    labels : tuple of Label
-        Names of the n latent functions.
-    roots : tuple of PivotedRoot
-        Λ_i as functions of time.
+    columns : tuple of Column
+        Names of the n columns.
     weights : ndarray of shape (n, D)
-        w_i, how the outputs load on each.
-    units : ndarray of shape (n, P)
-        c_i, how the units do.
-    values : tuple of ndarray of shape (N, rank_i)
-        Λ_i at the block's times, 0 where no unit that sees the function has a visible entry.
-    n_times : int
-        The number N of the block's times.
+        w, how the outputs load on the functions of each column.
+    functions : tuple of Latent
+        The latent functions, by column.
     """
 
-    labels: tuple[Label, ...]
-    roots: tuple[PivotedRoot, ...]
+    columns: tuple[Column, ...]
     weights: Array
-    units: Array
-    values: tuple[Array, ...]
-    n_times: int
+    functions: tuple[Latent, ...]
 
     @classmethod
     def of(cls, kernel: Kernel, block: Block, parameters: Parameters) -> Latents:
         """List the latent functions of ``block``."""
-        layers = {name: parameters.layers[name] for name in block.units}
-        labels = tuple(
-            label
-            for name, layer in layers.items()
-            for label in _labels(name, layer, block.units[name].shape[1])
+        columns = tuple(_columns(block, parameters))
+        weights = np.zeros((len(columns), block.observed.shape[1]))
+        for row, (name, q, number) in zip(weights, columns, strict=True):
+            row[:] = parameters.layers[name].coregionalisation.weights[q, :, number]
+        return cls(columns, weights, tuple(_functions(kernel, block, parameters, columns)))
+
+    @property
+    def n_white(self) -> int:
+        """K, the number of white coordinates."""
+        return self.functions[-1].white.stop if self.functions else 0
+
+    @cached_property
+    def by_column(self) -> tuple[tuple[int, ...], ...]:
+        """The indices of the functions of each column."""
+        return tuple(
+            tuple(i for i, latent in enumerate(self.functions) if latent.column == a)
+            for a in range(len(self.columns))
         )
-        weights = np.zeros((len(labels), block.observed.shape[1]))
-        units = np.zeros((len(labels), block.observed.shape[0]))
-        for i, (name, q, column, draw) in enumerate(labels):
-            weights[i] = layers[name].coregionalisation.weights[q, :, column]
-            units[i] = block.units[name][:, draw]
-        seen = [block.observed[unit != 0.0].any(axis=(0, 1)) for unit in units]
-        scales = [float(layers[label.layer].lengthscales[label.component]) for label in labels]
-        roots = tuple(
-            PivotedRoot.of(kernel, scale, block.times[times])
-            for scale, times in zip(scales, seen, strict=True)
-        )
-        values = tuple(map(_at_rows, (root.values for root in roots), seen))
-        return cls(labels, roots, weights, units, values, len(block.times))
 
-    @property
-    def loadings(self) -> Array:
-        """(P, D, n) w_i c_iᵀ, how the units' outputs load on each latent function."""
-        return self.units.T[:, None] * self.weights.T[None]
+    @cached_property
+    def pairs(self) -> tuple[tuple[int, int], ...]:
+        """The pairs a ≤ b of columns."""
+        n = len(self.columns)
+        return tuple((a, b) for a in range(n) for b in range(a, n))
 
-    @property
-    def ends(self) -> NDArray[np.intp]:
-        """(n,) where the white coordinates of each latent function end."""
-        return np.cumsum([root.values.shape[1] for root in self.roots], dtype=np.intp)
-
-    @property
-    def slices(self) -> tuple[slice, ...]:
-        """The white coordinates of each latent function."""
-        ends = self.ends.tolist()
-        return tuple(slice(start, end) for start, end in zip([0, *ends], ends, strict=False))
-
-    def project(self, values: Array) -> Array:
-        """Return Aᵀ of ``values`` (P, D, N, h), (n, N, h)."""
-        by_unit = np.tensordot(self.weights, values, axes=((1,), (1,)))
-        return np.asarray(np.einsum("np,npth->nth", self.units, by_unit))
-
-    def curves(self, white: Array) -> Array:
-        """Return Λ u, (n, N, h), for ``white`` (K, h)."""
-        curves = np.empty((len(self.labels), self.n_times, white.shape[1]))
-        for curve, own, root in zip(curves, self.slices, self.values, strict=True):
-            curve[...] = root @ white[own]
-        return curves
-
-    @property
-    def root(self) -> Array:
-        """(N, K) all Λ_i side by side."""
-        return np.hstack([np.empty((self.n_times, 0)), *self.values])
+    @cached_property
+    def products(self) -> Array:
+        """(n_pairs, D), the products w_a w_b."""
+        products = [self.weights[a] * self.weights[b] for a, b in self.pairs]
+        return np.reshape(products, (-1, self.weights.shape[1]))
 
     def at(self, times: Array) -> Array:
-        """Return (M, K), all Λ_i at other times, side by side."""
-        return np.hstack([np.empty((len(times), 0)), *(root.at(times) for root in self.roots)])
+        """Return (M, K), all Λ at other times, side by side."""
+        roots = [latent.root.at(times) for latent in self.functions]
+        return np.hstack([np.empty((len(times), 0)), *roots])
 
     def coefficients(self, target: Target) -> Array:
-        """Return (n, D), how the outputs of ``target`` load on each latent function."""
-        draws = np.array([target.weights[label.layer][label.draw] for label in self.labels])
-        return np.asarray(self.weights * draws[:, None])
-
-    def spread(self, by_latent: Array) -> Array:
-        """Return one row for each white coordinate, that of its latent function."""
-        return np.asarray(np.repeat(by_latent, np.diff(self.ends, prepend=0), axis=0))
-
-
-def _labels(name: str, layer: Layer, n_draws: int) -> Iterator[Label]:
-    n_components, _, n_columns = layer.coregionalisation.weights.shape
-    for q, column, draw in np.ndindex(n_components, n_columns, n_draws):
-        yield Label(name, q, column, draw)
+        """Return (K, D), how the outputs of ``target`` load on each white coordinate's function."""
+        spread = np.empty((self.n_white, self.weights.shape[1]))
+        for latent in self.functions:
+            of_draw = target.weights[self.columns[latent.column].layer][latent.draw]
+            spread[latent.white] = of_draw * self.weights[latent.column]
+        return spread
 
 
-def _at_rows(values: Array, rows: NDArray[np.bool_]) -> Array:
-    padded = np.zeros((len(rows), values.shape[1]))
-    padded[rows] = values
-    return padded
+def _columns(block: Block, parameters: Parameters) -> Iterator[Column]:
+    for name in block.units:
+        n_components, _, rank = parameters.layers[name].coregionalisation.weights.shape
+        for q, number in np.ndindex(n_components, rank):
+            yield Column(name, q, number)
+
+
+def _functions(
+    kernel: Kernel, block: Block, parameters: Parameters, columns: tuple[Column, ...]
+) -> Iterator[Latent]:
+    roots: dict[tuple[float, bytes], PivotedRoot] = {}
+    start = 0
+    for a, (name, q, _) in enumerate(columns):
+        scale = float(parameters.layers[name].lengthscales[q])
+        for draw, units in enumerate(block.units[name].T):
+            seen = np.flatnonzero(block.observed[units != 0.0].any(axis=(0, 1)))
+            key = (scale, seen.tobytes())
+            if key not in roots:
+                roots[key] = PivotedRoot.of(kernel, scale, block.times[seen])
+            root = roots[key]
+            values = np.zeros((len(block.times), root.values.shape[1]))
+            values[seen] = root.values
+            white = slice(start, start + values.shape[1])
+            start = white.stop
+            yield Latent(a, draw, units, seen, root, white, values)

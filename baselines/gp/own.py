@@ -1,12 +1,13 @@
 r"""The outputs' own parts: :math:`E_d = \sum_\tau \kappa_{\tau d}\, U_\tau \otimes k_\tau + \nu_d`.
 
 :math:`\tau` runs over the components of all layers, :math:`U_\tau` is the layer's Gram matrix over
-units and :math:`\nu_d` the noise.
+units and :math:`\nu_d` the noise. Matrices are over the m sites of the block, one for each output.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,84 +17,119 @@ from mocapbench.baselines.gp.cholesky import invert
 from mocapbench.baselines.gp.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.kernels import Kernel
 from mocapbench.baselines.gp.parameters import Layer, Parameters
+from mocapbench.baselines.gp.workers import Mapper
 
-__all__ = ["OwnPrecision", "own_gradient", "own_precision"]
+__all__ = ["OwnParts"]
 
 Array = NDArray[np.float64]
 
 
-class OwnPrecision(NamedTuple):
-    """The inverses F_d = E_d⁻¹.
+@dataclass(frozen=True, eq=False)
+class OwnParts:
+    """The covariances of the outputs' own parts, inverted.
 
     Parameters
     ----------
-    matrices : tuple of ndarray of shape (n_d, n_d)
-        F_d over the visible entries of each output.
-    grid : ndarray of shape (P, P, D, N, N)
-        The same over all pairs of units and times, 0 at hidden ones.
+    kernel, block, parameters : Kernel, Block, Parameters
+        What they are made of.
+    kernels : ndarray of shape (n_components, m²)
+        U_τ ⊗ k_τ, for the components of all layers of the block.
+    precision : ndarray of shape (D, m, m)
+        F_d = E_d⁻¹, 0 where hidden.
     log_determinant : float
         Σ_d log|E_d|.
     """
 
-    matrices: tuple[Array, ...]
-    grid: Array
+    kernel: Kernel
+    block: Block
+    parameters: Parameters
+    kernels: Array
+    precision: Array
     log_determinant: float
 
+    @classmethod
+    def of(cls, kernel: Kernel, block: Block, parameters: Parameters, mapper: Mapper) -> OwnParts:
+        """Invert the own part of every output.
 
-def own_precision(kernel: Kernel, block: Block, parameters: Parameters) -> OwnPrecision:
-    """Invert the covariance of every output's own part.
+        Raises
+        ------
+        SingularCovarianceError
+            If one is not numerically positive definite.
+        """
+        entries = block.entries
+        kernels, kappa = _kernels(kernel.value, block, parameters), _kappa(block, parameters)
+        noise = parameters.noise[:, None] * _noise_scale(block)
+        precision = np.empty(entries.shape)
 
-    Raises
-    ------
-    SingularCovarianceError
-        If one is not numerically positive definite.
-    """
-    entries, matrices, log_determinant = block.entries, [], 0.0
-    covariance, grid = _covariance(kernel, block, parameters), entries.zeros()
-    noise = entries.pick((parameters.noise[:, None] * block.noise_scale)[..., None])
-    for pairs, variances in zip(entries.pairs, noise, strict=True):
-        own = covariance.take(pairs)
-        own.reshape(-1)[:: len(own) + 1] += variances[:, 0]
-        inverse, of_output = invert(own, parameters)
-        matrices.append(inverse)
-        grid.reshape(-1)[pairs] = inverse
-        log_determinant += of_output
-    return OwnPrecision(tuple(matrices), grid, log_determinant)
+        def invert_chunk(outputs: slice) -> float:
+            matrices = (kappa[:, outputs].T @ kernels).reshape(-1, *entries.shape[1:])
+            total = 0.0
+            for d, matrix in zip(range(*outputs.indices(len(noise))), matrices, strict=True):
+                own = entries.pick(matrix, d)
+                own.reshape(-1)[:: len(own) + 1] += noise[d, entries.positions[d]]
+                total += invert(own, parameters)
+                entries.place(own, d, precision[d])
+            return total
+
+        log_determinant = sum(mapper(invert_chunk, entries.chunks))
+        return cls(kernel, block, parameters, kernels, precision, log_determinant)
+
+    def gradient(self, adjoint: Callable[[slice], Array], mapper: Mapper) -> Parameters:
+        """Return the gradient of a function whose gradient in E is Ē.
+
+        ``adjoint`` gives Ē of a run of outputs, (·, m, m).
+        """
+        scale = _noise_scale(self.block)
+        functions = np.vstack(
+            [self.kernels, _kernels(self.kernel.gradient, self.block, self.parameters)]
+        )
+
+        def contract(outputs: slice) -> tuple[Array, Array]:
+            own = adjoint(outputs)
+            by_noise = np.einsum("dmm,dm->d", own, scale[outputs])
+            return functions @ own.reshape(len(own), -1).T, by_noise
+
+        products, by_noise = zip(*mapper(contract, self.block.entries.chunks), strict=True)
+        by_kappa, by_scale = np.split(np.hstack(products), 2)
+        return self._collect(by_kappa, by_scale, self.parameters.noise * np.hstack(by_noise))
+
+    def _collect(self, by_kappa: Array, by_scale: Array, by_noise: Array) -> Parameters:
+        """Return the gradient from ⟨Ē_d, U_τ ⊗ k_τ⟩ and ⟨Ē_d, U_τ ⊗ ∂k_τ⟩, (n_components, D)."""
+        layers, start = {}, 0
+        for name, layer in self.parameters.layers.items():
+            layers[name] = layer.zeros()
+            if name in self.block.units:
+                own = slice(start, start + len(layer.lengthscales))
+                start = own.stop
+                b = layer.coregionalisation
+                by_root = 2.0 * b.kappa_roots * by_kappa[own]
+                layers[name] = Layer(
+                    (b.kappa * by_scale[own]).sum(axis=1),
+                    Coregionalisation(np.zeros_like(b.weights), by_root),
+                )
+        return Parameters(layers, by_noise)
 
 
-def own_gradient(kernel: Kernel, block: Block, parameters: Parameters, grid: Array) -> Parameters:
-    """Return the gradient of a function whose gradient in E is ``grid`` (P, P, D, N, N)."""
-    diagonal = np.einsum("ppdtt->pdt", grid)
-    by_noise = parameters.noise * (diagonal * block.noise_scale).sum(axis=(0, 2))
-    layers = {
-        name: _layer_gradient(kernel, block, layer, np.tensordot(block.grams[name], grid))
-        if name in block.units
-        else layer.zeros()
-        for name, layer in parameters.layers.items()
-    }
-    return Parameters(layers, by_noise)
+def _noise_scale(block: Block) -> Array:
+    """Return the factors of the noise at the sites, (D, m)."""
+    return np.asarray(block.noise_scale[block.entries.unit, :, block.entries.time].T)
 
 
-def _layer_gradient(kernel: Kernel, block: Block, layer: Layer, summed: Array) -> Layer:
-    """Return the gradient in one layer; ``summed`` (D, N, N) is the adjoint of Σ_q κ_qd k_q."""
-    scales, b = layer.lengthscales[:, None, None], layer.coregionalisation
-    by_kappa, by_log_lengthscale = (
-        np.tensordot(derivative(block.lags, scales), summed, axes=((1, 2), (1, 2)))
-        for derivative in (kernel.value, kernel.gradient)
-    )
-    return Layer(
-        (b.kappa * by_log_lengthscale).sum(axis=1),
-        Coregionalisation(np.zeros_like(b.weights), 2.0 * b.kappa_roots * by_kappa),
-    )
+def _kappa(block: Block, parameters: Parameters) -> Array:
+    """Return κ of the components of all layers of the block, (n_components, D)."""
+    layers = [layer for name, layer in parameters.layers.items() if name in block.units]
+    return np.concatenate([layer.coregionalisation.kappa for layer in layers])
 
 
-def _covariance(kernel: Kernel, block: Block, parameters: Parameters) -> Array:
-    """Return Σ_τ κ_τd U_τ ⊗ k_τ, a grid (P, P, D, N, N)."""
-    layers = [(gram, parameters.layers[name]) for name, gram in block.grams.items()]
-    kernels = np.concatenate(
-        [kernel.value(block.lags, layer.lengthscales[:, None, None]) for _, layer in layers]
-    )
-    shares = np.concatenate(
-        [np.multiply.outer(gram, layer.coregionalisation.kappa.T) for gram, layer in layers], axis=3
-    )
-    return np.tensordot(shares, kernels, axes=1)
+def _kernels(
+    function: Callable[[Array, Array], Array], block: Block, parameters: Parameters
+) -> Array:
+    """Return U_τ ⊗ k_τ, or with ∂k_τ, between all sites: (n_components, m²)."""
+    unit, time = block.entries.unit, block.entries.time
+    kernels = []
+    for name, layer in parameters.layers.items():
+        if name in block.units:
+            by_lag = function(block.lags, layer.lengthscales[:, None, None])
+            gram = block.grams[name][unit][:, unit]
+            kernels.append(gram * by_lag[:, time][:, :, time])
+    return np.concatenate(kernels).reshape(-1, len(unit) ** 2)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.coregionalisation import Coregionalisation
+from mocapbench.baselines.gp.kernels import Kernel
 
 __all__ = ["CHILD", "PARENT", "Layer", "Parameters"]
 
@@ -59,6 +60,14 @@ class Layer:
             Coregionalisation(a.weights + b.weights, a.kappa_roots + b.kappa_roots),
         )
 
+    def covariance(self, kernel: Kernel, lags: Array) -> Array:
+        """Return Σ_q B_q ⊗ k_q for ``lags`` (M, N), (D, M, D, N)."""
+        matrices = self.coregionalisation.matrices
+        n_components, n_outputs, _ = matrices.shape
+        kernels = kernel.value(lags, self.lengthscales[:, None, None])
+        by_pair = matrices.reshape(n_components, -1).T @ kernels.reshape(n_components, -1)
+        return by_pair.reshape(n_outputs, n_outputs, *lags.shape).transpose(0, 2, 1, 3)
+
     def zeros(self) -> Layer:
         """Return the origin of the same space."""
         lengthscales, weights, roots = (np.zeros_like(leaf) for leaf in self.leaves)
@@ -94,6 +103,11 @@ class Parameters:
     def flat(self) -> Array:
         """(n_parameters,) all free coordinates as one vector."""
         return np.concatenate([leaf.ravel() for leaf in self.leaves])
+
+    @property
+    def shapes(self) -> Mapping[str, tuple[int, int, int]]:
+        """(Q, D, rank) of each layer: what two points of one space have in common."""
+        return {name: layer.coregionalisation.weights.shape for name, layer in self.layers.items()}
 
     def at(self, flat: Array) -> Parameters:
         """Return the point of the same space whose coordinates are ``flat``: the inverse."""

@@ -58,6 +58,21 @@ class PivotedRoot:
         values[order - 1] = lower
         return cls(kernel, lengthscale, times[order[:rank] - 1], lower[:rank], values)
 
+    def slope(self, times: Array) -> tuple[Array, Array]:
+        r"""Return V (N, rank) and T (rank, rank) with ∂(Λ Λᵀ) = V Λᵀ + Λ Vᵀ − Λ T Λᵀ.
+
+        ``times`` are those of the factorisation, and ∂ is the derivative in log ℓ at fixed pivots
+        p: :math:`\Lambda\Lambda^\top = k_{\cdot p} k_{pp}^{-1} k_{p \cdot}`, so that
+        :math:`V = \partial k_{\cdot p} L^{-\top}` and
+        :math:`T = L^{-1} \partial k_{pp} L^{-\top}`.
+        """
+        by_pivot = np.hstack([times, self.pivots])
+        slopes = self.kernel.gradient(np.subtract.outer(self.pivots, by_pivot), self.lengthscale)
+        solved = solve_triangular(self.triangle, slopes, lower=True, check_finite=False)
+        at_times, at_pivots = np.split(solved, [len(times)], axis=1)
+        inner = solve_triangular(self.triangle, at_pivots.T, lower=True, check_finite=False)
+        return at_times.T, inner
+
     def at(self, times: Array) -> Array:
         """Return Λ at other times, (M, rank): the regression of the process there on u."""
         cross = self.kernel.value(np.subtract.outer(self.pivots, times), self.lengthscale)

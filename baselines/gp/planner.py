@@ -1,36 +1,80 @@
-"""Which solver to use: the one with the least counted work."""
+"""Which solver to use for each block: the one with the least counted work."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
+
+import numpy as np
 
 from mocapbench.baselines.gp.dense import Dense
 from mocapbench.baselines.gp.kernels import Kernel
+from mocapbench.baselines.gp.kronecker import Kronecker
 from mocapbench.baselines.gp.latent_split import LatentSplit
 from mocapbench.baselines.gp.parameters import Parameters
 from mocapbench.baselines.gp.reduction import Reduction
 from mocapbench.baselines.gp.solver import Solver
 from mocapbench.baselines.gp.state_space import StateSpace
+from mocapbench.baselines.gp.workers import Mapper
 
-__all__ = ["PLANS", "Plan"]
+__all__ = ["PLANS", "Plan", "name_of", "reason", "with_mapper", "work"]
 
-Plan = Callable[[Kernel, Reduction, Parameters], Solver]
-"""Chooses the solver for a likelihood; the parameters matter by their shapes alone."""
+Plan = Callable[[Kernel, Reduction, Parameters], tuple[Solver, ...]]
+"""Chooses a solver for each block; the parameters matter by their shapes alone."""
 
-_SOLVERS: tuple[type[Solver], ...] = (Dense, LatentSplit, StateSpace)
+_SOLVERS: tuple[type[Solver], ...] = (Dense, LatentSplit, StateSpace, Kronecker)
 
 
-def _least_work(kernel: Kernel, reduction: Reduction, parameters: Parameters) -> Solver:
-    def work(solver: Solver) -> float:
-        return sum(solver.work(block, parameters) for block in reduction.blocks)
+def work(
+    kernel: Kernel, reduction: Reduction, parameters: Parameters
+) -> tuple[Mapping[str, float], ...]:
+    """Return for each block the counted work of every solver, infinite where it cannot serve."""
+    solvers = [solver(kernel) for solver in _SOLVERS]
+    return tuple(
+        {solver.name: solver.work(block, parameters) for solver in solvers}
+        for block in reduction.blocks
+    )
 
-    return min((solver(kernel) for solver in _SOLVERS), key=work)
+
+def name_of(solvers: Sequence[Solver]) -> str:
+    """Return the names of the solvers in use, joined by plus signs."""
+    return "+".join(sorted({solver.name for solver in solvers}))
+
+
+def with_mapper(solvers: Sequence[Solver], mapper: Mapper) -> tuple[Solver, ...]:
+    """Return the same solvers, which call functions of outputs through ``mapper``."""
+    return tuple(type(solver)(solver.kernel, mapper) for solver in solvers)
+
+
+def reason(kernel: Kernel, reduction: Reduction, parameters: Parameters) -> str:
+    """Return the work that every solver would have had, in billions of operations."""
+    totals = {solver.name: 0.0 for solver in _SOLVERS}
+    for of_block in work(kernel, reduction, parameters):
+        totals = {name: total + of_block[name] for name, total in totals.items()}
+    able = {name: total for name, total in totals.items() if np.isfinite(total)}
+    ranked = sorted(able.items(), key=lambda pair: pair[1])
+    return ", ".join(f"{name} {total / 1e9:.2g}" for name, total in ranked)
+
+
+def _least_work(kernel: Kernel, reduction: Reduction, parameters: Parameters) -> tuple[Solver, ...]:
+    by_name = {solver.name: solver for solver in _SOLVERS}
+    return tuple(
+        by_name[min(of_block, key=of_block.__getitem__)](kernel)
+        for of_block in work(kernel, reduction, parameters)
+    )
 
 
 def _always(solver: type[Solver]) -> Plan:
-    def plan(kernel: Kernel, reduction: Reduction, parameters: Parameters) -> Solver:  # noqa: ARG001
-        return solver(kernel)
+    def plan(kernel: Kernel, reduction: Reduction, parameters: Parameters) -> tuple[Solver, ...]:
+        for of_block in work(kernel, reduction, parameters):
+            if np.isinf(of_block[solver.name]):
+                able = sorted(name for name, amount in of_block.items() if np.isfinite(amount))
+                raise ValueError(
+                    f"expected a solver that can do every part of this problem, got "
+                    f"{solver.name!r}: it needs {solver.needs}; here {able} can, or leave the "
+                    "choice to 'auto'"
+                )
+        return (solver(kernel),) * len(reduction.blocks)
 
     return plan
 

@@ -18,12 +18,14 @@ Array = NDArray[np.float64]
 
 def infer(
     reduction: Reduction,
-    solver: Solver,
+    solvers: Sequence[Solver],
     parameters: Parameters,
     curves: Sequence[tuple[Share, ...]],
     times: Sequence[Array],
 ) -> list[tuple[Array, Array]]:
     """Infer noise-free curves, given by their shares, each at times of its own.
+
+    There is one solver for each block of the reduction.
 
     Returns
     -------
@@ -31,7 +33,7 @@ def infer(
         Posterior mean and variance of each curve. Every block that is needed is conditioned once.
     """
     posteriors = {
-        index: solver.condition(reduction.blocks[index], parameters)
+        index: solvers[index].condition(reduction.blocks[index], parameters)
         for index in sorted({share.block for shares in curves for share in shares})
     }
     inferred = []

@@ -8,7 +8,7 @@ that knows about it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,10 +70,13 @@ class Reduction:
     within_dof: Array
     within_scatter: Array
 
-    def evaluate(self, solver: Solver, parameters: Parameters) -> tuple[float, Array]:
-        """Return the log-likelihood and its gradient in the free coordinates (n_parameters,)."""
+    def evaluate(self, solvers: Sequence[Solver], parameters: Parameters) -> tuple[float, Array]:
+        """Return the log-likelihood and its gradient in the free coordinates (n_parameters,).
+
+        There is one solver for each block.
+        """
         value, gradient = self._within(parameters)
-        for block in self.blocks:
+        for block, solver in zip(self.blocks, solvers, strict=True):
             block_value, block_gradient = solver.evaluate(block, parameters)
             value += block_value
             gradient += block_gradient.flat

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from mocapbench.baselines.gp.block import Block, Target
 from mocapbench.baselines.gp.kernels import Kernel
 from mocapbench.baselines.gp.parameters import Parameters
+from mocapbench.baselines.gp.workers import Mapper
 
 __all__ = ["Posterior", "SingularCovarianceError", "Solver"]
 
@@ -64,12 +65,17 @@ class Solver(ABC):
     ----------
     kernel : Kernel
         The kernel of every component.
+    mapper : callable, default=map
+        Calls a function for every output, like the builtin, possibly in threads (`workers`).
     """
 
     name: ClassVar[str]
+    needs: ClassVar[str] = "nothing but memory"
+    """What a block must have for the solver to serve it."""
 
-    def __init__(self, kernel: Kernel) -> None:
+    def __init__(self, kernel: Kernel, mapper: Mapper = map) -> None:
         self.kernel = kernel
+        self.mapper = mapper
 
     @abstractmethod
     def evaluate(self, block: Block, parameters: Parameters) -> tuple[float, Parameters]:
@@ -93,4 +99,8 @@ class Solver(ABC):
 
     @abstractmethod
     def work(self, block: Block, parameters: Parameters) -> float:
-        """Return the cost of `evaluate`, roughly, in floating-point operations."""
+        """Return the cost of `evaluate`, roughly, and infinity for a block it cannot serve.
+
+        The unit is an operation of a small factorisation, of which a core does some 1.5e10 a
+        second; large matrix products, which run faster, count for less.
+        """

@@ -1,7 +1,7 @@
 """The factorisations of the latent split, shared by likelihood and prediction.
 
-The symbols are those of `mocapbench.baselines.gp.latent_split`; K is the number of white
-coordinates.
+The symbols are those of `mocapbench.baselines.gp.latent_split`; m is the number of sites and K
+that of white coordinates.
 """
 
 from __future__ import annotations
@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.block import Block
-from mocapbench.baselines.gp.cholesky import factorise, invert_factor
+from mocapbench.baselines.gp.cholesky import invert
+from mocapbench.baselines.gp.entries import Entries
 from mocapbench.baselines.gp.kernels import Kernel
 from mocapbench.baselines.gp.latents import Latents
-from mocapbench.baselines.gp.own import OwnPrecision, own_precision
+from mocapbench.baselines.gp.own import OwnParts
 from mocapbench.baselines.gp.parameters import Parameters
-from mocapbench.baselines.gp.unit_pairs import unit_pairs
+from mocapbench.baselines.gp.workers import Mapper
 
 __all__ = ["Split"]
 
@@ -30,117 +31,119 @@ class Split:
 
     Parameters
     ----------
-    kernel : Kernel
-        The kernel of every component.
     block : Block
         The problem.
     parameters : Parameters
         Where it is evaluated.
     latents : Latents
-        The n latent functions.
-    precision : OwnPrecision
-        F.
-    gram : ndarray of shape (n, n, N, N)
-        G, the blocks of Aᵀ F A.
-    rooted_gram : ndarray of shape (n, N, K)
-        G Λ.
-    factor, inverse : ndarray of shape (K, K)
-        The lower Cholesky factor of S, and S⁻¹, the posterior covariance of the white coordinates.
+        The latent functions.
+    own : OwnParts
+        E and F.
+    rooted_gram : tuple of ndarray of shape (N, K)
+        G Λ, the rows of each latent function.
+    inverse : ndarray of shape (K, K)
+        S⁻¹, the posterior covariance of the white coordinates.
     log_determinant : float
         Σ_d log|E_d| + log|S|.
     white : ndarray of shape (K, h)
         u, the posterior mean of the white coordinates.
-    residual, alpha : tuple of ndarray of shape (n_d, h)
-        r = z − A Λ u and α = K⁻¹ z = F r at the visible entries of each output.
+    shared : ndarray of shape (n, m, h)
+        The posterior mean of what each column of weights multiplies, at the sites.
+    residual, alpha : ndarray of shape (D, m, h)
+        r = z − A Λ u and α = K⁻¹ z = F r at the sites.
     """
 
-    kernel: Kernel
     block: Block
     parameters: Parameters
     latents: Latents
-    precision: OwnPrecision
-    gram: Array
-    rooted_gram: Array
-    factor: Array
+    own: OwnParts
+    rooted_gram: tuple[Array, ...]
     inverse: Array
     log_determinant: float
     white: Array
-    residual: tuple[Array, ...]
-    alpha: tuple[Array, ...]
+    shared: Array
+    residual: Array
+    alpha: Array
 
     @classmethod
-    def of(cls, kernel: Kernel, block: Block, parameters: Parameters) -> Split:
+    def of(cls, kernel: Kernel, block: Block, parameters: Parameters, mapper: Mapper) -> Split:
         """Factorise ``block`` at ``parameters``."""
         latents, entries = Latents.of(kernel, block, parameters), block.entries
-        precision = own_precision(kernel, block, parameters)
-        gram = _gram(latents, precision.grid)
-        rooted = _times_root(latents, gram)
-        factor, log_determinant = factorise(_system(latents, rooted), parameters)
-        inverse = invert_factor(factor)
-        data = entries.pick(block.data.transpose(1, 2, 3, 0))
-        weighted = entries.place(map(np.matmul, precision.matrices, data), len(block.data))
-        white = _white_mean(latents, inverse, weighted)
-        shared = entries.pick(_shared_part(latents, white))
-        residual = tuple(map(np.subtract, data, shared))
+        own = OwnParts.of(kernel, block, parameters, mapper)
+        rooted = _rooted_gram(latents, entries, own.precision)
+        inverse = _system(latents, rooted)
+        log_system = invert(inverse, parameters)
+        data = entries.at_sites(block.data)
+        white = inverse @ whiten(latents, entries, own.precision @ data)
+        shared = _shared(latents, entries, white)
+        residual = data - np.tensordot(latents.weights.T, shared, axes=1)
         return cls(
-            kernel,
             block,
             parameters,
             latents,
-            precision,
-            gram,
+            own,
             rooted,
-            factor,
             inverse,
-            precision.log_determinant + log_determinant,
+            own.log_determinant + log_system,
             white,
+            shared,
             residual,
-            tuple(map(np.matmul, precision.matrices, residual)),
+            own.precision @ residual,
         )
 
     @property
     def log_density(self) -> float:
         """The log-density of the block's data."""
-        squares = sum(map(np.vdot, self.residual, self.alpha)) + np.vdot(self.white, self.white)
+        squares = np.vdot(self.residual, self.alpha) + np.vdot(self.white, self.white)
         log_scale = self.log_determinant + self.block.n_visible * np.log(2.0 * np.pi)
         return float(-0.5 * (self.block.multiplicity * log_scale + squares))
 
 
-def _gram(latents: Latents, grid: Array) -> Array:
-    """Return G, (n, n, N, N)."""
-    n, n_times = len(latents.labels), grid.shape[-1]
-    gram = np.zeros((n, n, n_times, n_times))
-    for pair in unit_pairs(latents):
-        gram[pair.blocks] += np.tensordot(pair.products, grid[pair.units], axes=1)
-    return gram
+def whiten(latents: Latents, entries: Entries, values: Array) -> Array:
+    """Return Λᵀ Aᵀ of ``values`` (D, m, h), (K, h)."""
+    white = np.empty((latents.n_white, values.shape[2]))
+    for latent, folded in zip(latents.functions, project(latents, entries, values), strict=True):
+        white[latent.white] = latent.values.T @ folded
+    return white
 
 
-def _times_root(latents: Latents, gram: Array) -> Array:
-    """Return G Λ, (n, N, K)."""
-    n, _, n_times, _ = gram.shape
-    rooted = np.empty((n, n_times, sum(root.shape[1] for root in latents.values)))
-    for j, (own, root) in enumerate(zip(latents.slices, latents.values, strict=True)):
-        rooted[:, :, own] = gram[:, j] @ root
+def project(latents: Latents, entries: Entries, values: Array) -> list[Array]:
+    """Return Aᵀ of ``values`` (D, m, h), (N, h) for each latent function."""
+    by_column = np.tensordot(latents.weights, values, axes=1)
+    return [entries.fold(latent.units, by_column[latent.column]) for latent in latents.functions]
+
+
+def _rooted_gram(latents: Latents, entries: Entries, precision: Array) -> tuple[Array, ...]:
+    """Return G Λ; the blocks of G are the foldings of Σ_d w_a w_b F_d."""
+    n_times, n_sites = entries.n_times, len(entries.unit)
+    rooted = tuple(np.empty((n_times, latents.n_white)) for _ in latents.functions)
+    weighted = latents.products @ precision.reshape(len(precision), -1)
+    by_pair = weighted.reshape(-1, n_sites, n_sites)
+    for (a, b), matrix in zip(latents.pairs, by_pair, strict=True):
+        for i in latents.by_column[a]:
+            one = latents.functions[i]
+            rows = entries.fold(one.units, matrix).T
+            for j in latents.by_column[b]:
+                other = latents.functions[j]
+                block = entries.fold(other.units, rows)
+                rooted[j][:, one.white] = block @ one.values
+                rooted[i][:, other.white] = block.T @ other.values
     return rooted
 
 
-def _system(latents: Latents, rooted: Array) -> Array:
-    """Return S = I + Λᵀ G Λ, (K, K)."""
-    system = np.eye(rooted.shape[2])
-    for own, root, row in zip(latents.slices, latents.values, rooted, strict=True):
-        system[own] += root.T @ row
+def _system(latents: Latents, rooted: tuple[Array, ...]) -> Array:
+    """Return S = I + Λᵀ G Λ, (K, K), on the diagonal and below."""
+    system = np.eye(latents.n_white)
+    for latent, row in zip(latents.functions, rooted, strict=True):
+        before = slice(latent.white.stop)
+        system[latent.white, before] += latent.values.T @ row[:, before]
     return system
 
 
-def _white_mean(latents: Latents, inverse: Array, weighted: Array) -> Array:
-    """Return u = S⁻¹ Λᵀ Aᵀ F z, (K, h); ``weighted`` (P, D, N, h) is F z."""
-    right = np.empty((len(inverse), weighted.shape[3]))
-    projected = latents.project(weighted)
-    for own, root, one in zip(latents.slices, latents.values, projected, strict=True):
-        right[own] = root.T @ one
-    return np.asarray(inverse @ right)
-
-
-def _shared_part(latents: Latents, white: Array) -> Array:
-    """Return A Λ u, (P, D, N, h)."""
-    return np.tensordot(latents.loadings, latents.curves(white), axes=((2,), (0,)))
+def _shared(latents: Latents, entries: Entries, white: Array) -> Array:
+    """Return Σ_i c_i ⊗ Λ_i u_i over the functions of each column, (n, m, h)."""
+    shared = np.zeros((len(latents.columns), len(entries.unit), white.shape[1]))
+    for latent in latents.functions:
+        curve = latent.values @ white[latent.white]
+        shared[latent.column] += entries.unfold(latent.units, curve)
+    return shared

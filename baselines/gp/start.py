@@ -8,7 +8,7 @@ lengthscales.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,45 +31,42 @@ MIN_VARIANCE = 1e-2
 
 
 def data_driven(
-    replicates: Replicates, layers: Sequence[str], n_components: int, rank: int, within: Array
+    replicates: Replicates, n_components: Mapping[str, int], rank: int, within: Array
 ) -> Parameters:
-    """Return a start for the named layers, from data in standard units.
+    """Return a start, from data in standard units.
 
     Parameters
     ----------
     replicates : Replicates
         The data.
-    layers : sequence of str
-        `PARENT`, `CHILD` or both.
-    n_components, rank : int
-        Q and the number of columns of each W_q.
+    n_components : mapping of str to int
+        Q of each layer: of `PARENT`, `CHILD` or both.
+    rank : int
+        Number of columns of each W_q.
     within : ndarray of shape (D,)
         Variance that the model can explain by noise alone.
     """
     noise = _noise(replicates)
-    log_lengthscale = np.log(_lengthscale(replicates, noise))
-    log_lengthscales = log_lengthscale + np.log(2.0) * (
-        np.arange(n_components) - 0.5 * (n_components - 1)
-    )
-    curves = _curves(replicates, layers)
+    lengthscale = _lengthscale(replicates, noise)
+    curves = _curves(replicates, n_components)
     return Parameters(
         {
-            name: Layer(log_lengthscales, _coregionalisation(curves[name], n_components, rank))
-            for name in layers
+            name: Layer(_spread(lengthscale, size), _coregionalisation(curves[name], size, rank))
+            for name, size in n_components.items()
         },
         np.log(np.maximum(noise, within)),
     )
 
 
-def bounds(parameters: Parameters, times: Array) -> tuple[Array, Array]:
-    """Return the lower and upper bounds of the flat parameter vector.
+def bounds(parameters: Parameters, times: Array) -> tuple[Parameters, Parameters]:
+    """Return the lower and upper bounds of the parameters, as points of their space.
 
     A lengthscale lies between half the shortest step and ten spans of ``times`` (N,).
     """
     steps = np.diff(times) if len(times) > 1 else np.ones(1)
     shortest, longest = np.log(0.5 * steps.min()), np.log(10.0 * steps.sum())
 
-    def constant(lengthscale: float, loading: float, noise: float) -> Array:
+    def constant(lengthscale: float, loading: float, noise: float) -> Parameters:
         layers = {
             name: Layer(
                 np.full_like(layer.log_lengthscales, lengthscale),
@@ -80,7 +77,7 @@ def bounds(parameters: Parameters, times: Array) -> tuple[Array, Array]:
             )
             for name, layer in parameters.layers.items()
         }
-        return Parameters(layers, np.full_like(parameters.log_noise, noise)).flat
+        return Parameters(layers, np.full_like(parameters.log_noise, noise))
 
     return (
         constant(shortest, -MAX_LOADING, np.log(MIN_NOISE)),
@@ -137,7 +134,13 @@ def _series(replicates: Replicates) -> Iterator[tuple[int, Array, Array]]:
             yield d, replicates.times[seen], values[seen]
 
 
-def _curves(replicates: Replicates, layers: Sequence[str]) -> Mapping[str, Array]:
+def _spread(lengthscale: float, n_components: int) -> Array:
+    """Return (Q,) logarithms of lengthscales around the given one, a factor of two apart."""
+    octaves = np.arange(n_components) - 0.5 * (n_components - 1)
+    return np.asarray(np.log(lengthscale) + np.log(2.0) * octaves)
+
+
+def _curves(replicates: Replicates, layers: Collection[str]) -> Mapping[str, Array]:
     """Return for each layer empirical curves of it, (M, D, N), 0 where nothing is known."""
     if PARENT not in layers:
         return {CHILD: replicates.data}

@@ -4,25 +4,87 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from time import perf_counter
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import Bounds, minimize
 
+from mocapbench.baselines.gp.coordinates import Coordinates
 from mocapbench.baselines.gp.parameters import Parameters
 from mocapbench.baselines.gp.solver import SingularCovarianceError
 
-__all__ = ["Search", "Training", "maximise"]
+__all__ = ["Budget", "Search", "Space", "Step", "Training", "maximise"]
 
 Array = NDArray[np.float64]
 
 Likelihood = Callable[[Parameters], tuple[float, Array]]
 """From parameters to the log-likelihood and its gradient in the free coordinates."""
 
-TOLERANCE = 1e-7
-"""Relative gain of the log-likelihood per iteration at which a search ends."""
-MEMORY = 50
-"""Steps that L-BFGS-B remembers: on walking, half the evaluations of its default 10."""
+MEMORY = 200
+"""Steps that L-BFGS-B remembers, if there are as many parameters: on walking a third of the
+evaluations of its default 10, for 2 ms an iteration."""
+
+MAX_LINE_SEARCH = 20
+"""Evaluations that an iteration may take, scipy's default."""
+
+
+@dataclass(frozen=True)
+class Budget:
+    """When to stop.
+
+    Parameters
+    ----------
+    tol : float
+        A search has converged when an iteration gains less than this share of the
+        log-likelihood's size (or of 1, if that is larger).
+    max_iter : int
+        Largest number of iterations of one search. Most take one evaluation, none above 20.
+    max_seconds : float or None
+        Time for all searches together, or None for as long as it takes. It is looked at before
+        every evaluation but the first.
+    """
+
+    tol: float
+    max_iter: int
+    max_seconds: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class Space:
+    """Where to search.
+
+    Parameters
+    ----------
+    coordinates : Coordinates
+        The coordinates that the search moves in.
+    lower, upper : Parameters
+        Bounds of the parameters.
+    """
+
+    coordinates: Coordinates
+    lower: Parameters
+    upper: Parameters
+
+    @property
+    def bounds(self) -> Bounds:
+        """The bounds of the coordinates."""
+        return Bounds(self.coordinates.of(self.lower), self.coordinates.of(self.upper))
+
+
+class Step(NamedTuple):
+    """The end of an iteration: evaluations and seconds are those since the search began."""
+
+    iteration: int
+    log_likelihood: float
+    n_evaluations: int
+    seconds: float
+
+
+Report = Callable[[int, Step], None]
+"""Takes the index of a search and its newest step."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,8 +97,10 @@ class Search:
         The best point found.
     log_likelihood : float
         The log-likelihood there.
-    n_evaluations, n_iterations : int
+    n_evaluations : int
         What it took.
+    trace : tuple of Step
+        Every iteration, with the best log-likelihood so far.
     converged : bool
         Whether the search ended by its own tolerance.
     message : str
@@ -46,19 +110,24 @@ class Search:
     parameters: Parameters
     log_likelihood: float
     n_evaluations: int
-    n_iterations: int
+    trace: tuple[Step, ...]
     converged: bool
     message: str
+
+    @property
+    def n_iterations(self) -> int:
+        """The number of iterations."""
+        return len(self.trace)
 
 
 @dataclass(frozen=True, eq=False)
 class Training:
-    """The outcome of all starts, in order.
+    """The outcome of all searches, in order.
 
     Parameters
     ----------
     searches : tuple of Search
-        One for each start.
+        One for each start that the time sufficed for.
     """
 
     searches: tuple[Search, ...]
@@ -72,10 +141,11 @@ class Training:
 def maximise(
     likelihood: Likelihood,
     starts: Sequence[Parameters],
-    limits: tuple[Array, Array],
-    max_iter: int,
+    space: Space,
+    budget: Budget,
+    report: Report,
 ) -> Training:
-    """Search for the maximum from every start.
+    """Search for the maximum from every start, until the time is spent.
 
     Parameters
     ----------
@@ -83,72 +153,108 @@ def maximise(
         The function to maximise.
     starts : sequence of Parameters
         Where to begin; moved inside the limits.
-    limits : tuple of two ndarrays of shape (n_parameters,)
-        Lower and upper bounds of the free coordinates.
-    max_iter : int
-        Largest number of iterations of each search.
+    space : Space
+        Where to search.
+    budget : Budget
+        When to stop.
+    report : callable
+        Called after every iteration with the index of the start and the `Step`.
 
     Raises
     ------
     SingularCovarianceError
         If the covariance is singular at a start.
     """
-    return Training(tuple(_search(likelihood, start, limits, max_iter) for start in starts))
+    deadline = np.inf if budget.max_seconds is None else perf_counter() + budget.max_seconds
+    searches: list[Search] = []
+    for index, start in enumerate(starts):
+        if index and perf_counter() > deadline:
+            break
+        climb = _Climb(likelihood, space.coordinates, deadline, partial(report, index))
+        searches.append(_search(climb, space.coordinates.of(start), space.bounds, budget))
+    return Training(tuple(searches))
 
 
-class _Objective:
-    """The negative log-likelihood of a flat vector, which remembers its best point."""
+class _OutOfTime(Exception):  # noqa: N818
+    """The deadline is over."""
 
-    def __init__(self, likelihood: Likelihood, space: Parameters) -> None:
-        self.likelihood, self.space = likelihood, space
-        self.best, self.best_value = space, np.inf
-        self.n_evaluations = 0
 
-    def __call__(self, flat: Array) -> tuple[float, Array]:
+class _Climb:
+    """The negative log-likelihood of a vector, which remembers its best point and counts."""
+
+    def __init__(
+        self,
+        likelihood: Likelihood,
+        coordinates: Coordinates,
+        deadline: float,
+        report: Callable[[Step], None],
+    ) -> None:
+        self.likelihood, self.coordinates = likelihood, coordinates
+        self.deadline, self.report = deadline, report
+        self.best, self.best_value = np.empty(0), -np.inf
+        self.begun, self.n_evaluations = perf_counter(), 0
+        self.trace: list[Step] = []
+
+    def __call__(self, point: Array) -> tuple[float, Array]:
+        if self.n_evaluations and perf_counter() > self.deadline:
+            raise _OutOfTime
         self.n_evaluations += 1
-        parameters = self.space.at(flat)
-        value, gradient = self.likelihood(parameters)
-        if -value < self.best_value:
-            self.best, self.best_value = parameters, -value
-        return -value, -gradient
+        value, gradient = self.likelihood(self.coordinates.at(point))
+        if value > self.best_value:
+            self.best, self.best_value = point.copy(), value
+        return -value, -self.coordinates.pull_back(point, gradient)
+
+    def end_iteration(self, xk: Array) -> None:  # noqa: ARG002
+        """Note where the search stands."""
+        seconds = perf_counter() - self.begun
+        step = Step(len(self.trace) + 1, self.best_value, self.n_evaluations, seconds)
+        self.trace.append(step)
+        self.report(step)
+
+    def end(self, converged: bool, message: str) -> Search:
+        """Return the outcome."""
+        return Search(
+            self.coordinates.at(self.best),
+            self.best_value,
+            self.n_evaluations,
+            tuple(self.trace),
+            converged,
+            str(message),
+        )
 
 
-def _search(
-    likelihood: Likelihood, start: Parameters, limits: tuple[Array, Array], max_iter: int
-) -> Search:
+def _search(climb: _Climb, start: Array, bounds: Bounds, budget: Budget) -> Search:
     """Run L-BFGS-B.
 
     A covariance that turns singular ends a line search for good: no finite value would be true
-    there, and an infinite one ruins the interpolation. The search then begins anew, with an empty
-    memory and hence a short first step, at the best point so far, as long as that improves.
+    there, and an infinite one ruins the interpolation. The search then goes on from the best point
+    so far with an empty memory, and hence a short first step, as long as that improves.
     """
-    objective = _Objective(likelihood, start)
-    flat, n_iterations = np.clip(start.flat, *limits), 0
+    begin = np.clip(start, bounds.lb, bounds.ub)
     while True:
         try:
             result = minimize(
-                objective,
-                flat,
+                climb,
+                begin,
                 jac=True,
                 method="L-BFGS-B",
-                bounds=Bounds(*limits),
+                bounds=bounds,
+                callback=climb.end_iteration,
                 options={
-                    "maxiter": max_iter,
-                    "maxfun": 2 * max_iter,
-                    "ftol": TOLERANCE,
-                    "maxcor": MEMORY,
+                    "maxiter": budget.max_iter - len(climb.trace),
+                    "maxfun": MAX_LINE_SEARCH * budget.max_iter,
+                    "maxls": MAX_LINE_SEARCH,
+                    "ftol": budget.tol,
+                    "maxcor": min(MEMORY, len(begin)),
                 },
             )
+        except _OutOfTime:
+            return climb.end(False, "the budget of max_seconds is spent")
         except SingularCovarianceError as error:
-            if np.isinf(objective.best_value):
+            if np.isinf(climb.best_value):
                 raise
-            ended = (False, str(error))
-            if not np.array_equal(objective.best.flat, flat):
-                flat = objective.best.flat
-                continue
+            if np.array_equal(climb.best, begin):
+                return climb.end(False, str(error))
+            begin = climb.best
         else:
-            n_iterations += int(result.nit)
-            ended = (bool(result.success), str(result.message))
-        return Search(
-            objective.best, -objective.best_value, objective.n_evaluations, n_iterations, *ended
-        )
+            return climb.end(bool(result.success), result.message)

@@ -65,6 +65,14 @@ def test_fit_keeps_the_constructor_parameters(model, recordings):
         ({"n_components": 0}, "n_components"),
         ({"n_restarts": 0}, "n_restarts"),
         ({"max_iter": 0}, "max_iter"),
+        ({"max_iter": 1.5}, "max_iter"),
+        ({"tol": 0.0}, "tol"),
+        ({"tol": float("nan")}, "tol"),
+        ({"max_seconds": -1.0}, "max_seconds"),
+        ({"max_seconds": "long"}, "max_seconds"),
+        ({"n_components": {"grandchild": 1}}, "for each of the layers"),
+        ({"n_components": {}}, "for each of the layers"),
+        ({"n_components": {"parent": 1, "child": 1, "pet": 1}}, "for each of the layers"),
     ],
 )
 def test_parameters_are_validated_in_fit(model, wrong, message, recordings):
@@ -136,7 +144,7 @@ def test_samples_have_the_moments_of_a_new_recording(model, recordings):
     times = np.array([0.4, 2.0, 4.7])
     n_samples = 20_000
     samples = fitted.sample(times, n_samples, 0)
-    ((trend, _),) = fitted._infer([fitted.reduction_.trend], [times])
+    ((trend, _),) = fitted._process.infer([fitted.reduction_.trend], [times])
     covariance = fitted.covariance(fitted.layers[-1], times)
     expected = np.diagonal(covariance).reshape(2, 3).T + fitted.noise_
     # Five standard errors of a mean, and of a variance.
@@ -151,3 +159,49 @@ def test_constant_outputs_do_no_harm(model, recordings):
     ]
     for prediction in model(max_iter=40).fit(constant).impute(constant):
         np.testing.assert_allclose(prediction.mean[:, 1], 0.1, atol=1e-3)
+
+
+@pytest.mark.parametrize("model", JOINT)
+def test_every_layer_may_have_its_own_number_of_components(model, recordings):
+    sizes = {name: size for name, size in {"parent": 3, "child": 1}.items() if name in model.layers}
+    fitted = model(n_components=sizes, max_iter=10).fit(recordings)
+    assert {name: len(b) for name, b in fitted.coregionalisation_.items()} == sizes
+    for name, size in sizes.items():
+        with pytest.raises(ValueError, match=f"n_components of '{name}'"):
+            model(n_components=sizes | {name: 0 * size}).fit(recordings)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_warm_start_goes_on_where_the_last_fit_ended(model, recordings):
+    estimator = model(max_iter=4, warm_start=True).fit(recordings)
+    first = estimator.log_likelihood_
+    assert not estimator.converged_
+    assert estimator.fit(recordings).log_likelihood_ > first
+    cold = model(max_iter=4).fit(recordings)
+    assert cold.fit(recordings).log_likelihood_ == pytest.approx(first, rel=1e-12)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_warm_start_needs_parameters_of_the_same_shapes(model, recordings):
+    estimator = model(max_iter=2, warm_start=True).fit(recordings)
+    with pytest.raises(ValueError, match="warm_start=False"):
+        estimator.set_params(n_components=2).fit(recordings)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_spent_time_ends_the_fit(model, recordings):
+    fitted = model(max_seconds=1e-9, n_restarts=3).fit(recordings)
+    assert not fitted.converged_
+    assert fitted.n_evaluations_ < 10
+    assert np.isfinite(fitted.log_likelihood_)
+
+
+def test_a_verbose_fit_prints_a_line_for_every_iteration(recordings, capsys):
+    fitted = MOHGP(max_iter=3, n_restarts=2, verbose=True).fit(recordings)
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == sum(search.n_iterations for search in fitted.training_.searches)
+    assert lines[0].startswith("search 1 of 2, iteration 1: log-likelihood ")
+    assert lines[-1].startswith("search 2 of 2, iteration ")
+    printed = float(lines[-1].partition("log-likelihood ")[2].partition(",")[0])
+    last = fitted.training_.searches[-1].log_likelihood + fitted.scaling_.log_jacobian
+    assert printed == pytest.approx(last, abs=1e-3)

@@ -10,10 +10,12 @@ import pytest
 from hypothesis import strategies as st
 
 from mocapbench.baselines.gp.coregionalisation import Coregionalisation
+from mocapbench.baselines.gp.dense import Dense
 from mocapbench.baselines.gp.kernels import KERNELS, Kernel
 from mocapbench.baselines.gp.parameters import CHILD, PARENT, Layer, Parameters
 from mocapbench.baselines.gp.reduction import Reduction, hierarchical, independent, pooled
 from mocapbench.baselines.gp.replicates import Replicates
+from mocapbench.baselines.gp.solver import Solver
 
 
 @dataclass(frozen=True)
@@ -187,6 +189,20 @@ def cases() -> st.SearchStrategy[Case]:
 def case() -> Callable[..., Case]:
     """The function that draws one case."""
     return draw_case
+
+
+def _by(solver: type[Solver], case: Case) -> tuple[Solver, ...]:
+    able = [
+        np.isfinite(solver(case.kernel).work(block, case.parameters))
+        for block in case.reduction.blocks
+    ]
+    return tuple((solver if serves else Dense)(case.kernel) for serves in able)
+
+
+@pytest.fixture(scope="session")
+def by() -> Callable[[type[Solver], Case], tuple[Solver, ...]]:
+    """From solver and case to one solver for each block: that one, or dense where it cannot."""
+    return _by
 
 
 @pytest.fixture(scope="session")

@@ -1,21 +1,23 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gp.planner import PLANS
+from mocapbench.baselines.gp.planner import PLANS, name_of, work
 
 
 def _plan(example, name="auto"):
-    return PLANS[name](example.kernel, example.reduction, example.parameters).name
+    return name_of(PLANS[name](example.kernel, example.reduction, example.parameters))
 
 
 def test_many_outputs_are_split_and_few_are_not(case):
     rng = np.random.default_rng(0)
-    assert _plan(case(rng, n_outputs=3, n_times=50, masks="complete")) == "dense"
-    assert _plan(case(rng, n_outputs=39, n_times=90, masks="complete")) == "latent-split"
+    assert _plan(case(rng, n_outputs=3, n_times=50, masks="complete", n_components=2)) == "dense"
+    mocap = case(rng, n_outputs=39, n_times=90, masks="complete", n_components=2)
+    assert _plan(mocap) == "latent-split"
 
 
 def test_many_patterns_are_not_split(case):
-    example = case(np.random.default_rng(0), n_outputs=6, n_replicates=12, n_times=40)
+    rng = np.random.default_rng(0)
+    example = case(rng, n_replicates=12, n_times=40, masks="frames", kernel="rbf")
     assert _plan(example) == "dense"
 
 
@@ -30,3 +32,25 @@ def test_many_frames_are_passed_through_if_the_kernel_allows(case):
 @pytest.mark.parametrize("name", ["dense", "latent-split", "state-space"])
 def test_a_named_solver_is_taken(name, case):
     assert _plan(case(np.random.default_rng(0)), name) == name
+
+
+def test_complete_deviations_in_one_component_are_diagonalised(case):
+    example = case(np.random.default_rng(0), n_outputs=39, n_times=90, masks="complete")
+    assert _plan(example) == "kronecker+latent-split"
+
+
+def test_a_solver_that_cannot_serve_every_block_says_what_it_needs(case):
+    rng = np.random.default_rng(0)
+    with pytest.raises(ValueError, match=r"every part.*'state-space'.*a Matérn kernel.*'dense'"):
+        _plan(case(rng, kernel="rbf"), "state-space")
+    with pytest.raises(ValueError, match=r"one component.*complete recordings"):
+        _plan(case(rng), "kronecker")
+
+
+def test_the_work_of_every_solver_is_counted_for_every_block(case):
+    example = case(np.random.default_rng(0), kernel="rbf", masks="complete")
+    counted = work(example.kernel, example.reduction, example.parameters)
+    assert len(counted) == len(example.reduction.blocks) == 2
+    assert all(set(of_block) == set(PLANS) - {"auto"} for of_block in counted)
+    assert [np.isinf(of_block["state-space"]) for of_block in counted] == [True, True]
+    assert [np.isinf(of_block["kronecker"]) for of_block in counted] == [True, False]

@@ -16,7 +16,8 @@ STRUCTURES = ("hierarchical", "pooled", "independent")
 
 
 def log_likelihood(case):
-    return case.reduction.evaluate(Dense(case.kernel), case.parameters)[0]
+    reduction = case.reduction
+    return reduction.evaluate([Dense(case.kernel)] * len(reduction.blocks), case.parameters)[0]
 
 
 def reordered(replicates, index, axis):

@@ -32,7 +32,7 @@ def _permuted(parameters, order):
 
 
 @pytest.mark.parametrize("kernel", MATERN)
-def test_the_order_of_outputs_is_immaterial(kernel, case):
+def test_the_order_of_outputs_is_immaterial(kernel, by, case):
     rng = np.random.default_rng(2)
     example = case(rng, kernel=kernel, n_outputs=4, n_components=2)
     order = rng.permutation(4)
@@ -44,8 +44,8 @@ def test_the_order_of_outputs_is_immaterial(kernel, case):
         ),
         parameters=_permuted(parameters, order),
     )
-    value, gradient = example.reduction.evaluate(StateSpace(example.kernel), parameters)
-    other, by_other = shuffled.reduction.evaluate(StateSpace(example.kernel), shuffled.parameters)
+    value, gradient = example.reduction.evaluate(by(StateSpace, example), parameters)
+    other, by_other = shuffled.reduction.evaluate(by(StateSpace, shuffled), shuffled.parameters)
     assert other == pytest.approx(value, rel=1e-12)
     np.testing.assert_allclose(
         by_other, _permuted(parameters.at(gradient), order).flat, rtol=1e-10, atol=1e-10
@@ -62,8 +62,10 @@ def test_frames_may_be_arbitrarily_close(kernel, gap, case):
     close = replace(
         example, replicates=Replicates(times, replicates.data, replicates.observed)
     ).reduction
-    value, gradient = close.evaluate(StateSpace(example.kernel), example.parameters)
-    expected, slope = close.evaluate(Dense(example.kernel), example.parameters)
+    (value, gradient), (expected, slope) = (
+        close.evaluate([solver(example.kernel)] * len(close.blocks), example.parameters)
+        for solver in (StateSpace, Dense)
+    )
     assert value == pytest.approx(expected, rel=1e-10)
     np.testing.assert_allclose(gradient, slope, rtol=1e-8, atol=1e-8)
 
@@ -107,12 +109,12 @@ def test_writing_is_the_adjoint_of_reading(case):
     )
 
 
-def test_copies_without_noise_are_singular(case):
+def test_copies_without_noise_are_singular(by, case):
     example = case(np.random.default_rng(8), structure="independent", masks="complete")
     copies = Layer(np.zeros(1), Coregionalisation(np.ones((1, 2, 1)), np.zeros((1, 2))))
     hopeless = Parameters({"child": copies}, np.full(2, -80.0))
     with pytest.raises(SingularCovarianceError, match=r"raise the noise.*"):
-        example.reduction.evaluate(StateSpace(example.kernel), hopeless)
+        example.reduction.evaluate(by(StateSpace, example), hopeless)
 
 
 def test_a_kernel_without_a_finite_state_is_refused(case):

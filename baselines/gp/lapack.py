@@ -1,0 +1,56 @@
+"""Two routines of LAPACK that let other threads run.
+
+scipy's wrappers keep Python's global lock while they work, so that threads over outputs would wait
+for each other. The same compiled routines, reached through scipy's table for Cython, are called
+here without it.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cython_lapack
+
+__all__ = ["potrf", "potri"]
+
+Array = NDArray[np.float64]
+
+
+def _routine(capsule: object) -> Callable[[Array], int]:
+    """Return a routine (uplo, n, a, lda, info) as a function of a that gives info."""
+    of_name = ctypes.pythonapi.PyCapsule_GetName
+    of_name.restype, of_name.argtypes = ctypes.c_char_p, [ctypes.py_object]
+    address_of = ctypes.pythonapi.PyCapsule_GetPointer
+    address_of.restype = ctypes.c_void_p
+    address_of.argtypes = [ctypes.py_object, ctypes.c_char_p]
+    pointer = ctypes.POINTER(ctypes.c_int)
+    signature = ctypes.CFUNCTYPE(None, ctypes.c_char_p, pointer, ctypes.c_void_p, pointer, pointer)
+    function = signature(address_of(capsule, of_name(capsule)))
+
+    def call(matrix: Array) -> int:
+        size, info = ctypes.c_int(len(matrix)), ctypes.c_int()
+        function(b"U", size, matrix.ctypes.data, size, info)
+        return info.value
+
+    return call
+
+
+_dpotrf = _routine(cython_lapack.__pyx_capi__["dpotrf"])
+_dpotri = _routine(cython_lapack.__pyx_capi__["dpotri"])
+
+
+def potrf(matrix: Array) -> int:
+    """Overwrite the lower triangle of a C-ordered matrix with its Cholesky factor.
+
+    What is below the diagonal of a C-ordered array is above that of the Fortran-ordered one that
+    LAPACK sees. Returns 0, or the order of the leading minor that is not positive definite.
+    """
+    return _dpotrf(matrix)
+
+
+def potri(factor: Array) -> int:
+    """Overwrite a lower Cholesky factor (`potrf`) with the lower triangle of the inverse."""
+    return _dpotri(factor)

@@ -1,0 +1,51 @@
+"""Checks of the parameters that estimators take: each names what was expected and what was got."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from numbers import Integral, Real
+
+import numpy as np
+
+__all__ = ["check_choice", "check_count", "check_positive", "components_of"]
+
+
+def check_count(name: str, value: object, least: int) -> None:
+    """Raise ValueError unless ``value`` is an integer of at least ``least``."""
+    if not isinstance(value, Integral) or value < least:
+        raise ValueError(f"expected {name} to be an integer of at least {least}, got {value!r}")
+
+
+def check_positive(name: str, value: object) -> None:
+    """Raise ValueError unless ``value`` is a finite positive number."""
+    if not isinstance(value, Real) or not 0.0 < float(value) < np.inf:
+        raise ValueError(f"expected {name} to be a finite positive number, got {value!r}")
+
+
+def check_choice(name: str, value: object, choices: Collection[str]) -> None:
+    """Raise ValueError unless ``value`` is one of ``choices``."""
+    if value not in choices:
+        raise ValueError(f"expected {name} to be one of {sorted(choices)}, got {value!r}")
+
+
+def components_of(
+    n_components: int | Mapping[str, int], layers: Sequence[str]
+) -> Mapping[str, int]:
+    """Return the number of components of each layer; one number serves them all.
+
+    Raises
+    ------
+    ValueError
+        If a layer is missing or unknown, or a number is not a positive integer.
+    """
+    by_layer = (
+        n_components if isinstance(n_components, Mapping) else dict.fromkeys(layers, n_components)
+    )
+    if set(by_layer) != set(layers):
+        raise ValueError(
+            f"expected n_components to be an integer or a mapping with a number for each of the "
+            f"layers {sorted(layers)}, got {n_components!r}"
+        )
+    for layer in layers:
+        check_count(f"n_components of {layer!r}", by_layer[layer], 1)
+    return {layer: by_layer[layer] for layer in layers}
