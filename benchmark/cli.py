@@ -76,6 +76,9 @@ def run(
     folds: Annotated[int | None, typer.Option(min=1, help="Folds of each case.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="The root seed.")] = 0,
     jobs: Annotated[int, typer.Option(min=1, help="How many jobs at once.")] = os.cpu_count() or 1,
+    threads: Annotated[
+        int, typer.Option(min=1, help="Threads of a job; results do not depend on it.")
+    ] = 1,
     out: Out = DEFAULT_OUT,
     data_dir: cli_data.DataDir = None,
     model_file: ModelFiles = None,
@@ -111,7 +114,7 @@ def run(
         return
     store = Store.create(out)
     about = {
-        **provenance(["mocapbench", *sys.argv[1:]]),
+        **provenance(["mocapbench", *sys.argv[1:]], threads),
         "profile": profile,
         "seed": str(seed),
         "started": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -119,7 +122,7 @@ def run(
     }
     limit = int((memory or _memory_share(jobs)) * 2**30)
     data = data_dir.resolve() if data_dir else None
-    settings = Settings(out.resolve(), data, files, timeout, limit, about)
+    settings = Settings(out.resolve(), data, files, timeout, limit, threads, about)
     signal.signal(signal.SIGTERM, _interrupt)
     with store.locked():
         raise typer.Exit(_run(planned, store, settings, jobs, console))

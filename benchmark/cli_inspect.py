@@ -87,7 +87,7 @@ def _metric_table() -> Table:
 def info() -> None:
     """Show versions, the machine, and how to cite."""
     table = Table(show_header=False, box=None)
-    for name, value in provenance(["mocapbench", "info"]).items():
+    for name, value in provenance(["mocapbench", "info"], threads=1).items():
         table.add_row(name, value)
     console = Console()
     console.print(table)

@@ -7,6 +7,7 @@ import traceback
 from dataclasses import asdict
 from typing import Any
 
+from joblib import parallel_config
 from threadpoolctl import threadpool_limits
 
 from mocapbench.benchmark.job import Job, Settings
@@ -27,8 +28,8 @@ def evaluate(job: Job, settings: Settings) -> Record:
     """
     try:
         resource.setrlimit(resource.RLIMIT_AS, (settings.memory, resource.RLIM_INFINITY))
-        # One thread, so that results do not depend on how many jobs run at once.
-        with threadpool_limits(1):
+        # One BLAS thread, so that results do not depend on how many jobs run at once.
+        with threadpool_limits(1), parallel_config("threading", n_jobs=settings.threads):
             return _evaluate(job, settings)
     except MemoryError:
         limit = settings.memory / 2**30

@@ -29,6 +29,8 @@ class Settings:
         Seconds after which a job is killed.
     memory : int
         Bytes of address space that a job may take.
+    threads : int
+        Threads that a job may share its work out to; results do not depend on it.
     provenance : mapping of str to str
         Copied into every record.
     """
@@ -38,6 +40,7 @@ class Settings:
     model_files: tuple[Path, ...]
     timeout: float
     memory: int
+    threads: int
     provenance: Mapping[str, str]
 
 

@@ -15,13 +15,15 @@ __all__ = ["cpu_name", "provenance"]
 _LIBRARIES = ("mocapbench", "numpy", "scipy", "pandas", "scikit-learn")
 
 
-def provenance(command: Sequence[str]) -> Mapping[str, str]:
+def provenance(command: Sequence[str], threads: int) -> Mapping[str, str]:
     """Return versions, commit, machine and ``command``, by name.
 
     Parameters
     ----------
     command : sequence of str
         The command line that started the run.
+    threads : int
+        Threads of a job.
     """
     versions = {f"{name} version": importlib.metadata.version(name) for name in _LIBRARIES}
     return {
@@ -31,7 +33,7 @@ def provenance(command: Sequence[str]) -> Mapping[str, str]:
         "platform": platform.platform(),
         "CPU": cpu_name(),
         "cores": str(os.cpu_count()),
-        "threads": "one per job",
+        "threads": f"{threads} per job",
         "command line": shlex.join(command),
     }
 

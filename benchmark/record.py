@@ -56,6 +56,8 @@ class Record:
     fit_seconds, predict_seconds, peak_memory_mb : float or None
     iterations, converged : int or None, bool or None
         Of the optimisation, where the model has one.
+    engine : str
+        By what algorithm the model computed and why, where it says so.
     warnings : tuple of str
         Warnings that the model or the data raised.
     provenance : mapping of str to str
@@ -83,6 +85,7 @@ class Record:
     peak_memory_mb: float | None = None
     iterations: int | None = None
     converged: bool | None = None
+    engine: str = ""
     warnings: tuple[str, ...] = ()
     provenance: Mapping[str, str] = field(default_factory=dict)
 

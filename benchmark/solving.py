@@ -47,5 +47,6 @@ def solve(job: Job, problem: Problem) -> Fit:
         peak_memory_mb=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / MIB,
         iterations=None if iterations is None else int(iterations),
         converged=None if converged is None else bool(converged),
+        engine=str(getattr(model, "engine_", "")),
         warnings=tuple(dict.fromkeys(str(warning.message) for warning in caught)),
     )

@@ -46,6 +46,7 @@ class Fit:
     peak_memory_mb: float
     iterations: int | None
     converged: bool | None
+    engine: str = ""
     warnings: tuple[str, ...] = ()
 
 

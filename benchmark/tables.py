@@ -11,7 +11,7 @@ from mocapbench.benchmark.record import Record
 __all__ = ["job_table", "score_table"]
 
 _ADDRESS = ["task", "case", "fold", "label", "model"]
-_COSTS = ["fit_seconds", "predict_seconds", "peak_memory_mb", "iterations", "converged"]
+_COSTS = ["fit_seconds", "predict_seconds", "peak_memory_mb", "iterations", "converged", "engine"]
 
 
 def score_table(records: Sequence[Record]) -> pd.DataFrame:
@@ -44,7 +44,7 @@ def job_table(records: Sequence[Record]) -> pd.DataFrame:
     """Return one row per job, with how it ended and what it cost.
 
     Columns: ``task, case, fold, label, model, parameters, status, message, traceback``,
-    ``fit_seconds, predict_seconds, peak_memory_mb, iterations, converged``.
+    ``fit_seconds, predict_seconds, peak_memory_mb, iterations, converged, engine``.
     """
     rows = [
         {

@@ -21,7 +21,7 @@ Setting = str | int | float
 SCORE_COLUMNS = ("task", "case", "fold", "label", "model", "metric", "value", "left_out")
 RECORD_COLUMNS = (
     *("task", "case", "fold", "label", "model", "parameters", "status", "message", "traceback"),
-    *("fit_seconds", "predict_seconds", "peak_memory_mb", "iterations", "converged"),
+    *("fit_seconds", "predict_seconds", "peak_memory_mb", "iterations", "converged", "engine"),
 )
 STATUSES = ("ok", "failed", "timeout", "out-of-memory", "data-missing")
 
@@ -157,7 +157,8 @@ class Bundle:
         One row per job: columns ``task``, ``case``, ``fold``, ``label``, ``model``,
         ``parameters``, ``status`` (``ok``, ``failed``, ``timeout``, ``out-of-memory``,
         ``data-missing``), ``message``, ``traceback``, ``fit_seconds``, ``predict_seconds``,
-        ``peak_memory_mb``, ``iterations``, ``converged``. The message of a ``data-missing``
+        ``peak_memory_mb``, ``iterations``, ``converged``, ``engine`` (a name, a colon and the
+        reason for it, or nothing). The message of a ``data-missing``
         job says how to get the data.
     layouts : tuple of TaskLayout
         The tasks, in page order.

@@ -9,7 +9,7 @@ import pandas as pd
 
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.results import TaskResults
-from mocapbench.reports.tables import ABSENT, Cell, Table, headings, number, slug
+from mocapbench.reports.tables import ABSENT, Cell, Table, counted, headings, number, slug
 
 __all__ = ["calibration_table", "cost_table", "oracle_table"]
 
@@ -130,7 +130,7 @@ def cost_table(results: TaskResults) -> Table | None:
         columns=headings(
             [
                 *("entrant", "jobs", "fit, median s", "predict, median s"),
-                *("peak memory, MB", "iterations, median", "converged"),
+                *("peak memory, MB", "iterations, median", "converged", "engine"),
             ]
         ),
         rows=tuple(_cost_row(row) for row in data.to_dict("records")),
@@ -148,6 +148,7 @@ def _cost(label: str, jobs: pd.DataFrame) -> dict[str, object]:
         "peak_memory_mb": jobs["peak_memory_mb"].astype(float).max(),
         "iterations": jobs["iterations"].dropna().astype(float).median(),
         "converged": float(converged.astype(float).mean()) if len(converged) else np.nan,
+        "engine": "; ".join(dict.fromkeys(filter(None, jobs["engine"]))),
     }
 
 
@@ -160,7 +161,16 @@ def _cost_row(row: Mapping[Hashable, float]) -> tuple[Cell, ...]:
         _measure(row["peak_memory_mb"], "{:.0f}"),
         _measure(row["iterations"], "{:.0f}"),
         _measure(row["converged"], "{:.0%}"),
+        _engine(str(row["engine"])),
     )
+
+
+def _engine(engine: str) -> Cell:
+    """Return the first engine by name with the reason for it, and how many others there were."""
+    first, *others = engine.split("; ")
+    name, _, reason = first.partition(": ")
+    more = f" and {counted(len(others), 'other')} by case" if others else ""
+    return Cell(f"{name}{more}", note=reason) if name else ABSENT
 
 
 def _seconds(value: float) -> Cell:

@@ -91,7 +91,7 @@ class GaussianProcess(Imputer, Synthesiser):
     solver_ : str
         The solvers that were used, such as "latent-split" or "dense+kronecker".
     engine_ : str
-        The same, and the work that every solver alone would have had.
+        The same, with their counted work and what every solver alone would have had.
     coregionalisation_ : dict of str to ndarray of shape (Q, D, D)
         The matrices B_q of each layer, in the outputs' own units.
     noise_ : ndarray of shape (D,)
@@ -292,7 +292,7 @@ class GaussianProcess(Imputer, Synthesiser):
         self.log_likelihood_ = best.log_likelihood + self.scaling_.log_jacobian
         self.converged_, self.n_iterations_ = best.converged, best.n_iterations
         self.n_evaluations_, self.solver_ = best.n_evaluations, name_of(solvers)
-        self.engine_ = f"{self.solver_} ({reason(kernel, reduction, start)})"
+        self.engine_ = reason(solvers, reduction, start)
 
     @contextmanager
     def _at_work(self) -> Iterator[FittedProcess]:

@@ -59,7 +59,7 @@ class Kronecker(Solver):
             return np.inf
         h, _, n_outputs, n_times = block.data.shape
         products = 6.0 * h * n_outputs * n_times * (n_outputs + n_times)
-        return EIGEN * float(n_times**3 + n_outputs**3) + products + OVERHEAD
+        return float(EIGEN * (n_times**3 + n_outputs**3) + products + OVERHEAD)
 
 
 def _is_kronecker(block: Block, parameters: Parameters) -> bool:

@@ -46,14 +46,19 @@ def with_mapper(solvers: Sequence[Solver], mapper: Mapper) -> tuple[Solver, ...]
     return tuple(type(solver)(solver.kernel, mapper) for solver in solvers)
 
 
-def reason(kernel: Kernel, reduction: Reduction, parameters: Parameters) -> str:
-    """Return the work that every solver would have had, in billions of operations."""
-    totals = {solver.name: 0.0 for solver in _SOLVERS}
-    for of_block in work(kernel, reduction, parameters):
-        totals = {name: total + of_block[name] for name, total in totals.items()}
-    able = {name: total for name, total in totals.items() if np.isfinite(total)}
-    ranked = sorted(able.items(), key=lambda pair: pair[1])
-    return ", ".join(f"{name} {total / 1e9:.2g}" for name, total in ranked)
+def reason(solvers: Sequence[Solver], reduction: Reduction, parameters: Parameters) -> str:
+    """Return the solvers in use, their work, and the work that each solver alone would have."""
+    counted = work(solvers[0].kernel, reduction, parameters)
+    in_use = sum(of_block[solver.name] for of_block, solver in zip(counted, solvers, strict=True))
+    alone = {
+        solver.name: sum(of_block[solver.name] for of_block in counted) for solver in _SOLVERS
+    }
+    others = ", ".join(
+        f"{name} alone {amount / 1e9:.2g}"
+        for name, amount in sorted(alone.items(), key=lambda pair: pair[1])
+        if np.isfinite(amount)
+    )
+    return f"{name_of(solvers)}: {in_use / 1e9:.2g} billion operations ({others})"
 
 
 def _least_work(kernel: Kernel, reduction: Reduction, parameters: Parameters) -> tuple[Solver, ...]:

@@ -47,6 +47,21 @@ def test_scores_do_not_depend_on_workers_or_on_which_models_run(cli, records, tm
 
 
 @pytest.mark.slow
+def test_threads_change_no_score_and_the_engine_is_on_record(cli, records, tmp_path):
+    chosen = (*TOY, "--models", "mohgp-3", "--jobs", 1, "--folds", 1)
+    assert cli(*chosen, "--out", tmp_path / "one") == 0
+    assert cli(*chosen, "--out", tmp_path / "two", "--threads", 2) == 0
+    one, two = (records(tmp_path / name) for name in ("one", "two"))
+    for address, record in one.items():
+        assert two[address]["scores"] == pytest.approx(record["scores"], rel=1e-8)
+        assert "billion operations" in two[address]["engine"]
+        assert (record["provenance"]["threads"], two[address]["provenance"]["threads"]) == (
+            "1 per job",
+            "2 per job",
+        )
+
+
+@pytest.mark.slow
 def test_scores_do_not_depend_on_the_order_of_registration(cli, records, tmp_path, broken_models):
     """The same models from a file, in either order, seeds and fits included."""
     source = (

@@ -32,6 +32,7 @@ RECORDS = st.builds(
     warnings=st.lists(TEXT).map(tuple),
     fit_seconds=st.none() | st.floats(0, 1e6),
     converged=st.none() | st.booleans(),
+    engine=TEXT,
 )
 
 
@@ -93,11 +94,12 @@ def test_a_record_under_another_name_is_not_trusted(store, record):
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data())
 def test_predictions_survive_and_truncated_ones_are_reported(store, data):
-    fit = Fit({"mean-0": np.arange(6.0).reshape(2, 3)}, 1.5, 0.5, 100.0, 7, True, ("careful",))
+    fit = Fit({"mean-0": np.arange(6.0).reshape(2, 3)}, 1.5, 0.5, 100.0, 7, True, "dense", ("careful",))
     store.save_fit("key", fit)
     back = store.load_fit("key")
     np.testing.assert_array_equal(back.solution["mean-0"], fit.solution["mean-0"])
-    assert (back.fit_seconds, back.iterations, back.warnings) == (1.5, 7, ("careful",))
+    assert (back.fit_seconds, back.iterations, back.engine) == (1.5, 7, "dense")
+    assert back.warnings == ("careful",)
     path = store.path / "predictions" / "key.npz"
     path.write_bytes(path.read_bytes()[: data.draw(st.integers(0, path.stat().st_size - 1))])
     store.damaged.clear()

@@ -151,6 +151,7 @@ def _record(
         "peak_memory_mb": rng.uniform(120, 400) if done else np.nan,
         "iterations": float(rng.integers(20, 400)) if gaussian else np.nan,
         "converged": bool(rng.uniform() < 0.9) if gaussian else None,
+        "engine": "latent-split: 0.7 billion operations" if gaussian else "",
     }
 
 
@@ -192,7 +193,7 @@ def bundle() -> Bundle:
             "numpy version": "2.4.6",
             "commit": "0f3c1a9e7b6d4c52810c6f0a9b1e2d3c4b5a6978",
             "CPU": "AMD EPYC 7B13",
-            "threads": "one per job",
+            "threads": "1 per job",
             "seed": "0",
             "started": "2025-03-01 10:00 UTC",
             "wall time": "2 h 14 min",
@@ -232,7 +233,7 @@ def small() -> Callable[..., Bundle]:
         records = frame.drop(columns=["metric", "value", "left_out"]).assign(
             parameters="{}",
             status=["ok" if np.isfinite(row["value"]) else "failed" for row in rows],
-            **dict.fromkeys(("message", "traceback"), ""),
+            **dict.fromkeys(("message", "traceback", "engine"), ""),
             **dict.fromkeys(("fit_seconds", "predict_seconds", "peak_memory_mb"), 1.0),
             **dict.fromkeys(("iterations", "converged"), None),
         )

@@ -61,7 +61,16 @@ def test_convergence_is_a_share_and_absent_where_it_means_nothing(bundle):
     shares = table.data.set_index("label")["converged"]
     assert 0.5 < shares["mohgp-3"] <= 1.0
     spline = next(row for row in table.rows if row[0].text == "cubic-spline")
-    assert spline[-1].text == "–"
+    assert spline[-2].text == "–"
+
+
+def test_the_engine_stands_with_its_reason_and_others_are_counted(small):
+    bundle = small({"row": {"a": [1.0, 1.0, 1.0], "b": [1.0, 1.0, 1.0]}})
+    bundle.records["engine"] = ["dense: least work", "split: also", "dense: least work", "", "", ""]
+    table = cost_table(results_of(bundle))
+    (_, *_, first), (_, *_, second) = table.rows
+    assert (first.text, first.note) == ("dense and 1 other by case", "least work")
+    assert second.text == "–"
 
 
 @pytest.mark.parametrize(
