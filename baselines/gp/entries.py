@@ -13,15 +13,50 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Entries"]
+__all__ = ["Entries", "Everything", "Selection"]
 
 Array = NDArray[np.float64]
 
 CHUNK = 2**18
 """Entries of the matrices of a run of outputs: two megabytes."""
 
-Positions = slice | NDArray[np.intp]
-"""Sites of an output: a slice where all are visible, which spares copies."""
+
+class Everything:
+    """The sites of an output that shows all of them: nothing need be copied."""
+
+    positions = slice(None)
+
+    def pick(self, matrix: Array) -> Array:
+        """Return ``matrix`` (m, m) itself."""
+        return matrix
+
+    def place(self, part: Array, matrix: Array) -> None:
+        """Write ``part`` (m, m) into ``matrix`` (m, m)."""
+        matrix[...] = part
+
+
+@dataclass(frozen=True, eq=False)
+class Selection:
+    """The sites that an output shows.
+
+    Parameters
+    ----------
+    positions : ndarray of int, shape (n_d,)
+        Their indices.
+    """
+
+    positions: NDArray[np.intp]
+
+    def pick(self, matrix: Array) -> Array:
+        """Return the part (n_d, n_d) of ``matrix`` (m, m) that is shown, C-ordered."""
+        return np.ascontiguousarray(matrix[self.positions][:, self.positions])
+
+    def place(self, part: Array, matrix: Array) -> None:
+        """Write ``part`` (n_d, n_d) into ``matrix`` (m, m), and zeros everywhere else."""
+        rows = np.zeros((len(part), len(matrix)))
+        rows[:, self.positions] = part
+        matrix[...] = 0.0
+        matrix[self.positions] = rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +69,7 @@ class Entries:
         The sites, by unit and then by time.
     spans : tuple of slice
         The sites of each unit.
-    positions : tuple of slice or ndarray of int
+    shown : tuple of Everything or Selection
         The sites that each output shows.
     visible : ndarray of bool, shape (D, m)
         The same as a mask.
@@ -45,7 +80,7 @@ class Entries:
     unit: NDArray[np.intp]
     time: NDArray[np.intp]
     spans: tuple[slice, ...]
-    positions: tuple[Positions, ...]
+    shown: tuple[Everything | Selection, ...]
     visible: NDArray[np.bool_]
     n_times: int
 
@@ -56,8 +91,10 @@ class Entries:
         ends = np.cumsum(np.bincount(unit, minlength=len(observed))).tolist()
         spans = tuple(slice(start, end) for start, end in zip([0, *ends], ends, strict=False))
         visible = observed[unit, :, time].T
-        positions = tuple(slice(None) if seen.all() else np.flatnonzero(seen) for seen in visible)
-        return cls(unit, time, spans, positions, visible, observed.shape[2])
+        shown = tuple(
+            Everything() if seen.all() else Selection(np.flatnonzero(seen)) for seen in visible
+        )
+        return cls(unit, time, spans, shown, visible, observed.shape[2])
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -74,22 +111,6 @@ class Entries:
     def at_sites(self, values: Array) -> Array:
         """Return (D, m, h), the ``values`` (h, P, D, N) at the sites."""
         return np.ascontiguousarray(values[:, self.unit, :, self.time].transpose(2, 0, 1))
-
-    def pick(self, matrix: Array, output: int) -> Array:
-        """Return the part (n_d, n_d) of ``matrix`` (m, m) that the output shows.
-
-        It is C-ordered, and ``matrix`` itself if the output shows all sites.
-        """
-        shown = self.positions[output]
-        return np.ascontiguousarray(matrix[shown][:, shown])
-
-    def place(self, part: Array, output: int, matrix: Array) -> None:
-        """Write ``part`` (n_d, n_d) into ``matrix`` (m, m) and zeros everywhere else."""
-        shown = self.positions[output]
-        rows = np.zeros((len(part), len(matrix)))
-        rows[:, shown] = part
-        matrix[...] = 0.0
-        matrix[shown] = rows
 
     def fold(self, loadings: Array, values: Array) -> Array:
         """Return (N, …), the sum over units p of loadings[p] times ``values`` (m, …) at p."""

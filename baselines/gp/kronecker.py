@@ -54,11 +54,11 @@ class Kronecker(Solver):
         return _KroneckerPosterior(self.kernel, _Basis.of(self.kernel, block, parameters))
 
     def work(self, block: Block, parameters: Parameters) -> float:
-        """Return 12 (N³ + D³) + 6 h D N (D + N) and an overhead, or infinity."""
+        """Return 12 (N³ + D³) + 1.5 h D N (D + N) and an overhead, or infinity."""
         if not _is_kronecker(block, parameters):
             return np.inf
         h, _, n_outputs, n_times = block.data.shape
-        products = 6.0 * h * n_outputs * n_times * (n_outputs + n_times)
+        products = 1.5 * h * n_outputs * n_times * (n_outputs + n_times)
         return float(EIGEN * (n_times**3 + n_outputs**3) + products + OVERHEAD)
 
 

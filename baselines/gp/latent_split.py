@@ -39,7 +39,7 @@ Array = NDArray[np.float64]
 
 OVERHEAD = 6e7
 """What a block costs besides its factorisations, as operations (about four milliseconds)."""
-OUTPUT_OVERHEAD = 1.5e6
+OUTPUT_OVERHEAD = 2e6
 """The same for each output (about a tenth of a millisecond)."""
 
 
@@ -58,7 +58,7 @@ class LatentSplit(Solver):
         return _SplitPosterior(Split.of(self.kernel, block, parameters, self.mapper))
 
     def work(self, block: Block, parameters: Parameters) -> float:
-        """Return 5 Σ_d n_d³ + 1.5 K³ and overheads, K counting the frames that latents see."""
+        """Return 3 Σ_d n_d³ + 1.5 K³ and overheads, K counting the frames that latents see."""
         own = block.observed.sum(axis=(0, 2)).astype(np.float64)
         shared = 0.0
         for name, factor in block.units.items():
@@ -66,7 +66,7 @@ class LatentSplit(Solver):
             n_columns = parameters.layers[name].coregionalisation.weights[:, 0].size
             shared += float(n_columns * seen.sum())
         overhead = OVERHEAD + OUTPUT_OVERHEAD * len(own)
-        return 5.0 * float((own**3).sum()) + 1.5 * shared**3 + overhead
+        return 3.0 * float((own**3).sum()) + 1.5 * shared**3 + overhead
 
 
 class _SplitPosterior(Posterior):

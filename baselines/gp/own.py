@@ -65,10 +65,11 @@ class OwnParts:
             matrices = (kappa[:, outputs].T @ kernels).reshape(-1, *entries.shape[1:])
             total = 0.0
             for d, matrix in zip(range(*outputs.indices(len(noise))), matrices, strict=True):
-                own = entries.pick(matrix, d)
-                own.reshape(-1)[:: len(own) + 1] += noise[d, entries.positions[d]]
+                shown = entries.shown[d]
+                own = shown.pick(matrix)
+                own.reshape(-1)[:: len(own) + 1] += noise[d, shown.positions]
                 total += invert(own, parameters)
-                entries.place(own, d, precision[d])
+                shown.place(own, precision[d])
             return total
 
         log_determinant = sum(mapper(invert_chunk, entries.chunks))

@@ -50,9 +50,7 @@ def reason(solvers: Sequence[Solver], reduction: Reduction, parameters: Paramete
     """Return the solvers in use, their work, and the work that each solver alone would have."""
     counted = work(solvers[0].kernel, reduction, parameters)
     in_use = sum(of_block[solver.name] for of_block, solver in zip(counted, solvers, strict=True))
-    alone = {
-        solver.name: sum(of_block[solver.name] for of_block in counted) for solver in _SOLVERS
-    }
+    alone = {solver.name: sum(of_block[solver.name] for of_block in counted) for solver in _SOLVERS}
     others = ", ".join(
         f"{name} alone {amount / 1e9:.2g}"
         for name, amount in sorted(alone.items(), key=lambda pair: pair[1])

@@ -83,14 +83,14 @@ def _own_adjoint(split: Split, covariance: Array, outputs: slice) -> Array:
     images = split.latents.products[:, outputs].T @ covariance
     adjoint = images.reshape(-1, *entries.shape[1:])
     for d, matrix in zip(range(*outputs.indices(entries.shape[0])), adjoint, strict=True):
-        precision = entries.pick(split.own.precision[d], d)
-        alpha = split.alpha[d, entries.positions[d]]
-        own = precision @ entries.pick(matrix, d) @ precision
+        shown = entries.shown[d]
+        precision, alpha = shown.pick(split.own.precision[d]), split.alpha[d, shown.positions]
+        own = precision @ shown.pick(matrix) @ precision
         own -= precision
         own *= rho
         own += alpha @ alpha.T
         own *= 0.5
-        entries.place(own, d, matrix)
+        shown.place(own, matrix)
     return adjoint
 
 

@@ -94,7 +94,9 @@ def test_a_record_under_another_name_is_not_trusted(store, record):
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data())
 def test_predictions_survive_and_truncated_ones_are_reported(store, data):
-    fit = Fit({"mean-0": np.arange(6.0).reshape(2, 3)}, 1.5, 0.5, 100.0, 7, True, "dense", ("careful",))
+    fit = Fit(
+        {"mean-0": np.arange(6.0).reshape(2, 3)}, 1.5, 0.5, 100.0, 7, True, "dense", ("careful",)
+    )
     store.save_fit("key", fit)
     back = store.load_fit("key")
     np.testing.assert_array_equal(back.solution["mean-0"], fit.solution["mean-0"])

@@ -25,7 +25,7 @@ def test_placing_what_was_picked_keeps_the_visible_pairs_and_clears_the_rest(obs
     matrices = np.random.default_rng(seed).standard_normal(entries.shape)
     for d, (matrix, seen) in enumerate(zip(matrices, entries.visible, strict=True)):
         placed = np.full_like(matrix, np.nan)
-        entries.place(entries.pick(matrix, d), d, placed)
+        entries.shown[d].place(entries.shown[d].pick(matrix), placed)
         np.testing.assert_array_equal(placed, np.where(np.outer(seen, seen), matrix, 0.0))
 
 
