@@ -83,6 +83,9 @@ class GaussianProcess(Imputer, Synthesiser):
         Maximum-likelihood parameters, for outputs in standard units.
     log_likelihood_ : float
         Log-likelihood of the recordings in their own units.
+    bic_ : float
+        Schwarz's criterion, −2 log L + k log n for k parameters and n visible entries, by which
+        numbers of components may be chosen: lower is better.
     training_ : Training
         The searches, with their traces and messages; log-likelihoods there are those of the
         recordings in standard units.
@@ -290,6 +293,8 @@ class GaussianProcess(Imputer, Synthesiser):
         self.parameters_: Parameters = best.parameters
         self._process = FittedProcess(kernel, reduction, solvers, best.parameters, self.scaling_)
         self.log_likelihood_ = best.log_likelihood + self.scaling_.log_jacobian
+        self.bic_ = best.parameters.flat.size * np.log(self.scaling_.counts.sum())
+        self.bic_ -= 2.0 * self.log_likelihood_
         self.converged_, self.n_iterations_ = best.converged, best.n_iterations
         self.n_evaluations_, self.solver_ = best.n_evaluations, name_of(solvers)
         self.engine_ = reason(solvers, reduction, start)

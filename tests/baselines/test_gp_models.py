@@ -205,3 +205,11 @@ def test_a_verbose_fit_prints_a_line_for_every_iteration(recordings, capsys):
     printed = float(lines[-1].partition("log-likelihood ")[2].partition(",")[0])
     last = fitted.training_.searches[-1].log_likelihood + fitted.scaling_.log_jacobian
     assert printed == pytest.approx(last, abs=1e-3)
+
+
+@pytest.mark.parametrize("model", JOINT)
+def test_the_criterion_of_schwarz_charges_every_parameter(model, recordings):
+    fitted = model(max_iter=3).fit(recordings)
+    visible = sum(int(recording.visible.sum()) for recording in recordings)
+    expected = fitted.parameters_.flat.size * np.log(visible) - 2.0 * fitted.log_likelihood_
+    assert fitted.bic_ == pytest.approx(expected, rel=1e-12)

@@ -9,7 +9,7 @@ from mocapbench.datasets import Recording
 
 N_RESTARTS = 20
 MAX_ITER = 1000
-"""Iterations of a restart: twice as many evaluations."""
+"""Iterations of a restart; most take one evaluation."""
 
 
 def recordings(replicates):
