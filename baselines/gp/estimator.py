@@ -23,6 +23,7 @@ from mocapbench.baselines.gp.scaling import Standardisation
 from mocapbench.baselines.gp.settings import (
     check_choice,
     check_count,
+    check_jobs,
     check_positive,
     components_of,
 )
@@ -342,6 +343,7 @@ class GaussianProcess(Imputer, Synthesiser):
         check_positive("tol", self.tol)
         if self.max_seconds is not None:
             check_positive("max_seconds", self.max_seconds)
+        check_jobs(self.n_jobs)
         check_choice("kernel", self.kernel, KERNELS)
         check_choice("solver", self.solver, PLANS)
 

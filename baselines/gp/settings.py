@@ -7,7 +7,7 @@ from numbers import Integral, Real
 
 import numpy as np
 
-__all__ = ["check_choice", "check_count", "check_positive", "components_of"]
+__all__ = ["check_choice", "check_count", "check_jobs", "check_positive", "components_of"]
 
 
 def check_count(name: str, value: object, least: int) -> None:
@@ -20,6 +20,15 @@ def check_positive(name: str, value: object) -> None:
     """Raise ValueError unless ``value`` is a finite positive number."""
     if not isinstance(value, Real) or not 0.0 < float(value) < np.inf:
         raise ValueError(f"expected {name} to be a finite positive number, got {value!r}")
+
+
+def check_jobs(value: object) -> None:
+    """Raise ValueError unless ``value`` is None or an integer other than 0."""
+    if value is not None and (not isinstance(value, Integral) or value == 0):
+        raise ValueError(
+            "expected n_jobs to be None, a positive integer, or a negative one that counts down "
+            f"from all processors at -1, got {value!r}"
+        )
 
 
 def check_choice(name: str, value: object, choices: Collection[str]) -> None:
