@@ -205,6 +205,42 @@ def by() -> Callable[[type[Solver], Case], tuple[Solver, ...]]:
     return _by
 
 
+def _served(solver: type[Solver]) -> st.SearchStrategy[Case]:
+    def possible(case: Case) -> bool:
+        return any(
+            np.isfinite(solver(case.kernel).work(block, case.parameters))
+            for block in case.reduction.blocks
+        )
+
+    return _cases().filter(possible)
+
+
+@pytest.fixture(scope="session")
+def served() -> Callable[[type[Solver]], st.SearchStrategy[Case]]:
+    """From a solver to the cases of which it can do at least one block."""
+    return _served
+
+
+@pytest.fixture(scope="session")
+def with_outputs() -> Callable[[Parameters, np.ndarray], Parameters]:
+    """Return the function that picks outputs from parameters, in any order."""
+    return _with_outputs
+
+
+def _with_outputs(parameters: Parameters, index: np.ndarray) -> Parameters:
+    layers = {
+        name: Layer(
+            layer.log_lengthscales,
+            Coregionalisation(
+                layer.coregionalisation.weights[:, index],
+                layer.coregionalisation.kappa_roots[:, index],
+            ),
+        )
+        for name, layer in parameters.layers.items()
+    }
+    return Parameters(layers, parameters.log_noise[index])
+
+
 @pytest.fixture(scope="session")
 def brute_force() -> Callable[[Case], BruteForce]:
     """The oracle of a case."""

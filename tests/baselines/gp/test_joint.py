@@ -80,22 +80,10 @@ def curve(case, by, solver, which, times):
     return (reduction, by(solver, case), case.parameters, reduction.replicates[r], times), r
 
 
-def served(solver, cases):
-    """The cases of which the solver can do at least one block."""
-
-    def possible(case):
-        return any(
-            np.isfinite(solver(case.kernel).work(block, case.parameters))
-            for block in case.reduction.blocks
-        )
-
-    return cases.filter(possible)
-
-
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_the_covariance_conditions_the_joint_gaussian(solver, by, cases, brute_force):
+def test_the_covariance_conditions_the_joint_gaussian(solver, by, served, brute_force):
     @settings(deadline=None)
-    @given(served(solver, cases), st.integers(0, 3))
+    @given(served(solver), st.integers(0, 3))
     def law(case, which):
         times = np.concatenate([AT, case.replicates.times])
         problem, r = curve(case, by, solver, which, times)
@@ -107,9 +95,9 @@ def test_the_covariance_conditions_the_joint_gaussian(solver, by, cases, brute_f
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_the_covariance_is_one_and_has_the_predicted_variances(solver, by, cases):
+def test_the_covariance_is_one_and_has_the_predicted_variances(solver, by, served):
     @settings(deadline=None)
-    @given(served(solver, cases), st.integers(0, 3))
+    @given(served(solver), st.integers(0, 3))
     def law(case, which):
         times = np.concatenate([AT, case.replicates.times])
         problem, _ = curve(case, by, solver, which, times)
@@ -125,9 +113,11 @@ def test_the_covariance_is_one_and_has_the_predicted_variances(solver, by, cases
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_draws_have_exactly_the_moments_of_the_conditioned_gaussian(solver, by, cases, brute_force):
+def test_draws_have_exactly_the_moments_of_the_conditioned_gaussian(
+    solver, by, served, brute_force
+):
     @settings(deadline=None, max_examples=50)
-    @given(served(solver, cases), st.integers(0, 3))
+    @given(served(solver), st.integers(0, 3))
     def law(case, which):
         problem, r = curve(case, by, solver, which, AT)
         mean, covariance = moments_of_draws(*problem)

@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.dense import Dense
-from mocapbench.baselines.gp.parameters import Layer, Parameters
+from mocapbench.baselines.gp.parameters import Parameters
 from mocapbench.baselines.gp.replicates import Replicates
 
 STRUCTURES = ("hierarchical", "pooled", "independent")
@@ -28,20 +27,6 @@ def reordered(replicates, index, axis):
     )
 
 
-def with_outputs(parameters, index):
-    layers = {
-        name: Layer(
-            layer.log_lengthscales,
-            Coregionalisation(
-                layer.coregionalisation.weights[:, index],
-                layer.coregionalisation.kappa_roots[:, index],
-            ),
-        )
-        for name, layer in parameters.layers.items()
-    }
-    return Parameters(layers, parameters.log_noise[index])
-
-
 @pytest.mark.parametrize("axis", [0, 2], ids=["replicates", "frames"])
 def test_order_means_nothing(axis, cases):
     @settings(deadline=None, max_examples=50)
@@ -55,7 +40,7 @@ def test_order_means_nothing(axis, cases):
     law()
 
 
-def test_the_order_of_outputs_means_nothing(cases):
+def test_the_order_of_outputs_means_nothing(cases, with_outputs):
     @settings(deadline=None, max_examples=50)
     @given(cases, st.randoms(use_true_random=False))
     def law(case, random):
