@@ -56,7 +56,7 @@ def reason(solvers: Sequence[Solver], reduction: Reduction, parameters: Paramete
         for name, amount in sorted(alone.items(), key=lambda pair: pair[1])
         if np.isfinite(amount)
     )
-    return f"{name_of(solvers)}: {in_use / 1e9:.2g} billion operations ({others})"
+    return f"{name_of(solvers)}: {in_use / 1e9:.2g} billion operations an evaluation ({others})"
 
 
 def _least_work(kernel: Kernel, reduction: Reduction, parameters: Parameters) -> tuple[Solver, ...]:
