@@ -1,6 +1,8 @@
 """The models, one module each, behind the abilities of `mocapbench.baselines.protocols`."""
 
 from mocapbench.baselines.protocols import (
+    Aligner,
+    Clusterer,
     FrameImputer,
     Imputer,
     Inductive,
@@ -8,10 +10,13 @@ from mocapbench.baselines.protocols import (
     Model,
     Prediction,
     SampleByFrameByChannel,
+    StatePath,
     Synthesiser,
 )
 
 __all__ = [
+    "Aligner",
+    "Clusterer",
     "FrameImputer",
     "Imputer",
     "Inductive",
@@ -19,5 +24,6 @@ __all__ = [
     "Model",
     "Prediction",
     "SampleByFrameByChannel",
+    "StatePath",
     "Synthesiser",
 ]
