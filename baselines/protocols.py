@@ -117,6 +117,8 @@ class Synthesiser(Model):
 class Clusterer(Model):
     """A model that groups the recordings it is fitted to.
 
+    Its constructor takes ``n_styles``, the number of clusters to find at most.
+
     Attributes
     ----------
     labels_ : ndarray of int, shape (K,)
