@@ -35,6 +35,8 @@ class Case:
         Whether it stands on generated gait rather than recordings of people.
     remark : str
         Shown where its numbers stand.
+    parameters : mapping
+        What it sets on every model that has it, for example ``{"n_styles": 4}``.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Case:
     published: str | None = None
     synthetic: bool = False
     remark: str = ""
+    parameters: Mapping[str, object] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -83,7 +86,7 @@ class Task(ABC):
     title, reference, description : str
         Heading, place in the paper, and one or two sentences for readers of the report.
     kind : str
-        ``"impute"`` or ``"synthesise"``: what the report calls it.
+        ``"impute"``, ``"synthesise"`` or ``"cluster"``: what the report calls it.
     requires : tuple of type
         The abilities a model must have; others are not applicable.
     has_process : bool

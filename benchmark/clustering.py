@@ -1,0 +1,68 @@
+"""The problem of grouping recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines import Aligner, Clusterer, StatePath
+from mocapbench.benchmark.problem import InvalidPredictionError, Problem, Solution
+from mocapbench.metrics import Clustering
+
+__all__ = ["ClusterProblem"]
+
+
+@dataclass(frozen=True, eq=False)
+class ClusterProblem(Problem):
+    """Group the training recordings by a class that no model sees.
+
+    Parameters
+    ----------
+    truth : tuple of str
+        The class of each training recording.
+    """
+
+    truth: tuple[str, ...]
+
+    def solve(self, model: Clusterer, random_state: int) -> Solution:
+        """Return ``labels`` (K,) and, of a model that aligns, ``cycle_length`` and ``path-k``."""
+        del random_state  # all is said in fit
+        return {"labels": self._labels(model), **dict(self._alignment(model))}
+
+    def outcome(self, solution: Solution) -> Clustering:
+        """Set the clusters beside the classes."""
+        return Clustering(np.array(self.truth), solution["labels"])
+
+    def _labels(self, model: Clusterer) -> NDArray[np.intp]:
+        labels = np.asarray(model.labels_)
+        if labels.shape != (len(self.truth),) or not np.issubdtype(labels.dtype, np.integer):
+            raise InvalidPredictionError(
+                f"labels_: expected {len(self.truth)} integers, one a recording, got an array of "
+                f"shape {labels.shape} and type {labels.dtype}"
+            )
+        return labels.astype(np.intp)
+
+    def _alignment(self, model: Clusterer) -> Iterator[tuple[str, NDArray[np.intp]]]:
+        if isinstance(model, Aligner):
+            yield "cycle_length", np.array(model.cycle_length_)
+            for index, path in enumerate(self._paths(model)):
+                yield f"path-{index}", path
+
+    def _paths(self, model: Aligner) -> list[StatePath]:
+        paths = [np.asarray(path) for path in model.path_]
+        lengths = [(len(recording.times),) for recording in self.train]
+        if [path.shape for path in paths] != lengths:
+            raise InvalidPredictionError(
+                "path_: expected a state for each frame of each recording, "
+                f"got paths of shapes {[path.shape for path in paths]}"
+            )
+        states = np.concatenate(paths)
+        if not np.isin(states, np.arange(model.cycle_length_)).all():
+            raise InvalidPredictionError(
+                f"path_: expected states 0 to {model.cycle_length_ - 1}, "
+                f"got {states.min()} to {states.max()}"
+            )
+        return paths
