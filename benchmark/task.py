@@ -107,6 +107,10 @@ class Task(ABC):
         Why a published value cannot be set beside ours; metric ``"*"`` stands for all.
     remarks : tuple of str
         Errata and cautions shown with the tables.
+    illustrated : tuple of str
+        Names of cases; the first of them that has solutions is shown in figures.
+    illustrated_channels : tuple of str
+        The channels that figures of filled recordings show.
     """
 
     name: str
@@ -127,6 +131,8 @@ class Task(ABC):
     published_metrics: Mapping[str, str] = {}
     not_comparable: Mapping[tuple[str, str], str] = {}
     remarks: tuple[str, ...] = ()
+    illustrated: tuple[str, ...] = ()
+    illustrated_channels: tuple[str, ...] = ()
 
     @abstractmethod
     def problem(self, case: Case, seeds: Seeds, archive: Archive) -> Problem:

@@ -54,6 +54,7 @@ class StyleClustering(Task):
         "quick": Selection(("C = 2", "C = 4", "C = 6", "synthetic C = 4"), folds=2),
         "paper": Selection(tuple(case.name for case in cases), folds=50),
     }
+    illustrated = ("C = 4", "synthetic C = 4", *(case.name for case in cases))
     remarks = (
         "Purity is the share of recordings that belong to the majority style of their cluster. It "
         "grows with C by itself; the adjusted Rand index does not.",

@@ -60,6 +60,8 @@ class UpperBodyMissing(Task):
         "quick": Selection(tuple(case.name for case in cases), folds=2),
         "paper": Selection(tuple(case.name for case in cases), folds=N_WALKS),
     }
+    illustrated = tuple(case.name for case in cases)
+    illustrated_channels = ("rhumerus.rx", "thorax.ry")
     published_models = {"nn": "NN"}
     published_metrics = {"mse": "MSE per joint"}
     remarks = (
