@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Drawing", "draw"]
 
-WIDTH, PANEL_HEIGHT = 7.0, 2.3
+WIDTH, PANEL_HEIGHT = 5.2, 2.0
 LINE_WIDTH = 1.1
 
 Look = Mapping[str, Any]
