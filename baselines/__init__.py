@@ -2,7 +2,9 @@
 
 from mocapbench.baselines.protocols import (
     Aligner,
+    Blender,
     Clusterer,
+    FrameByStyle,
     FrameImputer,
     Imputer,
     Inductive,
@@ -16,7 +18,9 @@ from mocapbench.baselines.protocols import (
 
 __all__ = [
     "Aligner",
+    "Blender",
     "Clusterer",
+    "FrameByStyle",
     "FrameImputer",
     "Imputer",
     "Inductive",

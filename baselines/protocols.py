@@ -11,6 +11,7 @@ an abstract base class, so that a model says what it can do by what it inherits:
 * `Synthesiser` draws new recordings from :math:`p(y_{\text{new}} \mid y_{\text{visible}})`;
 * `Clusterer` groups the recordings that it was fitted to;
 * `Aligner` maps the frames of recordings of a cyclic motion onto the states of one cycle;
+* `Blender` mixes the styles that it has found;
 * `Informed` is told the generating process (the oracle).
 """
 
@@ -29,7 +30,9 @@ from mocapbench.datasets import FrameByChannel, Frames, Recording, ToyProcess
 
 __all__ = [
     "Aligner",
+    "Blender",
     "Clusterer",
+    "FrameByStyle",
     "FrameImputer",
     "Imputer",
     "Inductive",
@@ -43,6 +46,9 @@ __all__ = [
 
 StatePath = NDArray[np.intp]
 """(N,) the state of the common cycle, 0 … M − 1, that each frame of a recording is in."""
+
+FrameByStyle = NDArray[np.float64]
+"""(N, C) one row a frame, one column a style."""
 
 SampleByFrameByChannel = NDArray[np.float64]
 """(n, N, D) n sampled recordings."""
@@ -145,6 +151,25 @@ class Aligner(Model):
     @abstractmethod
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
         """Return the path of each recording (N_k,) over the states 0 … M − 1, in order."""
+
+
+class Blender(Clusterer):
+    """A clusterer whose styles can be mixed, because their cycles are synchronous."""
+
+    @abstractmethod
+    def blend(self, weights: FrameByStyle) -> FrameByChannel:
+        """Return a motion whose frame i is the styles' mean poses mixed by row i of ``weights``.
+
+        Parameters
+        ----------
+        weights : array_like of shape (N, n_styles)
+            Non-negative, each row's sum 1; column c weighs the style that `labels_` calls c.
+
+        Returns
+        -------
+        ndarray of shape (N, D)
+            N frames at the pace and in the channels of the recordings given to `fit`.
+        """
 
 
 class Informed(Model):

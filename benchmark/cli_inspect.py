@@ -13,6 +13,7 @@ from rich.table import Table
 
 from mocapbench.baselines import (
     Aligner,
+    Blender,
     Clusterer,
     FrameImputer,
     Imputer,
@@ -37,6 +38,7 @@ _ABILITIES = (
     (Synthesiser, "synthesises"),
     (Clusterer, "clusters"),
     (Aligner, "aligns"),
+    (Blender, "blends"),
     (Informed, "is told the process"),
 )
 _CITATION = """\

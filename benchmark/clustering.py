@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines import Aligner, Clusterer, StatePath
+from mocapbench.baselines import Aligner, Blender, Clusterer, StatePath
+from mocapbench.benchmark.blending import passage
 from mocapbench.benchmark.problem import InvalidPredictionError, Problem, Solution
 from mocapbench.metrics import Clustering
 
@@ -28,9 +29,14 @@ class ClusterProblem(Problem):
     truth: tuple[str, ...]
 
     def solve(self, model: Clusterer, random_state: int) -> Solution:
-        """Return ``labels`` (K,) and, of a model that aligns, ``cycle_length`` and ``path-k``."""
+        """Return ``labels`` (K,), and what else the model can tell of its clusters.
+
+        Of a model that aligns, ``cycle_length`` and ``path-k`` (N_k,); of one that blends, the
+        `mocapbench.benchmark.blending.passage`.
+        """
         del random_state  # all is said in fit
-        return {"labels": self._labels(model), **dict(self._alignment(model))}
+        labels = self._labels(model)
+        return {"labels": labels, **dict(self._alignment(model)), **self._blend(model, labels)}
 
     def outcome(self, solution: Solution) -> Clustering:
         """Set the clusters beside the classes."""
@@ -50,6 +56,11 @@ class ClusterProblem(Problem):
             yield "cycle_length", np.array(model.cycle_length_)
             for index, path in enumerate(self._paths(model)):
                 yield f"path-{index}", path
+
+    def _blend(self, model: Clusterer, labels: NDArray[np.intp]) -> Solution:
+        if not isinstance(model, Blender):
+            return {}
+        return passage(model, labels, len(self.train[0].channels))
 
     def _paths(self, model: Aligner) -> list[StatePath]:
         paths = [np.asarray(path) for path in model.path_]

@@ -27,6 +27,7 @@ __all__ = ["fit_key", "score_key", "source_digest"]
 _MODEL_SOURCES = ("mocapbench.baselines", "mocapbench.datasets.process")
 _TASK_SOURCES = (
     "mocapbench.datasets",
+    "mocapbench.benchmark.blending",
     "mocapbench.benchmark.clustering",
     "mocapbench.benchmark.imputation",
     "mocapbench.benchmark.masks",

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from sklearn.decomposition import PCA
 
 from mocapbench.baselines import StatePath
+from mocapbench.benchmark.blend_sketch import blend_sketch
 from mocapbench.benchmark.clustering import ClusterProblem
 from mocapbench.benchmark.imputation import ImputeProblem
 from mocapbench.benchmark.problem import Problem, Solution
@@ -91,7 +92,13 @@ def _alignments(
         "of the common cycle that each model aligned its frames with. Styles are those of the "
         "labels, which no model saw."
     )
-    return (Illustration(task.name, "Before and after alignment", caption, tuple(panels)),)
+    before_and_after = Illustration(task.name, "Before and after alignment", caption, tuple(panels))
+    blends = [
+        blend_sketch(problem, task, label, solution)
+        for label, solution in solutions.items()
+        if "blend" in solution
+    ]
+    return (before_and_after, *blends)
 
 
 def _by_style(

@@ -51,12 +51,15 @@ class Panel:
     title, x_label, y_label : str
         What it shows, and what is along its axes, with the unit.
     curves : tuple of Curve
+    spatial : bool
+        Whether x and y are places, in one unit, rather than two quantities.
     """
 
     title: str
     x_label: str
     y_label: str
     curves: tuple[Curve, ...]
+    spatial: bool = False
 
 
 @dataclass(frozen=True, eq=False)

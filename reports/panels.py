@@ -78,6 +78,7 @@ def _draw_panel(axes: Axes, panel: Panel, looks: Mapping[str, Look]) -> None:
     for curve in panel.curves:
         axes.plot(curve.x, curve.y, **looks[curve.group])
     axes.set(xlabel=panel.x_label, ylabel=panel.y_label)
+    axes.set_aspect("equal" if panel.spatial else "auto")
     axes.set_title(panel.title, fontsize=10, loc="left")
     axes.grid(axis="y", linewidth=0.6)
     ends = [np.nanmin(curve.x) for curve in panel.curves], [np.nanmax(c.x) for c in panel.curves]

@@ -55,6 +55,7 @@ class StyleClustering(Task):
         "paper": Selection(tuple(case.name for case in cases), folds=50),
     }
     illustrated = ("C = 4", "synthetic C = 4", *(case.name for case in cases))
+    illustrated_channels = ("lfemur.rx", "ltibia.rx")
     remarks = (
         "Purity is the share of recordings that belong to the majority style of their cluster. It "
         "grows with C by itself; the adjusted Rand index does not.",
