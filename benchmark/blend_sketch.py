@@ -13,7 +13,6 @@ from mocapbench.benchmark.task import Task
 from mocapbench.datasets import (
     Recording,
     Skeleton,
-    gait_skeleton,
     integrate_root,
     joint_positions,
 )
@@ -58,7 +57,9 @@ def blend_sketch(
         "by a weight that varies smoothly from one to the other. Clusters are called after most of "
         "their recordings."
     )
-    return Illustration(task.name, f"Blend by {label}", caption, (_strip(motion), *curves))
+    return Illustration(
+        task.name, f"Blend by {label}", caption, (_strip(motion, problem.skeleton), *curves)
+    )
 
 
 def _name(problem: ClusterProblem, solution: Solution, cluster: int) -> str:
@@ -68,9 +69,8 @@ def _name(problem: ClusterProblem, solution: Solution, cluster: int) -> str:
     return f"cluster {cluster} ({styles.most_common(1)[0][0]})"
 
 
-def _strip(motion: Recording) -> Panel:
+def _strip(motion: Recording, skeleton: Skeleton) -> Panel:
     """Return stick figures at even times, seen from the side and set apart."""
-    skeleton = gait_skeleton()
     frames = np.linspace(0, len(motion.times) - 1, N_FIGURES).round().astype(int)
     places = joint_positions(skeleton, integrate_root(motion).frames(frames))
     places = places - places[:, :1] * [0.0, 0.0, 1.0]

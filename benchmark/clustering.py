@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from mocapbench.baselines import Aligner, Blender, Clusterer, StatePath
 from mocapbench.benchmark.blending import passage
 from mocapbench.benchmark.problem import InvalidPredictionError, Problem, Solution
+from mocapbench.datasets import Skeleton
 from mocapbench.metrics import Clustering
 
 __all__ = ["ClusterProblem"]
@@ -24,9 +25,12 @@ class ClusterProblem(Problem):
     ----------
     truth : tuple of str
         The class of each training recording.
+    skeleton : Skeleton
+        On which the first recording's angles are to be seen.
     """
 
     truth: tuple[str, ...]
+    skeleton: Skeleton
 
     def solve(self, model: Clusterer, random_state: int) -> Solution:
         """Return ``labels`` (K,), and what else the model can tell of its clusters.

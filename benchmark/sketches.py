@@ -105,7 +105,7 @@ def _by_style(
     title: str, x_label: str, x: Sequence[Array], y: Sequence[Array], styles: Sequence[str]
 ) -> Panel:
     curves = tuple(map(Curve, x, y, styles))
-    return Panel(title, x_label, "2nd principal component", curves)
+    return Panel(title, x_label, "2nd component", curves)
 
 
 def _second_component(recordings: Sequence[Array]) -> list[Array]:

@@ -10,7 +10,7 @@ from mocapbench.datasets.cmu import CMU_ACKNOWLEDGEMENT, CMU_URL, CMULibrary, re
 from mocapbench.datasets.digests import DigestMismatch, UnregisteredDigestWarning
 from mocapbench.datasets.download import FetchError, ServerUnreachable
 from mocapbench.datasets.features import THESIS_CHANNELS, gpdm_features, hlm_features
-from mocapbench.datasets.gait import GAIT_VERSION, GaitLibrary, gait_skeleton, gait_style
+from mocapbench.datasets.gait import GAIT_VERSION, GaitLibrary, gait_style
 from mocapbench.datasets.kinematics import FrameByJointBy3, joint_positions
 from mocapbench.datasets.library import Library, RecordingStatus, RecordingUnavailable
 from mocapbench.datasets.preprocessing import (
@@ -55,7 +55,6 @@ __all__ = [
     "excerpt",
     "format_motion",
     "format_skeleton",
-    "gait_skeleton",
     "gait_style",
     "gpdm_features",
     "hlm_features",

@@ -10,13 +10,12 @@ from pathlib import Path
 
 from mocapbench.datasets.acclaim_motion import Motion, format_motion
 from mocapbench.datasets.acclaim_motion_reader import parse_motion
-from mocapbench.datasets.acclaim_skeleton import Skeleton
 from mocapbench.datasets.acclaim_skeleton_reader import read_skeleton
 from mocapbench.datasets.gait_curves import STYLES
 from mocapbench.datasets.gait_walker import walk
 from mocapbench.datasets.library import Library, split_key
 
-__all__ = ["GAIT_VERSION", "GaitLibrary", "gait_skeleton", "gait_style"]
+__all__ = ["GAIT_VERSION", "GaitLibrary", "gait_style"]
 
 GAIT_VERSION = 1
 """Raised whenever the same key would give another motion."""
@@ -30,11 +29,6 @@ def gait_style(key: str) -> str:
     return _STYLE_OF_TRIAL[(int(trial) - 1) % len(_STYLE_OF_TRIAL)]
 
 
-def gait_skeleton() -> Skeleton:
-    """Return the walker's skeleton, with the segments of the CMU database."""
-    return read_skeleton(Path(__file__).with_name("gait.asf"))
-
-
 class GaitLibrary(Library):
     """Synthetic recordings by key, ``SUBJECT_TRIAL``; every key names one."""
 
@@ -45,7 +39,7 @@ class GaitLibrary(Library):
 
     def read(self, key: str) -> Motion:
         """Return the motion, written and read back as Acclaim text like any other."""
-        skeleton = gait_skeleton()
+        skeleton = read_skeleton(Path(__file__).with_name("gait.asf"))
         motion = walk(skeleton, STYLES[gait_style(key)], *map(int, split_key(key)))
         return parse_motion(format_motion(motion), skeleton, f"gait:{key}")
 

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from markupsafe import Markup
 from matplotlib import rc_context
 from matplotlib.figure import Figure
@@ -81,8 +80,7 @@ def _draw_panel(axes: Axes, panel: Panel, looks: Mapping[str, Look]) -> None:
     axes.set_aspect("equal" if panel.spatial else "auto")
     axes.set_title(panel.title, fontsize=10, loc="left")
     axes.grid(axis="y", linewidth=0.6)
-    ends = [np.nanmin(curve.x) for curve in panel.curves], [np.nanmax(c.x) for c in panel.curves]
-    axes.set_xlim(min(ends[0]), max(ends[1]))
+    axes.margins(x=0.01)
 
 
 def _swatch(look: Look, prefix: str) -> Markup:

@@ -71,6 +71,7 @@ class StyleClustering(Task):
             train=tuple(corpus.read(archive).values()),
             process=None,
             truth=tuple(corpus.styles.values()),
+            skeleton=archive.read(corpus.sources[0]).skeleton,
         )
 
 

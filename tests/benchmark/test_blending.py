@@ -33,11 +33,12 @@ class Poses(Blender):
 
 @pytest.fixture
 def problem():
-    walk = hlm_features(GaitLibrary().read("01_01").recording("walk"))
+    motion = GaitLibrary().read("01_01")
+    walk = hlm_features(motion.recording("walk"))
     train = tuple(
         Recording(f"take {k}", walk.times, walk.values, walk.channels, walk.units) for k in range(3)
     )
-    return ClusterProblem(train, None, STYLES)
+    return ClusterProblem(train, None, STYLES, motion.skeleton)
 
 
 def _solution(problem, model):

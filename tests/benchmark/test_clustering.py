@@ -4,10 +4,11 @@ import pytest
 from mocapbench.baselines import Aligner, Clusterer
 from mocapbench.benchmark.clustering import ClusterProblem
 from mocapbench.benchmark.problem import InvalidPredictionError
-from mocapbench.datasets import Recording
+from mocapbench.datasets import Recording, Skeleton
 from mocapbench.metrics import purity
 
 LENGTHS = (3, 5, 4)
+NOBODY = Skeleton("nobody", 1.0, ())
 
 
 class Fixed(Clusterer):
@@ -44,7 +45,7 @@ def problem():
         Recording(f"take {n}", np.arange(float(n)), np.zeros((n, 2)), ("a", "b"), ("deg", "deg"))
         for n in LENGTHS
     )
-    return ClusterProblem(train, None, ("walk", "walk", "run"))
+    return ClusterProblem(train, None, ("walk", "walk", "run"), NOBODY)
 
 
 def _solution(problem, model):

@@ -6,7 +6,7 @@ from mocapbench.benchmark.imputation import ImputeProblem, Unit
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.sketches import sketch
 from mocapbench.benchmark.synthesis import SynthesiseProblem
-from mocapbench.datasets import Recording
+from mocapbench.datasets import Recording, Skeleton
 
 FILLING, CLUSTERING = TASKS.get("upper-body-missing"), TASKS.get("style-clustering")
 TIMES = np.arange(6.0) / 30
@@ -45,7 +45,7 @@ def test_the_papers_models_and_the_best_other_are_shown_where_entries_are_hidden
 @pytest.fixture
 def clustering():
     train = tuple(_recording(f"take {seed}", seed) for seed in range(3))
-    return ClusterProblem(train, None, ("walk", "walk", "run"))
+    return ClusterProblem(train, None, ("walk", "walk", "run"), Skeleton("nobody", 1.0, ()))
 
 
 def test_each_model_that_aligns_has_a_panel_beside_the_recordings(clustering):
