@@ -57,9 +57,8 @@ def blend_sketch(
         "by a weight that varies smoothly from one to the other. Clusters are called after most of "
         "their recordings."
     )
-    return Illustration(
-        task.name, f"Blend by {label}", caption, (_strip(motion, problem.skeleton), *curves)
-    )
+    panels = (_strip(motion, problem.skeleton), *curves)
+    return Illustration(task.name, f"Blend by {label}", caption, panels)
 
 
 def _name(problem: ClusterProblem, solution: Solution, cluster: int) -> str:
