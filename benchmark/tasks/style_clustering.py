@@ -51,7 +51,7 @@ class StyleClustering(Task):
     metrics = ("purity", "adjusted_rand")
     profiles = {
         "smoke": Selection(("synthetic C = 2",), folds=1, budget={"max_iter": 3, "n_restarts": 1}),
-        "quick": Selection(("C = 2", "C = 4", "C = 6", "synthetic C = 4"), folds=2),
+        "quick": Selection(("C = 2", "C = 4", "C = 6", "C = 8", "synthetic C = 4"), folds=3),
         "paper": Selection(tuple(case.name for case in cases), folds=50),
     }
     illustrated = ("C = 4", "synthetic C = 4", *(case.name for case in cases))
