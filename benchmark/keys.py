@@ -73,9 +73,14 @@ def fit_key(
                 source_digest(model.__module__, _MODEL_SOURCES),
                 source_digest(_SOLVING, ()),
             ],
-            "libraries": {name: importlib.metadata.version(name) for name in _LIBRARIES},
+            "libraries": {name: _installed_version(name) for name in _LIBRARIES},
         }
     )
+
+
+@cache
+def _installed_version(library: str) -> str:
+    return importlib.metadata.version(library)
 
 
 def score_key(fit: str, metrics: Sequence[Metric[Any]]) -> str:
