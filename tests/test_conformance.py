@@ -8,6 +8,7 @@ from sklearn.base import clone
 
 from mocapbench.baselines import (
     Aligner,
+    Blender,
     Clusterer,
     FrameImputer,
     Imputer,
@@ -160,6 +161,15 @@ def test_every_frame_has_a_state_whether_fitted_or_aligned_later(name):
         assert all(np.isin(path, np.arange(model.cycle_length_)).all() for path in paths)
     for path, again in zip(one, two, strict=True):
         np.testing.assert_array_equal(path, again)
+
+
+@pytest.mark.parametrize("name", _names(Blender))
+def test_a_blend_is_its_styles_mixed_frame_by_frame(name):
+    model = build_model(name, {"n_styles": 3}, 0).fit(COMPLETE)
+    weights = np.random.default_rng(0).dirichlet(np.ones(3), size=30)
+    pure = [model.blend(np.tile(one, (30, 1))) for one in np.eye(3)]
+    mixed = sum(share[:, None] * style for share, style in zip(weights.T, pure, strict=True))
+    np.testing.assert_allclose(model.blend(weights), mixed, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", TASKS.names())
