@@ -7,36 +7,25 @@ from scipy.special import entr
 
 from mocapbench.baselines.alignment.expectations import distance, log_likelihood, roughness
 from mocapbench.baselines.alignment.model import Hyperparameters, Parameters, State
-from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.alignment.sequences import Array, Sequences
 
-__all__ = ["bound"]
+__all__ = ["bound", "sequence_bounds"]
 
 
 def bound(state: State, sequences: Sequences, hyper: Hyperparameters) -> float:
     """Return the bound on log p(X, θ); it holds for any state, not only after an update."""
-    return (
-        _data(state, sequences)
-        + _labels(state)
-        + _paths(state)
-        + _cycles(state, hyper)
-        + hyper.regularisation * _penalty(state.parameters)
-    )
+    shared = _cycles(state, hyper) + hyper.regularisation * _penalty(state.parameters)
+    return float(sequence_bounds(state, sequences, hyper).sum() + shared)
 
 
-def _data(state: State, sequences: Sequences) -> float:
-    return float((state.labels * log_likelihood(state, sequences)).sum())
-
-
-def _labels(state: State) -> float:
-    labels = state.labels
-    return float((labels * np.log(state.parameters.weights) + entr(labels)).sum())
-
-
-def _paths(state: State) -> float:
-    paths = state.paths
-    n_sequences, _, n_states = paths.occupancy.shape
-    transitions = (paths.jumps * np.log(state.parameters.jumps)).sum()
-    return float(transitions + paths.entropy.sum() - n_sequences * np.log(n_states))
+def sequence_bounds(state: State, sequences: Sequences, hyper: Hyperparameters) -> Array:
+    """Return the share of each sequence, its label, path and jumps included: (K,)."""
+    theta, labels, paths = state.parameters, state.labels, state.paths
+    label = (labels * np.log(theta.weights) + entr(labels)).sum(axis=1)
+    data = (labels * log_likelihood(state, sequences)).sum(axis=1)
+    log_jumps = np.log(theta.jumps)
+    jumps = ((paths.jumps + hyper.regularisation) * log_jumps).sum(axis=1)
+    return np.asarray(label + data + jumps + paths.entropy - np.log(len(theta.parent)))
 
 
 def _cycles(state: State, hyper: Hyperparameters) -> float:
@@ -52,6 +41,6 @@ def _cycles(state: State, hyper: Hyperparameters) -> float:
 
 
 def _penalty(theta: Parameters) -> float:
-    """Logarithm of the prior of θ per unit of η: smooth parent, weights and jumps off zero."""
+    """Logarithm of the prior of the shared θ per unit of η: smooth parent, weights off zero."""
     steps = np.roll(theta.parent, -1, axis=0) - theta.parent
-    return float(-(steps**2).sum() + np.log(theta.weights).sum() + np.log(theta.jumps).sum())
+    return float(np.log(theta.weights).sum() - (steps**2).sum())

@@ -9,8 +9,9 @@ from mocapbench.baselines.alignment.bound import bound
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.sequences import Sequences
 
-__all__ = ["Run", "Update", "expectation_maximisation"]
+__all__ = ["Objective", "Run", "Update", "expectation_maximisation"]
 
+Objective = Callable[[State, Sequences, Hyperparameters], float]
 Update = Callable[[State, Sequences, Hyperparameters], State]
 
 
@@ -22,7 +23,7 @@ class Run:
     ----------
     state : State
     bounds : tuple of float
-        The bound after each iteration.
+        The objective at the start and after each iteration.
     converged : bool
         Whether the last iteration raised it by less than the tolerance.
     """
@@ -42,17 +43,18 @@ def expectation_maximisation(
     n_inner: int,
     max_iter: int,
     tolerance: float,
+    objective: Objective = bound,
 ) -> Run:
     """Repeat ``n_inner`` sweeps of the E-step and one of the M-step.
 
-    Until the bound rises by less than ``tolerance`` per visible entry, or ``max_iter`` times.
+    Until the objective rises by less than ``tolerance`` per visible entry, or ``max_iter`` times.
     """
-    bounds: list[float] = []
+    bounds = [objective(state, sequences, hyper)]
     threshold = tolerance * sequences.counts.sum()
     for _ in range(max_iter):
         for update in (*e_step,) * n_inner + (*m_step,):
             state = update(state, sequences, hyper)
-        bounds.append(bound(state, sequences, hyper))
-        if len(bounds) > 1 and bounds[-1] - bounds[-2] < threshold:
+        bounds.append(objective(state, sequences, hyper))
+        if bounds[-1] - bounds[-2] < threshold:
             return Run(state, tuple(bounds), converged=True)
     return Run(state, tuple(bounds), converged=False)

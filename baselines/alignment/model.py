@@ -6,9 +6,10 @@ of F, jump j of J.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mocapbench.baselines.alignment.chain import Paths
 from mocapbench.baselines.alignment.priors import CyclePrior
@@ -34,7 +35,7 @@ class Hyperparameters:
 
     regularisation: float
     prior: CyclePrior
-    max_precision: float
+    max_precision: float = 1e6
 
 
 @dataclass(frozen=True)
@@ -85,6 +86,12 @@ class Evidence:
         occupancy = paths.occupancy.swapaxes(1, 2)
         return cls(occupancy @ sequences.visible, occupancy @ sequences.values)
 
+    def join(self, other: Evidence) -> Evidence:
+        """Return that of these sequences and the other ones."""
+        return Evidence(
+            np.concatenate([self.counts, other.counts]), np.concatenate([self.sums, other.sums])
+        )
+
     def by_style(self, labels: Array) -> tuple[Array, Array]:
         """Return the counts and sums of each style: (M, C, F) both."""
         return _by_style(labels, self.counts), _by_style(labels, self.sums)
@@ -112,6 +119,17 @@ class State:
     labels: Array
     paths: Paths
     evidence: Evidence
+
+    def rows(self, index: NDArray[np.intp]) -> State:
+        """Return the state of the sequences that ``index`` names."""
+        paths, evidence = self.paths, self.evidence
+        return replace(
+            self,
+            parameters=replace(self.parameters, jumps=self.parameters.jumps[index]),
+            labels=self.labels[index],
+            paths=Paths(paths.occupancy[index], paths.jumps[index], paths.entropy[index]),
+            evidence=Evidence(evidence.counts[index], evidence.sums[index]),
+        )
 
 
 def _by_style(labels: Array, statistic: Array) -> Array:

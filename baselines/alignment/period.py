@@ -6,7 +6,7 @@ import numpy as np
 
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 
-__all__ = ["autocorrelation", "cycle_length"]
+__all__ = ["autocorrelation", "cycle_length", "default_states"]
 
 _FEWEST_REPEATS = 2  # a lag is believed where a sequence is at least this many times as long
 _AS_GOOD = 0.9  # two cycles resemble themselves as one does, but for the noise of the estimate
@@ -44,6 +44,11 @@ def cycle_length(sequences: Sequences) -> int:
     ]
     found = [lag for lag in lags if lag]
     return int(np.median(found if found else sequences.lengths))
+
+
+def default_states(sequences: Sequences, max_jump: int) -> int:
+    """Return M = 2N of HLM §2; as many as the jumps need where cycles are very short."""
+    return max(2 * cycle_length(sequences), 2 * max_jump + 1)
 
 
 def _lagged_products(array: Array) -> Array:

@@ -61,6 +61,14 @@ class Sequences:
         """(K, F) sum of the squares of the visible entries."""
         return np.asarray((self.values**2).sum(axis=1))
 
+    def rows(self, index: NDArray[np.intp]) -> Sequences:
+        """Return the sequences that ``index`` names."""
+        return Sequences(self.values[index], self.visible[index], self.lengths[index])
+
+    def arrays(self) -> list[Array]:
+        """Return the array (N_k, F) of each sequence, NaN where hidden: undoes `of`."""
+        return self.unpad(np.where(self.visible > 0, self.values, np.nan))
+
     def unpad(self, array: Array) -> list[Array]:
         """Return the rows (N_k, …) of each sequence of an array (K, N, …)."""
         return [row[:length] for row, length in zip(array, self.lengths, strict=True)]

@@ -16,36 +16,35 @@ __all__ = ["first_cycle", "start"]
 def start(
     parent: Array,
     sequences: Sequences,
-    labels: Array,
     *,
     closeness: float,
     smoothness: float,
     max_jump: int,
     hyper: Hyperparameters,
 ) -> State:
-    """Return the state in which every style's cycle is the parent (M, F)."""
-    n_sequences, n_styles = labels.shape
-    n_states, n_channels = parent.shape
+    """Return the state with one style, whose cycle is the parent (M, F)."""
+    n_sequences, (n_states, n_channels) = len(sequences.lengths), parent.shape
     variance = sequences.squares.sum(axis=0) / np.maximum(sequences.counts.sum(axis=0), 1.0)
     precision = 1.0 / np.maximum(variance, 1.0 / hyper.max_precision)
     parameters = Parameters(
         parent,
         smoothness,
         closeness,
-        np.tile(precision, (n_styles, 1)),
-        np.full(n_styles, 1.0 / n_styles),
+        precision[None],
+        np.ones(1),
         np.full((n_sequences, max_jump), 1.0 / max_jump),
     )
-    shape = (n_states, n_styles, n_channels)
+    shape = (n_states, 1, n_channels)
     cycles = Ring(
-        np.broadcast_to(parent[:, None], shape),
+        parent[:, None],
         np.broadcast_to(1.0 / precision, shape),
         np.zeros(shape),
-        np.tile(n_states * np.log(precision), (n_styles, 1)),
+        n_states * np.log(precision)[None],
     )
     nothing = Paths(np.zeros((0, 0, n_states)), np.zeros((0, max_jump)), np.zeros(0))
-    blank = State(parameters, cycles, labels, nothing, Evidence(np.zeros(0), np.zeros(0)))
-    return update_paths(blank, sequences, hyper)
+    no_evidence = Evidence(np.zeros(0), np.zeros(0))
+    labels = np.ones((n_sequences, 1))
+    return update_paths(State(parameters, cycles, labels, nothing, no_evidence), sequences, hyper)
 
 
 def first_cycle(frames: Array, n_frames: int, n_states: int) -> Array:

@@ -60,12 +60,9 @@ def update_cycles(state: State, _: Sequences, __: Hyperparameters) -> State:
     """
     theta = state.parameters
     counts, sums = state.evidence.by_style(state.labels)
-    cycles = ring.solve(
-        theta.smoothness,
-        theta.closeness + theta.precisions * counts,
-        theta.closeness * theta.parent[:, None] + theta.precisions * sums,
-    )
-    return replace(state, cycles=cycles)
+    ground = theta.closeness + theta.precisions * counts
+    right = theta.closeness * theta.parent[:, None] + theta.precisions * sums
+    return replace(state, cycles=ring.solve(theta.smoothness, ground, right))
 
 
 def update_parent(state: State, _: Sequences, hyper: Hyperparameters) -> State:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mocapbench.baselines.alignment.fitting import split
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Sequences
@@ -21,15 +22,15 @@ class Problem:
             [np.where(rng.random(a.shape) < hidden, np.nan, a) for a in arrays]
         )
         self.hyper = Hyperparameters(eta, PRIORS[prior], 1e6)
-        self.state = start(
+        common = start(
             rng.normal(size=(n_states, 3)),
             self.sequences,
-            rng.dirichlet(np.ones(n_styles), 4),
             closeness=10.0 ** rng.uniform(-2, 1),
             smoothness=10.0 ** rng.uniform(-2, 2),
             max_jump=max_jump,
             hyper=self.hyper,
         )
+        self.state = split(common, rng.dirichlet(np.ones(n_styles), 4))
 
 
 @pytest.fixture(scope="session")

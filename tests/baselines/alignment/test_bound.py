@@ -105,9 +105,7 @@ def _walk_round_a_ring(separation):
     arrays[0][1, 0] = np.nan
     sequences = Sequences.of(arrays)
     hyper = Hyperparameters(0.1, PRIORS["normalised"], 1e6)
-    state = start(
-        parent, sequences, np.ones((2, 1)), closeness=1.0, smoothness=0.5, max_jump=2, hyper=hyper
-    )
+    state = start(parent, sequences, closeness=1.0, smoothness=0.5, max_jump=2, hyper=hyper)
     sharp = replace(state.parameters, precisions=np.array([[1.5, 0.7]]))
     return sequences, update_paths(replace(state, parameters=sharp), sequences, hyper)
 
