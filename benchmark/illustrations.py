@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from mocapbench.benchmark.record import Record, Status
 from mocapbench.benchmark.registry import TASKS
@@ -47,10 +48,14 @@ def _illustrate(
     solutions = {label: fit.solution for label, fit in fits.items() if fit is not None}
     if not solutions:
         return ()
-    about = records[0]
-    seeds = Seeds(about.seed, task.name, task.version, about.case, about.fold)
+    about, case = records[0], task.case(records[0].case)
+    seeds = Seeds(about.seed, task.name, task.version, case.name, about.fold)
     try:
-        problem = task.problem(task.case(about.case), seeds, archive)
+        problem = task.problem(case, seeds, archive)
     except RecordingUnavailable:
         return ()
-    return sketch(problem, task, solutions)
+    suffix = " (synthetic)" if case.synthetic else ""
+    return [
+        replace(each, title=f"{each.title}: {case.name}{suffix}")
+        for each in sketch(problem, task, solutions)
+    ]

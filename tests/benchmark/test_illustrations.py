@@ -29,7 +29,8 @@ def test_a_report_shows_what_was_filled(finished, store):
     (illustration,) = illustrations(store.records(), store, open_archive())
     assert illustration.task == "upper-body-missing"
     assert set(illustration.groups) == {"truth", "nn", "trivial"}
-    assert "Filled channels" in (finished / "report.html").read_text()
+    assert illustration.title == "Filled channels: synthetic walks (synthetic)"
+    assert illustration.title in (finished / "report.html").read_text()
 
 
 def test_predictions_that_are_gone_are_not_shown(store):
