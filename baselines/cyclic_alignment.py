@@ -51,7 +51,7 @@ class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
         is estimated by autocorrelation. At least ``2 * max_jump + 1``.
     max_jump : int, default=3
         Most states J by which one frame can be ahead of the one before.
-    n_restarts : int, default=1
+    n_restarts : int, default=3
         Number of runs of EM from random starts; the one with the highest bound is kept.
     max_iter : int, default=40
         Largest number of iterations of a run.
@@ -107,7 +107,7 @@ class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
         n_styles: int = 20,
         n_states: int | None = None,
         max_jump: int = 3,
-        n_restarts: int = 1,
+        n_restarts: int = 3,
         max_iter: int = 40,
         tolerance: float = 1e-5,
         n_inner: int = 3,

@@ -62,15 +62,12 @@ def best_fit(
     rng: np.random.Generator,
 ) -> tuple[Run, list[float]]:
     """Return the run that ends highest, and where each ends."""
-    best, ends = None, []
-    for _ in range(n_restarts):
-        attempt = run(random_start(sequences, settings, rng), sequences, settings, max_iter)
-        ends.append(attempt.bounds[-1])
-        if best is None or ends[-1] > best.bounds[-1]:
-            best = attempt
-    if best is None:
-        raise ValueError(f"expected at least one restart, got {n_restarts}")
-    return best, ends
+    runs = [
+        run(random_start(sequences, settings, rng), sequences, settings, max_iter)
+        for _ in range(n_restarts)
+    ]
+    ends = [attempt.bounds[-1] for attempt in runs]
+    return runs[int(np.argmax(ends))], ends
 
 
 def run(state: State, sequences: Sequences, settings: Settings, max_iter: int) -> Run:
