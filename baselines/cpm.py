@@ -100,7 +100,7 @@ class CPM(Aligner):
             If a parameter is out of range, there is no recording, channels differ, a name repeats,
             or a channel is nowhere visible.
         """
-        check_settings(**self.get_params())
+        check_settings(**vars(self))
         checked = check_recordings(recordings)
         self.channels_ = checked[0].channels
         # In order of name, so that the order in which recordings come means nothing.
