@@ -1,6 +1,10 @@
 """The models, one module each, behind the abilities of `mocapbench.baselines.protocols`."""
 
 from mocapbench.baselines.protocols import (
+    Aligner,
+    Blender,
+    Clusterer,
+    FrameByStyle,
     FrameImputer,
     Imputer,
     Inductive,
@@ -8,10 +12,15 @@ from mocapbench.baselines.protocols import (
     Model,
     Prediction,
     SampleByFrameByChannel,
+    StatePath,
     Synthesiser,
 )
 
 __all__ = [
+    "Aligner",
+    "Blender",
+    "Clusterer",
+    "FrameByStyle",
     "FrameImputer",
     "Imputer",
     "Inductive",
@@ -19,5 +28,6 @@ __all__ = [
     "Model",
     "Prediction",
     "SampleByFrameByChannel",
+    "StatePath",
     "Synthesiser",
 ]

@@ -9,6 +9,9 @@ an abstract base class, so that a model says what it can do by what it inherits:
 * `Imputer` does so for any set of hidden entries, and is therefore a `FrameImputer`;
 * `Inductive` marks an imputer that also fills recordings which `fit` has not seen;
 * `Synthesiser` draws new recordings from :math:`p(y_{\text{new}} \mid y_{\text{visible}})`;
+* `Clusterer` groups the recordings that it was fitted to;
+* `Aligner` maps the frames of recordings of a cyclic motion onto the states of one cycle;
+* `Blender` mixes the styles that it has found;
 * `Informed` is told the generating process (the oracle).
 """
 
@@ -26,6 +29,10 @@ from sklearn.base import BaseEstimator
 from mocapbench.datasets import FrameByChannel, Frames, Recording, ToyProcess
 
 __all__ = [
+    "Aligner",
+    "Blender",
+    "Clusterer",
+    "FrameByStyle",
     "FrameImputer",
     "Imputer",
     "Inductive",
@@ -33,8 +40,15 @@ __all__ = [
     "Model",
     "Prediction",
     "SampleByFrameByChannel",
+    "StatePath",
     "Synthesiser",
 ]
+
+StatePath = NDArray[np.intp]
+"""(N,) the state of the common cycle, 0 … M − 1, that each frame of a recording is in."""
+
+FrameByStyle = NDArray[np.float64]
+"""(N, C) one row a frame, one column a style."""
 
 SampleByFrameByChannel = NDArray[np.float64]
 """(n, N, D) n sampled recordings."""
@@ -104,6 +118,58 @@ class Synthesiser(Model):
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
         """Return ``n_samples`` new recordings at ``times`` (N,), noise included: (n, N, D)."""
+
+
+class Clusterer(Model):
+    """A model that groups the recordings it is fitted to.
+
+    Its constructor takes ``n_styles``, the number of clusters to find at most.
+
+    Attributes
+    ----------
+    labels_ : ndarray of int, shape (K,)
+        After `fit`, the cluster of each recording, in the order given; equal means together.
+    """
+
+    labels_: NDArray[np.intp]
+
+
+class Aligner(Model):
+    """A model that puts recordings of a cyclic motion on one common cycle.
+
+    Attributes
+    ----------
+    cycle_length_ : int
+        After `fit`, the number of states M of the cycle.
+    path_ : tuple of ndarray of int, each of shape (N_k,)
+        After `fit`, the state 0 … M − 1 of each frame of each recording, in the order given.
+    """
+
+    cycle_length_: int
+    path_: tuple[StatePath, ...]
+
+    @abstractmethod
+    def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
+        """Return the path of each recording (N_k,) over the states 0 … M − 1, in order."""
+
+
+class Blender(Clusterer):
+    """A clusterer whose styles can be mixed, because their cycles are synchronous."""
+
+    @abstractmethod
+    def blend(self, weights: FrameByStyle) -> FrameByChannel:
+        """Return a motion whose frame i is the styles' mean poses mixed by row i of ``weights``.
+
+        Parameters
+        ----------
+        weights : array_like of shape (N, n_styles)
+            Non-negative, each row's sum 1; column c weighs the style that `labels_` calls c.
+
+        Returns
+        -------
+        ndarray of shape (N, D)
+            N frames at the pace and in the channels of the recordings given to `fit`.
+        """
 
 
 class Informed(Model):

@@ -8,12 +8,16 @@ from mocapbench.benchmark.record import Record
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.tables import job_table, score_table
 from mocapbench.benchmark.task import Task
-from mocapbench.reports import Bundle, CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports import Bundle, CaseLayout, Illustration, MetricInfo, TaskLayout
 
 __all__ = ["bundle"]
 
 
-def bundle(records: Sequence[Record], provenance: Mapping[str, str]) -> Bundle:
+def bundle(
+    records: Sequence[Record],
+    provenance: Mapping[str, str],
+    illustrations: tuple[Illustration, ...] = (),
+) -> Bundle:
     """Return what the report shows of ``records``, which are in table order.
 
     Parameters
@@ -21,6 +25,7 @@ def bundle(records: Sequence[Record], provenance: Mapping[str, str]) -> Bundle:
     records : sequence of Record
     provenance : mapping of str to str
         Of the run as a whole.
+    illustrations : tuple of Illustration
     """
     tasks = [TASKS.get(name) for name in _unique(record.task for record in records)]
     shown = {metric for task in tasks for metric in task.metrics}
@@ -33,6 +38,7 @@ def bundle(records: Sequence[Record], provenance: Mapping[str, str]) -> Bundle:
         ),
         metrics={name: _metric_info(name) for name in sorted(used)},
         provenance=provenance,
+        illustrations=illustrations,
     )
 
 

@@ -27,7 +27,7 @@ from mocapbench.benchmark.record import Record, Status
 from mocapbench.benchmark.registry import load_model_file
 from mocapbench.benchmark.runner import run as run_jobs
 from mocapbench.benchmark.store import Store
-from mocapbench.datasets import CMU_ACKNOWLEDGEMENT, AcclaimError, DigestMismatch
+from mocapbench.datasets import CMU_ACKNOWLEDGEMENT, AcclaimError, Archive, DigestMismatch
 
 __all__ = ["app", "main"]
 
@@ -147,7 +147,8 @@ def _run(
     store.save_plan({"keys": keys, "provenance": about})
     _show_damage(store, console)
     code = _verdict(records, console)
-    _write_report(records, about, store.path / "report.html", console)
+    archive = cli_data.archive_at(settings.data_dir)
+    _write_report(records, about, store, archive, store.path / "report.html", console)
     return code
 
 
@@ -167,6 +168,7 @@ def _verdict(records: Sequence[Record], console: Console) -> ExitCode:
 def report(
     out: Out = DEFAULT_OUT,
     to: Annotated[Path | None, typer.Option(help="The HTML file to write.")] = None,
+    data_dir: cli_data.DataDir = None,
     model_file: ModelFiles = None,
 ) -> None:
     """Write the HTML report of a run directory."""
@@ -177,18 +179,25 @@ def report(
     records = [record for key in plan_made["keys"] if (record := store.load(key)) is not None]
     if not records:
         raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
-    _write_report(records, plan_made["provenance"], to or out / "report.html", console)
+    archive, path = cli_data.archive_at(data_dir), to or out / "report.html"
+    _write_report(records, plan_made["provenance"], store, archive, path, console)
     _show_damage(store, console)
 
 
 def _write_report(
-    records: Sequence[Record], about: Mapping[str, str], path: Path, console: Console
+    records: Sequence[Record],
+    about: Mapping[str, str],
+    store: Store,
+    archive: Archive,
+    path: Path,
+    console: Console,
 ) -> None:
     # Plotting libraries take a second to import, which every command and worker would pay.
     from mocapbench.benchmark.bundles import bundle  # noqa: PLC0415
+    from mocapbench.benchmark.illustrations import illustrations  # noqa: PLC0415
     from mocapbench.reports import render  # noqa: PLC0415
 
-    page = render(bundle(records, about))
+    page = render(bundle(records, about, illustrations(records, store, archive)))
     with atomic_write(path) as file:
         file.write(page.encode())
     console.print(f"report: {path.resolve()}", soft_wrap=True, highlight=False)

@@ -11,7 +11,16 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from mocapbench.baselines import FrameImputer, Imputer, Inductive, Informed, Synthesiser
+from mocapbench.baselines import (
+    Aligner,
+    Blender,
+    Clusterer,
+    FrameImputer,
+    Imputer,
+    Inductive,
+    Informed,
+    Synthesiser,
+)
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.files import atomic_write
 from mocapbench.benchmark.provenance import provenance
@@ -27,6 +36,9 @@ _ABILITIES = (
     (FrameImputer, "imputes whole frames"),
     (Inductive, "new recordings too"),
     (Synthesiser, "synthesises"),
+    (Clusterer, "clusters"),
+    (Aligner, "aligns"),
+    (Blender, "blends"),
     (Informed, "is told the process"),
 )
 _CITATION = """\

@@ -27,6 +27,8 @@ __all__ = ["fit_key", "score_key", "source_digest"]
 _MODEL_SOURCES = ("mocapbench.baselines", "mocapbench.datasets.process")
 _TASK_SOURCES = (
     "mocapbench.datasets",
+    "mocapbench.benchmark.blending",
+    "mocapbench.benchmark.clustering",
     "mocapbench.benchmark.imputation",
     "mocapbench.benchmark.masks",
     "mocapbench.benchmark.problem",
@@ -71,9 +73,14 @@ def fit_key(
                 source_digest(model.__module__, _MODEL_SOURCES),
                 source_digest(_SOLVING, ()),
             ],
-            "libraries": {name: importlib.metadata.version(name) for name in _LIBRARIES},
+            "libraries": {name: _installed_version(name) for name in _LIBRARIES},
         }
     )
+
+
+@cache
+def _installed_version(library: str) -> str:
+    return importlib.metadata.version(library)
 
 
 def score_key(fit: str, metrics: Sequence[Metric[Any]]) -> str:

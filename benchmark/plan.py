@@ -136,11 +136,12 @@ def _folds(request: Request, task: Task) -> int:
     return folds
 
 
-def _parameters(entrant: Entrant, selection: Selection) -> dict[str, Any]:
+def _parameters(entrant: Entrant, case: Case, selection: Selection) -> dict[str, Any]:
     """Return the model's full parameters, its seed apart, which the label decides."""
     model = MODELS.get(entrant.model)(**entrant.parameters)
     names = model.get_params()
-    model.set_params(**{name: v for name, v in selection.budget.items() if name in names})
+    asked = {**selection.budget, **case.parameters}
+    model.set_params(**{name: v for name, v in asked.items() if name in names})
     parameters = {name: v for name, v in model.get_params().items() if name != "random_state"}
     for name, value in parameters.items():
         _check_plain(entrant, name, value)
@@ -164,7 +165,7 @@ def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> It
     names = tuple(sorted(request.metrics or METRICS.names()))
     metrics = [METRICS.get(name) for name in names]
     for entrant in _chosen_entrants(request, task):
-        parameters = _parameters(entrant, task.selection(request.profile))
+        parameters = _parameters(entrant, case, task.selection(request.profile))
         for fold in range(_folds(request, task)):
             seeds = Seeds(request.seed, task.name, task.version, case.name, fold)
             fit = fit_key(

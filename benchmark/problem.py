@@ -12,16 +12,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines import Informed, Model
 from mocapbench.datasets import Recording, ToyProcess
-from mocapbench.metrics import Imputation, Synthesis
+from mocapbench.metrics import Clustering, Imputation, Synthesis
 
 __all__ = ["InvalidPredictionError", "Problem", "Solution"]
 
-Solution = Mapping[str, NDArray[np.float64]]
+Solution = Mapping[str, NDArray[Any]]
 
 
 class InvalidPredictionError(ValueError):
@@ -60,5 +59,5 @@ class Problem(ABC):
         """
 
     @abstractmethod
-    def outcome(self, solution: Solution) -> Imputation | Synthesis:
+    def outcome(self, solution: Solution) -> Imputation | Synthesis | Clustering:
         """Confront a solution with the truth."""

@@ -35,6 +35,8 @@ class Case:
         Whether it stands on generated gait rather than recordings of people.
     remark : str
         Shown where its numbers stand.
+    parameters : mapping
+        What it sets on every model that has it, for example ``{"n_styles": 4}``.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Case:
     published: str | None = None
     synthetic: bool = False
     remark: str = ""
+    parameters: Mapping[str, object] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -83,7 +86,7 @@ class Task(ABC):
     title, reference, description : str
         Heading, place in the paper, and one or two sentences for readers of the report.
     kind : str
-        ``"impute"`` or ``"synthesise"``: what the report calls it.
+        ``"impute"``, ``"synthesise"`` or ``"cluster"``: what the report calls it.
     requires : tuple of type
         The abilities a model must have; others are not applicable.
     has_process : bool
@@ -104,6 +107,10 @@ class Task(ABC):
         Why a published value cannot be set beside ours; metric ``"*"`` stands for all.
     remarks : tuple of str
         Errata and cautions shown with the tables.
+    illustrated : tuple of str
+        Names of cases; the first of them that has solutions is shown in figures.
+    illustrated_channels : tuple of str
+        The channels that figures of filled recordings show.
     """
 
     name: str
@@ -124,6 +131,8 @@ class Task(ABC):
     published_metrics: Mapping[str, str] = {}
     not_comparable: Mapping[tuple[str, str], str] = {}
     remarks: tuple[str, ...] = ()
+    illustrated: tuple[str, ...] = ()
+    illustrated_channels: tuple[str, ...] = ()
 
     @abstractmethod
     def problem(self, case: Case, seeds: Seeds, archive: Archive) -> Problem:

@@ -72,8 +72,24 @@ def gpdm_features(recording: Recording) -> Recording:
 
 
 def hlm_features(recording: Recording) -> Recording:
-    """Return HLM's 62 channels at every 4th frame, the root's translation as differences."""
-    return root_differences(_every_fourth(recording))
+    """Return HLM's 62 channels at every 4th frame, the root's translation as differences.
+
+    Joint angles are taken within half a turn of zero, as HLM §4 has them "parameterized so as to
+    avoid discontinuities": the right thumb of 08_01 makes three whole turns in a tenth of a second.
+    """
+    return root_differences(_within_half_a_turn(_every_fourth(recording)))
+
+
+def _within_half_a_turn(recording: Recording) -> Recording:
+    """Return the recording with its joint angles, the root's apart, in [−180, 180) degrees."""
+    joint = np.array(
+        [
+            unit == "deg" and not name.startswith("root.")
+            for name, unit in zip(recording.channels, recording.units, strict=True)
+        ]
+    )
+    turns = np.where(joint, np.floor((recording.values + 180.0) / 360.0), 0.0)
+    return recording.with_values(recording.values - 360.0 * turns)
 
 
 def _without(recording: Recording, segments: tuple[str, ...]) -> Recording:

@@ -6,7 +6,7 @@ the function behind it.
 
 from typing import Any
 
-from mocapbench.metrics.base import Direction, Imputation, Metric, Score, Synthesis
+from mocapbench.metrics.base import Clustering, Direction, Imputation, Metric, Score, Synthesis
 from mocapbench.metrics.calibration import (
     coverage_50,
     coverage_80,
@@ -16,17 +16,20 @@ from mocapbench.metrics.calibration import (
     pit,
     sharpness,
 )
+from mocapbench.metrics.clustering import adjusted_rand, purity
 from mocapbench.metrics.errors import mse, rms_per_frame, smse, smse_pooled
 from mocapbench.metrics.likelihood import msll
 from mocapbench.metrics.similarity import mcc, mcc_best, mlc, mlc_best, spread
 
 __all__ = [
     "BUILTIN",
+    "Clustering",
     "Direction",
     "Imputation",
     "Metric",
     "Score",
     "Synthesis",
+    "adjusted_rand",
     "coverage_50",
     "coverage_80",
     "coverage_90",
@@ -39,6 +42,7 @@ __all__ = [
     "mse",
     "msll",
     "pit",
+    "purity",
     "rms_per_frame",
     "sharpness",
     "smse",
@@ -64,4 +68,6 @@ BUILTIN: tuple[Metric[Any], ...] = (
     mlc,
     mlc_best,
     spread,
+    purity,
+    adjusted_rand,
 )

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Direction", "Imputation", "Metric", "Score", "Synthesis"]
+__all__ = ["Clustering", "Direction", "Imputation", "Metric", "Score", "Synthesis"]
 
 Array = NDArray[np.float64]
 
@@ -67,6 +67,22 @@ class Synthesis:
 
 
 @dataclass(frozen=True, eq=False)
+class Clustering:
+    """What a clustering is judged by.
+
+    Parameters
+    ----------
+    truth : ndarray of int or str, shape (K,)
+        The class of each recording.
+    labels : ndarray of int, shape (K,)
+        The cluster of each recording; equal means together.
+    """
+
+    truth: NDArray[Any]
+    labels: NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
 class Score:
     """A metric's value and what it is the mean of.
 
@@ -87,7 +103,7 @@ class Score:
     left_out: int = 0
 
 
-OutcomeT = TypeVar("OutcomeT", Imputation, Synthesis)
+OutcomeT = TypeVar("OutcomeT", Imputation, Synthesis, Clustering)
 
 
 @dataclass(frozen=True)
@@ -103,7 +119,7 @@ class Metric(Generic[OutcomeT]):
     direction : Direction
         Which way it improves.
     outcome : type
-        `Imputation` or `Synthesis`: the kind of outcome it takes.
+        `Imputation`, `Synthesis` or `Clustering`: the kind of outcome it takes.
     statistic : callable
         From the outcome to a `Score`; its docstring states formula, axis and ddof.
     needs_variance : bool

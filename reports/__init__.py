@@ -1,6 +1,16 @@
 """A results bundle in; tables, figures and one offline HTML page out."""
 
 from mocapbench.reports.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.illustration import Curve, Illustration, Panel
 from mocapbench.reports.page import render
 
-__all__ = ["Bundle", "CaseLayout", "MetricInfo", "TaskLayout", "render"]
+__all__ = [
+    "Bundle",
+    "CaseLayout",
+    "Curve",
+    "Illustration",
+    "MetricInfo",
+    "Panel",
+    "TaskLayout",
+    "render",
+]

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import pandas as pd
 
 from mocapbench.metrics.base import Direction
+from mocapbench.reports.illustration import Illustration
 
 __all__ = ["Bundle", "CaseLayout", "MetricInfo", "Setting", "TaskLayout"]
 
@@ -60,7 +61,7 @@ class TaskLayout:
     name, title, reference : str
         Identity, heading, and place in the paper (``"thesis §5.1.1, Tables 1–3"``).
     kind : str
-        ``"impute"`` or ``"synthesise"``.
+        ``"impute"``, ``"synthesise"`` or ``"cluster"``.
     description : str
         One or two sentences for readers.
     cases : tuple of CaseLayout
@@ -168,6 +169,8 @@ class Bundle:
         Shown in order. The summary quotes ``"profile"``, ``"CPU"``, ``"threads"``, ``"started"``,
         ``"wall time"`` and ``"command line"``, and the foot of the page ``"acknowledgement"``,
         where they are there.
+    illustrations : tuple of Illustration
+        Figures of the tasks, in page order.
 
     Raises
     ------
@@ -181,6 +184,7 @@ class Bundle:
     layouts: tuple[TaskLayout, ...]
     metrics: Mapping[str, MetricInfo]
     provenance: Mapping[str, str]
+    illustrations: tuple[Illustration, ...] = ()
 
     def __post_init__(self) -> None:
         _require_columns("scores", self.scores, SCORE_COLUMNS)
@@ -199,6 +203,8 @@ class Bundle:
         shown = {metric for layout in self.layouts for metric in layout.metrics}
         _require_known("metrics", {*shown, *self.scores["metric"]}, self.metrics)
         _require_known("statuses", set(self.records["status"]), STATUSES)
+        illustrated = {illustration.task for illustration in self.illustrations}
+        _require_known("tasks", illustrated, {layout.name for layout in self.layouts})
 
 
 def _require_columns(name: str, frame: pd.DataFrame, columns: Iterable[str]) -> None:

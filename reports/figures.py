@@ -1,7 +1,8 @@
 """The error-bar figure: a point per case and entrant, with a 95 % interval where folds give one.
 
 Markers and line styles tell the entrants apart without colour. The legend is text of the page with
-a swatch for each entrant, so that it wraps on a narrow screen while the drawing scales.
+a swatch for each entrant, so that it wraps on a narrow screen while the drawing scales. Generated
+motion has axes of its own: no line leads to it from recordings of people, and scales differ.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from mocapbench.reports.bundle import CaseLayout
 from mocapbench.reports.drawing import PALETTE, STYLE, element
 from mocapbench.reports.results import Estimate, TaskResults
 from mocapbench.reports.scoretables import case_name
@@ -31,6 +33,7 @@ MARKERS = ["o", "s", "^", "D", "v", "P", "X", "<", ">", "p"]
 LINES: list[Literal["-", "--", ":", "-."]] = ["-", "--", ":", "-."]
 MARKER_SIZE, LINE_WIDTH = 4.5, 1.0
 LOG_RANGE = 20.0
+SMALLEST_WIDTH = 4.9
 SMALLEST_SCALE = 0.7
 """A page narrower than the drawing shrinks it so far and then scrolls it."""
 INTERVALS = "mean and 95 % interval over folds (Student’s t)."
@@ -86,24 +89,37 @@ def _drawing(
     results: TaskResults, metric: str, data: pd.DataFrame, places: dict[str, int], prefix: str
 ) -> Markup:
     title, drawn = results.metrics[metric].title, set(data["case"])
-    names = {case.name: case_name(case) for case in results.cases if case.name in drawn}
-    order = list(names.values())
-    width = max(4.9, 1.0 + 0.85 * len(order))
-    figure = Figure(figsize=(width, 3.4), layout="constrained")
-    axes = figure.add_subplot()
+    cases = [case for case in results.cases if case.name in drawn]
+    names = {case.name: case_name(case) for case in cases}
+    orders = _apart(cases)
+    widths = _widths(orders)
+    figure = Figure(figsize=(sum(widths), 3.4), layout="constrained")
+    row = figure.subplots(1, len(orders), squeeze=False, width_ratios=widths)[0]
     errorbar = t_interval if results.layout.independent_folds else None
-    _draw(axes, data.assign(case=data["case"].map(names)), order, places, errorbar)
-    _finish(axes, title, data["value"])
-    if _collide(order, width):
-        for label in axes.get_xticklabels():
-            label.set(rotation=30, ha="right", rotation_mode="anchor")
+    named = data.assign(case=data["case"].map(names))
+    for axes, order, width in zip(row, orders, widths, strict=True):
+        shown = named[named["case"].isin(order)]
+        _draw(axes, shown, order, places, errorbar)
+        _finish(axes, title, shown["value"], tilted=_collide(order, width))
     return element(
         figure,
         prefix,
         role="img",
-        aria_label=f"{title} of {counted(len(places), 'entrant')} in {counted(len(order), 'case')}",
-        style=f"min-width: {SMALLEST_SCALE * width:.2f}in",
+        aria_label=f"{title} of {counted(len(places), 'entrant')} in {counted(len(cases), 'case')}",
+        style=f"min-width: {SMALLEST_SCALE * sum(widths):.2f}in",
     )
+
+
+def _apart(cases: Sequence[CaseLayout]) -> list[list[str]]:
+    """Return the names of the cases on recordings and of those on generated motion, if any."""
+    sets = [[case for case in cases if case.synthetic is made] for made in (False, True)]
+    return [[case_name(case) for case in each] for each in sets if each]
+
+
+def _widths(orders: Sequence[Sequence[str]]) -> list[float]:
+    """Return the width in inches of the axes of each order of cases."""
+    widths = [1.0 + 0.85 * len(order) for order in orders]
+    return [width * max(1.0, SMALLEST_WIDTH / sum(widths)) for width in widths]
 
 
 def _draw(
@@ -138,11 +154,14 @@ def _cycled(looks: Sequence[LookT], place: int) -> LookT:
     return looks[place % len(looks)]
 
 
-def _finish(axes: Axes, title: str, values: pd.Series[float]) -> None:
+def _finish(axes: Axes, title: str, values: pd.Series[float], *, tilted: bool) -> None:
     axes.set(xlabel="", ylabel=title, yscale=_scale(values))
     axes.yaxis.set_major_formatter("{x:g}")
     axes.grid(axis="y", linewidth=0.6)
     axes.tick_params(axis="x", length=0)
+    if tilted:
+        for label in axes.get_xticklabels():
+            label.set(rotation=30, ha="right", rotation_mode="anchor")
 
 
 def _collide(names: Sequence[str], width: float) -> bool:

@@ -21,7 +21,9 @@ __all__ = ["render"]
 
 def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
-    tasks = [task_view(task_results(bundle, layout)) for layout in bundle.layouts]
+    tasks = [
+        task_view(task_results(bundle, layout), bundle.illustrations) for layout in bundle.layouts
+    ]
     every = troubles(bundle)
     return _template().render(
         bundle=bundle,

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from mocapbench.reports.bundle import TaskLayout
 from mocapbench.reports.figures import ErrorBars, error_bars
 from mocapbench.reports.headlines import Finding, lead_findings, printed_findings, win_findings
+from mocapbench.reports.illustration import Illustration
+from mocapbench.reports.panels import Drawing, draw
 from mocapbench.reports.results import TaskResults, Trouble
 from mocapbench.reports.scoretables import case_name, score_table
 from mocapbench.reports.summaries import calibration_table, cost_table, oracle_table
@@ -39,6 +41,7 @@ class TaskView:
     wins: Sequence[Finding]
     verdicts: Tally
     metrics: Sequence[MetricView]
+    drawings: Sequence[Drawing]
     summaries: Sequence[Table]
     cases: Sequence[str]
     not_run: Sequence[str]
@@ -59,8 +62,8 @@ class MissingData:
     jobs: int
 
 
-def task_view(results: TaskResults) -> TaskView:
-    """Return the section of one task."""
+def task_view(results: TaskResults, illustrations: Iterable[Illustration] = ()) -> TaskView:
+    """Return the section of one task, with those of the ``illustrations`` that are its own."""
     layout, first = results.layout, results.layout.metrics[0]
     pairs = [pair for metric in layout.metrics for pair in comparisons(results, metric)]
     summaries = [build(results) for build in (oracle_table, calibration_table, cost_table)]
@@ -72,6 +75,7 @@ def task_view(results: TaskResults) -> TaskView:
         wins=win_findings(results, first),
         verdicts=tally(pairs),
         metrics=[_metric_view(results, metric) for metric in layout.metrics],
+        drawings=[draw(each) for each in illustrations if each.task == layout.name],
         summaries=[table for table in summaries if table is not None],
         cases=[case_name(case) for case in results.cases],
         not_run=[case_name(case) for case in layout.cases if case.name not in ran],

@@ -6,14 +6,22 @@ import numpy as np
 import pytest
 from sklearn.base import clone
 
-from mocapbench.baselines import FrameImputer, Imputer, Inductive, Informed, Synthesiser
-from mocapbench.benchmark.imputation import ImputeProblem
+from mocapbench.baselines import (
+    Aligner,
+    Blender,
+    Clusterer,
+    FrameImputer,
+    Imputer,
+    Inductive,
+    Informed,
+    Synthesiser,
+)
 from mocapbench.benchmark.plan import entrants
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.solving import build_model
 from mocapbench.datasets import Recording, ToyProcess, open_archive
-from mocapbench.metrics import Direction, Imputation, Synthesis
+from mocapbench.metrics import Clustering, Direction, Imputation, Synthesis
 
 TIMES = np.linspace(0.0, 2.0 * np.pi, 20)
 PROCESS = ToyProcess.random(np.random.default_rng(5), n_outputs=2, noise=0.01)
@@ -24,6 +32,11 @@ SCATTERED = np.random.default_rng(7).random((20, 2)) < 0.5
 
 def _names(ability):
     return [name for name in MODELS.names() if issubclass(MODELS.get(name), ability)]
+
+
+def _tasks(*abilities):
+    """Return the names of the tasks that require one of the abilities."""
+    return [name for name in TASKS.names() if set(abilities) & set(TASKS.get(name).requires)]
 
 
 def _problem(hidden):
@@ -124,6 +137,41 @@ def test_samples_are_seeded_and_shaped(name):
     assert not np.array_equal(one, other)
 
 
+@pytest.mark.parametrize("name", _names(Clusterer))
+def test_every_recording_has_a_cluster_and_the_same_seed_gives_the_same(name):
+    one, two = (_fitted(name, _problem(GAP)).labels_ for _ in range(2))
+    assert one.shape == (4,)
+    assert np.issubdtype(one.dtype, np.integer)
+    np.testing.assert_array_equal(one, two)
+
+
+@pytest.mark.parametrize("name", _names(Clusterer))
+def test_one_style_is_one_cluster(name):
+    model = build_model(name, {"n_styles": 1}, 0).fit(COMPLETE)
+    assert len(set(model.labels_)) == 1
+
+
+@pytest.mark.parametrize("name", _names(Aligner))
+def test_every_frame_has_a_state_whether_fitted_or_aligned_later(name):
+    recordings = _problem(GAP)
+    model = _fitted(name, recordings)
+    one, two = (model.align(recordings) for _ in range(2))
+    for paths in (model.path_, one):
+        assert [path.shape for path in paths] == [(20,)] * 4
+        assert all(np.isin(path, np.arange(model.cycle_length_)).all() for path in paths)
+    for path, again in zip(one, two, strict=True):
+        np.testing.assert_array_equal(path, again)
+
+
+@pytest.mark.parametrize("name", _names(Blender))
+def test_a_blend_is_its_styles_mixed_frame_by_frame(name):
+    model = build_model(name, {"n_styles": 3}, 0).fit(COMPLETE)
+    weights = np.random.default_rng(0).dirichlet(np.ones(3), size=30)
+    pure = [model.blend(np.tile(one, (30, 1))) for one in np.eye(3)]
+    mixed = sum(share[:, None] * style for share, style in zip(weights.T, pure, strict=True))
+    np.testing.assert_allclose(model.blend(weights), mixed, atol=1e-9)
+
+
 @pytest.mark.parametrize("name", TASKS.names())
 def test_a_task_is_consistent(name):
     task = TASKS.get(name)
@@ -140,15 +188,26 @@ def test_a_task_is_consistent(name):
         assert selection.folds >= 1
 
 
-@pytest.mark.parametrize("name", TASKS.names())
-def test_a_problem_is_a_pure_function_of_its_address(name, monkeypatch):
+def _posed(name, fold):
+    """Return a problem of the task, of the first case whose recordings are at hand."""
     task, archive = TASKS.get(name), open_archive(None)
     case = next(c for c in task.cases if all(map(archive.available, c.sources)))
-    seeds = Seeds(0, task.name, task.version, case.name, 1)
-    one, two = (task.problem(case, seeds, archive) for _ in range(2))
-    other = task.problem(case, Seeds(0, task.name, task.version, case.name, 2), archive)
-    assert isinstance(one, ImputeProblem)
-    for a, b in zip((*one.train, *one.given), (*two.train, *two.given), strict=True):
+    return task.problem(case, Seeds(0, task.name, task.version, case.name, fold), archive)
+
+
+@pytest.mark.parametrize("name", TASKS.names())
+def test_a_problem_is_a_pure_function_of_its_address(name):
+    one, two = (_posed(name, 1) for _ in range(2))
+    assert one.train
+    for a, b in zip(one.train, two.train, strict=True):
+        assert a.name == b.name
+        np.testing.assert_array_equal(a.values, b.values)
+
+
+@pytest.mark.parametrize("name", _tasks(Imputer, FrameImputer))
+def test_each_fold_hides_something_else_and_only_that(name):
+    one, two, other = (_posed(name, fold) for fold in (1, 1, 2))
+    for a, b in zip(one.given, two.given, strict=True):
         np.testing.assert_array_equal(a.values, b.values)
     assert not np.array_equal(one.given[0].values, other.given[0].values, equal_nan=True)
     for given, truth in zip(one.given, one.truth, strict=True):
@@ -168,6 +227,7 @@ OUTCOMES = {
     Synthesis: Synthesis(
         np.stack([r.values for r in COMPLETE[:2]]), np.stack([r.values for r in COMPLETE[2:]])
     ),
+    Clustering: Clustering(np.array(["walk", "walk", "run"]), np.array([0, 1, 1])),
 }
 
 

@@ -23,6 +23,8 @@ PROBLEMS = [
     ("toy-interpolation-1", "test 5"),
     ("walking-interpolation", "synthetic observed 40"),
     ("missing-frames", "synthetic 1"),
+    ("upper-body-missing", "synthetic walks"),
+    pytest.param("upper-body-missing", "subject 07 walks", marks=needs_recordings),
     pytest.param("walking-interpolation", "observed 40", marks=needs_recordings),
     pytest.param("walking-interpolation", "observed 10", marks=needs_recordings),
     pytest.param("missing-frames", "35-03 three-walkers", marks=needs_recordings),

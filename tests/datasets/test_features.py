@@ -56,6 +56,16 @@ def test_hlm_keeps_all_62_channels(walk):
     np.testing.assert_array_equal(features.select(angles).values, walk.select(angles).values[::4])
 
 
+def test_hlm_takes_whole_turns_off_joints_and_leaves_the_root_its_heading(walk):
+    turns = np.where([name in ("rthumb.rz", "root.ry") for name in walk.channels], 360.0, 0.0)
+    turned = walk.with_values(walk.values - 3 * turns)
+    joints = [name for name in walk.channels if not name.startswith("root.")]
+    features, expected = hlm_features(turned), hlm_features(walk)
+    np.testing.assert_allclose(features.select(joints).values, expected.select(joints).values)
+    heading = features.select(["root.ry"]).values - expected.select(["root.ry"]).values
+    np.testing.assert_allclose(heading, -1080.0)
+
+
 @pytest.mark.recordings
 def test_the_thesis_channels_follow_from_the_criterion(cmu):
     walks = [

@@ -3,14 +3,15 @@ import pickle
 import numpy as np
 import pytest
 
-from mocapbench.metrics import BUILTIN, Direction, Imputation, Synthesis
+from mocapbench.metrics import BUILTIN, Clustering, Direction, Imputation, Synthesis
 
 
 @pytest.fixture
 def outcomes(draw):
     rng = np.random.default_rng(0)
     synthesis = Synthesis(rng.normal(size=(3, 8, 2)), rng.normal(size=(4, 8, 2)))
-    return {Imputation: draw(0), Synthesis: synthesis}
+    clustering = Clustering(rng.integers(3, size=9), rng.integers(4, size=9))
+    return {Imputation: draw(0), Synthesis: synthesis, Clustering: clustering}
 
 
 def test_names_are_distinct_and_targets_belong_to_targeted_metrics():
@@ -25,6 +26,7 @@ def test_score_is_finite_and_parts_are_along_known_axes(metric, outcomes):
     lengths = {
         Imputation: {"frame": 12, "output": 4, "bin": 10},
         Synthesis: {"sample": 3, "reference": 4, "reference_sd": 4, "output": 2},
+        Clustering: {},
     }[metric.outcome]
     assert np.isfinite(score.value)
     assert {name: part.shape for name, part in score.parts.items()} == {

@@ -11,6 +11,7 @@ import pytest
 from mocapbench.metrics.base import Direction
 from mocapbench.reports import render
 from mocapbench.reports.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.illustration import Curve, Illustration, Panel
 
 METRICS = {
     info.name: info
@@ -102,6 +103,24 @@ LEVELS: Mapping[str, float] = {
     **{"nn": 0.9, "trivial": 1.05, "aligned-window": 0.3},
 }
 NO_DATA = ("12-02", "12-03")
+FRAME_TIMES = np.arange(50) / 30
+FILLED = Illustration(
+    task=FRAMES.name,
+    title="Filled channels",
+    caption="the truth, and what two models put in its place.",
+    panels=tuple(
+        Panel(
+            channel,
+            "time, s",
+            "deg",
+            tuple(
+                Curve(FRAME_TIMES, size * np.sin(6.0 * FRAME_TIMES), group)
+                for group, size in (("truth", 1.0), ("knn", 0.9), ("cubic-spline", 0.2))
+            ),
+        )
+        for channel in ("rhumerus.rx", "thorax.ry")
+    ),
+)
 
 
 def _status(task: TaskLayout, case: str, label: str, fold: int) -> str:
@@ -203,6 +222,7 @@ def bundle() -> Bundle:
                 "The database was created with funding from NSF EIA-0196217."
             ),
         },
+        illustrations=(FILLED,),
     )
 
 

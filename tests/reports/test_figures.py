@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 from scipy import stats
 
+from mocapbench.reports.bundle import CaseLayout
 from mocapbench.reports.figures import error_bars, t_interval
 from mocapbench.reports.results import task_results
 
@@ -112,6 +113,18 @@ def test_only_independent_folds_have_intervals(small, independent, taller):
     bars = [error_bars(task_results(each, each.layouts[0]), "mse") for each in (narrow, wide)]
     assert (bars[0].svg != bars[1].svg) is taller
     assert all(("no interval" in each.caption) is not independent for each in bars)
+
+
+def test_no_line_leads_from_recordings_to_generated_motion(small):
+    cases = tuple(CaseLayout(name, {}, synthetic=name == "made") for name in ("real", "made"))
+    values = {case.name: {"a": [1.0, 2.0], "b": [2.0, 3.0]} for case in cases}
+    apart, joined = (
+        error_bars(task_results(each, each.layouts[0]), "mse").svg
+        for each in (small(values, cases=cases), small(values))
+    )
+    assert apart.count('id="small-mse-figure-axes_') == 2
+    assert joined.count('id="small-mse-figure-axes_') == 1
+    assert "made (synthetic)" in "".join(ElementTree.fromstring(apart).itertext())
 
 
 def test_every_entrant_with_a_score_has_a_key(bundle, results):

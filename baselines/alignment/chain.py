@@ -1,0 +1,141 @@
+r"""The hidden Markov chain of HLM: cyclic, left to right, with jumps of 1 to J states (eq. 1).
+
+A frame advances its sequence by at least one state. The forward pass works with logarithms, because
+62 channels set states apart by more than the range of a double. It keeps the *shares*, the
+probability of each jump given the state that it led to and the frames before; the backward pass is
+then a plain product of probabilities, :math:`\gamma_{i-1}(m - j) = \sum_j \gamma_i(m)\,s_{ij}(m)`,
+in which nothing can overflow. The padding is frames without evidence, which change nothing before
+them. All sequences go together; inside, arrays are (N, M, K), so that a jump is a slice.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.alignment.sequences import Array
+
+__all__ = ["Paths", "forward_backward", "viterbi"]
+
+
+@dataclass(frozen=True)
+class Paths:
+    """A posterior of the state paths of K sequences.
+
+    Parameters
+    ----------
+    occupancy : ndarray of shape (K, N, M)
+        Probability of each state at each frame; 0 at the padding.
+    jumps : ndarray of shape (K, J)
+        Expected number of jumps of each length.
+    entropy : ndarray of shape (K,)
+    """
+
+    occupancy: Array
+    jumps: Array
+    entropy: Array
+
+
+def forward_backward(emission: Array, jumps: Array, frames: NDArray[np.bool_]) -> Paths:
+    """Return the posterior of the paths; the first state is uniform.
+
+    Parameters
+    ----------
+    emission : ndarray of shape (K, N, M)
+        Logarithm of each frame's likelihood in each state, 0 at the padding.
+    jumps : ndarray of shape (K, J)
+        Probabilities of the jumps.
+    frames : ndarray of bool, shape (K, N)
+        False at the padding.
+    """
+    log_jumps = np.log(jumps)
+    filtered, shares = _forward(np.ascontiguousarray(emission.transpose(1, 2, 0)), log_jumps.T)
+    evidence = _log_sum(filtered)
+    occupancy, counts = _backward(np.exp(filtered - evidence), shares, frames.T)
+    expected = (occupancy * emission).sum(axis=(1, 2)) + (counts * log_jumps).sum(axis=1)
+    return Paths(occupancy, counts, evidence - expected)
+
+
+def viterbi(
+    emission: Array, jumps: Array, frames: NDArray[np.bool_]
+) -> tuple[NDArray[np.intp], ...]:
+    """Return the likeliest path (N_k,) of each sequence; arguments as `forward_backward`."""
+    log_jumps = np.log(jumps).T[:, None]
+    scores = np.ascontiguousarray(emission.transpose(1, 2, 0))
+    choices = np.zeros(scores.shape, dtype=np.intp)
+    for i in range(1, len(scores)):
+        candidates = _reached(scores[i - 1], len(log_jumps)) + log_jumps
+        choices[i] = candidates.argmax(axis=0)
+        scores[i] += candidates.max(axis=0)
+    return tuple(
+        _trace(scores[length - 1, :, k], choices[:length, :, k])
+        for k, length in enumerate(frames.sum(axis=1))
+    )
+
+
+def _forward(emission: Array, log_jumps: Array) -> tuple[Array, Array]:
+    """Return the log-probability (M, K) of the last state with all frames, and the shares.
+
+    The shares are of shape (N − 1, J, M, K).
+    """
+    n_frames, n_states, n_sequences = emission.shape
+    max_jump = len(log_jumps)
+    shares = np.empty((n_frames - 1, max_jump, n_states, n_sequences))
+    filtered = emission[0]
+    for i, evidence in enumerate(emission[1:]):
+        terms = shares[i]
+        np.add(_reached(filtered, max_jump), log_jumps[:, None], out=terms)
+        top = terms.max(axis=0)
+        terms -= top
+        np.exp(terms, out=terms)
+        total = terms.sum(axis=0)
+        terms /= total
+        filtered = np.log(total) + top + evidence
+    return filtered, shares
+
+
+def _backward(last: Array, shares: Array, frames: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """Return the occupancy (K, N, M) and the expected jumps (K, J)."""
+    occupancy = np.empty((len(frames), *last.shape))
+    occupancy[-1] = last
+    counts = np.zeros((shares.shape[1], last.shape[1]))
+    for i in reversed(range(len(shares))):
+        flow = occupancy[i + 1] * shares[i]
+        counts += flow.sum(axis=1) * frames[i + 1]
+        occupancy[i] = _left(flow)
+    occupancy *= frames[:, None]
+    return np.ascontiguousarray(occupancy.transpose(2, 0, 1)), counts.T
+
+
+def _reached(states: Array, max_jump: int) -> Array:
+    """Return, for each jump and state, what (M, K) holds where the jump came from: (J, M, K)."""
+    n_states = len(states)
+    ring = np.concatenate([states[-max_jump:], states])
+    return np.stack([ring[max_jump - j : max_jump - j + n_states] for j in _jumps(max_jump)])
+
+
+def _left(flow: Array) -> Array:
+    """Sum the flow (J, M, K) of each jump into each state at the states left: (M, K)."""
+    return np.asarray(sum(np.roll(flow[j - 1], -j, axis=0) for j in _jumps(len(flow))))
+
+
+def _jumps(max_jump: int) -> range:
+    return range(1, max_jump + 1)
+
+
+def _trace(final: Array, choices: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Follow the chosen jumps (N, M; jump less one) back from the best of the final scores."""
+    n_frames, n_states = choices.shape
+    path = np.empty(n_frames, dtype=np.intp)
+    path[-1] = final.argmax()
+    for i in range(n_frames - 1, 0, -1):
+        path[i - 1] = (path[i] - 1 - choices[i, path[i]]) % n_states
+    return path
+
+
+def _log_sum(terms: Array) -> Array:
+    """Return the logarithm of the sum of exponentials over the first axis."""
+    top = terms.max(axis=0)
+    return np.asarray(np.log(np.exp(terms - top).sum(axis=0)) + top)

@@ -1,0 +1,128 @@
+"""EM from random starts, of which the bound chooses the best."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mocapbench.baselines.alignment.em import Run, Update, expectation_maximisation
+from mocapbench.baselines.alignment.model import Hyperparameters, State
+from mocapbench.baselines.alignment.ring import Ring
+from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.start import first_cycle, start
+from mocapbench.baselines.alignment.updates import (
+    update_closeness,
+    update_cycles,
+    update_jumps,
+    update_labels,
+    update_parent,
+    update_paths,
+    update_precisions,
+    update_smoothness,
+    update_weights,
+)
+
+__all__ = ["Settings", "best_fit", "random_cycle", "random_start", "run", "split"]
+
+# Cycles first: while all styles have the same cycle, labels would forget where they started.
+_E_STEP: tuple[Update, ...] = (update_cycles, update_labels, update_paths)
+_M_STEP: tuple[Update, ...] = (
+    update_parent,
+    update_smoothness,
+    update_precisions,
+    update_weights,
+    update_jumps,
+)
+_COMMON_ITER = 5
+_CLOSENESS: dict[bool, tuple[Update, ...]] = {False: (), True: (update_closeness,)}
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What EM starts from and does; names as in `CyclicAlignment`."""
+
+    n_styles: int
+    n_states: int
+    max_jump: int
+    closeness: float
+    learn_closeness: bool
+    smoothness: float
+    hyper: Hyperparameters
+    n_inner: int
+    tolerance: float
+
+
+def best_fit(
+    sequences: Sequences,
+    settings: Settings,
+    *,
+    n_restarts: int,
+    max_iter: int,
+    rng: np.random.Generator,
+) -> tuple[Run, list[float]]:
+    """Return the run that ends highest, and where each ends."""
+    runs = [
+        run(random_start(sequences, settings, rng), sequences, settings, max_iter)
+        for _ in range(n_restarts)
+    ]
+    ends = [attempt.bounds[-1] for attempt in runs]
+    return runs[int(np.argmax(ends))], ends
+
+
+def run(state: State, sequences: Sequences, settings: Settings, max_iter: int) -> Run:
+    """Run EM from a state."""
+    return expectation_maximisation(
+        state,
+        sequences,
+        settings.hyper,
+        e_step=_E_STEP,
+        m_step=_CLOSENESS[settings.learn_closeness] + _M_STEP,
+        n_inner=settings.n_inner,
+        max_iter=max_iter,
+        tolerance=settings.tolerance,
+    )
+
+
+def random_start(sequences: Sequences, settings: Settings, rng: np.random.Generator) -> State:
+    """Return a start: all sequences aligned to one cycle, then styles of equal size at random.
+
+    The first cycle is a random sequence's, as in HLM §4. There the labels are all but even from the
+    beginning, so that noise alone tells the styles apart, and every style aligns for itself.
+    """
+    common = start(
+        random_cycle(sequences, settings.n_states, rng),
+        sequences,
+        closeness=settings.closeness,
+        smoothness=settings.smoothness,
+        max_jump=settings.max_jump,
+        hyper=settings.hyper,
+    )
+    aligned = run(common, sequences, settings, _COMMON_ITER).state
+    styles = rng.permutation(len(sequences.lengths)) % settings.n_styles
+    return split(aligned, np.eye(settings.n_styles)[styles])
+
+
+def split(state: State, labels: Array) -> State:
+    """Return the state of one style with as many copies of it as ``labels`` (K, C) has styles."""
+    n_styles, cycles, theta = labels.shape[1], state.cycles, state.parameters
+    copies = Ring(
+        mean=np.repeat(cycles.mean, n_styles, axis=1),
+        variance=np.repeat(cycles.variance, n_styles, axis=1),
+        neighbour=np.repeat(cycles.neighbour, n_styles, axis=1),
+        log_determinant=np.repeat(cycles.log_determinant, n_styles, axis=0),
+    )
+    parameters = replace(
+        theta,
+        precisions=np.repeat(theta.precisions, n_styles, axis=0),
+        weights=np.full(n_styles, 1.0 / n_styles),
+    )
+    return replace(state, cycles=copies, parameters=parameters, labels=labels)
+
+
+def random_cycle(sequences: Sequences, n_states: int, rng: np.random.Generator) -> Array:
+    """Return the first cycle of a random sequence that has a whole one; of any if none has."""
+    n_frames = n_states // 2
+    whole = np.flatnonzero((sequences.lengths >= n_frames) & (sequences.counts.sum(axis=1) > 0))
+    chosen = rng.choice(whole) if len(whole) else rng.integers(len(sequences.lengths))
+    return first_cycle(sequences.arrays()[chosen], n_frames, n_states)

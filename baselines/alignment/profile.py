@@ -1,0 +1,92 @@
+"""The continuous profile model on a ring: one latent trace, a point estimate (CPM).
+
+It is the model of HLM with a single style whose cycle has no variance and no parent; the trace is
+penalised by η times its squared steps, as HLM's parent is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.alignment import ring
+from mocapbench.baselines.alignment.bound import sequence_bounds
+from mocapbench.baselines.alignment.em import Run, expectation_maximisation
+from mocapbench.baselines.alignment.model import Hyperparameters, State
+from mocapbench.baselines.alignment.ring import Ring
+from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.start import start
+from mocapbench.baselines.alignment.updates import update_jumps, update_paths, update_precisions
+
+__all__ = ["fit_profile", "penalised_likelihood", "prototype", "update_trace"]
+
+
+def fit_profile(
+    trace: Array,
+    sequences: Sequences,
+    hyper: Hyperparameters,
+    *,
+    max_jump: int,
+    max_iter: int,
+    tolerance: float,
+) -> Run:
+    """Run EM from a trace (M, F)."""
+    state = start(trace, sequences, closeness=1.0, smoothness=1.0, max_jump=max_jump, hyper=hyper)
+    pointed = replace(state, cycles=_point(trace[:, None]))
+    return expectation_maximisation(
+        update_paths(pointed, sequences, hyper),
+        sequences,
+        hyper,
+        e_step=(update_trace, update_paths),
+        m_step=(update_precisions, update_jumps, update_paths),
+        n_inner=1,
+        max_iter=max_iter,
+        tolerance=tolerance,
+        objective=penalised_likelihood,
+    )
+
+
+def update_trace(state: State, _: Sequences, hyper: Hyperparameters) -> State:
+    """Maximise the expected log-likelihood less η times the trace's squared steps."""
+    counts, sums = state.evidence.by_style(state.labels)
+    precisions = state.parameters.precisions
+    solved = ring.solve(2.0 * hyper.regularisation, precisions * counts, precisions * sums)
+    return replace(state, cycles=_point(solved.mean))
+
+
+def penalised_likelihood(state: State, sequences: Sequences, hyper: Hyperparameters) -> float:
+    """Return log p(X | θ) plus the penalties on the trace and the jumps.
+
+    Exact right after `update_paths`, else a lower bound.
+    """
+    steps = np.roll(state.cycles.mean, -1, axis=0) - state.cycles.mean
+    penalty = hyper.regularisation * (steps**2).sum()
+    return float(sequence_bounds(state, sequences, hyper).sum() - penalty)
+
+
+def prototype(frames: Array, path: NDArray[np.intp], trace: Array) -> Array:
+    """Return a sequence's own cycle (M, F): its motion at every state, averaged over its cycles.
+
+    Linear between the states that its frames (N, F) are at, past entries that are hidden; the trace
+    (M, F) where it never comes.
+    """
+    n_states = len(trace)
+    position = path[0] + np.concatenate([[0], np.cumsum(np.diff(path) % n_states)])
+    cycle = trace.copy()
+    for channel, values in zip(cycle.T, frames.T, strict=True):
+        known = np.flatnonzero(~np.isnan(values))
+        if len(known):
+            passed = np.arange(position[known[0]], position[known[-1]] + 1)
+            warped = np.interp(passed, position[known], values[known])
+            visits = np.bincount(passed % n_states, minlength=n_states)
+            totals = np.bincount(passed % n_states, warped, minlength=n_states)
+            np.divide(totals, visits, out=channel, where=visits > 0)
+    return cycle
+
+
+def _point(mean: Array) -> Ring:
+    """Return a cycle (M, 1, F) that is known."""
+    nothing = np.zeros_like(mean)
+    return Ring(mean, nothing, nothing, nothing[0])

@@ -1,0 +1,290 @@
+"""Styles of cyclic motion, found and aligned without labels: the hierarchical model of HLM."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.alignment.fitting import Settings, best_fit
+from mocapbench.baselines.alignment.inference import best_paths, infer, moments, refine
+from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.period import default_states
+from mocapbench.baselines.alignment.priors import PRIORS
+from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.synthesis import blended, draw_cycle, draw_sequence
+from mocapbench.baselines.alignment.validation import check_settings
+from mocapbench.baselines.gp.scaling import Standardisation
+from mocapbench.baselines.pooling import check_channels, check_recordings
+from mocapbench.baselines.protocols import (
+    Aligner,
+    Blender,
+    Imputer,
+    Inductive,
+    Prediction,
+    SampleByFrameByChannel,
+    StatePath,
+    Synthesiser,
+)
+from mocapbench.datasets import FrameByChannel, Frames, Recording
+
+__all__ = ["CyclicAlignment"]
+
+
+class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
+    r"""Cycles of C latent styles with a common parent, warped in time, by variational EM.
+
+    A recording is of one style; its frames follow that style's cycle of M states through a cyclic
+    left-to-right Markov chain, each frame 1 to J states on, and add noise of the style's own
+    variance per channel. The styles' cycles are smooth Gaussian deviations from their parent.
+    Hidden entries are integrated out. The model works on channels of zero mean and unit variance.
+
+    Parameters
+    ----------
+    n_styles : int, default=20
+        Number C of styles; EM leaves empty the ones for which it has no use.
+    n_states : int or None, default=None
+        Number M of states of a cycle; None stands for two for each frame of a cycle, whose length
+        is estimated by autocorrelation. At least ``2 * max_jump + 1``.
+    max_jump : int, default=3
+        Most states J by which one frame can be ahead of the one before.
+    n_restarts : int, default=3
+        Number of runs of EM from random starts; the one with the highest bound is kept.
+    max_iter : int, default=40
+        Largest number of iterations of a run.
+    tolerance : float, default=1e-5
+        A run has converged when an iteration raises the bound by less than this per visible entry.
+    n_inner : int, default=3
+        Sweeps of the E-step in an iteration.
+    regularisation : float, default=0.1
+        :math:`\eta` of the parent's roughness and of the Dirichlet priors of styles and jumps.
+    closeness : float, default=0.01
+        Precision :math:`\lambda_{\bar z}` of a cycle about its parent, where it starts.
+    learn_closeness : bool, default=False
+        Whether :math:`\lambda_{\bar z}` is learnt; the paper keeps it fixed.
+    smoothness : float, default=0.1
+        Precision :math:`\lambda_s` of a cycle's steps, where it starts; it is learnt.
+    prior : {"normalised", "paper"}, default="normalised"
+        How the prior of a cycle is normalised; the paper's is not a density.
+    refine_iter : int, default=10
+        Iterations of EM, from where `fit` ended, that `impute` gives to a recording together with
+        the fitted ones.
+    random_state : int, numpy.random.Generator or None, default=None
+        Seed of the starts.
+
+    Attributes
+    ----------
+    labels_ : ndarray of int, shape (K,)
+        The likeliest style of each recording.
+    path_ : tuple of ndarray of int, each of shape (N_k,)
+        The likeliest state of each frame of each recording, jointly (Viterbi).
+    cycle_length_ : int
+        Number M of states.
+    cycles_ : ndarray of shape (C, M, D)
+        Mean cycle of each style, in the channels' units.
+    probabilities_ : ndarray of shape (K, C)
+        Probability of each style for each recording.
+    bound_ : ndarray of shape (n_iterations_ + 1,)
+        The variational bound at the start and after each iteration, for standardised channels.
+    restart_bounds_ : ndarray of shape (n_restarts,)
+        The bound at which each run ended.
+    n_iterations_ : int
+        Iterations of the run that is kept.
+    converged_ : bool
+        Whether it converged.
+
+    References
+    ----------
+    Pan and Torresani (2009), Unsupervised hierarchical modeling of locomotion styles, ICML.
+    """
+
+    def __init__(
+        self,
+        *,
+        n_styles: int = 20,
+        n_states: int | None = None,
+        max_jump: int = 3,
+        n_restarts: int = 3,
+        max_iter: int = 40,
+        tolerance: float = 1e-5,
+        n_inner: int = 3,
+        regularisation: float = 0.1,
+        closeness: float = 0.01,
+        learn_closeness: bool = False,
+        smoothness: float = 0.1,
+        prior: str = "normalised",
+        refine_iter: int = 10,
+        random_state: int | np.random.Generator | None = None,
+    ) -> None:
+        self.n_styles = n_styles
+        self.n_states = n_states
+        self.max_jump = max_jump
+        self.n_restarts = n_restarts
+        self.max_iter = max_iter
+        self.tolerance = tolerance
+        self.n_inner = n_inner
+        self.regularisation = regularisation
+        self.closeness = closeness
+        self.learn_closeness = learn_closeness
+        self.smoothness = smoothness
+        self.prior = prior
+        self.refine_iter = refine_iter
+        self.random_state = random_state
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Find the styles, their cycles and the alignment of the recordings.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of range, there is no recording, channels differ, a name repeats,
+            or a channel is nowhere visible.
+        """
+        check_settings(**vars(self))
+        checked = check_recordings(recordings)
+        self.channels_ = checked[0].channels
+        # In order of name, so that the order in which recordings come means nothing.
+        ordered = sorted(checked, key=lambda recording: recording.name)
+        self.scaling_ = Standardisation.of(ordered)
+        self.names_ = tuple(recording.name for recording in ordered)
+        self.sequences_ = self._sequences(ordered)
+        self._learn()
+        self._describe([self.names_.index(recording.name) for recording in checked])
+        self.fitted_ = {r.name: (r, path) for r, path in zip(checked, self.path_, strict=True)}
+        return self
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the mixture over styles and states at the hidden entries of each recording.
+
+        A recording joins the fitted ones, in place of one that has its name, for some iterations of
+        EM: from the style that suits it best and, if one is empty, from a style of its own. The
+        higher bound decides.
+
+        Raises
+        ------
+        ValueError
+            If channels differ.
+        """
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_)
+        return [self._imputed(recording) for recording in recordings]
+
+    def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
+        """Return the likeliest path of each recording, as in `fit` if it was there.
+
+        A new one is taken to be of the style that suits it best.
+
+        Raises
+        ------
+        ValueError
+            If channels differ.
+        """
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_)
+        return [self._aligned(recording) for recording in recordings]
+
+    def sample(
+        self, times: Frames, n_samples: int, random_state: int | np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Draw recordings of any length at the frame rate of the fitted ones, noise included.
+
+        Each in the style and at the pace of a fitted recording, with a new cycle of that style.
+        """
+        check_is_fitted(self)
+        rng = np.random.default_rng(random_state)
+        draws = [draw_sequence(self.state_, len(times), rng) for _ in range(n_samples)]
+        return self._unscaled(np.stack(draws))
+
+    def sample_cycles(
+        self, style: int, n_samples: int, random_state: int | np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Draw cycles (n, M, D) of a style, without noise."""
+        check_is_fitted(self)
+        rng = np.random.default_rng(random_state)
+        return self._unscaled(
+            np.stack([draw_cycle(self.state_, style, rng) for _ in range(n_samples)])
+        )
+
+    def blend(self, weights: ArrayLike) -> FrameByChannel:
+        """Return the styles' mean cycles mixed by weights (N, C) that vary from frame to frame.
+
+        HLM §4.2. The frames start at state 0 and go on at the mean pace of the fitted recordings.
+
+        Raises
+        ------
+        ValueError
+            If the weights are not (N, n_styles), are negative, or a row's sum is not 1.
+        """
+        check_is_fitted(self)
+        shares = np.asarray(weights, dtype=np.float64)
+        n_styles = self.cycles_.shape[0]
+        if shares.ndim != 2 or shares.shape[1] != n_styles:
+            raise ValueError(
+                f"expected weights of shape (N, {n_styles}), one column a style, got {shares.shape}"
+            )
+        if (shares < 0).any() or not np.allclose(shares.sum(axis=1), 1.0):
+            raise ValueError("expected non-negative weights whose rows sum to 1: divide by the sum")
+        return self._unscaled(blended(self.state_, shares))
+
+    def _learn(self) -> None:
+        """Run EM."""
+        n_states = self.n_states or default_states(self.sequences_, self.max_jump)
+        self.settings_ = Settings(
+            n_styles=self.n_styles,
+            n_states=n_states,
+            max_jump=self.max_jump,
+            closeness=self.closeness,
+            learn_closeness=self.learn_closeness,
+            smoothness=self.smoothness,
+            hyper=Hyperparameters(self.regularisation, PRIORS[self.prior]),
+            n_inner=self.n_inner,
+            tolerance=self.tolerance,
+        )
+        best, ends = best_fit(
+            self.sequences_,
+            self.settings_,
+            n_restarts=self.n_restarts,
+            max_iter=self.max_iter,
+            rng=np.random.default_rng(self.random_state),
+        )
+        self.state_, self.converged_ = best.state, best.converged
+        self.bound_, self.restart_bounds_ = np.array(best.bounds), np.array(ends)
+        self.n_iterations_ = len(best.bounds) - 1
+        self.cycle_length_ = n_states
+        self.cycles_ = self._unscaled(self.state_.cycles.mean.swapaxes(0, 1))
+
+    def _describe(self, order: list[int]) -> None:
+        """State labels and paths in the order in which recordings were given."""
+        self.probabilities_ = self.state_.labels[order]
+        self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)
+        paths = best_paths(self.state_, self.sequences_)
+        self.path_ = tuple(paths[k] for k in order)
+
+    def _imputed(self, recording: Recording) -> Prediction:
+        others = np.flatnonzero([name != recording.name for name in self.names_])
+        state = refine(
+            self._sequences([recording]),
+            self.state_.rows(others),
+            self.sequences_.rows(others),
+            self.settings_,
+            self.refine_iter,
+        )
+        mean, variance = (moment[-1, : len(recording.times)] for moment in moments(state))
+        return Prediction.around(recording, self._unscaled(mean), variance * self.scaling_.scale**2)
+
+    def _aligned(self, recording: Recording) -> StatePath:
+        if recording.name in self.fitted_:
+            fitted, path = self.fitted_[recording.name]
+            if np.array_equal(fitted.values, recording.values, equal_nan=True):
+                return path
+        sequence = self._sequences([recording])
+        return best_paths(infer(sequence, self.state_, self.settings_.hyper), sequence)[0]
+
+    def _sequences(self, recordings: Sequence[Recording]) -> Sequences:
+        return Sequences.of([self.scaling_.apply(recording).values for recording in recordings])
+
+    def _unscaled(self, values: Array) -> Array:
+        return np.asarray(values * self.scaling_.scale + self.scaling_.mean)

@@ -1,0 +1,93 @@
+"""Styles as clusters of the cycles that the continuous profile model warps recordings to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.cluster import KMeans
+
+from mocapbench.baselines.cpm import CPM
+from mocapbench.baselines.pooling import check_recordings
+from mocapbench.baselines.protocols import Clusterer
+from mocapbench.datasets import Recording
+
+__all__ = ["KCPM"]
+
+
+class KCPM(Clusterer):
+    """K-means on the prototypical cycles of `CPM`, standardised per channel.
+
+    Parameters
+    ----------
+    n_styles : int, default=4
+        Number of clusters; as many as there are recordings, if they are fewer.
+    n_states, max_jump, max_iter, tolerance, regularisation
+        As `CPM`.
+    n_restarts : int, default=1
+        Number of runs of CPM, and of K-means.
+    random_state : int, numpy.random.Generator or None, default=None
+        Seed of both.
+
+    Attributes
+    ----------
+    labels_ : ndarray of int, shape (K,)
+        The cluster of each recording.
+    cycles_ : ndarray of shape (C, M, D)
+        The mean cycle of each cluster, the style's prototype.
+    cpm_ : CPM
+        The alignment.
+
+    References
+    ----------
+    HLM §4, "K-CPM".
+    """
+
+    def __init__(
+        self,
+        n_styles: int = 4,
+        *,
+        n_states: int | None = None,
+        max_jump: int = 3,
+        n_restarts: int = 1,
+        max_iter: int = 60,
+        tolerance: float = 1e-5,
+        regularisation: float = 0.1,
+        random_state: int | np.random.Generator | None = None,
+    ) -> None:
+        self.n_styles = n_styles
+        self.n_states = n_states
+        self.max_jump = max_jump
+        self.n_restarts = n_restarts
+        self.max_iter = max_iter
+        self.tolerance = tolerance
+        self.regularisation = regularisation
+        self.random_state = random_state
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Align the recordings, then cluster their cycles.
+
+        Raises
+        ------
+        ValueError
+            As `CPM.fit`, or if ``n_styles`` is below 1.
+        """
+        if self.n_styles < 1:
+            raise ValueError(f"expected n_styles >= 1, got {self.n_styles}")
+        checked = check_recordings(recordings)
+        rng = np.random.default_rng(self.random_state)
+        parameters = {k: v for k, v in self.get_params().items() if k != "n_styles"}
+        self.cpm_ = CPM(**{**parameters, "random_state": rng}).fit(checked)
+        cycles = self.cpm_.prototypes_ / self.cpm_.scaling_.scale
+        means = KMeans(
+            min(self.n_styles, len(checked)),
+            n_init=self.n_restarts,
+            random_state=int(rng.integers(2**31)),
+        ).fit(cycles.reshape(len(cycles), -1))
+        self.labels_: NDArray[np.intp] = means.labels_.astype(np.intp)
+        self.cycles_ = np.stack(
+            [self.cpm_.prototypes_[self.labels_ == c].mean(axis=0) for c in np.unique(self.labels_)]
+        )
+        return self

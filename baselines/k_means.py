@@ -1,0 +1,98 @@
+"""K-means on the first cycle of each recording, aligned by nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.cluster import KMeans as ScikitLearnKMeans
+
+from mocapbench.baselines.alignment.period import cycle_length
+from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.pooling import check_recordings, check_visible, visible_moments
+from mocapbench.baselines.protocols import Clusterer
+from mocapbench.datasets import FrameByChannel, Recording
+
+__all__ = ["KMeans"]
+
+Array = NDArray[np.float64]
+
+
+class KMeans(Clusterer):
+    """Cluster recordings by the raw values of their first cycle.
+
+    The cycle's length is each recording's own, by its autocorrelation; a recording in which
+    nothing recurs counts as one cycle. Its frames are resampled to a fixed number by straight
+    lines, which bridge hidden entries too, and all channels together, in their own units, make one
+    point. Recordings start at any phase and nothing aligns them: what alignment gains is what a
+    model gains over this one.
+
+    Parameters
+    ----------
+    n_styles : int, default=4
+        Number of clusters; as many as there are recordings, if they are fewer.
+    n_frames : int, default=32
+        Number of frames that a cycle is resampled to.
+    n_restarts : int, default=10
+        Starts of K-means, of which the tightest clusters are kept.
+    random_state : int, Generator or None
+        Seeds the starts.
+
+    Attributes
+    ----------
+    labels_ : ndarray of int, shape (K,)
+        The cluster of each recording.
+    cycles_ : ndarray of shape (K, n_frames, D)
+        The resampled cycles.
+    """
+
+    def __init__(
+        self,
+        n_styles: int = 4,
+        *,
+        n_frames: int = 32,
+        n_restarts: int = 10,
+        random_state: int | np.random.Generator | None = None,
+    ) -> None:
+        self.n_styles = n_styles
+        self.n_frames = n_frames
+        self.n_restarts = n_restarts
+        self.random_state = random_state
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Resample the cycles and cluster them.
+
+        Raises
+        ------
+        ValueError
+            If a number is below 1, there is no recording, channels differ, a name repeats, or a
+            channel is hidden in all recordings.
+        """
+        for name in ("n_styles", "n_frames", "n_restarts"):
+            if getattr(self, name) < 1:
+                raise ValueError(f"expected {name} of at least 1, got {getattr(self, name)}")
+        checked = check_recordings(recordings)
+        check_visible(checked)
+        mean, _ = visible_moments(checked)
+        self.cycles_ = np.stack([_cycle(each, self.n_frames, mean) for each in checked])
+        k_means = ScikitLearnKMeans(
+            min(self.n_styles, len(checked)),
+            n_init=self.n_restarts,
+            random_state=int(np.random.default_rng(self.random_state).integers(2**31)),
+        )
+        points = self.cycles_.reshape(len(checked), -1)
+        self.labels_ = k_means.fit_predict(points).astype(np.intp)
+        return self
+
+
+def _cycle(recording: Recording, n_frames: int, mean: Array) -> FrameByChannel:
+    """Return the first cycle at ``n_frames`` frames; a channel that is all hidden is its mean."""
+    period = cycle_length(Sequences.of([recording.values]))
+    frames, places = np.arange(len(recording.times)), period * np.arange(n_frames) / n_frames
+    curves = [
+        np.interp(places, frames[seen], values[seen]) if seen.any() else np.full(n_frames, centre)
+        for values, seen, centre in zip(recording.values.T, recording.visible.T, mean, strict=True)
+    ]
+    return np.column_stack(curves)

@@ -1,0 +1,39 @@
+"""Random problems of the cyclic-alignment model."""
+
+import numpy as np
+import pytest
+
+from mocapbench.baselines.alignment.fitting import split
+from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.priors import PRIORS
+from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.alignment.start import start
+
+
+class Problem:
+    """Random sequences with a random mask, and the state that EM starts from."""
+
+    def __init__(
+        self, seed, *, n_styles=2, n_states=7, max_jump=2, prior="normalised", eta=0.1, hidden=0.3
+    ):
+        rng = np.random.default_rng(seed)
+        arrays = [rng.normal(size=(n, 3)).cumsum(axis=0) for n in rng.integers(1, 15, 4)]
+        self.sequences = Sequences.of(
+            [np.where(rng.random(a.shape) < hidden, np.nan, a) for a in arrays]
+        )
+        self.hyper = Hyperparameters(eta, PRIORS[prior], 1e6)
+        common = start(
+            rng.normal(size=(n_states, 3)),
+            self.sequences,
+            closeness=10.0 ** rng.uniform(-2, 1),
+            smoothness=10.0 ** rng.uniform(-2, 2),
+            max_jump=max_jump,
+            hyper=self.hyper,
+        )
+        self.state = split(common, rng.dirichlet(np.ones(n_styles), 4))
+
+
+@pytest.fixture(scope="session")
+def pose():
+    """Return a random problem for a seed and sizes."""
+    return Problem

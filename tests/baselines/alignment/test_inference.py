@@ -1,0 +1,57 @@
+import numpy as np
+
+from mocapbench.baselines.alignment.fitting import Settings, best_fit
+from mocapbench.baselines.alignment.inference import infer, moments, refine
+from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.priors import PRIORS
+from mocapbench.baselines.alignment.sequences import Sequences
+
+HYPER = Hyperparameters(0.1, PRIORS["normalised"])
+SETTINGS = Settings(
+    n_styles=2,
+    n_states=12,
+    max_jump=2,
+    closeness=0.1,
+    learn_closeness=False,
+    smoothness=0.1,
+    hyper=HYPER,
+    n_inner=2,
+    tolerance=0.0,
+)
+
+
+def _fitted():
+    rng = np.random.default_rng(0)
+    waves = [np.sin(np.arange(n)[:, None] + np.arange(3)) for n in (20, 25, 30)]
+    sequences = Sequences.of([wave + 0.1 * rng.normal(size=wave.shape) for wave in waves])
+    best, ends = best_fit(sequences, SETTINGS, n_restarts=3, max_iter=10, rng=rng)
+    assert best.bounds[-1] == max(ends)
+    return sequences, best.state
+
+
+def test_moments_are_those_of_the_mixture():
+    _, state = _fitted()
+    mean, variance = moments(state)
+    weights = np.einsum("nm,c->nmc", state.paths.occupancy[1], state.labels[1])
+    mu, noise = state.cycles.mean, 1.0 / state.parameters.precisions
+    expected = np.einsum("nmc,mcf->nf", weights, mu)
+    spread = (mu[None] - expected[:, None, None]) ** 2 + state.cycles.variance + noise
+    np.testing.assert_allclose(mean[1], expected, atol=1e-12)
+    np.testing.assert_allclose(variance[1], np.einsum("nmc,nmcf->nf", weights, spread), rtol=1e-9)
+
+
+def test_a_new_sequence_changes_nothing_but_its_own_factors():
+    sequences, state = _fitted()
+    new = infer(sequences.rows(np.array([1])), state, HYPER)
+    assert new.cycles is state.cycles
+    np.testing.assert_allclose(new.labels.sum(axis=1), 1.0)
+    np.testing.assert_allclose(new.labels[0], state.labels[1], atol=1e-3)
+
+
+def test_refining_a_sequence_without_evidence_leaves_the_mixture_of_all():
+    sequences, state = _fitted()
+    blank = Sequences.of([np.full((6, 3), np.nan)])
+    refined = refine(blank, state, sequences, SETTINGS, 3)
+    assert refined.labels.shape == (4, 2)
+    assert np.isfinite(moments(refined)[0]).all()
+    np.testing.assert_allclose(refined.paths.occupancy[3, :6].sum(axis=1), 1.0)
