@@ -5,7 +5,7 @@ from __future__ import annotations
 from mocapbench.baselines import Clusterer
 from mocapbench.benchmark.clustering import ClusterProblem
 from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Selection, Task
+from mocapbench.benchmark.task import Case, Entrant, Selection, Task
 from mocapbench.benchmark.tasks.locomotion import CMU, SYNTHETIC
 from mocapbench.datasets import Archive
 
@@ -48,6 +48,10 @@ class StyleClustering(Task):
     kind = "cluster"
     requires = (Clusterer,)
     cases = _cases()
+    entrants = (
+        Entrant("cyclic-alignment", "cyclic-alignment", {"n_restarts": 1}),
+        Entrant("k-cpm", "k-cpm", {"n_restarts": 1}),
+    )
     metrics = ("purity", "adjusted_rand")
     profiles = {
         "smoke": Selection(("synthetic C = 2",), folds=1, budget={"max_iter": 3, "n_restarts": 1}),
