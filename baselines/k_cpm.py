@@ -8,16 +8,17 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.cluster import KMeans
+from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.cpm import CPM
 from mocapbench.baselines.pooling import check_recordings
-from mocapbench.baselines.protocols import Clusterer
+from mocapbench.baselines.protocols import Aligner, Clusterer, StatePath
 from mocapbench.datasets import Recording
 
 __all__ = ["KCPM"]
 
 
-class KCPM(Clusterer):
+class KCPM(Clusterer, Aligner):
     """K-means on the prototypical cycles of `CPM`, standardised per channel.
 
     Parameters
@@ -37,8 +38,10 @@ class KCPM(Clusterer):
         The cluster of each recording.
     cycles_ : ndarray of shape (C, M, D)
         The mean cycle of each cluster, the style's prototype.
+    path_, cycle_length_ : tuple of ndarray of int, int
+        The alignment, as of `CPM`.
     cpm_ : CPM
-        The alignment.
+        The model that aligns.
 
     References
     ----------
@@ -80,6 +83,7 @@ class KCPM(Clusterer):
         rng = np.random.default_rng(self.random_state)
         parameters = {k: v for k, v in self.get_params().items() if k != "n_styles"}
         self.cpm_ = CPM(**{**parameters, "random_state": rng}).fit(checked)
+        self.path_, self.cycle_length_ = self.cpm_.path_, self.cpm_.cycle_length_
         cycles = self.cpm_.prototypes_ / self.cpm_.scaling_.scale
         means = KMeans(
             min(self.n_styles, len(checked)),
@@ -91,3 +95,14 @@ class KCPM(Clusterer):
             [self.cpm_.prototypes_[self.labels_ == c].mean(axis=0) for c in np.unique(self.labels_)]
         )
         return self
+
+    def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
+        """Return the likeliest path of each recording along the trace, as `CPM.align`.
+
+        Raises
+        ------
+        ValueError
+            If channels differ.
+        """
+        check_is_fitted(self)
+        return self.cpm_.align(recordings)
