@@ -74,7 +74,9 @@ class Run:
         """Read pytest-benchmark's JSON."""
         saved = json.loads(path.read_text(encoding="utf-8"))
         by_way = {
-            (each["params"]["size"], each["params"]["how"]): each for each in saved["benchmarks"]
+            (each["params"]["size"], each["params"]["how"]): each
+            for each in saved["benchmarks"]
+            if {"size", "how"} <= set(each["params"] or {})
         }
         return cls(by_way, saved["machine_info"])
 
