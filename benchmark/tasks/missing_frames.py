@@ -85,7 +85,9 @@ class MissingFrames(Task):
     profiles = {
         "smoke": Selection(("synthetic 1",), folds=1),
         "quick": Selection(
-            tuple(case.name for case in cases if "four" not in case.name), folds=N_WINDOWS
+            tuple(case.name for case in cases if "four" not in case.name),
+            folds=N_WINDOWS,
+            budget={"n_restarts": 1, "max_iter": 10, "refine_iter": 3},
         ),
         "paper": Selection(tuple(case.name for case in cases), folds=N_WINDOWS),
     }
