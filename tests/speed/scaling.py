@@ -33,7 +33,7 @@ AXES = {
 }
 START = SIZES["mocap Q1"]
 VISIBLE = START.n_visible / START.n_times
-MOST_SECONDS, MOST_GB = 20.0, 8.0
+MOST_SECONDS, MOST_GB = 5.0, 8.0
 N_LARGEST = 3
 """Points that an exponent is fitted to: at the small ones overheads rule."""
 
@@ -68,15 +68,17 @@ def summary(points: pd.DataFrame) -> str:
         cells = [axis, how, f"{first.value:.0f} … {last.value:.0f}"]
         for what in ("seconds", "own_mb"):
             cells.append(f"{first[what]:.2g} … {last[what]:.2g}")
-            cells.append(f"{exponent(line.value, line[what]):.1f}")
+            cells.append(exponent(line.value, line[what]))
         rows.append(cells)
     return table(("axis", "way", "from … to", "seconds", "exponent", "MB", "exponent"), rows)
 
 
-def exponent(x: pd.Series, y: pd.Series) -> float:
-    """Return the slope of log y over log x at the largest x."""
-    largest = slice(-N_LARGEST, None)
-    return float(np.polyfit(np.log(x[largest]), np.log(y[largest]), 1)[0])
+def exponent(x: pd.Series, y: pd.Series) -> str:
+    """Return the slope of log y over log x at the largest x, of what can be measured."""
+    line = pd.DataFrame({"x": x, "y": y})[y > 0].tail(N_LARGEST)
+    if len(line) < 2:
+        return "–"
+    return f"{np.polyfit(np.log(line.x), np.log(line.y), 1)[0]:.1f}"
 
 
 def draw(points: pd.DataFrame, path: Path) -> None:
