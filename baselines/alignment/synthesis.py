@@ -44,8 +44,24 @@ def draw_path(
 
 
 def blended(state: State, weights: Array) -> Array:
-    """Return the styles' mean cycles mixed by weights (N, C), at the mean pace: (N, F)."""
+    """Return the styles' mean cycles mixed by weights (N, C), at the mean pace: (N, F).
+
+    Raises
+    ------
+    ValueError
+        If the weights are not (N, C), are negative, or a row's sum is not 1.
+    """
+    _check_weights(weights, state.labels.shape[1])
     jumps = state.parameters.jumps.mean(axis=0)
     pace = jumps @ np.arange(1, len(jumps) + 1)
     path = np.rint(pace * np.arange(len(weights))).astype(np.intp) % len(state.cycles.mean)
     return np.asarray(np.einsum("nc,ncf->nf", weights, state.cycles.mean[path]))
+
+
+def _check_weights(weights: Array, n_styles: int) -> None:
+    if weights.ndim != 2 or weights.shape[1] != n_styles:
+        raise ValueError(
+            f"expected weights of shape (N, {n_styles}), one column a style, got {weights.shape}"
+        )
+    if not (weights >= 0).all() or not np.allclose(weights.sum(axis=1), 1.0):
+        raise ValueError("expected non-negative weights whose rows sum to 1: divide by the sum")
