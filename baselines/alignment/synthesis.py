@@ -27,7 +27,7 @@ def draw_sequences(state: State, n: int, n_frames: int, rng: np.random.Generator
             jumps = state.parameters.jumps[sequences[index]]
             poses[index] = cycle[draw_path(jumps, len(cycle), n_frames, rng)]
     noise = rng.standard_normal(poses.shape)
-    return poses + noise / np.sqrt(state.parameters.precisions[styles])[:, None]
+    return np.asarray(poses + noise / np.sqrt(state.parameters.precisions[styles])[:, None])
 
 
 def draw_cycles(state: State, style: int, n: int, rng: np.random.Generator) -> Array:
