@@ -14,7 +14,7 @@ from mocapbench.baselines.alignment.fitting import Settings, best_fit
 from mocapbench.baselines.alignment.inference import moments, refine
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.synthesis import blended, draw_cycle, draw_sequence
+from mocapbench.baselines.alignment.synthesis import blended, draw_cycles, draw_sequences
 from mocapbench.baselines.protocols import (
     Blender,
     Imputer,
@@ -152,8 +152,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         """
         check_is_fitted(self)
         rng = np.random.default_rng(random_state)
-        draws = [draw_sequence(self.state_, len(times), rng) for _ in range(n_samples)]
-        return self._unscaled(np.stack(draws))
+        return self._unscaled(draw_sequences(self.state_, n_samples, len(times), rng))
 
     def sample_cycles(
         self, style: int, n_samples: int, random_state: int | np.random.Generator
@@ -161,9 +160,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         """Draw cycles (n, M, D) of a style, without noise."""
         check_is_fitted(self)
         rng = np.random.default_rng(random_state)
-        return self._unscaled(
-            np.stack([draw_cycle(self.state_, style, rng) for _ in range(n_samples)])
-        )
+        return self._unscaled(draw_cycles(self.state_, style, n_samples, rng))
 
     def blend(self, weights: ArrayLike) -> FrameByChannel:
         """Return the styles' mean cycles mixed by weights (N, C) that vary from frame to frame.

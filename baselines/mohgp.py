@@ -25,7 +25,8 @@ class MOHGP(GaussianProcess):
     """Recordings vary around a common trend.
 
     `impute` gives the posterior of each child. `sample` follows the thesis: new children are
-    drawn from K_f around the trend's posterior mean. Parameters and attributes are those of
+    drawn from K_f around the trend's posterior mean, or around a draw of the trend with
+    ``sampled_trend="posterior"``. Parameters and attributes are those of
     `GaussianProcess`.
 
     Examples

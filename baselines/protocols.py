@@ -12,7 +12,8 @@ an abstract base class, so that a model says what it can do by what it inherits:
 * `Clusterer` groups the recordings that it was fitted to;
 * `Aligner` maps the frames of recordings of a cyclic motion onto the states of one cycle;
 * `Blender` mixes the styles that it has found;
-* `Informed` is told the generating process (the oracle).
+* `Informed` is told the generating process (the oracle);
+* `Misinformed` is told another process instead (the control).
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ __all__ = [
     "Imputer",
     "Inductive",
     "Informed",
+    "Misinformed",
     "Model",
     "Prediction",
     "SampleByFrameByChannel",
@@ -178,3 +180,11 @@ class Informed(Model):
     @abstractmethod
     def inform(self, process: ToyProcess) -> Self:
         """Take the process that generated the recordings; called before `fit`."""
+
+
+class Misinformed(Model):
+    """A model that is served only where there is a process unrelated to the recordings."""
+
+    @abstractmethod
+    def misinform(self, process: ToyProcess) -> Self:
+        """Take a process that generated none of the recordings; called before `fit`."""

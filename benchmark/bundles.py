@@ -63,6 +63,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
         published_models=task.published_models,
         published_metrics=task.published_metrics,
         not_comparable=task.not_comparable,
+        not_controlled=task.not_controlled,
         remarks=task.remarks,
         independent_folds=task.independent_folds,
         budget=budget,

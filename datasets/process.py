@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -10,9 +11,11 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets.recording import Frames, Recording
 
-__all__ = ["Layer", "ToyProcess"]
+__all__ = ["Layer", "ToyProcess", "Weights", "draw_gaussian"]
 
 Array = NDArray[np.float64]
+Weights = Callable[[np.random.Generator, tuple[int, ...]], Array]
+"""Draws the entries of W, of the shape asked for."""
 
 _NUGGET = 1e-9
 
@@ -34,13 +37,18 @@ class Layer:
 
     @classmethod
     def random(
-        cls, rng: np.random.Generator, n_outputs: int, n_components: int, variance: float
+        cls,
+        rng: np.random.Generator,
+        n_outputs: int,
+        n_components: int,
+        variance: float,
+        weights: Weights = np.random.Generator.standard_normal,
     ) -> Layer:
         """Draw B = W Wᵀ + diag(κ), scaled so that the mean marginal variance is ``variance``."""
-        weights = rng.standard_normal((n_components, n_outputs, 1))
+        columns = weights(rng, (n_components, n_outputs, 1))
         kappa = rng.uniform(0.05, 0.2, (n_components, n_outputs))
         lengthscales = rng.uniform(0.5, 2.0, n_components)
-        matrices = weights @ weights.transpose(0, 2, 1) + kappa[:, :, None] * np.eye(n_outputs)
+        matrices = columns @ columns.transpose(0, 2, 1) + kappa[:, :, None] * np.eye(n_outputs)
         marginal = np.trace(matrices.sum(axis=0)) / n_outputs
         return cls(matrices * (variance / marginal), lengthscales)
 
@@ -74,11 +82,21 @@ class ToyProcess:
 
     @classmethod
     def random(
-        cls, rng: np.random.Generator, *, n_outputs: int, noise: float, n_components: int = 3
+        cls,
+        rng: np.random.Generator,
+        *,
+        n_outputs: int,
+        noise: float,
+        n_components: int = 3,
+        weights: Weights = np.random.Generator.standard_normal,
     ) -> ToyProcess:
-        """Draw the layers of thesis §5.1.1: mean marginal variance 1 (parent) and 0.25 (child)."""
-        parent = Layer.random(rng, n_outputs, n_components, 1.0)
-        return cls(parent, Layer.random(rng, n_outputs, n_components, 0.25), noise)
+        """Draw the layers of thesis §5.1.1: mean marginal variance 1 (parent) and 0.25 (child).
+
+        ``weights=np.random.Generator.random`` draws W from U(0, 1), which correlates the outputs
+        more (thesis §5.2.1).
+        """
+        parent = Layer.random(rng, n_outputs, n_components, 1.0, weights)
+        return cls(parent, Layer.random(rng, n_outputs, n_components, 0.25, weights), noise)
 
     @property
     def n_outputs(self) -> int:
@@ -94,8 +112,8 @@ class ToyProcess:
         self, rng: np.random.Generator, times: Frames, n_replicates: int
     ) -> tuple[Recording, ...]:
         """Draw children ``child-1`` … of one new parent, at ``times`` (N,), noise included."""
-        parent = _draw(rng, self.parent.covariance(times), 1)
-        deviations = _draw(rng, self.child.covariance(times), n_replicates)
+        parent = draw_gaussian(rng, self.parent.covariance(times), 1)
+        deviations = draw_gaussian(rng, self.child.covariance(times), n_replicates)
         noise = np.sqrt(self.noise) * rng.standard_normal(deviations.shape)
         curves = (parent + deviations + noise).reshape(n_replicates, self.n_outputs, len(times))
         channels = tuple(f"output-{d + 1}" for d in range(self.n_outputs))
@@ -105,11 +123,12 @@ class ToyProcess:
         )
 
 
-def _draw(rng: np.random.Generator, covariance: Array, n: int) -> Array:
-    """Draw n vectors with the symmetric root, which exists where RBF's Cholesky factor does not.
+def draw_gaussian(rng: np.random.Generator, covariance: Array, n: int) -> Array:
+    """Return n draws (n, d) of a Gaussian of zero mean.
 
-    The root is unique, unlike the eigenvectors, and the nugget keeps its rounding error below
-    1e-9, so that other LAPACK builds draw the same numbers.
+    By the symmetric root, which exists where RBF's Cholesky factor does not. It is unique,
+    unlike the eigenvectors, and the nugget keeps its rounding error below 1e-9, so that other
+    LAPACK builds draw the same numbers.
     """
     eigenvalues, vectors = np.linalg.eigh(covariance)
     root = (vectors * np.sqrt(np.clip(eigenvalues, 0.0, None) + _NUGGET)) @ vectors.T

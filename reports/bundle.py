@@ -74,10 +74,14 @@ class TaskLayout:
         From our labels and metrics to the paper's names.
     not_comparable : mapping of (label, metric) to str
         Why a published value cannot be set beside ours; metric ``"*"`` stands for all.
+    not_controlled : mapping of str to str
+        Labels whose samples need not surpass the control's, and why.
     remarks : tuple of str
         Errata and cautions, shown with the tables.
     oracle : str
         The label that is told the generating process: a limit, never ranked.
+    control : str
+        The label whose samples owe nothing to the data: never ranked either.
     independent_folds : bool
         Whether folds are independent draws of the protocol. Overlapping windows of one recording
         are not: their spread is shown, but says nothing of how uncertain the mean is.
@@ -96,15 +100,17 @@ class TaskLayout:
     published_models: Mapping[str, str] = field(default_factory=dict)
     published_metrics: Mapping[str, str] = field(default_factory=dict)
     not_comparable: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    not_controlled: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     oracle: str = "oracle"
+    control: str = "control"
     independent_folds: bool = True
     budget: str = ""
 
     @property
     def ranked(self) -> tuple[str, ...]:
-        """The labels that compete: all but the oracle."""
-        return tuple(label for label in self.labels if label != self.oracle)
+        """The labels that compete: all but the oracle and the control."""
+        return tuple(label for label in self.labels if label not in {self.oracle, self.control})
 
 
 @dataclass(frozen=True)

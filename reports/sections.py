@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.bundle import TaskLayout
+from mocapbench.reports.controltables import control_table
 from mocapbench.reports.figures import ErrorBars, error_bars
 from mocapbench.reports.headlines import Finding, lead_findings, printed_findings, win_findings
 from mocapbench.reports.illustration import Illustration
@@ -66,7 +67,8 @@ def task_view(results: TaskResults, illustrations: Iterable[Illustration] = ()) 
     """Return the section of one task, with those of the ``illustrations`` that are its own."""
     layout, first = results.layout, results.layout.metrics[0]
     pairs = [pair for metric in layout.metrics for pair in comparisons(results, metric)]
-    summaries = [build(results) for build in (oracle_table, calibration_table, cost_table)]
+    builders = (oracle_table, control_table, calibration_table, cost_table)
+    summaries = [build(results) for build in builders]
     ran = {case.name for case in results.cases}
     return TaskView(
         id=slug("task", layout.name),

@@ -14,6 +14,7 @@ from mocapbench.baselines import (
     Imputer,
     Inductive,
     Informed,
+    Misinformed,
     Synthesiser,
 )
 from mocapbench.benchmark.plan import entrants
@@ -25,6 +26,7 @@ from mocapbench.metrics import Clustering, Direction, Imputation, Synthesis
 
 TIMES = np.linspace(0.0, 2.0 * np.pi, 20)
 PROCESS = ToyProcess.random(np.random.default_rng(5), n_outputs=2, noise=0.01)
+OTHER_PROCESS = ToyProcess.random(np.random.default_rng(8), n_outputs=2, noise=0.01)
 COMPLETE = PROCESS.draw(np.random.default_rng(6), TIMES, 4)
 GAP = np.repeat(((np.arange(20) > 7) & (np.arange(20) < 12))[:, None], 2, axis=1)
 SCATTERED = np.random.default_rng(7).random((20, 2)) < 0.5
@@ -49,6 +51,8 @@ def _fitted(name, recordings, seed=0):
     model.set_params(**{k: v for k, v in budget.items() if k in model.get_params()})
     if isinstance(model, Informed):
         model.inform(PROCESS)
+    if isinstance(model, Misinformed):
+        model.misinform(OTHER_PROCESS)
     return model.fit(recordings)
 
 
