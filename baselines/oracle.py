@@ -20,8 +20,8 @@ from scipy.linalg import cho_factor, cho_solve
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.pooling import check_recordings
-from mocapbench.baselines.protocols import Imputer, Informed, Prediction
-from mocapbench.datasets import Mask, Recording, ToyProcess
+from mocapbench.baselines.protocols import Imputer, Informed, Prediction, Trended
+from mocapbench.datasets import FrameByChannel, Frames, Mask, Recording, ToyProcess
 
 __all__ = ["Oracle"]
 
@@ -45,7 +45,7 @@ class _Pattern:
         return np.asarray(self.values.mean(axis=0))
 
 
-class Oracle(Imputer, Informed):
+class Oracle(Imputer, Trended, Informed):
     """Condition the true process on all that is visible.
 
     Exact mean and variance of the hidden observations, noise included, given the visible entries
@@ -136,6 +136,18 @@ class Oracle(Imputer, Informed):
         """
         check_is_fitted(self, "times_")
         return [self._prediction(recording) for recording in recordings]
+
+    def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
+        """Return the exact conditional mean and variance of g at ``times`` (M,): (M, D) each."""
+        check_is_fitted(self, "times_")
+        joint = self.process_.parent.covariance(np.concatenate([times, self.times_]))
+        places = np.arange(len(joint)).reshape(self.process_.n_outputs, -1)
+        new, known = places[:, : len(times)], places[:, len(times) :].ravel()
+        cross = joint[np.ix_(new.ravel(), known[self._seen])]
+        mean = cross @ self._weights
+        variance = np.diag(joint)[new.ravel()]
+        variance = variance - np.sum(cross * cho_solve(self._factor, cross.T).T, axis=1)
+        return mean.reshape(new.shape).T, variance.reshape(new.shape).T
 
     def _prediction(self, recording: Recording) -> Prediction:
         if recording.name not in self._places:

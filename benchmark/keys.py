@@ -32,6 +32,7 @@ _TASK_SOURCES = (
     "mocapbench.benchmark.imputation",
     "mocapbench.benchmark.masks",
     "mocapbench.benchmark.problem",
+    "mocapbench.benchmark.recovery",
     "mocapbench.benchmark.seeds",
     "mocapbench.benchmark.synthesis",
     "mocapbench.benchmark.tasks",

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines import Informed, Model
 from mocapbench.datasets import Recording, ToyProcess
-from mocapbench.metrics import Clustering, Imputation, Synthesis
+from mocapbench.metrics import Clustering, Imputation, Recovery, Synthesis
 
 __all__ = ["InvalidPredictionError", "Problem", "Solution"]
 
@@ -62,5 +62,5 @@ class Problem(ABC):
         """
 
     @abstractmethod
-    def outcome(self, solution: Solution) -> Imputation | Synthesis | Clustering:
+    def outcome(self, solution: Solution) -> Imputation | Synthesis | Clustering | Recovery:
         """Confront a solution with the truth."""

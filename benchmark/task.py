@@ -86,7 +86,7 @@ class Task(ABC):
     title, reference, description : str
         Heading, place in the paper, and one or two sentences for readers of the report.
     kind : str
-        ``"impute"``, ``"synthesise"`` or ``"cluster"``: what the report calls it.
+        ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``: what the report calls it.
     requires : tuple of type
         The abilities a model must have; others are not applicable.
     has_process : bool

@@ -61,7 +61,7 @@ class TaskLayout:
     name, title, reference : str
         Identity, heading, and place in the paper (``"thesis §5.1.1, Tables 1–3"``).
     kind : str
-        ``"impute"``, ``"synthesise"`` or ``"cluster"``.
+        ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``.
     description : str
         One or two sentences for readers.
     cases : tuple of CaseLayout
