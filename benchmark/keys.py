@@ -38,6 +38,7 @@ _TASK_SOURCES = (
     "mocapbench.benchmark.tasks",
 )
 _SOLVING = "mocapbench.benchmark.solving"
+_SOLVING_SOURCES = ("mocapbench.benchmark.disclosure",)
 _LIBRARIES = ("numpy", "scipy", "scikit-learn")
 
 
@@ -72,7 +73,7 @@ def fit_key(
             "entrant": [label, model.__qualname__, dict(parameters)],
             "source": [
                 source_digest(model.__module__, _MODEL_SOURCES),
-                source_digest(_SOLVING, ()),
+                source_digest(_SOLVING, _SOLVING_SOURCES),
             ],
             "libraries": {name: _installed_version(name) for name in _LIBRARIES},
         }

@@ -110,7 +110,11 @@ class Task(ABC):
     illustrated : tuple of str
         Names of cases; the first of them that has solutions is shown in figures.
     illustrated_channels : tuple of str
-        The channels that figures of filled recordings show.
+        The channels that figures of recordings show.
+    coregionalisation_of : tuple of str
+        Labels whose coregionalisation matrices are shown.
+    joint_groups : mapping of str to tuple of str
+        Joints whose part of those matrices is shown by itself, by a name for the group.
     """
 
     name: str
@@ -133,6 +137,8 @@ class Task(ABC):
     remarks: tuple[str, ...] = ()
     illustrated: tuple[str, ...] = ()
     illustrated_channels: tuple[str, ...] = ()
+    coregionalisation_of: tuple[str, ...] = ()
+    joint_groups: Mapping[str, tuple[str, ...]] = {}
 
     @abstractmethod
     def problem(self, case: Case, seeds: Seeds, archive: Archive) -> Problem:
