@@ -26,8 +26,9 @@ from mocapbench.baselines.protocols import (
     Prediction,
     SampleByFrameByChannel,
     Synthesiser,
+    Trended,
 )
-from mocapbench.datasets import Frames, Mask, Recording, ToyProcess
+from mocapbench.datasets import FrameByChannel, Frames, Mask, Recording, ToyProcess
 from mocapbench.datasets.process import draw_gaussian
 
 __all__ = ["Oracle"]
@@ -52,7 +53,7 @@ class _Pattern:
         return np.asarray(self.values.mean(axis=0))
 
 
-class Oracle(Imputer, Synthesiser, Informed):
+class Oracle(Imputer, Synthesiser, Trended, Informed):
     """Condition the true process on all that is visible.
 
     Exact mean and variance of the hidden observations, noise included, and exact draws of new
@@ -141,6 +142,13 @@ class Oracle(Imputer, Synthesiser, Informed):
         check_is_fitted(self, "times_")
         return [self._prediction(recording) for recording in recordings]
 
+    def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
+        """Return the exact conditional mean and variance of g at ``times`` (M,): (M, D) each."""
+        check_is_fitted(self, "times_")
+        mean, covariance = self._trend(times)
+        shape = self.process_.n_outputs, len(times)
+        return mean.reshape(shape).T, np.diag(covariance).reshape(shape).T
+
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
@@ -159,14 +167,12 @@ class Oracle(Imputer, Synthesiser, Informed):
 
     def _trend(self, times: Frames) -> tuple[Array, Array]:
         """Return the parent's posterior mean (D M,) and covariance at ``times`` (M,)."""
-        outputs = np.arange(self.process_.n_outputs)[:, None]
-        both = np.concatenate([times, self.times_])
-        wanted = (len(both) * outputs + np.arange(len(times))).ravel()
-        fitted = (len(both) * outputs + len(times) + np.arange(len(self.times_))).ravel()
-        joint = self.process_.parent.covariance(both)
-        cross = joint[np.ix_(wanted, fitted[self._seen])]
+        joint = self.process_.parent.covariance(np.concatenate([times, self.times_]))
+        places = np.arange(len(joint)).reshape(self.process_.n_outputs, -1)
+        new, known = places[:, : len(times)].ravel(), places[:, len(times) :].ravel()
+        cross = joint[np.ix_(new, known[self._seen])]
         explained = cross @ cho_solve(self._factor, cross.T)
-        return cross @ self._weights, joint[np.ix_(wanted, wanted)] - explained
+        return cross @ self._weights, joint[np.ix_(new, new)] - explained
 
     def _prediction(self, recording: Recording) -> Prediction:
         if recording.name not in self._places:

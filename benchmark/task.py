@@ -86,7 +86,7 @@ class Task(ABC):
     title, reference, description : str
         Heading, place in the paper, and one or two sentences for readers of the report.
     kind : str
-        ``"impute"``, ``"synthesise"`` or ``"cluster"``: what the report calls it.
+        ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``: what the report calls it.
     requires : tuple of type
         The abilities a model must have; others are not applicable.
     has_process : bool
@@ -114,7 +114,11 @@ class Task(ABC):
     illustrated : tuple of str
         Names of cases; the first of them that has solutions is shown in figures.
     illustrated_channels : tuple of str
-        The channels that figures of filled recordings show.
+        The channels that figures of recordings show.
+    coregionalisation_of : tuple of str
+        Labels whose coregionalisation matrices are shown.
+    joint_groups : mapping of str to tuple of str
+        Joints whose part of those matrices is shown by itself, by a name for the group.
     """
 
     name: str
@@ -139,6 +143,8 @@ class Task(ABC):
     remarks: tuple[str, ...] = ()
     illustrated: tuple[str, ...] = ()
     illustrated_channels: tuple[str, ...] = ()
+    coregionalisation_of: tuple[str, ...] = ()
+    joint_groups: Mapping[str, tuple[str, ...]] = {}
 
     @abstractmethod
     def problem(self, case: Case, seeds: Seeds, archive: Archive) -> Problem:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import pandas as pd
 
 from mocapbench.metrics.base import Direction
-from mocapbench.reports.illustration import Illustration
+from mocapbench.reports.illustration import Picture
 
 __all__ = ["Bundle", "CaseLayout", "MetricInfo", "Setting", "TaskLayout"]
 
@@ -61,7 +61,7 @@ class TaskLayout:
     name, title, reference : str
         Identity, heading, and place in the paper (``"thesis §5.1.1, Tables 1–3"``).
     kind : str
-        ``"impute"``, ``"synthesise"`` or ``"cluster"``.
+        ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``.
     description : str
         One or two sentences for readers.
     cases : tuple of CaseLayout
@@ -175,7 +175,7 @@ class Bundle:
         Shown in order. The summary quotes ``"profile"``, ``"CPU"``, ``"threads"``, ``"started"``,
         ``"wall time"`` and ``"command line"``, and the foot of the page ``"acknowledgement"``,
         where they are there.
-    illustrations : tuple of Illustration
+    illustrations : tuple of Illustration or HeatMaps
         Figures of the tasks, in page order.
 
     Raises
@@ -190,7 +190,7 @@ class Bundle:
     layouts: tuple[TaskLayout, ...]
     metrics: Mapping[str, MetricInfo]
     provenance: Mapping[str, str]
-    illustrations: tuple[Illustration, ...] = ()
+    illustrations: tuple[Picture, ...] = ()
 
     def __post_init__(self) -> None:
         _require_columns("scores", self.scores, SCORE_COLUMNS)

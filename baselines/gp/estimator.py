@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 from joblib import effective_n_jobs
@@ -33,6 +33,7 @@ from mocapbench.baselines.gp.trends import TRENDS
 from mocapbench.baselines.gp.workers import mapping
 from mocapbench.baselines.pooling import check_recordings
 from mocapbench.baselines.protocols import (
+    Coregionalised,
     Imputer,
     Prediction,
     SampleByFrameByChannel,
@@ -45,7 +46,7 @@ __all__ = ["GaussianProcess"]
 Array = NDArray[np.float64]
 
 
-class GaussianProcess(Imputer, Synthesiser):
+class GaussianProcess(Imputer, Synthesiser, Coregionalised):
     """A linear model of coregionalisation, or two, trained by type-II maximum likelihood.
 
     Parameters
@@ -105,9 +106,6 @@ class GaussianProcess(Imputer, Synthesiser):
     noise_ : ndarray of shape (D,)
         Noise variances, in the outputs' own units.
     """
-
-    layers: ClassVar[tuple[str, ...]]
-    """The layers of the model; the last is the one that new recordings are drawn from."""
 
     def __init__(
         self,

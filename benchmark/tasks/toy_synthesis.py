@@ -8,9 +8,9 @@ from mocapbench.baselines import Synthesiser
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.synthesis import SynthesiseProblem
 from mocapbench.benchmark.task import Case, Entrant, Selection, Task
-from mocapbench.benchmark.tasks.toy_interpolation import toy_interpolation_1
+from mocapbench.benchmark.tasks.toy_interpolation_1 import toy_interpolation_1
 from mocapbench.datasets import Archive
-from mocapbench.datasets.process import ToyProcess
+from mocapbench.datasets.process import ToyProcess, uniform_weights
 
 __all__ = ["ToySynthesis", "toy_synthesis"]
 
@@ -107,7 +107,7 @@ def _process(case: Case, rng: np.random.Generator) -> ToyProcess:
         rng,
         n_outputs=int(case.settings["outputs"]),
         noise=float(case.settings["noise"]),
-        weights=np.random.Generator.random,
+        draw_weights=uniform_weights,
     )
 
 
