@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from mocapbench.reports.bundle import CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.bundle import CaseLayout
 from mocapbench.reports.results import DATA_MISSING, Estimate, TaskResults, Trouble
 from mocapbench.reports.tables import (
     ABSENT,
@@ -24,7 +24,9 @@ from mocapbench.reports.tables import (
 __all__ = ["case_name", "score_table", "settings_of"]
 
 MISSING_ID = "missing-data"
+FOLDS = "2 sd over folds"
 WINDOWS = "spread over overlapping windows (2 sd)"
+SAMPLES = "2 sd over the samples of a fold, averaged over folds"
 
 
 def case_name(case: CaseLayout) -> str:
@@ -58,7 +60,7 @@ def score_table(results: TaskResults, metric: str) -> Table:
     )
     return Table(
         id=slug(results.layout.name, metric),
-        caption=f"{info.title}: {_meaning(results.layout, info)}",
+        caption=f"{info.title}: {_meaning(results, metric)}",
         columns=columns,
         rows=rows,
         data=_tidy(results, metric),
@@ -66,10 +68,17 @@ def score_table(results: TaskResults, metric: str) -> Table:
     )
 
 
-def _meaning(layout: TaskLayout, info: MetricInfo) -> str:
+def _meaning(results: TaskResults, metric: str) -> str:
+    info = results.metrics[metric]
     goal = info.direction.value if info.target is None else f"closest to {info.target:g}"
-    spread = "2 sd over folds" if layout.independent_folds else WINDOWS
-    return f"mean ± {spread}, {goal} is better, best mean in bold"
+    return f"mean ± {_spread_meaning(results, metric)}, {goal} is better, best mean in bold"
+
+
+def _spread_meaning(results: TaskResults, metric: str) -> str:
+    estimates = (e for (_, _, name), e in results.estimates.items() if name == metric)
+    if any(estimate.sample_two_sd is not None for estimate in estimates):
+        return SAMPLES
+    return FOLDS if results.layout.independent_folds else WINDOWS
 
 
 def _case_note(case: CaseLayout) -> str:
@@ -110,7 +119,7 @@ def _score(
     lost = [f"{count} {status}" for status, count in counts.items()]
     return Cell(
         text=number(estimate.mean, places),
-        spread="" if estimate.two_sd is None else number(estimate.two_sd, places),
+        spread="" if estimate.spread is None else number(estimate.spread, places),
         note=", ".join(filter(None, [remaining, *lost])),
         kind=kind,
         link=link,

@@ -59,7 +59,7 @@ def _row(pair: Comparison, places: int) -> tuple[Cell, ...]:
         Cell(pair.label, kind="text"),
         Cell(published.model, kind="text"),
         Cell(f"n={ours.n}"),
-        Cell(number(ours.mean, places), spread=_spread(ours.two_sd, places)),
+        Cell(number(ours.mean, places), spread=_spread(ours.spread, places)),
         Cell(number(published.value, places), spread=_spread(published.two_sd, places)),
         Cell(number(ours.mean - published.value, places)),
         Cell(pair.verdict.value, note=note, kind=slug(pair.verdict.value)),

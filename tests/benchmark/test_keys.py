@@ -39,22 +39,26 @@ def test_order_of_parameters_does_not():
     assert _key(parameters={"a": 1, "b": 2}) == _key(parameters={"b": 2, "a": 1})
 
 
+def _score_key(metrics, case="row", references=None):
+    return score_key("fit", metrics, case, references or {})
+
+
 def test_a_metric_changes_the_score_key_alone():
     mse, msll = METRICS.get("mse"), METRICS.get("msll")
-    assert score_key("fit", [mse]) != score_key("fit", [mse, msll])
-    assert score_key("fit", [mse, msll]) == score_key("fit", [msll, mse])
+    assert _score_key([mse]) != _score_key([mse, msll])
+    assert _score_key([mse, msll]) == _score_key([msll, mse])
 
 
 @pytest.mark.parametrize("name", METRICS.names())
 def test_a_metric_is_named_by_its_own_source(name, monkeypatch):
     """Also where the function is bound to arguments, which count too."""
     metric = METRICS.get(name)
-    before = score_key("fit", [metric])
+    before = _score_key([metric])
     statistic = functools.partial(metric.statistic, level=0.123)
-    assert score_key("fit", [dataclasses.replace(metric, statistic=statistic)]) != before
+    assert _score_key([dataclasses.replace(metric, statistic=statistic)]) != before
     monkeypatch.setattr(keys, "_source", lambda module: f"# {module}" * ("mocapbench" in module))
     source_digest.cache_clear()
-    assert score_key("fit", [metric]) != before
+    assert _score_key([metric]) != before
     source_digest.cache_clear()
 
 
