@@ -17,7 +17,13 @@ import pandas as pd
 
 from mocapbench.reports.remarks import Address, parse_remarks, remark_on
 
-__all__ = ["PublishedTask", "PublishedValue", "parse_published", "published_values"]
+__all__ = [
+    "PublishedTask",
+    "PublishedValue",
+    "every_value",
+    "parse_published",
+    "published_values",
+]
 
 KEY = ["source", "case", "metric", "model"]
 COLUMNS = ["source", "task", "case", "settings", "metric", "model", "value", "two_sd"]
@@ -81,7 +87,8 @@ def _value(line: int, row: Mapping[Hashable, str]) -> PublishedValue:
 
 
 @cache
-def _shipped() -> tuple[PublishedValue, ...]:
+def every_value() -> tuple[PublishedValue, ...]:
+    """Return every number that ships with the package, with the remarks on it."""
     errata, reasons = (parse_remarks(_read(f"{name}.csv")) for name in ("errata", "not_comparable"))
     return tuple(
         replace(
@@ -100,5 +107,7 @@ def _read(name: str) -> str:
 def published_values(task: str) -> PublishedTask:
     """Return the published values of ``task`` by (case, metric, model); empty if there are none."""
     return {
-        (value.case, value.metric, value.model): value for value in _shipped() if value.task == task
+        (value.case, value.metric, value.model): value
+        for value in every_value()
+        if value.task == task
     }

@@ -49,6 +49,14 @@ def test_a_metric_changes_the_score_key_alone():
     assert _score_key([mse, msll]) == _score_key([msll, mse])
 
 
+def test_rows_and_references_change_the_score_key_alone():
+    mse, asked = METRICS.get("mse"), dataclasses.replace(TASK.cases[0], question="what is asked")
+    row, other = (dataclasses.replace(asked, name=name, settings={"row": name}) for name in "ab")
+    assert _key(row) == _key(other) != _key()
+    keys = [_score_key([mse], "a"), _score_key([mse], "b"), _score_key([mse], "a", {"r": "0"})]
+    assert len({*keys, _score_key([mse], "a", {"r": "1"})}) == 4
+
+
 @pytest.mark.parametrize("name", METRICS.names())
 def test_a_metric_is_named_by_its_own_source(name, monkeypatch):
     """Also where the function is bound to arguments, which count too."""
