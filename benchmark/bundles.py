@@ -55,7 +55,14 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
         kind=task.kind,
         description=task.description,
         cases=tuple(
-            CaseLayout(case.name, case.settings, case.published, case.synthetic, case.remark)
+            CaseLayout(
+                case.name,
+                case.settings,
+                case.published,
+                case.synthetic,
+                case.remark,
+                case.not_comparable,
+            )
             for case in task.cases
         ),
         labels=_unique(record.label for record in records if record.task == task.name),
@@ -66,6 +73,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
         not_controlled=task.not_controlled,
         remarks=task.remarks,
         independent_folds=task.independent_folds,
+        crossed=task.crossed,
         budget=budget,
     )
 

@@ -213,7 +213,7 @@ def _plan_table(planned: Sequence[Job]) -> Table:
     table = Table("task", "case", "entrant", "folds", title=f"{len(planned)} jobs")
     rows: dict[tuple[str, str, str], int] = {}
     for job in planned:
-        address = (job.seeds.task, job.seeds.case, job.label)
+        address = (job.seeds.task, job.case, job.label)
         rows[address] = rows.get(address, 0) + 1
     for address, count in rows.items():
         table.add_row(*address, str(count))

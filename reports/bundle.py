@@ -19,7 +19,9 @@ __all__ = ["Bundle", "CaseLayout", "MetricInfo", "Setting", "TaskLayout"]
 
 Setting = str | int | float
 
-SCORE_COLUMNS = ("task", "case", "fold", "label", "model", "metric", "value", "left_out")
+SCORE_COLUMNS = (
+    *("task", "case", "fold", "label", "model", "metric", "value", "sample_two_sd", "left_out"),
+)
 RECORD_COLUMNS = (
     *("task", "case", "fold", "label", "model", "parameters", "status", "message", "traceback"),
     *("fit_seconds", "predict_seconds", "peak_memory_mb", "iterations", "converged", "engine"),
@@ -43,6 +45,8 @@ class CaseLayout:
         Whether the row stands on generated rather than recorded motion.
     remark : str
         Shown in the row.
+    not_comparable : mapping of str to str
+        By label, why the row's published values cannot be set beside ours.
     """
 
     name: str
@@ -50,6 +54,7 @@ class CaseLayout:
     published: str | None = None
     synthetic: bool = False
     remark: str = ""
+    not_comparable: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -85,6 +90,9 @@ class TaskLayout:
     independent_folds : bool
         Whether folds are independent draws of the protocol. Overlapping windows of one recording
         are not: their spread is shown, but says nothing of how uncertain the mean is.
+    crossed : tuple of two str, or None
+        Settings along the rows and the columns of the tables, where one entrant takes part and
+        the cases are pairs.
     budget : str
         What the run cut short (``"max_iter=200"``), empty where it spent what the task asks for.
     """
@@ -105,6 +113,7 @@ class TaskLayout:
     oracle: str = "oracle"
     control: str = "control"
     independent_folds: bool = True
+    crossed: tuple[str, str] | None = None
     budget: str = ""
 
     @property
@@ -159,7 +168,9 @@ class Bundle:
     ----------
     scores : DataFrame
         One row per (task, case, fold, label, metric): columns ``task``, ``case``, ``fold``,
-        ``label``, ``model``, ``metric``, ``value``, ``left_out``.
+        ``label``, ``model``, ``metric``, ``value``, ``sample_two_sd`` (two standard deviations
+        over the samples that the value is a mean of, NaN where it is no such mean),
+        ``left_out``.
     records : DataFrame
         One row per job: columns ``task``, ``case``, ``fold``, ``label``, ``model``,
         ``parameters``, ``status`` (``ok``, ``failed``, ``timeout``, ``out-of-memory``,

@@ -160,7 +160,14 @@ def printed_findings(results: TaskResults, metric: str) -> list[Finding]:
 
 def _best_printed(results: TaskResults, case: CaseLayout, metric: str) -> PublishedValue | None:
     row = (None if case.synthetic else case.published, results.layout.published_metrics.get(metric))
-    printed = [value for value in results.published.values() if (value.case, value.metric) == row]
+    apart = {results.layout.published_models.get(label) for label in case.not_comparable}
+    printed = [
+        value
+        for value in results.published.values()
+        if (value.case, value.metric) == row
+        and value.model not in apart
+        and not value.not_comparable
+    ]
     loss = results.metrics[metric].loss
     return min(printed, key=lambda value: loss(value.value), default=None)
 

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 from mocapbench.reports.bundle import TaskLayout
 from mocapbench.reports.controltables import control_table
+from mocapbench.reports.crosstables import cross_table
 from mocapbench.reports.drawings import draw
 from mocapbench.reports.figures import ErrorBars, error_bars
 from mocapbench.reports.headlines import Finding, lead_findings, printed_findings, win_findings
 from mocapbench.reports.illustration import Picture
+from mocapbench.reports.matches import match_table
 from mocapbench.reports.panels import Drawing
 from mocapbench.reports.results import TaskResults, Trouble
 from mocapbench.reports.scoretables import case_name, score_table
@@ -68,7 +70,7 @@ def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> Ta
     """Return the section of one task, with those of the ``illustrations`` that are its own."""
     layout, first = results.layout, results.layout.metrics[0]
     pairs = [pair for metric in layout.metrics for pair in comparisons(results, metric)]
-    builders = (oracle_table, control_table, calibration_table, cost_table)
+    builders = (match_table, oracle_table, control_table, calibration_table, cost_table)
     summaries = [build(results) for build in builders]
     ran = {case.name for case in results.cases}
     return TaskView(
@@ -86,10 +88,11 @@ def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> Ta
 
 
 def _metric_view(results: TaskResults, metric: str) -> MetricView:
+    crossed = results.layout.crossed
     return MetricView(
         title=results.metrics[metric].title,
-        table=score_table(results, metric),
-        figure=error_bars(results, metric),
+        table=cross_table(results, metric, crossed) if crossed else score_table(results, metric),
+        figure=None if crossed else error_bars(results, metric),
         published=verdict_table(results, metric),
         verdicts=tally(comparisons(results, metric)),
     )

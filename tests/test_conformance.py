@@ -227,7 +227,7 @@ def test_a_task_is_consistent(name):
 def _posed(name, fold):
     """Return a problem of the task, of the first case whose recordings are at hand."""
     task, archive = TASKS.get(name), open_archive(None)
-    case = next(c for c in task.cases if all(map(archive.available, c.sources)))
+    case = next(c for c in task.cases if all(map(archive.available, c.needs)))
     return task.problem(case, Seeds(0, task.name, task.version, case.name, fold), archive)
 
 

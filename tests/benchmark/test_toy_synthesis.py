@@ -9,7 +9,7 @@ from mocapbench.baselines.control import Control
 from mocapbench.baselines.oracle import Oracle
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.tasks.toy_interpolation import toy_interpolation_1
+from mocapbench.benchmark.tasks.toy_interpolation_1 import toy_interpolation_1
 from mocapbench.benchmark.tasks.toy_synthesis import toy_synthesis
 from mocapbench.datasets import open_archive
 from mocapbench.metrics import mlc, spread

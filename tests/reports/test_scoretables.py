@@ -128,3 +128,25 @@ def test_the_caption_says_what_the_spread_is(small, independent, words):
 def test_the_caption_says_which_way_is_better(small, metric):
     words = {"mse": "lower is better", "coverage_50": "closest to 0.5 is better"}
     assert words[metric] in table_of(small({"row": {"a": [1.0]}}, metric=metric), metric).caption
+
+
+def test_scores_of_samples_spread_over_samples(small):
+    bundle = small({"row": {"a": [1.0, 3.0]}})
+    bundle.scores["sample_two_sd"] = [0.4, 0.6]
+    table = table_of(bundle, "mse")
+    assert cell(table, "row", "a").spread == "0.50"
+    assert "2 sd over the samples of a fold, averaged over folds" in table.caption
+
+
+def test_errata_of_columns_that_only_the_paper_has_are_footnotes(small):
+    bundle = small(
+        {"row": {"a": [8.0]}, "other": {"a": [9.0]}},
+        task="toy-synthesis",
+        cases=(CaseLayout("row", {}, "test 1"), CaseLayout("other", {}, "test 2")),
+        published_metrics={"mse": "MCC"},
+        published_models={"a": "MOHGP"},
+    )
+    table = table_of(bundle, "mse")
+    assert cell(table, "row", "Control (published)").mark == "a"
+    assert cell(table, "other", "Control (published)").mark == ""
+    assert table.notes[-1].startswith("a: ")
