@@ -57,38 +57,39 @@ def test_likelihood_and_gradient_are_those_of_the_joint_gaussian(
     np.testing.assert_allclose(gradient, expected, atol=1e-6 * np.abs(expected).max())
 
 
-def test_every_node_conditions_the_joint_gaussian(cases, brute_force):
-    @settings(deadline=None)
-    @given(cases.filter(lambda case: case.structure.depth), st.integers(0, 4), st.integers(0, 3))
-    def law(case, which, level):
-        replicate, n_layers = which % len(case.replicates.data), level % len(case.tree) + 1
-        layers = case.structure.layers[:n_layers]
-        reduction = case.reduction
-        node = case.tree[layers[-1]][replicate]
-        solvers = [Dense(case.kernel)] * len(reduction.blocks)
-        ((mean, variance),) = infer(
-            reduction, solvers, case.parameters, [reduction.nodes[node]], [AT]
-        )
-        expected = brute_force(case).posterior(AT, replicate, layers)
+def check_way(case, truth, replicate):
+    """Check the curves of all nodes on the way from the root to a replicate."""
+    reduction, layers = case.reduction, case.structure.layers
+    solvers = [Dense(case.kernel)] * len(reduction.blocks)
+    curves = [reduction.nodes[case.tree[layer][replicate]] for layer in layers]
+    inferred = infer(reduction, solvers, case.parameters, curves, [AT] * len(curves))
+    for level, (mean, variance) in enumerate(inferred, start=1):
+        expected = truth.posterior(AT, replicate, layers[:level])
         np.testing.assert_allclose(mean.T, expected[0], atol=1e-8)
         np.testing.assert_allclose(variance.T, expected[1], atol=1e-8)
+
+
+def test_every_node_conditions_the_joint_gaussian(cases, brute_force):
+    @settings(deadline=None, max_examples=50)
+    @given(cases.filter(lambda case: case.structure.depth), st.integers(0, 4))
+    def law(case, which):
+        check_way(case, brute_force(case), which % len(case.replicates.data))
 
     law()
 
 
+@pytest.mark.parametrize("paths", [BALANCED, RAGGED], ids=["balanced", "ragged"])
+def test_siblings_of_one_shape_keep_their_own_curves(paths, example, brute_force):
+    drawn = example(paths)
+    for replicate in range(len(paths)):
+        check_way(drawn, brute_force(drawn), replicate)
+
+
 def test_a_group_of_which_nothing_shows_is_a_draw_around_its_parent(example, brute_force):
     drawn = example((("a", "x"), ("a", "x"), ("b", "x"), ("b", "y")))
-    hidden = drawn.replicates.observed
-    hidden[2:] = False
+    drawn.replicates.observed[2:] = False
     drawn.replicates.data[2:] = 0.0
-    reduction, layers = drawn.reduction, drawn.structure.layers
-    solvers = [Dense(drawn.kernel)] * len(reduction.blocks)
-    for level, layer in enumerate(layers, start=1):
-        curve = reduction.nodes[drawn.tree[layer][3]]
-        ((mean, variance),) = infer(reduction, solvers, drawn.parameters, [curve], [AT])
-        expected = brute_force(drawn).posterior(AT, 3, layers[:level])
-        np.testing.assert_allclose(mean.T, expected[0], atol=1e-10)
-        np.testing.assert_allclose(variance.T, expected[1], atol=1e-10)
+    check_way(drawn, brute_force(drawn), 3)
 
 
 def test_the_cost_of_a_balanced_tree_does_not_grow_with_its_groups_or_their_sizes(example):
@@ -102,6 +103,17 @@ def test_the_cost_of_a_balanced_tree_does_not_grow_with_its_groups_or_their_size
         assert [len(block.data) for block in blocks] == [1, n**3, n**2, n]
         assert [block.multiplicity for block in blocks] == [1, n**3 - n**2, n**2 - n, n - 1]
         assert [len(block.units) for block in blocks] == [4, 1, 2, 3]
+
+
+def test_groups_have_one_shape_in_whatever_order_their_replicates_come(example):
+    """Two groups, each with one replicate that is complete and one that is not."""
+    drawn = example((("a",), ("a",), ("b",), ("b",)))
+    drawn.replicates.observed[[0, 3], 1] = False
+    drawn.replicates.data[[0, 3], 1] = 0.0
+    means, deviations = drawn.reduction.blocks
+    assert means.data.shape[:2] == (1, 2)
+    assert deviations.data.shape[:2] == (2, 2)
+    assert deviations.multiplicity == 1
 
 
 def test_names_and_order_of_groups_mean_nothing(cases):
