@@ -58,7 +58,7 @@ def test_a_job_has_the_digest_of_every_recording_that_it_takes(jobs):
 
 
 def test_rows_with_one_question_are_fitted_once(cli, tmp_path):
-    arguments = ("--tasks", CONTROL.name, "--cases", "gait 1 vs *", "--offline")
+    arguments = ("--tasks", CONTROL.name, "--cases", "synthetic 1 vs *", "--offline")
     assert cli("run", *arguments, "--out", tmp_path) == 0
     assert len(list((tmp_path / "records").glob("*.json"))) == 2
     assert len(list((tmp_path / "predictions").glob("*.npz"))) == 1
@@ -93,8 +93,11 @@ def _similarity(case):
 
 
 def test_a_recording_is_like_itself_and_likeness_is_mutual():
-    itself = _similarity("gait 1 vs gait 1")
-    one, other = _similarity("gait 1 vs gait 2"), _similarity("gait 2 vs gait 1")
+    itself = _similarity("synthetic 1 vs synthetic 1")
+    one, other = (
+        _similarity("synthetic 1 vs synthetic 2"),
+        _similarity("synthetic 2 vs synthetic 1"),
+    )
     assert itself["mlc"] == pytest.approx(1.0)
     assert one == pytest.approx(other)
     assert one["mcc"] < itself["mcc"]
