@@ -92,7 +92,7 @@ def _profiles(cases: tuple[Case, ...], *quick: str) -> dict[str, Selection]:
     return {
         "smoke": Selection(("synthetic",), folds=1, budget={"max_iter": 5, "n_restarts": 1}),
         "quick": Selection((*quick, "synthetic"), folds=1, budget={"max_iter": 60}),
-        "paper": Selection(tuple(case.name for case in cases), folds=5, budget={"max_iter": 500}),
+        "paper": Selection(tuple(case.name for case in cases), folds=5, budget={"max_iter": 200}),
     }
 
 
@@ -153,7 +153,7 @@ class WalkingSynthesis(MocapSynthesis):
             "three walks",
             {**_TWO, "7(2)": "cmu:07_02"},
             WALKS,
-            suffix=", three walks",
+            suffix=" from three walks",
             not_comparable=dict.fromkeys(("mohgp-3", "moa-3"), _TRAINED_ON_TWO),
         ),
         _synthetic(("01_01", "01_02"), ("02_01", "03_01", "04_01")),
@@ -197,7 +197,7 @@ class SoccerSynthesis(MocapSynthesis):
             "two short kicks",
             {"10(5) short": "cmu:10_05", "10(6) short": "cmu:10_06"},
             KICKS,
-            suffix=", short kicks",
+            suffix=" from short kicks",
         ),
         _synthetic(("01_05", "02_05"), ("03_05", "04_05", "05_05")),
     )

@@ -48,7 +48,7 @@ def test_what_is_asked_follows_from_the_training_recordings(name):
 def test_only_what_needs_a_missing_recording_lacks_data(jobs):
     lacking = {job.case for job in jobs if "cmu:38_02" in job.digests}
     rows = {"38(2)", "all five"}
-    assert lacking == rows | {f"{row}, three walks" for row in rows}
+    assert lacking == rows | {f"{row} from three walks" for row in rows}
 
 
 def test_a_job_has_the_digest_of_every_recording_that_it_takes(jobs):
@@ -75,7 +75,9 @@ def test_recordings_share_90_frames_of_39_channels_from_time_0(name, case):
 
 @pytest.mark.recordings
 def test_short_kicks_are_cut_as_the_references_are():
-    short, long = (_problem("soccer-synthesis", f"10(5){which}") for which in (", short kicks", ""))
+    long, short = (
+        _problem("soccer-synthesis", case) for case in ("10(5)", "10(5) from short kicks")
+    )
     np.testing.assert_array_equal(short.train[0].values, short.references[0])
     assert not np.array_equal(long.train[0].values, long.references[0])
 
