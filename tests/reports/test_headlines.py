@@ -118,3 +118,21 @@ def test_a_win_follows_the_metrics_direction(small):
     near = {"row": {"mohgp-1": [0.5], "gp-independent": [0.2]}}
     bundle = small(near, metric="coverage_50", published_models=PUBLISHED)
     assert wins(results_of(bundle), "coverage_50") == []
+
+
+@pytest.mark.parametrize(
+    ("not_comparable", "found"), [({}, 1), ({"mohgp-1": "trained on other walks"}, 0)]
+)
+def test_what_cannot_be_compared_is_no_better_value(small, not_comparable, found):
+    """The paper prints 22.546 for its ICM, and otherwise 23.082 or more (less is taken as better).
+
+    MOHGP-LMC, 25.248, is printed twice and counts once.
+    """
+    bundle = small(
+        {"row": {"mohgp-1": [23.0], "mohgp-3": [24.0]}},
+        task="walking-synthesis",
+        cases=(CaseLayout("row", {}, published="35(1)", not_comparable=not_comparable),),
+        published_models={"mohgp-1": "MOHGP-ICM", "mohgp-3": "MOHGP"},
+        published_metrics={"mse": "MCC"},
+    )
+    assert len(printed_findings(results_of(bundle), "mse")) == found
