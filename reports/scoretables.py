@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.reports.bundle import CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.ranknotes import rank_notes
 from mocapbench.reports.results import DATA_MISSING, Estimate, TaskResults, Trouble
 from mocapbench.reports.tables import (
     ABSENT,
@@ -46,7 +47,7 @@ def score_table(results: TaskResults, metric: str) -> Table:
         (
             Cell(case.name, note=_case_note(case)),
             *(Cell(str(case.settings.get(key, ""))) for key in settings),
-            Cell(f"n={_n_folds(results, case.name, metric)}"),
+            _folds(results, case.name, metric),
             *_scores(results, case.name, metric, places),
             *(_foreign_cell(results, case, metric, model, places) for model in foreign),
         )
@@ -69,11 +70,17 @@ def score_table(results: TaskResults, metric: str) -> Table:
 def _meaning(layout: TaskLayout, info: MetricInfo) -> str:
     goal = info.direction.value if info.target is None else f"closest to {info.target:g}"
     spread = "2 sd over folds" if layout.independent_folds else WINDOWS
-    return f"mean ± {spread}, {goal} is better, best mean in bold"
+    return f"mean ± {spread}, {goal} is better, first rank in bold"
 
 
 def _case_note(case: CaseLayout) -> str:
     return " · ".join(filter(None, ["synthetic" if case.synthetic else "", case.remark]))
+
+
+def _folds(results: TaskResults, case: str, metric: str) -> Cell:
+    rank = results.first_rank(case, metric)
+    untested = rank is not None and not rank.tested
+    return Cell(f"n={_n_folds(results, case, metric)}", note="no test" if untested else "")
 
 
 def _n_folds(results: TaskResults, case: str, metric: str) -> int:
@@ -151,7 +158,9 @@ def _notes(results: TaskResults, metric: str) -> tuple[str, ...]:
         if results.layout.oracle in results.layout.labels
         else ""
     )
-    return tuple(filter(None, [*results.layout.remarks, degenerate, limit]))
+    return tuple(
+        filter(None, [*results.layout.remarks, degenerate, limit, *rank_notes(results, metric)])
+    )
 
 
 def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:
