@@ -148,6 +148,17 @@ class Store:
         keys = sorted(path.stem for path in (self.path / "records").glob("*.json"))
         return [record for key in keys if (record := self.load(key)) is not None]
 
+    def planned(self) -> list[Record]:
+        """Return the whole records of the last run, in table order.
+
+        Raises
+        ------
+        UsageError
+            If no run got so far, or its plan is damaged.
+        """
+        keys = self.load_plan()["keys"]
+        return [record for key in keys if (record := self.load(key)) is not None]
+
     def load_fit(self, key: str) -> Fit | None:
         """Return the fit called ``key``, or None if it is absent or damaged."""
         path = self._fit_path(key)
