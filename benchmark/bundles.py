@@ -10,7 +10,7 @@ from mocapbench.benchmark.tables import job_table, score_table
 from mocapbench.benchmark.task import Task
 from mocapbench.reports import Bundle, CaseLayout, Illustration, MetricInfo, TaskLayout
 
-__all__ = ["bundle"]
+__all__ = ["bundle", "metric_info"]
 
 
 def bundle(
@@ -36,7 +36,7 @@ def bundle(
         layouts=tuple(
             _layout(task, records, _budget(task, provenance.get("profile", ""))) for task in tasks
         ),
-        metrics={name: _metric_info(name) for name in sorted(used)},
+        metrics={name: metric_info(name) for name in sorted(used)},
         provenance=provenance,
         illustrations=illustrations,
     )
@@ -69,7 +69,8 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
     )
 
 
-def _metric_info(name: str) -> MetricInfo:
+def metric_info(name: str) -> MetricInfo:
+    """Return what the report knows of a metric."""
     metric = METRICS.get(name)
     return MetricInfo(name, metric.title, metric.direction, metric.target)
 

@@ -17,7 +17,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from mocapbench.benchmark import cli_data, cli_inspect
+from mocapbench.benchmark import cli_check, cli_data, cli_inspect
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.benchmark.files import atomic_write
 from mocapbench.benchmark.job import Job, Settings
@@ -42,6 +42,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.add_typer(cli_data.app, name="data")
+app.command("check")(cli_check.check_run)
 app.command("list")(cli_inspect.list_registered)
 app.command("info")(cli_inspect.info)
 app.command("export")(cli_inspect.export)
@@ -175,8 +176,7 @@ def report(
     for path in model_file or ():
         load_model_file(path)
     store, console = Store.open(out), Console()
-    plan_made = store.load_plan()
-    records = [record for key in plan_made["keys"] if (record := store.load(key)) is not None]
+    plan_made, records = store.load_plan(), store.planned()
     if not records:
         raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
     archive, path = cli_data.archive_at(data_dir), to or out / "report.html"

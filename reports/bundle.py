@@ -138,11 +138,7 @@ class MetricInfo:
 
     def loss(self, value: float) -> float:
         """Return how bad ``value`` is: lower is better whatever the direction."""
-        return {
-            Direction.LOWER: value,
-            Direction.HIGHER: -value,
-            Direction.TARGET: abs(value - (self.target or 0.0)),
-        }[self.direction]
+        return self.direction.loss(value, self.target)
 
 
 @dataclass(frozen=True, eq=False)
