@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 from mocapbench.benchmark.record import Record
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.tables import job_table, score_table
 from mocapbench.benchmark.task import Task
-from mocapbench.reports import Bundle, CaseLayout, Illustration, MetricInfo, TaskLayout
+from mocapbench.reports import (
+    Bundle,
+    CaseLayout,
+    Illustration,
+    MetricInfo,
+    RegressionCheck,
+    TaskLayout,
+)
 
-__all__ = ["bundle", "metric_info"]
+__all__ = ["bundle"]
 
 
 def bundle(
     records: Sequence[Record],
     provenance: Mapping[str, str],
     illustrations: tuple[Illustration, ...] = (),
+    check: Mapping[str, Any] | None = None,
 ) -> Bundle:
     """Return what the report shows of ``records``, which are in table order.
 
@@ -26,6 +35,8 @@ def bundle(
     provenance : mapping of str to str
         Of the run as a whole.
     illustrations : tuple of Illustration
+    check : mapping or None
+        The last regression check, as the store keeps it.
     """
     tasks = [TASKS.get(name) for name in _unique(record.task for record in records)]
     shown = {metric for task in tasks for metric in task.metrics}
@@ -36,9 +47,10 @@ def bundle(
         layouts=tuple(
             _layout(task, records, _budget(task, provenance.get("profile", ""))) for task in tasks
         ),
-        metrics={name: metric_info(name) for name in sorted(used)},
+        metrics={name: _metric_info(name) for name in sorted(used)},
         provenance=provenance,
         illustrations=illustrations,
+        check=RegressionCheck(**check) if check else None,
     )
 
 
@@ -69,8 +81,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
     )
 
 
-def metric_info(name: str) -> MetricInfo:
-    """Return what the report knows of a metric."""
+def _metric_info(name: str) -> MetricInfo:
     metric = METRICS.get(name)
     return MetricInfo(name, metric.title, metric.direction, metric.target)
 

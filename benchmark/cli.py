@@ -197,7 +197,8 @@ def _write_report(
     from mocapbench.benchmark.illustrations import illustrations  # noqa: PLC0415
     from mocapbench.reports import render  # noqa: PLC0415
 
-    page = render(bundle(records, about, illustrations(records, store, archive)))
+    figures = illustrations(records, store, archive)
+    page = render(bundle(records, about, figures, store.load_check()))
     with atomic_write(path) as file:
         file.write(page.encode())
     console.print(f"report: {path.resolve()}", soft_wrap=True, highlight=False)

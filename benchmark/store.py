@@ -226,7 +226,10 @@ class Store:
         if not path.is_file():
             return None
         try:
-            return dict(json.loads(path.read_text(encoding="utf-8")))
+            check = dict(json.loads(path.read_text(encoding="utf-8")))
+            if check.keys() != {"baseline", "summary", "passed", "findings"}:
+                raise ValueError(f"it holds {sorted(check)}")
+            return check
         except (OSError, ValueError, TypeError) as error:
             self.damaged.append(f"{path}: not a whole check: {error}")
             return None

@@ -1,6 +1,7 @@
 """A results bundle in; tables, figures and one offline HTML page out."""
 
 from mocapbench.reports.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.checks import RegressionCheck
 from mocapbench.reports.illustration import Curve, Illustration, Panel
 from mocapbench.reports.page import render
 
@@ -11,6 +12,7 @@ __all__ = [
     "Illustration",
     "MetricInfo",
     "Panel",
+    "RegressionCheck",
     "TaskLayout",
     "render",
 ]

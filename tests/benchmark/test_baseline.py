@@ -70,5 +70,5 @@ def test_files_of_two_profiles_do_not_belong_together(tmp_path):
         address = Address(profile, 1, "c", "l", "mse")
         about = ABOUT | {"profile": profile}
         write_baseline(tmp_path / f"{profile}.csv", Baseline({address: {0: 1.0}}, about))
-    with pytest.raises(UsageError, match="expected one profile .* got quick and smoke"):
+    with pytest.raises(UsageError, match=r"expected one profile .* got quick and smoke"):
         read_baseline(tmp_path)
