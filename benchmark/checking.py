@@ -13,7 +13,7 @@ from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.regression import Environment, Judgement, Verdict, judge
 from mocapbench.benchmark.tolerances import Tolerances
 
-__all__ = ["Check", "Finding", "check", "differences", "updated"]
+__all__ = ["Check", "Finding", "differences", "find", "updated"]
 
 _GRAVITY = tuple(Verdict)
 Troubles = Mapping[tuple[Address, int], Record]
@@ -88,7 +88,7 @@ def differences(baseline: Baseline, run: Baseline) -> tuple[str, ...]:
     return tuple(name for name in ENVIRONMENT if baseline.about.get(name) != run.about.get(name))
 
 
-def check(
+def find(
     baseline: Baseline, run: Baseline, records: Sequence[Record], tolerances: Tolerances
 ) -> tuple[Finding, ...]:
     """Return a finding per address of the baseline or the run.

@@ -42,7 +42,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.add_typer(cli_data.app, name="data")
-app.command("check")(cli_check.check_run)
+app.command("check")(cli_check.check)
 app.command("list")(cli_inspect.list_registered)
 app.command("info")(cli_inspect.info)
 app.command("export")(cli_inspect.export)

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from mocapbench.benchmark import check_output
 from mocapbench.benchmark.baseline import Baseline, of_records, read_baseline, write_baseline
-from mocapbench.benchmark.checking import Check, check, differences, updated
+from mocapbench.benchmark.checking import Check, differences, find, updated
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.benchmark.files import atomic_write
 from mocapbench.benchmark.record import Record
@@ -19,10 +19,10 @@ from mocapbench.benchmark.regression import Environment
 from mocapbench.benchmark.store import Store
 from mocapbench.benchmark.tolerances import read_tolerances
 
-__all__ = ["check_run"]
+__all__ = ["check"]
 
 
-def check_run(
+def check(
     run: Annotated[Path, typer.Argument(help="The run directory.")] = Path("mocapbench-results"),
     baseline: Annotated[
         Path | None,
@@ -49,23 +49,25 @@ def check_run(
 ) -> None:
     """Compare a run with a baseline, fold by fold; exit code 1 says that a metric got worse."""
     if baseline is None:
-        raise UsageError("check: expected --baseline FILE or FOLDER to hold the run against")
+        raise UsageError("expected something to check against, got nothing: choose --baseline")
     for path in (junit, markdown):
         if path is not None and not path.parent.is_dir():
             raise UsageError(f"{path}: expected a file in a folder that exists")
     store, console = Store.open(run), Console()
     records, known = store.planned(), read_baseline(baseline)
     values = of_records(records, store.load_plan())
+    for message in store.damaged:
+        console.print(f"damaged, so left out: {message}", markup=False)
     if update:
         _refuse_to_update(baseline, values, records, allow_failures)
         known = known or Baseline({}, values.about)
-        environment, tolerances = Environment.SAME, None  # whatever moves is worth a review
+        environment = environment or Environment.SAME  # whatever moves is worth a review
     if known is None:
         console.print(f"no baseline at {baseline}: write one with --update", soft_wrap=True)
         raise typer.Exit(ExitCode.NOTHING_RAN)
     differing = differences(known, values)
     level = environment or (Environment.CROSS if differing else Environment.SAME)
-    findings = check(known, values, records, read_tolerances(level, tolerances))
+    findings = find(known, values, records, read_tolerances(level, tolerances))
     result = Check(findings, level, differing, strict)
     _show(result, console)
     _write(markdown, check_output.markdown(result).encode())

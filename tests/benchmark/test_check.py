@@ -198,7 +198,7 @@ def test_runs_that_cannot_be_paired_are_refused(check, cli, run, tmp_path, name)
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ((), "expected --baseline"),
+        ((), "choose --baseline"),
         (("--baseline", "b.csv", "--junit", "no/such/folder.xml"), "in a folder that exists"),
         (("--baseline", "b.csv", "--environment", "near"), "near"),
     ],
