@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 from xml.etree import ElementTree
 
+from rich.box import SIMPLE
 from rich.markup import escape
 from rich.table import Table
 
@@ -14,8 +15,10 @@ from mocapbench.benchmark.regression import Verdict
 
 __all__ = ["junit", "markdown", "plain", "summary", "terminal"]
 
-COLUMNS = ("verdict", "task, case, entrant", "metric")
-NUMBERS = ("folds", "baseline", "run", "worse by", "allowed", "worst fold by")
+WHERE = "task, case, entrant"
+SHORT = ("baseline", "run", "worse by", "allowed")
+NUMBERS = ("folds", *SHORT, "worst fold by")
+HEADS = ("verdict", WHERE, "metric", *NUMBERS, "why")
 SHOWN = 50
 _QUIET = frozenset({Verdict.SAME, Verdict.SKIPPED})
 
@@ -32,10 +35,14 @@ def terminal(check: Check) -> Table:
     groups = _notable(check)
     hidden = len(groups) - SHOWN
     more = f"{hidden} more: --markdown and --junit name them all" if hidden > 0 else None
-    table = Table(*COLUMNS, *NUMBERS, "why", caption=more)
+    table = Table(box=SIMPLE, caption=more)
+    for head in ("verdict", "what", *SHORT):
+        table.add_column(head, overflow="fold", no_wrap=head != "what")
     for group in groups[:SHOWN]:
+        told = dict(zip(HEADS, _cells(group), strict=True))
+        what = "\n".join(filter(None, (told[WHERE], told["metric"], told["why"])))
         style = "bold red" if _fails(check, group[0]) else ""
-        table.add_row(*map(escape, _cells(group)), style=style)
+        table.add_row(told["verdict"], escape(what), *(told[head] for head in SHORT), style=style)
     return table
 
 
@@ -45,8 +52,7 @@ def markdown(check: Check) -> str:
     lines = [f"### Metrics: {state}", "", summary(check), ""]
     rows = [[text.replace("|", "\\|") for text in _cells(each)] for each in _notable(check)]
     if rows:
-        heads = [*COLUMNS, *NUMBERS, "why"]
-        lines += [_line(heads), _line(["---"] * len(heads)), *map(_line, rows), ""]
+        lines += [_line(HEADS), _line(["---"] * len(HEADS)), *map(_line, rows), ""]
     return "\n".join(lines)
 
 
@@ -127,8 +133,7 @@ def _add_case(suite: ElementTree.Element, check: Check, finding: Finding) -> str
         name=_printable(f"{address.label}: {address.metric or 'job'}"),
     )
     outcome = _outcome(check, finding)
-    heads = (*COLUMNS, *NUMBERS, "why")
-    told = "; ".join(f"{k}: {v}" for k, v in zip(heads, _cells([finding]), strict=True) if v)
+    told = "; ".join(f"{k}: {v}" for k, v in zip(HEADS, _cells([finding]), strict=True) if v)
     if outcome:
         ElementTree.SubElement(case, outcome, message=_printable(told))
     else:

@@ -16,6 +16,7 @@ from mocapbench.benchmark.tolerances import Tolerances
 __all__ = ["Check", "Finding", "differences", "find", "updated"]
 
 _GRAVITY = tuple(Verdict)
+_REASONS = {Verdict.MOVED: "some fold is worse, the mean not beyond doubt"}
 Troubles = Mapping[tuple[Address, int], Record]
 
 
@@ -132,7 +133,7 @@ def _paired(
         if judgement:
             verdicts.add(judgement.verdict)
         verdict = min(verdicts, key=_GRAVITY.index)
-        yield Finding(address, verdict, judgement, _told(absent))
+        yield Finding(address, verdict, judgement, _told(absent) or _REASONS.get(verdict, ""))
 
 
 def _judged(

@@ -70,7 +70,7 @@ def check_table(check: RegressionCheck) -> Table | None:
 
 def _row(finding: Mapping[str, Any]) -> tuple[Cell, ...]:
     return (
-        Cell(finding["verdict"], kind="trouble" if finding["fails"] else ""),
+        Cell(finding["verdict"], note="fails" if finding["fails"] else ""),
         *(Cell(finding[name], kind="text") for name in ("task", "case", "label", "metric")),
         Cell(str(finding.get("n", 0))),
         *(_number(finding.get(name)) for name in COLUMNS),
