@@ -43,6 +43,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.add_typer(cli_data.app, name="data")
+app.command("check")(cli_check.check)
 app.command("list")(cli_inspect.list_registered)
 app.command("info")(cli_inspect.info)
 app.command("export")(cli_inspect.export)
@@ -177,8 +178,7 @@ def report(
     for path in model_file or ():
         load_model_file(path)
     store, console = Store.open(out), Console()
-    plan_made = store.load_plan()
-    records = [record for key in plan_made["keys"] if (record := store.load(key)) is not None]
+    plan_made, records = store.load_plan(), store.planned()
     if not records:
         raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
     archive, path = cli_data.archive_at(data_dir), to or out / "report.html"
@@ -199,7 +199,8 @@ def _write_report(
     from mocapbench.benchmark.illustrations import illustrations  # noqa: PLC0415
     from mocapbench.reports import render  # noqa: PLC0415
 
-    page = render(bundle(records, about, illustrations(records, store, archive)))
+    figures = illustrations(records, store, archive)
+    page = render(bundle(records, about, figures, store.load_check()))
     with atomic_write(path) as file:
         file.write(page.encode())
     console.print(f"report: {path.resolve()}", soft_wrap=True, highlight=False)
