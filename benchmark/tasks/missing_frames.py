@@ -8,7 +8,7 @@ from mocapbench.baselines import FrameImputer, Inductive
 from mocapbench.benchmark.imputation import ImputeProblem, Unit
 from mocapbench.benchmark.masks import hide_frames
 from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Selection, Task
+from mocapbench.benchmark.task import Case, Entrant, Selection, Task
 from mocapbench.datasets import Archive, Recording, excerpt, gpdm_features
 
 __all__ = ["MissingFrames", "missing_frames"]
@@ -81,6 +81,10 @@ class MissingFrames(Task):
     cases = _cases()
     max_folds = N_WINDOWS
     independent_folds = False
+    entrants = (
+        Entrant("pose-viterbi", "pose-viterbi"),
+        Entrant("pose-viterbi-no-offset", "pose-viterbi", {"subject_offset": 0.0}),
+    )
     metrics = ("rms_per_frame",)
     profiles = {
         "smoke": Selection(("synthetic 1",), folds=1),
