@@ -95,16 +95,33 @@ class PoseViterbi(FrameImputer, Inductive):
         check_channels(recordings, self.channels_)
         return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
 
+    def residual(self, recording: Recording) -> NDArray[np.float64]:
+        """Return the mean (D,) of what the cheapest path misses at the visible frames.
+
+        Raises
+        ------
+        ValueError
+            If a frame is hidden in part, or no frame is visible.
+        """
+        return _mean_residual(recording, self._match(recording))
+
     def _filled(self, recording: Recording) -> FrameByChannel:
+        match = self._match(recording)
+        return match + self.subject_offset * _mean_residual(recording, match)
+
+    def _match(self, recording: Recording) -> FrameByChannel:
+        """Return the training frames (N, D) of the cheapest path."""
         visible = ~hidden_frames(recording)
         if not visible.any():
             raise ValueError(f"recording {recording.name!r}: expected a visible frame, got none")
         emission = np.zeros((len(visible), len(self.frames_)))
         known = recording.values[visible]
         emission[visible] = euclidean_distances(known, self.frames_, squared=True)
-        match = self.frames_[cheapest_path(emission, self.transition_)]
-        residual = (known - match[visible]).mean(axis=0)
-        return np.asarray(match + self.subject_offset * residual)
+        return np.asarray(self.frames_[cheapest_path(emission, self.transition_)])
+
+
+def _mean_residual(recording: Recording, match: FrameByChannel) -> NDArray[np.float64]:
+    return np.asarray(np.nanmean(recording.values - match, axis=0))
 
 
 def _jumps(frames: FrameByChannel, ends: NDArray[np.intp]) -> NDArray[np.float64]:

@@ -50,7 +50,7 @@ def test_a_stretch_of_training_is_found_wherever_the_gap_is(first, last):
 
 def test_a_constant_offset_of_the_subject_is_found():
     model = PoseViterbi().fit([recording("train", circle(0, 20))])
-    truth = recording("new", circle(2, 16) + [0.1, -0.05])
+    truth = recording("new", np.add(circle(2, 16), [0.1, -0.05]))
     (filled,) = model.impute([truth.hide(gap(16, 4, 12))])
     np.testing.assert_allclose(filled.mean, truth.values, atol=1e-10)
 
