@@ -17,13 +17,18 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.gp.settings import check_positive
 from mocapbench.baselines.lmc_independent import LMCIndependent
 from mocapbench.baselines.pooling import check_recordings
-from mocapbench.baselines.protocols import Imputer, Prediction, SampleByFrameByChannel
+from mocapbench.baselines.protocols import (
+    Imputer,
+    Prediction,
+    SampleByFrameByChannel,
+    Synthesiser,
+)
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["GPIndependent"]
 
 
-class GPIndependent(Imputer):
+class GPIndependent(Imputer, Synthesiser):
     """A Gaussian process and noise for each channel on its own.
 
     Parameters
@@ -130,6 +135,17 @@ class GPIndependent(Imputer):
             )
             for predictions in zip(*by_channel, strict=True)
         ]
+
+    def sample(
+        self, times: Frames, n_samples: int, random_state: int | np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Return draws from the prior of each channel, noise included: (n, N, D).
+
+        As `GaussianProcess.sample`.
+        """
+        check_is_fitted(self)
+        rng = np.random.default_rng(random_state)
+        return np.dstack([model.sample(times, n_samples, rng) for model in self.models_])
 
     def posterior_covariance(
         self, recording: Recording, times: Frames | None = None

@@ -9,20 +9,20 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.parameters import PARENT
 from mocapbench.baselines.gp.reduction import Reduction, pooled
 from mocapbench.baselines.gp.replicates import Replicates
+from mocapbench.baselines.gp.trended import TrendedProcess
 
 __all__ = ["MOA"]
 
 
-class MOA(GaussianProcess):
+class MOA(TrendedProcess):
     """Recordings are noisy observations of one function.
 
-    `impute` gives the posterior of that function. `sample` takes its posterior mean as the trend
-    and draws with the prior covariance around it. Parameters and attributes are those of
-    `GaussianProcess`.
+    `impute` and `trend` give the posterior of that function. `sample` takes its posterior mean as
+    the trend and draws with the prior covariance around it. Parameters and attributes are those
+    of `GaussianProcess`.
     """
 
     layers: ClassVar[tuple[str, ...]] = (PARENT,)

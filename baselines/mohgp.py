@@ -9,23 +9,20 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import numpy as np
-from sklearn.utils.validation import check_is_fitted
-
-from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.parameters import CHILD, PARENT
 from mocapbench.baselines.gp.reduction import Reduction, hierarchical
 from mocapbench.baselines.gp.replicates import Replicates
-from mocapbench.datasets import FrameByChannel, Frames
+from mocapbench.baselines.gp.trended import TrendedProcess
 
 __all__ = ["MOHGP"]
 
 
-class MOHGP(GaussianProcess):
+class MOHGP(TrendedProcess):
     """Recordings vary around a common trend.
 
     `impute` gives the posterior of each child. `sample` follows the thesis: new children are
-    drawn from K_f around the trend's posterior mean. Parameters and attributes are those of
+    drawn from K_f around the trend's posterior mean, or around a draw of the trend with
+    ``sampled_trend="posterior"``. Parameters and attributes are those of
     `GaussianProcess`.
 
     Examples
@@ -47,10 +44,3 @@ class MOHGP(GaussianProcess):
     def reduce(replicates: Replicates) -> Reduction:
         """Return the likelihood of replicates in standard units as block problems."""
         return hierarchical(replicates)
-
-    def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
-        """Return the posterior mean and variance of g at ``times`` (N,): (N, D) each."""
-        check_is_fitted(self)
-        with self._at_work() as process:
-            (trend,) = process.infer([self.reduction_.trend], [np.asarray(times, dtype=np.float64)])
-        return trend

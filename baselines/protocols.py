@@ -12,15 +12,18 @@ an abstract base class, so that a model says what it can do by what it inherits:
 * `Clusterer` groups the recordings that it was fitted to;
 * `Aligner` maps the frames of recordings of a cyclic motion onto the states of one cycle;
 * `Blender` mixes the styles that it has found;
-* `Informed` is told the generating process (the oracle).
+* `Trended` infers a trend that the recordings vary around;
+* `Layered` shows the covariance of each of its layers, and `Coregionalised` the matrices in it;
+* `Informed` is told the generating process (the oracle);
+* `Misinformed` is told another process instead (the control).
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,16 +35,20 @@ __all__ = [
     "Aligner",
     "Blender",
     "Clusterer",
+    "Coregionalised",
     "FrameByStyle",
     "FrameImputer",
     "Imputer",
     "Inductive",
     "Informed",
+    "Layered",
+    "Misinformed",
     "Model",
     "Prediction",
     "SampleByFrameByChannel",
     "StatePath",
     "Synthesiser",
+    "Trended",
 ]
 
 StatePath = NDArray[np.intp]
@@ -172,9 +179,56 @@ class Blender(Clusterer):
         """
 
 
+class Trended(Model):
+    """A model of recordings that vary around one trend."""
+
+    @abstractmethod
+    def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
+        """Return the trend's posterior mean and variance at ``times`` (N,): (N, D) each."""
+
+
+class Layered(Model):
+    """A model whose prior covariances can be looked at, one layer of its hierarchy at a time.
+
+    Attributes
+    ----------
+    layers : tuple of str
+        Names, outermost first; the last is the layer that new recordings are drawn from.
+    """
+
+    layers: ClassVar[tuple[str, ...]]
+
+    @abstractmethod
+    def covariance(self, layer: str, times: Frames) -> NDArray[np.float64]:
+        """Return a layer's covariance at ``times`` (N,), (D N, D N), outputs slowest, no noise."""
+
+
+class Coregionalised(Layered):
+    """A layered model whose layers are linear models of coregionalisation.
+
+    Attributes
+    ----------
+    coregionalisation_ : mapping of str to ndarray of shape (Q, D, D)
+        After `fit`, the matrices B_q of each layer, in the outputs' own units.
+    """
+
+    @property
+    @abstractmethod
+    def coregionalisation_(self) -> Mapping[str, NDArray[np.float64]]:
+        """The matrices B_q of each layer."""
+
+
 class Informed(Model):
     """A model that is served only where the data have a known generating process."""
 
     @abstractmethod
     def inform(self, process: ToyProcess) -> Self:
         """Take the process that generated the recordings; called before `fit`."""
+
+
+class Misinformed(Model):
+    """A model that is served only where there is a process unrelated to the recordings."""
+
+    @abstractmethod
+    def misinform(self, process: ToyProcess) -> Self:
+        """Take a process that generated none of the recordings; called before `fit`."""

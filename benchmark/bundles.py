@@ -8,7 +8,7 @@ from mocapbench.benchmark.record import Record
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.tables import job_table, score_table
 from mocapbench.benchmark.task import Task
-from mocapbench.reports import Bundle, CaseLayout, Illustration, MetricInfo, TaskLayout
+from mocapbench.reports import Bundle, CaseLayout, MetricInfo, Picture, TaskLayout
 
 __all__ = ["bundle"]
 
@@ -16,7 +16,7 @@ __all__ = ["bundle"]
 def bundle(
     records: Sequence[Record],
     provenance: Mapping[str, str],
-    illustrations: tuple[Illustration, ...] = (),
+    illustrations: tuple[Picture, ...] = (),
 ) -> Bundle:
     """Return what the report shows of ``records``, which are in table order.
 
@@ -25,7 +25,7 @@ def bundle(
     records : sequence of Record
     provenance : mapping of str to str
         Of the run as a whole.
-    illustrations : tuple of Illustration
+    illustrations : tuple of Illustration or HeatMaps
     """
     tasks = [TASKS.get(name) for name in _unique(record.task for record in records)]
     shown = {metric for task in tasks for metric in task.metrics}
@@ -63,6 +63,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
         published_models=task.published_models,
         published_metrics=task.published_metrics,
         not_comparable=task.not_comparable,
+        not_controlled=task.not_controlled,
         remarks=task.remarks,
         independent_folds=task.independent_folds,
         budget=budget,

@@ -17,7 +17,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from mocapbench.benchmark import cli_data, cli_inspect
+from mocapbench.benchmark import cli_check, cli_data, cli_inspect
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.benchmark.files import atomic_write
 from mocapbench.benchmark.job import Job, Settings
@@ -45,6 +45,7 @@ app.add_typer(cli_data.app, name="data")
 app.command("list")(cli_inspect.list_registered)
 app.command("info")(cli_inspect.info)
 app.command("export")(cli_inspect.export)
+app.command("check")(cli_check.check)
 
 Names = Annotated[list[str] | None, typer.Option(help="Names, repeated or separated by commas.")]
 ModelFiles = Annotated[list[Path] | None, typer.Option(help="A Python file that defines MODELS.")]

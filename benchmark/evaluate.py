@@ -61,12 +61,7 @@ def _scores(job: Job, problem: Problem, fit: Fit) -> dict[str, Any]:
     """Score by every metric that is defined for this outcome."""
     outcome = problem.outcome(fit.solution)
     metrics = [METRICS.get(name) for name in job.metrics]
-    probabilistic = getattr(outcome, "variance", None) is not None
-    scores = {
-        metric.name: metric(outcome)
-        for metric in metrics
-        if type(outcome) is metric.outcome and (probabilistic or not metric.needs_variance)
-    }
+    scores = {metric.name: metric(outcome) for metric in metrics if metric.applies(outcome)}
     if not scores:
         raise ValueError(
             f"none of the metrics {', '.join(job.metrics)} is defined for the answer of "

@@ -5,21 +5,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from mocapbench.benchmark.coregionalisation_sketch import coregionalisation_sketch
 from mocapbench.benchmark.record import Record, Status
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.sketches import sketch
 from mocapbench.benchmark.store import Store
 from mocapbench.benchmark.task import Task
+from mocapbench.benchmark.trend_sketch import trend_sketch
 from mocapbench.datasets import Archive, RecordingUnavailable
-from mocapbench.reports import Illustration
+from mocapbench.reports import Picture
 
 __all__ = ["illustrations"]
 
+SKETCHES = (sketch, trend_sketch, coregionalisation_sketch)
 
-def illustrations(
-    records: Sequence[Record], store: Store, archive: Archive
-) -> tuple[Illustration, ...]:
+
+def illustrations(records: Sequence[Record], store: Store, archive: Archive) -> tuple[Picture, ...]:
     """Return the figures of every task: of the first case that it names and that has solutions.
 
     The problem is posed again, which takes its recordings; a case that lacks them is not shown.
@@ -43,7 +45,7 @@ def _chosen(task: Task, records: Sequence[Record]) -> list[Record]:
 
 def _illustrate(
     task: Task, records: Sequence[Record], store: Store, archive: Archive
-) -> Sequence[Illustration]:
+) -> Sequence[Picture]:
     fits = {record.label: store.load_fit(record.fit_key) for record in records}
     solutions = {label: fit.solution for label, fit in fits.items() if fit is not None}
     if not solutions:
@@ -57,5 +59,6 @@ def _illustrate(
     suffix = " (synthetic)" if case.synthetic else ""
     return [
         replace(each, title=f"{each.title}: {case.name}{suffix}")
-        for each in sketch(problem, task, solutions)
+        for draw in SKETCHES
+        for each in draw(problem, task, solutions)
     ]

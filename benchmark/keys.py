@@ -32,11 +32,13 @@ _TASK_SOURCES = (
     "mocapbench.benchmark.imputation",
     "mocapbench.benchmark.masks",
     "mocapbench.benchmark.problem",
+    "mocapbench.benchmark.recovery",
     "mocapbench.benchmark.seeds",
     "mocapbench.benchmark.synthesis",
     "mocapbench.benchmark.tasks",
 )
 _SOLVING = "mocapbench.benchmark.solving"
+_SOLVING_SOURCES = ("mocapbench.benchmark.disclosure",)
 _LIBRARIES = ("numpy", "scipy", "scikit-learn")
 
 
@@ -71,7 +73,7 @@ def fit_key(
             "entrant": [label, model.__qualname__, dict(parameters)],
             "source": [
                 source_digest(model.__module__, _MODEL_SOURCES),
-                source_digest(_SOLVING, ()),
+                source_digest(_SOLVING, _SOLVING_SOURCES),
             ],
             "libraries": {name: _installed_version(name) for name in _LIBRARIES},
         }

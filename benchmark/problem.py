@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from numpy.typing import NDArray
 
 from mocapbench.baselines import Informed, Model
 from mocapbench.datasets import Recording, ToyProcess
-from mocapbench.metrics import Clustering, Imputation, Synthesis
+from mocapbench.metrics import Clustering, Imputation, Recovery, Synthesis
 
 __all__ = ["InvalidPredictionError", "Problem", "Solution"]
 
@@ -37,10 +37,13 @@ class Problem(ABC):
         What `fit` gets.
     process : ToyProcess or None
         The generating process, for models that must be told it.
+    parent : Recording or None
+        The curves g of the parent that a known process drew, which no model sees.
     """
 
     train: tuple[Recording, ...]
     process: ToyProcess | None
+    parent: Recording | None = field(default=None, kw_only=True)
 
     def fit(self, model: Model) -> Model:
         """Fit ``model`` to what it may see."""
@@ -59,5 +62,5 @@ class Problem(ABC):
         """
 
     @abstractmethod
-    def outcome(self, solution: Solution) -> Imputation | Synthesis | Clustering:
+    def outcome(self, solution: Solution) -> Imputation | Synthesis | Clustering | Recovery:
         """Confront a solution with the truth."""

@@ -14,8 +14,10 @@ from mocapbench.benchmark.blend_sketch import blend_sketch
 from mocapbench.benchmark.clustering import ClusterProblem
 from mocapbench.benchmark.imputation import ImputeProblem
 from mocapbench.benchmark.problem import Problem, Solution
+from mocapbench.benchmark.recovery import RecoverProblem
+from mocapbench.benchmark.recovery_sketch import recovery_sketch
 from mocapbench.benchmark.task import Task
-from mocapbench.reports import Curve, Illustration, Panel
+from mocapbench.reports import Curve, Illustration, Panel, Picture
 
 __all__ = ["sketch"]
 
@@ -24,7 +26,7 @@ Solutions = Mapping[str, Solution]
 
 
 @singledispatch
-def sketch(problem: Problem, task: Task, solutions: Solutions) -> Sequence[Illustration]:
+def sketch(problem: Problem, task: Task, solutions: Solutions) -> Sequence[Picture]:
     """Return figures of the ``solutions``, by label, of one problem of ``task``."""
     del problem, task, solutions  # of this kind, scores tell all
     return ()
@@ -58,6 +60,12 @@ def _filled_channels(
         "and by the best of the others in this run."
     )
     return (Illustration(task.name, "Filled channels", caption, panels),)
+
+
+@sketch.register
+def _covariances(problem: RecoverProblem, task: Task, solutions: Solutions) -> Sequence[Picture]:
+    """Show the true and the estimated covariances: thesis Figures 11–13."""
+    return recovery_sketch(problem, task, solutions)
 
 
 def _of_interest(problem: ImputeProblem, task: Task, solutions: Solutions) -> list[str]:

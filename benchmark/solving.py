@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from mocapbench.baselines import Model
+from mocapbench.benchmark.disclosure import disclosed
 from mocapbench.benchmark.job import Job
 from mocapbench.benchmark.problem import Problem
 from mocapbench.benchmark.registry import MODELS
@@ -37,11 +38,12 @@ def solve(job: Job, problem: Problem) -> Fit:
         fitted = time.perf_counter()
         solution = problem.solve(model, job.seeds.random_state("sample", job.label))
         done = time.perf_counter()
+        told = disclosed(model, problem.train)
     iterations, converged = (
         getattr(model, f"{name}_", None) for name in ("n_iterations", "converged")
     )
     return Fit(
-        solution,
+        {**solution, **told},
         fit_seconds=fitted - started,
         predict_seconds=done - fitted,
         peak_memory_mb=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / MIB,

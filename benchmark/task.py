@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from mocapbench.baselines import Informed, Model
+from mocapbench.baselines import Informed, Misinformed, Model
 from mocapbench.benchmark.errors import UnknownNameError
 from mocapbench.benchmark.problem import Problem
 from mocapbench.benchmark.seeds import Seeds
@@ -86,11 +86,13 @@ class Task(ABC):
     title, reference, description : str
         Heading, place in the paper, and one or two sentences for readers of the report.
     kind : str
-        ``"impute"``, ``"synthesise"`` or ``"cluster"``: what the report calls it.
+        ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``: what the report calls it.
     requires : tuple of type
         The abilities a model must have; others are not applicable.
     has_process : bool
         Whether its data come from a known process, which informed models need.
+    has_control : bool
+        Whether its problems come with an unrelated process, which misinformed models need.
     cases : tuple of Case
     max_folds : int or None
         How many folds there are, None where each draws anew.
@@ -105,12 +107,18 @@ class Task(ABC):
         From our labels and metrics to the paper's names.
     not_comparable : mapping of (label, metric) to str
         Why a published value cannot be set beside ours; metric ``"*"`` stands for all.
+    not_controlled : mapping of str to str
+        Labels whose samples need not resemble the references more than the control's do, and why.
     remarks : tuple of str
         Errata and cautions shown with the tables.
     illustrated : tuple of str
         Names of cases; the first of them that has solutions is shown in figures.
     illustrated_channels : tuple of str
-        The channels that figures of filled recordings show.
+        The channels that figures of recordings show.
+    coregionalisation_of : tuple of str
+        Labels whose coregionalisation matrices are shown.
+    joint_groups : mapping of str to tuple of str
+        Joints whose part of those matrices is shown by itself, by a name for the group.
     """
 
     name: str
@@ -121,6 +129,7 @@ class Task(ABC):
     kind: str = "impute"
     requires: tuple[type[Model], ...]
     has_process: bool = False
+    has_control: bool = False
     cases: tuple[Case, ...]
     max_folds: int | None = None
     independent_folds: bool = True
@@ -130,9 +139,12 @@ class Task(ABC):
     published_models: Mapping[str, str] = {}
     published_metrics: Mapping[str, str] = {}
     not_comparable: Mapping[tuple[str, str], str] = {}
+    not_controlled: Mapping[str, str] = {}
     remarks: tuple[str, ...] = ()
     illustrated: tuple[str, ...] = ()
     illustrated_channels: tuple[str, ...] = ()
+    coregionalisation_of: tuple[str, ...] = ()
+    joint_groups: Mapping[str, tuple[str, ...]] = {}
 
     @abstractmethod
     def problem(self, case: Case, seeds: Seeds, archive: Archive) -> Problem:
@@ -147,7 +159,9 @@ class Task(ABC):
     def accepts(self, model: type[Model]) -> bool:
         """Return whether ``model`` has what the task requires, and the task what it requires."""
         able = all(issubclass(model, ability) for ability in self.requires)
-        return able and (self.has_process or not issubclass(model, Informed))
+        informed = self.has_process or not issubclass(model, Informed)
+        misinformed = self.has_control or not issubclass(model, Misinformed)
+        return able and informed and misinformed
 
     def case(self, name: str) -> Case:
         """Return the case called ``name``.

@@ -6,7 +6,15 @@ the function behind it.
 
 from typing import Any
 
-from mocapbench.metrics.base import Clustering, Direction, Imputation, Metric, Score, Synthesis
+from mocapbench.metrics.base import (
+    Clustering,
+    Direction,
+    Imputation,
+    Metric,
+    Recovery,
+    Score,
+    Synthesis,
+)
 from mocapbench.metrics.calibration import (
     coverage_50,
     coverage_80,
@@ -19,6 +27,12 @@ from mocapbench.metrics.calibration import (
 from mocapbench.metrics.clustering import adjusted_rand, purity
 from mocapbench.metrics.errors import mse, rms_per_frame, smse, smse_pooled
 from mocapbench.metrics.likelihood import msll
+from mocapbench.metrics.recovery import (
+    frobenius_child,
+    frobenius_parent,
+    logdet_child,
+    logdet_parent,
+)
 from mocapbench.metrics.similarity import mcc, mcc_best, mlc, mlc_best, spread
 
 __all__ = [
@@ -27,6 +41,7 @@ __all__ = [
     "Direction",
     "Imputation",
     "Metric",
+    "Recovery",
     "Score",
     "Synthesis",
     "adjusted_rand",
@@ -35,6 +50,10 @@ __all__ = [
     "coverage_90",
     "coverage_95",
     "crps",
+    "frobenius_child",
+    "frobenius_parent",
+    "logdet_child",
+    "logdet_parent",
     "mcc",
     "mcc_best",
     "mlc",
@@ -70,4 +89,8 @@ BUILTIN: tuple[Metric[Any], ...] = (
     spread,
     purity,
     adjusted_rand,
+    frobenius_child,
+    frobenius_parent,
+    logdet_child,
+    logdet_parent,
 )

@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Clustering", "Direction", "Imputation", "Metric", "Score", "Synthesis"]
+__all__ = ["Clustering", "Direction", "Imputation", "Metric", "Recovery", "Score", "Synthesis"]
 
 Array = NDArray[np.float64]
 
@@ -83,6 +83,25 @@ class Clustering:
 
 
 @dataclass(frozen=True, eq=False)
+class Recovery:
+    """What the recovery of a process's covariances is judged by.
+
+    Parameters
+    ----------
+    truth : mapping of str to ndarray of shape (n, n)
+        Covariance of the curves of each layer, ``"parent"`` and ``"child"``, without noise.
+    estimate : mapping of str to ndarray of shape (n, n)
+        Those of the layers that the model has.
+    noise : float
+        Variance of the noise in which the curves were observed.
+    """
+
+    truth: Mapping[str, Array]
+    estimate: Mapping[str, Array]
+    noise: float
+
+
+@dataclass(frozen=True, eq=False)
 class Score:
     """A metric's value and what it is the mean of.
 
@@ -103,7 +122,12 @@ class Score:
     left_out: int = 0
 
 
-OutcomeT = TypeVar("OutcomeT", Imputation, Synthesis, Clustering)
+OutcomeT = TypeVar("OutcomeT", Imputation, Synthesis, Clustering, Recovery)
+
+
+def _always(outcome: object) -> bool:
+    del outcome
+    return True
 
 
 @dataclass(frozen=True)
@@ -119,13 +143,15 @@ class Metric(Generic[OutcomeT]):
     direction : Direction
         Which way it improves.
     outcome : type
-        `Imputation`, `Synthesis` or `Clustering`: the kind of outcome it takes.
+        `Imputation`, `Synthesis`, `Clustering` or `Recovery`: the kind of outcome it takes.
     statistic : callable
         From the outcome to a `Score`; its docstring states formula, axis and ddof.
     needs_variance : bool
         Whether it is defined only for a predictive distribution.
     target : float or None
         The ideal value where the direction is ``TARGET``.
+    defined : callable
+        Whether an outcome of that kind has what the metric judges.
     """
 
     name: str
@@ -135,6 +161,16 @@ class Metric(Generic[OutcomeT]):
     statistic: Callable[[OutcomeT], Score]
     needs_variance: bool = False
     target: float | None = None
+    defined: Callable[[OutcomeT], bool] = _always
+
+    def applies(self, outcome: object) -> bool:
+        """Return whether the metric is defined for ``outcome``, whatever its kind."""
+        probabilistic = getattr(outcome, "variance", None) is not None
+        return (
+            isinstance(outcome, self.outcome)
+            and (probabilistic or not self.needs_variance)
+            and self.defined(outcome)
+        )
 
     def __call__(self, outcome: OutcomeT) -> Score:
         """Return the score of ``outcome``."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import pandas as pd
 
 from mocapbench.metrics.base import Direction
-from mocapbench.reports.illustration import Illustration
+from mocapbench.reports.illustration import Picture
 
 __all__ = ["Bundle", "CaseLayout", "MetricInfo", "Setting", "TaskLayout"]
 
@@ -61,7 +61,7 @@ class TaskLayout:
     name, title, reference : str
         Identity, heading, and place in the paper (``"thesis §5.1.1, Tables 1–3"``).
     kind : str
-        ``"impute"``, ``"synthesise"`` or ``"cluster"``.
+        ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``.
     description : str
         One or two sentences for readers.
     cases : tuple of CaseLayout
@@ -74,10 +74,14 @@ class TaskLayout:
         From our labels and metrics to the paper's names.
     not_comparable : mapping of (label, metric) to str
         Why a published value cannot be set beside ours; metric ``"*"`` stands for all.
+    not_controlled : mapping of str to str
+        Labels whose samples need not surpass the control's, and why.
     remarks : tuple of str
         Errata and cautions, shown with the tables.
     oracle : str
         The label that is told the generating process: a limit, never ranked.
+    control : str
+        The label whose samples owe nothing to the data: never ranked either.
     independent_folds : bool
         Whether folds are independent draws of the protocol. Overlapping windows of one recording
         are not: their spread is shown, but says nothing of how uncertain the mean is.
@@ -96,15 +100,17 @@ class TaskLayout:
     published_models: Mapping[str, str] = field(default_factory=dict)
     published_metrics: Mapping[str, str] = field(default_factory=dict)
     not_comparable: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    not_controlled: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     oracle: str = "oracle"
+    control: str = "control"
     independent_folds: bool = True
     budget: str = ""
 
     @property
     def ranked(self) -> tuple[str, ...]:
-        """The labels that compete: all but the oracle."""
-        return tuple(label for label in self.labels if label != self.oracle)
+        """The labels that compete: all but the oracle and the control."""
+        return tuple(label for label in self.labels if label not in {self.oracle, self.control})
 
 
 @dataclass(frozen=True)
@@ -169,7 +175,7 @@ class Bundle:
         Shown in order. The summary quotes ``"profile"``, ``"CPU"``, ``"threads"``, ``"started"``,
         ``"wall time"`` and ``"command line"``, and the foot of the page ``"acknowledgement"``,
         where they are there.
-    illustrations : tuple of Illustration
+    illustrations : tuple of Illustration or HeatMaps
         Figures of the tasks, in page order.
 
     Raises
@@ -184,7 +190,7 @@ class Bundle:
     layouts: tuple[TaskLayout, ...]
     metrics: Mapping[str, MetricInfo]
     provenance: Mapping[str, str]
-    illustrations: tuple[Illustration, ...] = ()
+    illustrations: tuple[Picture, ...] = ()
 
     def __post_init__(self) -> None:
         _require_columns("scores", self.scores, SCORE_COLUMNS)

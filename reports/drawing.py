@@ -14,15 +14,18 @@ from markupsafe import Markup
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-__all__ = ["PALETTE", "STYLE", "element"]
+__all__ = ["INK", "LEVELS", "PALETTE", "STYLE", "element"]
 
 N_COLOURS = 9
 PALETTE = [f"#fe01{index:02x}" for index in range(N_COLOURS)]
+LEVELS = [f"#fe03{index:02x}" for index in range(9)]
+"""From the most negative by nought to the most positive."""
 INK, RULE = "#fe0201", "#fe0202"
 VARIABLES = {
     INK: "var(--ink)",
     RULE: "var(--rule)",
     **{colour: f"var(--series-{index})" for index, colour in enumerate(PALETTE)},
+    **{colour: f"var(--level-{index})" for index, colour in enumerate(LEVELS)},
 }
 STYLE: dict[Any, Any] = {
     "svg.fonttype": "none",

@@ -1,4 +1,4 @@
-"""Illustrations: panels of curves that show what entrants did, as plain values.
+"""Illustrations: panels of curves, and heat maps, that show what entrants did, as plain values.
 
 Whoever fills a bundle decides what is worth seeing; this package draws it.
 """
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Curve", "Illustration", "Panel"]
+__all__ = ["Band", "Curve", "HeatMap", "HeatMaps", "Illustration", "Panel", "Picture"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +43,23 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
+class Band:
+    """The area between two curves.
+
+    Parameters
+    ----------
+    x, low, high : ndarray of shape (N,)
+    group : str
+        The group of curves that it belongs to and looks like.
+    """
+
+    x: NDArray[np.float64]
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    group: str
+
+
+@dataclass(frozen=True, eq=False)
 class Panel:
     """One set of axes.
 
@@ -53,6 +70,8 @@ class Panel:
     curves : tuple of Curve
     spatial : bool
         Whether x and y are places, in one unit, rather than two quantities.
+    bands : tuple of Band
+        Drawn behind the curves.
     """
 
     title: str
@@ -60,6 +79,7 @@ class Panel:
     y_label: str
     curves: tuple[Curve, ...]
     spatial: bool = False
+    bands: tuple[Band, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,3 +105,68 @@ class Illustration:
         """The groups of all curves, in order of first appearance."""
         curves = (curve for panel in self.panels for curve in panel.curves)
         return tuple(dict.fromkeys(curve.group for curve in curves))
+
+
+@dataclass(frozen=True, eq=False)
+class HeatMap:
+    """A square matrix, as colours.
+
+    Parameters
+    ----------
+    title : str
+        What it is.
+    values : ndarray of shape (M, M)
+    """
+
+    title: str
+    values: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class HeatMaps:
+    """A figure of one task: matrices of the same rows and columns, on one scale.
+
+    Parameters
+    ----------
+    task : str
+        Name of the task's layout.
+    title, caption : str
+        Heading, and what is to be seen.
+    labels : tuple of str
+        Names of the M rows, which are those of the columns; neighbours may share one.
+    maps : tuple of HeatMap
+    limit : float
+        The size of a value that the scale still tells from smaller ones.
+    columns : int
+        How many maps stand side by side.
+
+    Raises
+    ------
+    ValueError
+        If there is no map, one that is not as large as the labels say, or the limit is not
+        positive.
+    """
+
+    task: str
+    title: str
+    caption: str
+    labels: tuple[str, ...]
+    maps: tuple[HeatMap, ...]
+    limit: float
+    columns: int
+
+    def __post_init__(self) -> None:
+        shapes = {each.values.shape for each in self.maps}
+        if shapes != {(len(self.labels), len(self.labels))}:
+            raise ValueError(
+                f"heat maps {self.title!r}: expected matrices with {len(self.labels)} rows and "
+                f"columns, as many as labels, got shapes {sorted(shapes)}"
+            )
+        if not self.limit > 0.0:
+            raise ValueError(
+                f"heat maps {self.title!r}: expected a positive limit, got {self.limit:g}"
+            )
+
+
+Picture = Illustration | HeatMaps
+"""A figure of one task, of any kind."""

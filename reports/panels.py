@@ -74,6 +74,9 @@ def _panels(illustration: Illustration, looks: Mapping[str, Look], prefix: str) 
 
 
 def _draw_panel(axes: Axes, panel: Panel, looks: Mapping[str, Look]) -> None:
+    for band in panel.bands:
+        colour = looks[band.group]["color"]
+        axes.fill_between(band.x, band.low, band.high, color=colour, alpha=0.2, linewidth=0.0)
     for curve in panel.curves:
         axes.plot(curve.x, curve.y, **looks[curve.group])
     axes.set(xlabel=panel.x_label, ylabel=panel.y_label)

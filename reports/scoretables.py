@@ -151,7 +151,13 @@ def _notes(results: TaskResults, metric: str) -> tuple[str, ...]:
         if results.layout.oracle in results.layout.labels
         else ""
     )
-    return tuple(filter(None, [*results.layout.remarks, degenerate, limit]))
+    floor = (
+        f"{results.layout.control} draws from an unrelated process: what no resemblance scores, "
+        "not ranked."
+        if results.layout.control in results.layout.labels
+        else ""
+    )
+    return tuple(filter(None, [*results.layout.remarks, degenerate, limit, floor]))
 
 
 def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:

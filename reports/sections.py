@@ -6,10 +6,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.bundle import TaskLayout
+from mocapbench.reports.controltables import control_table
+from mocapbench.reports.drawings import draw
 from mocapbench.reports.figures import ErrorBars, error_bars
 from mocapbench.reports.headlines import Finding, lead_findings, printed_findings, win_findings
-from mocapbench.reports.illustration import Illustration
-from mocapbench.reports.panels import Drawing, draw
+from mocapbench.reports.illustration import Picture
+from mocapbench.reports.panels import Drawing
 from mocapbench.reports.results import TaskResults, Trouble
 from mocapbench.reports.scoretables import case_name, score_table
 from mocapbench.reports.summaries import calibration_table, cost_table, oracle_table
@@ -62,11 +64,12 @@ class MissingData:
     jobs: int
 
 
-def task_view(results: TaskResults, illustrations: Iterable[Illustration] = ()) -> TaskView:
+def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> TaskView:
     """Return the section of one task, with those of the ``illustrations`` that are its own."""
     layout, first = results.layout, results.layout.metrics[0]
     pairs = [pair for metric in layout.metrics for pair in comparisons(results, metric)]
-    summaries = [build(results) for build in (oracle_table, calibration_table, cost_table)]
+    builders = (oracle_table, control_table, calibration_table, cost_table)
+    summaries = [build(results) for build in builders]
     ran = {case.name for case in results.cases}
     return TaskView(
         id=slug("task", layout.name),

@@ -10,21 +10,26 @@ from mocapbench.baselines import (
     Aligner,
     Blender,
     Clusterer,
+    Coregionalised,
     FrameImputer,
     Imputer,
     Inductive,
     Informed,
+    Layered,
+    Misinformed,
     Synthesiser,
+    Trended,
 )
 from mocapbench.benchmark.plan import entrants
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.solving import build_model
 from mocapbench.datasets import Recording, ToyProcess, open_archive
-from mocapbench.metrics import Clustering, Direction, Imputation, Synthesis
+from mocapbench.metrics import Clustering, Direction, Imputation, Recovery, Synthesis
 
 TIMES = np.linspace(0.0, 2.0 * np.pi, 20)
 PROCESS = ToyProcess.random(np.random.default_rng(5), n_outputs=2, noise=0.01)
+OTHER_PROCESS = ToyProcess.random(np.random.default_rng(8), n_outputs=2, noise=0.01)
 COMPLETE = PROCESS.draw(np.random.default_rng(6), TIMES, 4)
 GAP = np.repeat(((np.arange(20) > 7) & (np.arange(20) < 12))[:, None], 2, axis=1)
 SCATTERED = np.random.default_rng(7).random((20, 2)) < 0.5
@@ -49,6 +54,8 @@ def _fitted(name, recordings, seed=0):
     model.set_params(**{k: v for k, v in budget.items() if k in model.get_params()})
     if isinstance(model, Informed):
         model.inform(PROCESS)
+    if isinstance(model, Misinformed):
+        model.misinform(OTHER_PROCESS)
     return model.fit(recordings)
 
 
@@ -172,6 +179,35 @@ def test_a_blend_is_its_styles_mixed_frame_by_frame(name):
     np.testing.assert_allclose(model.blend(weights), mixed, atol=1e-9)
 
 
+@pytest.mark.parametrize("name", _names(Trended))
+def test_a_trend_has_a_mean_and_a_variance_wherever_it_is_asked_for(name):
+    mean, variance = _fitted(name, _problem(GAP)).trend(TIMES[::3] + 0.1)
+    assert mean.shape == variance.shape == (7, 2)
+    assert np.isfinite(mean).all()
+    assert (variance > 0).all()
+
+
+@pytest.mark.parametrize("name", _names(Layered))
+def test_every_layer_has_a_covariance(name):
+    model = _fitted(name, COMPLETE)
+    assert model.layers
+    for layer in model.layers:
+        covariance = model.covariance(layer, TIMES)
+        assert covariance.shape == (40, 40)
+        np.testing.assert_allclose(covariance, covariance.T)
+        assert np.linalg.eigvalsh(covariance).min() > -1e-6 * np.trace(covariance)
+
+
+@pytest.mark.parametrize("name", _names(Coregionalised))
+def test_coregionalisation_matrices_add_up_to_the_covariance_at_lag_0(name):
+    model = _fitted(name, COMPLETE)
+    assert set(model.coregionalisation_) == set(model.layers)
+    for layer, matrices in model.coregionalisation_.items():
+        assert matrices.ndim == 3
+        at_one_time = model.covariance(layer, TIMES[:1])
+        np.testing.assert_allclose(matrices.sum(axis=0), at_one_time, rtol=1e-9)
+
+
 @pytest.mark.parametrize("name", TASKS.names())
 def test_a_task_is_consistent(name):
     task = TASKS.get(name)
@@ -226,6 +262,11 @@ OUTCOMES = {
     ),
     Synthesis: Synthesis(
         np.stack([r.values for r in COMPLETE[:2]]), np.stack([r.values for r in COMPLETE[2:]])
+    ),
+    Recovery: Recovery(
+        truth={"parent": 2.0 * np.eye(3), "child": np.eye(3)},
+        estimate={"parent": np.eye(3), "child": 0.5 + np.eye(3)},
+        noise=0.1,
     ),
     Clustering: Clustering(np.array(["walk", "walk", "run"]), np.array([0, 1, 1])),
 }

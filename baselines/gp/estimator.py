@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 from joblib import effective_n_jobs
@@ -29,9 +29,11 @@ from mocapbench.baselines.gp.settings import (
 )
 from mocapbench.baselines.gp.start import bounds, data_driven, perturbed
 from mocapbench.baselines.gp.training import Budget, Space, Step, Training, maximise
+from mocapbench.baselines.gp.trends import TRENDS
 from mocapbench.baselines.gp.workers import mapping
 from mocapbench.baselines.pooling import check_recordings
 from mocapbench.baselines.protocols import (
+    Coregionalised,
     Imputer,
     Prediction,
     SampleByFrameByChannel,
@@ -44,7 +46,7 @@ __all__ = ["GaussianProcess"]
 Array = NDArray[np.float64]
 
 
-class GaussianProcess(Imputer, Synthesiser):
+class GaussianProcess(Imputer, Synthesiser, Coregionalised):
     """A linear model of coregionalisation, or two, trained by type-II maximum likelihood.
 
     Parameters
@@ -72,6 +74,9 @@ class GaussianProcess(Imputer, Synthesiser):
         Whether `fit` prints a line for every iteration.
     solver : {"auto", "dense", "latent-split", "state-space", "kronecker"}, default="auto"
         How the likelihood is computed; "auto" takes the solver with the least counted work.
+    sampled_trend : {"mean", "posterior"}, default="mean"
+        The trend that `sample` draws new recordings around: its posterior mean, as in the thesis
+        (§5.2), or one draw from its posterior, which all of a call's recordings share.
     n_jobs : int or None, default=None
         Number of threads over outputs, to which results owe nothing. None means 1, unless in a
         ``joblib.parallel_config`` context; −1 means all processors.
@@ -102,9 +107,6 @@ class GaussianProcess(Imputer, Synthesiser):
         Noise variances, in the outputs' own units.
     """
 
-    layers: ClassVar[tuple[str, ...]]
-    """The layers of the model; the last is the one that new recordings are drawn from."""
-
     def __init__(
         self,
         *,
@@ -118,6 +120,7 @@ class GaussianProcess(Imputer, Synthesiser):
         warm_start: bool = False,
         verbose: bool = False,
         solver: str = "auto",
+        sampled_trend: str = "mean",
         n_jobs: int | None = None,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
@@ -131,6 +134,7 @@ class GaussianProcess(Imputer, Synthesiser):
         self.warm_start = warm_start
         self.verbose = verbose
         self.solver = solver
+        self.sampled_trend = sampled_trend
         self.n_jobs = n_jobs
         self.random_state = random_state
 
@@ -179,12 +183,37 @@ class GaussianProcess(Imputer, Synthesiser):
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Return draws around the trend's posterior mean, (n, N, D), noise included."""
+        """Return draws around the trend, noise included.
+
+        Each is the trend (see ``sampled_trend``), zero where a model has none, and a draw of its
+        own of the last layer. All of them cost one factorisation of the covariances.
+
+        Parameters
+        ----------
+        times : ndarray of shape (N,)
+            In seconds, in any order.
+        n_samples : int
+            Number n of recordings.
+        random_state : int or numpy.random.Generator
+            Seed of the draws.
+
+        Returns
+        -------
+        ndarray of shape (n, N, D)
+            In the outputs' own units.
+
+        Raises
+        ------
+        ValueError
+            If the number of recordings is not a positive integer.
+        """
         check_is_fitted(self)
+        check_count("n_samples", n_samples, 1)
         rng = np.random.default_rng(random_state)
         times = np.asarray(times, dtype=np.float64)
         with self._at_work() as process:
-            return process.observe_new(self.layers[-1], times, n_samples, rng)
+            trend = TRENDS[self.sampled_trend](process, times, rng)
+            return process.observe_new(self.layers[-1], trend, times, n_samples, rng)
 
     def posterior_covariance(self, recording: Recording, times: Frames | None = None) -> Array:
         """Return the joint covariance of a recording's curve given all that is visible.
@@ -346,6 +375,7 @@ class GaussianProcess(Imputer, Synthesiser):
         check_jobs(self.n_jobs)
         check_choice("kernel", self.kernel, KERNELS)
         check_choice("solver", self.solver, PLANS)
+        check_choice("sampled_trend", self.sampled_trend, TRENDS)
 
     def _shares(self, recording: Recording) -> tuple[Share, ...]:
         """Return the shares of a recording that `fit` has seen."""

@@ -87,12 +87,16 @@ class FittedProcess:
         return self.scaling.restore(draws)
 
     def observe_new(
-        self, layer: str, times: Frames, n_samples: int, rng: np.random.Generator
+        self,
+        layer: str,
+        trend: FrameByChannel,
+        times: Frames,
+        n_samples: int,
+        rng: np.random.Generator,
     ) -> SampleByFrameByChannel:
-        """Return draws of a layer around the trend's posterior mean, (n, M, D), with noise."""
+        """Return draws of a layer around a trend (M, D), with noise: (n, M, D)."""
         draws = draw_layer(self.kernel, self.parameters.layers[layer], times, n_samples, rng)
         draws += np.sqrt(self.parameters.noise) * rng.standard_normal(draws.shape)
-        ((trend, _),) = self.infer([self.reduction.trend], [times])
         return trend + self.scaling.scale * draws
 
     def prior_covariance(self, layer: str, times: Frames) -> Array:

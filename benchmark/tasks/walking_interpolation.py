@@ -80,6 +80,14 @@ class WalkingInterpolation(Task):
         "recorded; the thesis's lower values suggest that it normalised each recording first.",
     )
 
+    illustrated = ("observed 40", "synthetic observed 40")
+    illustrated_channels = ("lfemur.rx", "ltibia.rx")
+    coregionalisation_of = ("mohgp-3",)
+    joint_groups = {
+        "left leg": ("lfemur", "ltibia", "lfoot"),
+        "head and left femur": ("head", "lfemur"),
+    }
+
     def problem(self, case: Case, seeds: Seeds, archive: Archive) -> ImputeProblem:
         """Hide most of the first walk."""
         walks = [_walk(archive, uri) for uri in case.sources]

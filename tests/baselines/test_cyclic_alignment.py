@@ -143,23 +143,6 @@ def test_weights_that_are_none_are_refused(fitted, weights):
         fitted.blend(weights)
 
 
-@pytest.mark.parametrize(
-    ("parameters", "message"),
-    [
-        ({"n_styles": 0}, "n_styles >= 1"),
-        ({"n_states": 6}, "n_states >= 7"),
-        ({"max_jump": 0}, "max_jump >= 1"),
-        ({"closeness": 0.0}, "closeness > 0"),
-        ({"regularisation": 0.0}, "regularisation > 0"),
-        ({"prior": "flat"}, "prior in"),
-        ({"n_restarts": 0}, "n_restarts >= 1"),
-    ],
-)
-def test_parameters_out_of_range_are_named(parameters, message):
-    with pytest.raises(ValueError, match=message):
-        CyclicAlignment(**parameters).fit(WALKS)
-
-
 def _all_hidden(walk, *, frames=slice(None), channels=slice(None)):
     mask = np.zeros(walk.values.shape, dtype=bool)
     mask[frames, channels] = True

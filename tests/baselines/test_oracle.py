@@ -91,3 +91,21 @@ def test_what_it_refuses():
         Oracle().inform(process).fit(recordings[:-1]).impute(recordings[-1:])
     with pytest.raises(ValueError, match="visible entries to condition on"):
         Oracle().inform(process).fit([recordings[0].hide(np.ones((len(TIMES), 2)))])
+
+
+def test_the_trend_is_the_parent_given_the_children():
+    process, recordings, rng = drawn(3)
+    given = [recording.hide(rng.random((len(TIMES), 2)) < 0.4) for recording in recordings]
+    apart = np.array([-0.3, 2.5])
+    joint = process.parent.covariance(np.concatenate([apart, TIMES])).reshape(2, 9, 2, 9)
+    within = process.child.covariance(TIMES) + process.noise * np.eye(14)
+    shared = np.kron(np.ones((5, 5)), joint[:, 2:, :, 2:].reshape(14, 14))
+    values = np.concatenate([recording.values.T.ravel() for recording in given])
+    seen = ~np.isnan(values)
+    covariance = (shared + np.kron(np.eye(5), within))[np.ix_(seen, seen)]
+    cross = np.tile(joint[:, :2, :, 2:].reshape(4, 14), 5)[:, seen]
+    solved = np.linalg.solve(covariance, cross.T).T
+    prior = np.diag(joint[:, :2, :, :2].reshape(4, 4))
+    mean, variance = Oracle().inform(process).fit(given).trend(apart)
+    np.testing.assert_allclose(mean.T.ravel(), solved @ values[seen], atol=1e-9)
+    np.testing.assert_allclose(variance.T.ravel(), prior - (solved * cross).sum(axis=1), atol=1e-9)

@@ -21,6 +21,8 @@ needs_recordings = [
 PROBLEMS = [
     ("toy-interpolation-1", "test 1"),
     ("toy-interpolation-1", "test 5"),
+    ("toy-interpolation-2", "test 1"),
+    ("toy-interpolation-3", "test 2"),
     ("walking-interpolation", "synthetic observed 40"),
     ("missing-frames", "synthetic 1"),
     ("upper-body-missing", "synthetic walks"),
@@ -40,10 +42,10 @@ def _problem(task, case, fold=1):
 @pytest.mark.parametrize(("task", "case"), PROBLEMS)
 def test_a_problem_is_what_it_was(task, case, num_regression):
     problem = _problem(task, case)
-    hidden = ~problem.given[0].visible
-    frames, channels = hidden.shape
+    frames, channels = problem.given[0].values.shape
     spline = build_model("cubic-spline", {}, 0).fit(problem.train)
     outcome = problem.outcome(problem.solve(spline, 0))
+    hidden = outcome.hidden
     found = {
         "recordings": len(problem.train),
         "frames": frames,
@@ -61,16 +63,33 @@ def test_a_problem_is_what_it_was(task, case, num_regression):
     num_regression.check(found, default_tolerance={"rtol": 1e-7, "atol": 0}, fullpath=golden)
 
 
-@pytest.mark.parametrize("number", range(1, 10))
-def test_five_of_fifty_points_of_each_output_are_visible(number):
-    problem = _problem("toy-interpolation-1", f"test {number}")
-    settings = TASKS.get("toy-interpolation-1").case(f"test {number}").settings
-    (given,) = problem.given
-    assert given.values.shape == (50, settings["outputs"])
-    assert (given.visible.sum(axis=0) == 5).all()
-    assert len(problem.train) == settings["children"]
-    assert all(child.visible.all() for child in problem.train[:-1])
-    assert problem.process.noise == settings["noise"]
+TOY = [
+    (name, case.name, {"outputs": 3, "children": 10, "noise": 0.1, "visible": 5, **case.settings})
+    for name in ("toy-interpolation-1", "toy-interpolation-2", "toy-interpolation-3")
+    for case in TASKS.get(name).cases
+]
+
+
+@pytest.mark.parametrize(("task", "case", "row"), TOY)
+def test_toy_data_are_as_the_row_says(task, case, row):
+    problem = _problem(task, case)
+    assert len(problem.train) == row["children"]
+    assert len(problem.given) == (row["children"] if row.get("missing in") == "all" else 1)
+    assert problem.train[-len(problem.given) :] == problem.given
+    for given, truth in zip(problem.given, problem.truth, strict=True):
+        assert given.values.shape == truth.shape == (50, row["outputs"])
+        assert (given.visible.sum(axis=0) == row["visible"]).all()
+    assert all(child.visible.all() for child in problem.train[: -len(problem.given)])
+    assert problem.process.noise == row["noise"]
+    n_components = 1 if task == "toy-interpolation-3" else 3
+    assert len(problem.process.parent.lengthscales) == n_components
+
+
+def test_the_true_parent_is_what_the_children_vary_around():
+    problem = _problem("toy-interpolation-3", "test 4")
+    complete = np.mean([child.values for child in problem.train[:-1]], axis=0)
+    # Nine children with a variance of .25 and noise of .1 are off by .2 on average.
+    assert np.sqrt(np.mean((complete - problem.parent.values) ** 2)) < 2 * 0.2
 
 
 @pytest.mark.parametrize("case", TASKS.get("walking-interpolation").cases, ids=lambda c: c.name)

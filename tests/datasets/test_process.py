@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mocapbench.datasets import Layer, ToyProcess
+from mocapbench.datasets.process import uniform_weights
 
 TIMES = np.linspace(0.0, 2.0 * np.pi, 6)
 
@@ -90,3 +91,17 @@ def test_without_noise_and_children_alike_the_draw_is_the_parent(process):
     first, second = still.draw(np.random.default_rng(6), TIMES, 2)
     # What is left is the nugget of the root: 1e-9 in variance.
     np.testing.assert_allclose(first.values, second.values, atol=1e-3)
+
+
+def test_a_family_is_a_parent_and_the_children_that_a_draw_gives(process):
+    parent, family = process.draw_family(np.random.default_rng(7), TIMES, 3)
+    children = process.draw(np.random.default_rng(7), TIMES, 3)
+    assert [child.values.tobytes() for child in family] == [c.values.tobytes() for c in children]
+    assert parent.name == "parent"
+    assert parent.values.shape == (6, 2)
+
+
+def test_weights_between_0_and_1_correlate_every_pair_of_outputs_positively():
+    layer = Layer.random(np.random.default_rng(8), 4, 3, 1.0, uniform_weights)
+    assert (layer.coregionalisation > 0).all()
+    assert (Layer.random(np.random.default_rng(8), 4, 3, 1.0).coregionalisation < 0).any()

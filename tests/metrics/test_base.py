@@ -3,7 +3,7 @@ import pickle
 import numpy as np
 import pytest
 
-from mocapbench.metrics import BUILTIN, Clustering, Direction, Imputation, Synthesis
+from mocapbench.metrics import BUILTIN, Clustering, Direction, Imputation, Recovery, Synthesis
 
 
 @pytest.fixture
@@ -11,7 +11,9 @@ def outcomes(draw):
     rng = np.random.default_rng(0)
     synthesis = Synthesis(rng.normal(size=(3, 8, 2)), rng.normal(size=(4, 8, 2)))
     clustering = Clustering(rng.integers(3, size=9), rng.integers(4, size=9))
-    return {Imputation: draw(0), Synthesis: synthesis, Clustering: clustering}
+    recovery = Recovery(*(dict.fromkeys(("parent", "child"), c * np.eye(3)) for c in (1, 2)), 0.1)
+    kinds = (Imputation, Synthesis, Clustering, Recovery)
+    return dict(zip(kinds, (draw(0), synthesis, clustering, recovery), strict=True))
 
 
 def test_names_are_distinct_and_targets_belong_to_targeted_metrics():
@@ -27,6 +29,7 @@ def test_score_is_finite_and_parts_are_along_known_axes(metric, outcomes):
         Imputation: {"frame": 12, "output": 4, "bin": 10},
         Synthesis: {"sample": 3, "reference": 4, "reference_sd": 4, "output": 2},
         Clustering: {},
+        Recovery: {},
     }[metric.outcome]
     assert np.isfinite(score.value)
     assert {name: part.shape for name, part in score.parts.items()} == {

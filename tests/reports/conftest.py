@@ -20,6 +20,9 @@ METRICS = {
         MetricInfo("smse_pooled", "SMSE (pooled)", Direction.LOWER),
         MetricInfo("msll", "MSLL", Direction.LOWER),
         MetricInfo("rms_per_frame", "RMS per frame", Direction.LOWER),
+        MetricInfo("mcc", "MCC", Direction.HIGHER),
+        MetricInfo("mlc", "MLC", Direction.HIGHER),
+        MetricInfo("spread", "Spread", Direction.TARGET, 1.0),
         *(
             MetricInfo(f"coverage_{p}", f"Coverage at {p} %", Direction.TARGET, p / 100)
             for p in (50, 80, 90, 95)

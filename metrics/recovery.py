@@ -1,0 +1,117 @@
+"""Whether a process's covariances have been found again from what it drew (thesis §5.2.3)."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+
+from mocapbench.metrics.base import Direction, Metric, Recovery, Score
+
+__all__ = [
+    "frobenius_child",
+    "frobenius_parent",
+    "log_det_divergence",
+    "logdet_child",
+    "logdet_parent",
+    "relative_frobenius",
+]
+
+Array = NDArray[np.float64]
+
+
+def relative_frobenius(outcome: Recovery, layer: str) -> Score:
+    """Return ‖K̂ − K‖ / ‖K‖ in the Frobenius norm, for the covariance K of ``layer``.
+
+    Noise is in neither. 0 for the truth, 1 for K̂ = 0.
+    """
+    truth, estimate = _pair(outcome, layer)
+    return Score(float(np.linalg.norm(estimate - truth) / np.linalg.norm(truth)))
+
+
+def log_det_divergence(outcome: Recovery, layer: str) -> Score:
+    r"""Return tr(A B⁻¹) − log det(A B⁻¹) − n with A = K + σ² I and B = K̂ + σ² I, K (n, n).
+
+    That is twice the Kullback–Leibler divergence of N(0, B) from N(0, A): what a model that takes
+    K̂ for the covariance of ``layer`` loses on curves of the layer. Smooth curves have covariances
+    of hardly any rank, and the divergence is infinite where K̂ lacks a direction of K; σ², the
+    variance of the true noise for both, leaves out of account what is too small to be observed.
+
+    Raises
+    ------
+    ValueError
+        If the noise variance is not positive.
+    """
+    truth, estimate = _pair(outcome, layer)
+    if not outcome.noise > 0.0:
+        raise ValueError(f"expected a positive variance of the noise, got {outcome.noise:g}")
+    noise = outcome.noise * np.eye(len(truth))
+    a, b = (cho_factor(matrix + noise, lower=True) for matrix in (truth, estimate))
+    trace = np.trace(cho_solve(b, truth + noise))
+    return Score(float(trace + _log_det(b[0]) - _log_det(a[0]) - len(truth)))
+
+
+def _log_det(factor: Array) -> float:
+    """Return log det(L Lᵀ) of a Cholesky factor L, in the lower triangle."""
+    return 2.0 * float(np.log(np.diag(factor)).sum())
+
+
+def _pair(outcome: Recovery, layer: str) -> tuple[Array, Array]:
+    """Return the true and the estimated covariance of ``layer``.
+
+    Raises
+    ------
+    ValueError
+        If they are not square matrices of the same size.
+    """
+    truth, estimate = outcome.truth[layer], outcome.estimate[layer]
+    if truth.ndim != 2 or truth.shape != truth.T.shape or truth.shape != estimate.shape:
+        raise ValueError(
+            f"expected two square matrices of the same size for layer {layer!r}, "
+            f"got shapes {truth.shape} and {estimate.shape}"
+        )
+    return truth, estimate
+
+
+def _has_child(outcome: Recovery) -> bool:
+    return "child" in outcome.estimate
+
+
+def _has_parent(outcome: Recovery) -> bool:
+    return "parent" in outcome.estimate
+
+
+frobenius_child = Metric(
+    "frobenius_child",
+    "Relative Frobenius error of K_f",
+    Direction.LOWER,
+    Recovery,
+    partial(relative_frobenius, layer="child"),
+    defined=_has_child,
+)
+frobenius_parent = Metric(
+    "frobenius_parent",
+    "Relative Frobenius error of K_g",
+    Direction.LOWER,
+    Recovery,
+    partial(relative_frobenius, layer="parent"),
+    defined=_has_parent,
+)
+logdet_child = Metric(
+    "logdet_child",
+    "Log-det divergence of K_f",
+    Direction.LOWER,
+    Recovery,
+    partial(log_det_divergence, layer="child"),
+    defined=_has_child,
+)
+logdet_parent = Metric(
+    "logdet_parent",
+    "Log-det divergence of K_g",
+    Direction.LOWER,
+    Recovery,
+    partial(log_det_divergence, layer="parent"),
+    defined=_has_parent,
+)

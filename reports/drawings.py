@@ -1,0 +1,27 @@
+"""From an illustration of any kind to a drawing of the page."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+
+from mocapbench.reports import heatmaps, panels
+from mocapbench.reports.illustration import HeatMaps, Illustration, Picture
+from mocapbench.reports.panels import Drawing
+
+__all__ = ["draw"]
+
+
+@singledispatch
+def draw(illustration: Picture) -> Drawing:
+    """Return the drawing of ``illustration``.
+
+    Raises
+    ------
+    TypeError
+        If it is of a kind that nothing here draws.
+    """
+    raise TypeError(f"expected an Illustration or HeatMaps, got {type(illustration).__name__}")
+
+
+draw.register(Illustration, panels.draw)
+draw.register(HeatMaps, heatmaps.draw)
