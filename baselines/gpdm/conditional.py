@@ -97,4 +97,4 @@ class Conditional:
         frames = np.concatenate([np.arange(length) for length in self.lengths])
         rows = np.arange(len(frames))[:, None]
         lags = np.arange(self.motion.order)
-        return self.x[rows - np.minimum(lags, frames[:, None])]
+        return np.asarray(self.x[rows - np.minimum(lags, frames[:, None])])

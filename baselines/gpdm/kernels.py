@@ -75,7 +75,7 @@ class RBF(Kernel):
         return matrix, pull
 
     def _by_lag(self, slopes: Array) -> Array:
-        return slopes.reshape(self.n_lags, -1).sum(axis=1)
+        return np.asarray(slopes.reshape(self.n_lags, -1).sum(axis=1))
 
     def diagonal(self, theta: Array, a: Array) -> Array:
         """Return ones."""

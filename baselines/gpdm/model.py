@@ -208,7 +208,7 @@ class GPDM(LatentVariableModel, Synthesiser):
         mean, covariance, _ = self.conditional_.reconstruction.moments(x)
         values, vectors = np.linalg.eigh(covariance)
         root = vectors * np.sqrt(np.maximum(values, 0.0))
-        return mean + root @ rng.standard_normal(mean.shape)
+        return np.asarray(mean + root @ rng.standard_normal(mean.shape))
 
 
 def _interpolated(times: Frames, grid: Frames, values: Array) -> Array:

@@ -77,8 +77,8 @@ def viterbi(model: Conditional, query: Query) -> Array:
     """
     precision = np.exp(model.reconstruction.theta[-1])
     emission = np.zeros((len(query.visible), len(model.x)))
-    emission[query.visible] = 0.5 * precision * euclidean_distances(
-        query.poses[query.visible], model.poses, squared=True
+    emission[query.visible] = (
+        0.5 * precision * euclidean_distances(query.poses[query.visible], model.poses, squared=True)
     )
     mean, variance = model.motion.step(model.predecessors())
     jumps = euclidean_distances(mean, model.x, squared=True) / variance[:, None]
