@@ -1,4 +1,4 @@
-"""``mocapbench check``: is a run as good as a baseline, are its samples better than a control's?"""
+"""``mocapbench check``: whether a run is as good as a baseline, or better than a control."""
 
 from __future__ import annotations
 
