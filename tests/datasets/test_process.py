@@ -18,13 +18,35 @@ def stacked(children):
     return np.stack([child.values.T.ravel() for child in children])
 
 
-def test_layers_have_the_stated_mean_variance():
+@pytest.mark.parametrize(
+    "weights", [np.random.Generator.standard_normal, np.random.Generator.random]
+)
+def test_layers_have_the_stated_mean_variance(weights):
     rng = np.random.default_rng(2)
     for n_outputs in (1, 3, 6):
-        process = ToyProcess.random(rng, n_outputs=n_outputs, noise=0.01)
+        process = ToyProcess.random(rng, n_outputs=n_outputs, noise=0.01, weights=weights)
         n = n_outputs * len(TIMES)
         assert np.trace(process.parent.covariance(TIMES)) / n == pytest.approx(1.0)
         assert np.trace(process.child.covariance(TIMES)) / n == pytest.approx(0.25)
+
+
+def test_uniform_weights_correlate_outputs_positively_and_more():
+    rng = np.random.default_rng(2)
+    generator = np.random.Generator
+    layers = {
+        weights: [Layer.random(rng, 3, 3, 1.0, weights) for _ in range(50)]
+        for weights in (generator.random, generator.standard_normal)
+    }
+    correlations = {}
+    for weights, drawn in layers.items():
+        total = np.stack([layer.coregionalisation.sum(axis=0) for layer in drawn])
+        scale = np.sqrt(np.diagonal(total, axis1=1, axis2=2))
+        ratio = total / scale[:, :, None] / scale[:, None, :]
+        correlations[weights] = ratio[:, *np.triu_indices(3, 1)]
+    assert (correlations[generator.random] > 0.0).all()
+    assert (correlations[generator.standard_normal] < 0.0).any()
+    sizes = [np.abs(each).mean() for each in correlations.values()]
+    assert sizes[0] > sizes[1]
 
 
 def test_a_layer_is_a_sum_of_kronecker_products(process):
