@@ -68,7 +68,7 @@ def test_only_a_task_with_a_control_takes_the_control_model():
 
 
 def test_new_children_resemble_the_references_and_the_control_does_not():
-    problems = [posed(case) for case in toy_synthesis.cases]
+    problems = [posed(case) for case in toy_synthesis.cases[::3]]
     scores = {
         model: [problem.outcome(problem.solve(problem.fit(model()), 1)) for problem in problems]
         for model in (Oracle, Control)
