@@ -3,29 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
 
 import numpy as np
-from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.em import Run
+from mocapbench.baselines.alignment.estimator import CycleAligner
 from mocapbench.baselines.alignment.fitting import random_cycle
-from mocapbench.baselines.alignment.inference import best_paths, infer
 from mocapbench.baselines.alignment.model import Hyperparameters
-from mocapbench.baselines.alignment.period import default_states
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.profile import fit_profile, prototype
-from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.validation import check_settings
-from mocapbench.baselines.gp.scaling import Standardisation
-from mocapbench.baselines.pooling import check_channels, check_recordings
-from mocapbench.baselines.protocols import Aligner, StatePath
-from mocapbench.datasets import Recording
 
 __all__ = ["CPM"]
 
 
-class CPM(Aligner):
+class CPM(CycleAligner):
     r"""A latent trace of one cycle; recordings are noisy, warped copies of it, by EM.
 
     The cyclic left-to-right Markov chain and the noise are those of `CyclicAlignment`; there is one
@@ -91,51 +82,15 @@ class CPM(Aligner):
         self.regularisation = regularisation
         self.random_state = random_state
 
-    def fit(self, recordings: Sequence[Recording]) -> Self:
-        """Find the trace and the alignment of the recordings to it.
+    def _hyperparameters(self) -> Hyperparameters:
+        return Hyperparameters(self.regularisation, PRIORS["normalised"])
 
-        Raises
-        ------
-        ValueError
-            If a parameter is out of range, there is no recording, channels differ, a name repeats,
-            or a channel is nowhere visible.
-        """
-        check_settings(**vars(self))
-        checked = check_recordings(recordings)
-        self.channels_ = checked[0].channels
-        # In order of name, so that the order in which recordings come means nothing.
-        ordered = sorted(checked, key=lambda recording: recording.name)
-        self.scaling_ = Standardisation.of(ordered)
-        names = [recording.name for recording in ordered]
-        sequences = self._sequences(ordered)
-        run = self._best_run(sequences)
-        self.state_, self.converged_ = run.state, run.converged
-        self.log_likelihood_ = np.array(run.bounds)
-        self.n_iterations_ = len(run.bounds) - 1
-        self._describe(sequences, [names.index(recording.name) for recording in checked])
-        self.fitted_ = {r.name: (r, path) for r, path in zip(checked, self.path_, strict=True)}
-        return self
-
-    def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
-        """Return the likeliest path of each recording along the trace, as in `fit` if it was there.
-
-        Raises
-        ------
-        ValueError
-            If channels differ.
-        """
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_)
-        return [self._aligned(recording) for recording in recordings]
-
-    def _best_run(self, sequences: Sequences) -> Run:
-        rng = np.random.default_rng(self.random_state)
-        self.cycle_length_ = self.n_states or default_states(sequences, self.max_jump)
+    def _learn(self, rng: np.random.Generator) -> Run:
         runs = [
             fit_profile(
-                random_cycle(sequences, self.cycle_length_, rng),
-                sequences,
-                self._hyper,
+                random_cycle(self.sequences_, self.cycle_length_, rng),
+                self.sequences_,
+                self.hyper_,
                 max_jump=self.max_jump,
                 max_iter=self.max_iter,
                 tolerance=self.tolerance,
@@ -144,26 +99,10 @@ class CPM(Aligner):
         ]
         return max(runs, key=lambda run: run.bounds[-1])
 
-    def _describe(self, sequences: Sequences, order: list[int]) -> None:
-        """State paths and prototypes in the order in which recordings were given."""
-        trace = self.state_.cycles.mean[:, 0]
-        paths, arrays = best_paths(self.state_, sequences), sequences.arrays()
-        self.path_ = tuple(paths[k] for k in order)
-        prototypes = np.stack([prototype(arrays[k], paths[k], trace) for k in order])
-        scale, mean = self.scaling_.scale, self.scaling_.mean
-        self.trace_, self.prototypes_ = trace * scale + mean, prototypes * scale + mean
-
-    def _aligned(self, recording: Recording) -> StatePath:
-        if recording.name in self.fitted_:
-            fitted, path = self.fitted_[recording.name]
-            if np.array_equal(fitted.values, recording.values, equal_nan=True):
-                return path
-        sequence = self._sequences([recording])
-        return best_paths(infer(sequence, self.state_, self._hyper), sequence)[0]
-
-    @property
-    def _hyper(self) -> Hyperparameters:
-        return Hyperparameters(self.regularisation, PRIORS["normalised"])
-
-    def _sequences(self, recordings: Sequence[Recording]) -> Sequences:
-        return Sequences.of([self.scaling_.apply(recording).values for recording in recordings])
+    def _describe(self, run: Run, order: Sequence[int]) -> None:
+        self.log_likelihood_ = np.array(run.bounds)
+        trace, arrays = run.state.cycles.mean[:, 0], self.sequences_.arrays()
+        prototypes = [
+            prototype(arrays[k], path, trace) for k, path in zip(order, self.path_, strict=True)
+        ]
+        self.trace_, self.prototypes_ = self._unscaled(trace), self._unscaled(np.stack(prototypes))

@@ -3,30 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.alignment.em import Run
+from mocapbench.baselines.alignment.estimator import CycleAligner
 from mocapbench.baselines.alignment.fitting import Settings, best_fit
-from mocapbench.baselines.alignment.inference import best_paths, infer, moments, refine
+from mocapbench.baselines.alignment.inference import moments, refine
 from mocapbench.baselines.alignment.model import Hyperparameters
-from mocapbench.baselines.alignment.period import default_states
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.sequences import Array, Sequences
-from mocapbench.baselines.alignment.synthesis import blended, draw_cycle, draw_sequence
-from mocapbench.baselines.alignment.validation import check_settings
-from mocapbench.baselines.gp.scaling import Standardisation
-from mocapbench.baselines.pooling import check_channels, check_recordings
+from mocapbench.baselines.alignment.synthesis import blended, draw_cycles, draw_sequences
 from mocapbench.baselines.protocols import (
-    Aligner,
     Blender,
     Imputer,
     Inductive,
     Prediction,
     SampleByFrameByChannel,
-    StatePath,
     Synthesiser,
 )
 from mocapbench.datasets import FrameByChannel, Frames, Recording
@@ -34,7 +28,7 @@ from mocapbench.datasets import FrameByChannel, Frames, Recording
 __all__ = ["CyclicAlignment"]
 
 
-class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
+class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
     r"""Cycles of C latent styles with a common parent, warped in time, by variational EM.
 
     A recording is of one style; its frames follow that style's cycle of M states through a cyclic
@@ -67,8 +61,9 @@ class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
         Whether :math:`\lambda_{\bar z}` is learnt; the paper keeps it fixed.
     smoothness : float, default=0.1
         Precision :math:`\lambda_s` of a cycle's steps, where it starts; it is learnt.
-    prior : {"normalised", "paper"}, default="normalised"
-        How the prior of a cycle is normalised; the paper's is not a density.
+    prior : {"normalised", "centred", "paper"}, default="normalised"
+        The prior of a cycle: HLM's, normalised; one about the parent, from which a cycle deviates
+        smoothly; or HLM's as the paper has it, which is not a density.
     refine_iter : int, default=10
         Iterations of EM, from where `fit` ended, that `impute` gives to a recording together with
         the fitted ones.
@@ -134,28 +129,6 @@ class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
         self.refine_iter = refine_iter
         self.random_state = random_state
 
-    def fit(self, recordings: Sequence[Recording]) -> Self:
-        """Find the styles, their cycles and the alignment of the recordings.
-
-        Raises
-        ------
-        ValueError
-            If a parameter is out of range, there is no recording, channels differ, a name repeats,
-            or a channel is nowhere visible.
-        """
-        check_settings(**vars(self))
-        checked = check_recordings(recordings)
-        self.channels_ = checked[0].channels
-        # In order of name, so that the order in which recordings come means nothing.
-        ordered = sorted(checked, key=lambda recording: recording.name)
-        self.scaling_ = Standardisation.of(ordered)
-        self.names_ = tuple(recording.name for recording in ordered)
-        self.sequences_ = self._sequences(ordered)
-        self._learn()
-        self._describe([self.names_.index(recording.name) for recording in checked])
-        self.fitted_ = {r.name: (r, path) for r, path in zip(checked, self.path_, strict=True)}
-        return self
-
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the mixture over styles and states at the hidden entries of each recording.
 
@@ -168,23 +141,8 @@ class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
         ValueError
             If channels differ.
         """
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        self._check_fitted(recordings)
         return [self._imputed(recording) for recording in recordings]
-
-    def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
-        """Return the likeliest path of each recording, as in `fit` if it was there.
-
-        A new one is taken to be of the style that suits it best.
-
-        Raises
-        ------
-        ValueError
-            If channels differ.
-        """
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_)
-        return [self._aligned(recording) for recording in recordings]
 
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
@@ -195,8 +153,7 @@ class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
         """
         check_is_fitted(self)
         rng = np.random.default_rng(random_state)
-        draws = [draw_sequence(self.state_, len(times), rng) for _ in range(n_samples)]
-        return self._unscaled(np.stack(draws))
+        return self._unscaled(draw_sequences(self.state_, n_samples, len(times), rng))
 
     def sample_cycles(
         self, style: int, n_samples: int, random_state: int | np.random.Generator
@@ -204,9 +161,7 @@ class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
         """Draw cycles (n, M, D) of a style, without noise."""
         check_is_fitted(self)
         rng = np.random.default_rng(random_state)
-        return self._unscaled(
-            np.stack([draw_cycle(self.state_, style, rng) for _ in range(n_samples)])
-        )
+        return self._unscaled(draw_cycles(self.state_, style, n_samples, rng))
 
     def blend(self, weights: ArrayLike) -> FrameByChannel:
         """Return the styles' mean cycles mixed by weights (N, C) that vary from frame to frame.
@@ -219,27 +174,20 @@ class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
             If the weights are not (N, n_styles), are negative, or a row's sum is not 1.
         """
         check_is_fitted(self)
-        shares = np.asarray(weights, dtype=np.float64)
-        n_styles = self.cycles_.shape[0]
-        if shares.ndim != 2 or shares.shape[1] != n_styles:
-            raise ValueError(
-                f"expected weights of shape (N, {n_styles}), one column a style, got {shares.shape}"
-            )
-        if (shares < 0).any() or not np.allclose(shares.sum(axis=1), 1.0):
-            raise ValueError("expected non-negative weights whose rows sum to 1: divide by the sum")
-        return self._unscaled(blended(self.state_, shares))
+        return self._unscaled(blended(self.state_, np.asarray(weights, dtype=np.float64)))
 
-    def _learn(self) -> None:
-        """Run EM."""
-        n_states = self.n_states or default_states(self.sequences_, self.max_jump)
+    def _hyperparameters(self) -> Hyperparameters:
+        return Hyperparameters(self.regularisation, PRIORS[self.prior])
+
+    def _learn(self, rng: np.random.Generator) -> Run:
         self.settings_ = Settings(
             n_styles=self.n_styles,
-            n_states=n_states,
+            n_states=self.cycle_length_,
             max_jump=self.max_jump,
             closeness=self.closeness,
             learn_closeness=self.learn_closeness,
             smoothness=self.smoothness,
-            hyper=Hyperparameters(self.regularisation, PRIORS[self.prior]),
+            hyper=self.hyper_,
             n_inner=self.n_inner,
             tolerance=self.tolerance,
         )
@@ -248,20 +196,16 @@ class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
             self.settings_,
             n_restarts=self.n_restarts,
             max_iter=self.max_iter,
-            rng=np.random.default_rng(self.random_state),
+            rng=rng,
         )
-        self.state_, self.converged_ = best.state, best.converged
-        self.bound_, self.restart_bounds_ = np.array(best.bounds), np.array(ends)
-        self.n_iterations_ = len(best.bounds) - 1
-        self.cycle_length_ = n_states
-        self.cycles_ = self._unscaled(self.state_.cycles.mean.swapaxes(0, 1))
+        self.restart_bounds_ = np.array(ends)
+        return best
 
-    def _describe(self, order: list[int]) -> None:
-        """State labels and paths in the order in which recordings were given."""
-        self.probabilities_ = self.state_.labels[order]
+    def _describe(self, run: Run, order: Sequence[int]) -> None:
+        self.bound_ = np.array(run.bounds)
+        self.cycles_ = self._unscaled(run.state.cycles.mean.swapaxes(0, 1))
+        self.probabilities_ = run.state.labels[list(order)]
         self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)
-        paths = best_paths(self.state_, self.sequences_)
-        self.path_ = tuple(paths[k] for k in order)
 
     def _imputed(self, recording: Recording) -> Prediction:
         others = np.flatnonzero([name != recording.name for name in self.names_])
@@ -274,17 +218,3 @@ class CyclicAlignment(Imputer, Inductive, Blender, Aligner, Synthesiser):
         )
         mean, variance = (moment[-1, : len(recording.times)] for moment in moments(state))
         return Prediction.around(recording, self._unscaled(mean), variance * self.scaling_.scale**2)
-
-    def _aligned(self, recording: Recording) -> StatePath:
-        if recording.name in self.fitted_:
-            fitted, path = self.fitted_[recording.name]
-            if np.array_equal(fitted.values, recording.values, equal_nan=True):
-                return path
-        sequence = self._sequences([recording])
-        return best_paths(infer(sequence, self.state_, self.settings_.hyper), sequence)[0]
-
-    def _sequences(self, recordings: Sequence[Recording]) -> Sequences:
-        return Sequences.of([self.scaling_.apply(recording).values for recording in recordings])
-
-    def _unscaled(self, values: Array) -> Array:
-        return np.asarray(values * self.scaling_.scale + self.scaling_.mean)

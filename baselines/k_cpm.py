@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from sklearn.cluster import KMeans
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.alignment.validation import check_settings
 from mocapbench.baselines.cpm import CPM
 from mocapbench.baselines.pooling import check_recordings
 from mocapbench.baselines.protocols import Aligner, Clusterer, StatePath
@@ -75,10 +76,9 @@ class KCPM(Clusterer, Aligner):
         Raises
         ------
         ValueError
-            As `CPM.fit`, or if ``n_styles`` is below 1.
+            As `CPM.fit`, or if ``n_styles`` is not a positive integer.
         """
-        if self.n_styles < 1:
-            raise ValueError(f"expected n_styles >= 1, got {self.n_styles}")
+        check_settings(**self.get_params())
         checked = check_recordings(recordings)
         rng = np.random.default_rng(self.random_state)
         parameters = {k: v for k, v in self.get_params().items() if k != "n_styles"}

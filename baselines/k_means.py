@@ -11,6 +11,7 @@ from sklearn.cluster import KMeans as ScikitLearnKMeans
 
 from mocapbench.baselines.alignment.period import cycle_length
 from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.alignment.validation import check_settings
 from mocapbench.baselines.pooling import check_recordings, check_visible, visible_moments
 from mocapbench.baselines.protocols import Clusterer
 from mocapbench.datasets import FrameByChannel, Recording
@@ -67,12 +68,10 @@ class KMeans(Clusterer):
         Raises
         ------
         ValueError
-            If a number is below 1, there is no recording, channels differ, a name repeats, or a
-            channel is hidden in all recordings.
+            If a parameter is of the wrong type or out of range, there is no recording, channels
+            differ, a name repeats, or a channel is hidden in all recordings.
         """
-        for name in ("n_styles", "n_frames", "n_restarts"):
-            if getattr(self, name) < 1:
-                raise ValueError(f"expected {name} of at least 1, got {getattr(self, name)}")
+        check_settings(**self.get_params())
         checked = check_recordings(recordings)
         check_visible(checked)
         mean, _ = visible_moments(checked)

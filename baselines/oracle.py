@@ -19,9 +19,17 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.pooling import check_recordings
-from mocapbench.baselines.protocols import Imputer, Informed, Prediction, Trended
+from mocapbench.baselines.pooling import check_outputs, check_recordings
+from mocapbench.baselines.protocols import (
+    Imputer,
+    Informed,
+    Prediction,
+    SampleByFrameByChannel,
+    Synthesiser,
+    Trended,
+)
 from mocapbench.datasets import FrameByChannel, Frames, Mask, Recording, ToyProcess
+from mocapbench.datasets.process import draw_gaussian
 
 __all__ = ["Oracle"]
 
@@ -45,11 +53,12 @@ class _Pattern:
         return np.asarray(self.values.mean(axis=0))
 
 
-class Oracle(Imputer, Trended, Informed):
+class Oracle(Imputer, Synthesiser, Trended, Informed):
     """Condition the true process on all that is visible.
 
-    Exact mean and variance of the hidden observations, noise included, given the visible entries
-    of all recordings in `fit`, which are children of one parent.
+    Exact mean and variance of the hidden observations, noise included, and exact draws of new
+    children, given the visible entries of all recordings in `fit`, which are children of one
+    parent.
 
     Attributes
     ----------
@@ -75,11 +84,7 @@ class Oracle(Imputer, Trended, Informed):
         """
         check_is_fitted(self, "process_", msg="expected a generating process: call inform first")
         checked = check_recordings(recordings)
-        if len(checked[0].channels) != self.process_.n_outputs:
-            raise ValueError(
-                f"expected the process's {self.process_.n_outputs} outputs, "
-                f"got recordings of {len(checked[0].channels)} channels"
-            )
+        check_outputs(checked, self.process_)
         self.times_ = np.unique(np.concatenate([recording.times for recording in checked]))
         self._parent = self.process_.parent.covariance(self.times_)
         self._within = self.process_.child.covariance(self.times_)
@@ -140,14 +145,34 @@ class Oracle(Imputer, Trended, Informed):
     def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the exact conditional mean and variance of g at ``times`` (M,): (M, D) each."""
         check_is_fitted(self, "times_")
+        mean, covariance = self._trend(times)
+        shape = self.process_.n_outputs, len(times)
+        return mean.reshape(shape).T, np.diag(covariance).reshape(shape).T
+
+    def sample(
+        self, times: Frames, n_samples: int, random_state: int | np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Return new children of the one parent, a joint draw given all that is visible: (n, N, D).
+
+        The parent is drawn from its posterior, once for all of them; noise is included.
+        """
+        check_is_fitted(self, "times_")
+        rng = np.random.default_rng(random_state)
+        times = np.asarray(times, dtype=np.float64)
+        mean, covariance = self._trend(times)
+        within = self.process_.child.covariance(times)
+        within += self.process_.noise * np.eye(len(within))
+        curves = mean + draw_gaussian(rng, covariance, 1) + draw_gaussian(rng, within, n_samples)
+        return curves.reshape(n_samples, self.process_.n_outputs, -1).transpose(0, 2, 1)
+
+    def _trend(self, times: Frames) -> tuple[Array, Array]:
+        """Return the parent's posterior mean (D M,) and covariance at ``times`` (M,)."""
         joint = self.process_.parent.covariance(np.concatenate([times, self.times_]))
         places = np.arange(len(joint)).reshape(self.process_.n_outputs, -1)
-        new, known = places[:, : len(times)], places[:, len(times) :].ravel()
-        cross = joint[np.ix_(new.ravel(), known[self._seen])]
-        mean = cross @ self._weights
-        variance = np.diag(joint)[new.ravel()]
-        variance = variance - np.sum(cross * cho_solve(self._factor, cross.T).T, axis=1)
-        return mean.reshape(new.shape).T, variance.reshape(new.shape).T
+        new, known = places[:, : len(times)].ravel(), places[:, len(times) :].ravel()
+        cross = joint[np.ix_(new, known[self._seen])]
+        explained = cross @ cho_solve(self._factor, cross.T)
+        return cross @ self._weights, joint[np.ix_(new, new)] - explained
 
     def _prediction(self, recording: Recording) -> Prediction:
         if recording.name not in self._places:

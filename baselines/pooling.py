@@ -7,10 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.datasets import FrameByChannel, Recording
+from mocapbench.datasets import FrameByChannel, Recording, ToyProcess
 
 __all__ = [
     "check_channels",
+    "check_outputs",
     "check_recordings",
     "check_visible",
     "pool",
@@ -54,6 +55,22 @@ def check_channels(recordings: Sequence[Recording], channels: tuple[str, ...]) -
                 f"recording {recording.name!r}: expected channels {channels}, "
                 f"got {recording.channels}; select the same channels of every recording"
             )
+
+
+def check_outputs(recordings: Sequence[Recording], process: ToyProcess) -> None:
+    """Check that recordings with the same channels have as many as a process has outputs.
+
+    Raises
+    ------
+    ValueError
+        If they have not.
+    """
+    n_channels = len(recordings[0].channels)
+    if n_channels != process.n_outputs:
+        raise ValueError(
+            f"expected the process's {process.n_outputs} outputs, "
+            f"got recordings of {n_channels} channels"
+        )
 
 
 def check_visible(recordings: Sequence[Recording]) -> None:

@@ -14,7 +14,8 @@ an abstract base class, so that a model says what it can do by what it inherits:
 * `Blender` mixes the styles that it has found;
 * `Trended` infers a trend that the recordings vary around;
 * `Layered` shows the covariance of each of its layers, and `Coregionalised` the matrices in it;
-* `Informed` is told the generating process (the oracle).
+* `Informed` is told the generating process (the oracle);
+* `Misinformed` is told another process instead (the control).
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +42,7 @@ __all__ = [
     "Inductive",
     "Informed",
     "Layered",
+    "Misinformed",
     "Model",
     "Prediction",
     "SampleByFrameByChannel",
@@ -186,15 +188,12 @@ class Trended(Model):
 
 
 class Layered(Model):
-    """A model whose prior covariances can be looked at, one layer of its hierarchy at a time.
+    """A model whose prior covariances can be looked at, one layer of its hierarchy at a time."""
 
-    Attributes
-    ----------
-    layers : tuple of str
-        Names, outermost first; the last is the layer that new recordings are drawn from.
-    """
-
-    layers: ClassVar[tuple[str, ...]]
+    @property
+    @abstractmethod
+    def layers(self) -> tuple[str, ...]:
+        """After `fit`, the layers' names, outermost first; the last is that of each recording."""
 
     @abstractmethod
     def covariance(self, layer: str, times: Frames) -> NDArray[np.float64]:
@@ -222,3 +221,11 @@ class Informed(Model):
     @abstractmethod
     def inform(self, process: ToyProcess) -> Self:
         """Take the process that generated the recordings; called before `fit`."""
+
+
+class Misinformed(Model):
+    """A model that is served only where there is a process unrelated to the recordings."""
+
+    @abstractmethod
+    def misinform(self, process: ToyProcess) -> Self:
+        """Take a process that generated none of the recordings; called before `fit`."""

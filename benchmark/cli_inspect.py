@@ -19,6 +19,7 @@ from mocapbench.baselines import (
     Imputer,
     Inductive,
     Informed,
+    Misinformed,
     Synthesiser,
 )
 from mocapbench.benchmark.errors import ExitCode
@@ -40,6 +41,7 @@ _ABILITIES = (
     (Aligner, "aligns"),
     (Blender, "blends"),
     (Informed, "is told the process"),
+    (Misinformed, "is told another process"),
 )
 _CITATION = """\
 @software{mocapbench,

@@ -13,6 +13,7 @@ class ExitCode(IntEnum):
     """What the process's exit code means."""
 
     OK = 0
+    REGRESSION = 1
     USAGE = 2
     JOBS_FAILED = 3
     NOTHING_RAN = 4

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines import Synthesiser
+from mocapbench.baselines import Misinformed, Model, Synthesiser
 from mocapbench.benchmark.problem import InvalidPredictionError, Problem, Solution
-from mocapbench.datasets import FrameByChannel, Frames
+from mocapbench.datasets import FrameByChannel, Frames, ToyProcess
 from mocapbench.metrics import Synthesis
 
 __all__ = ["SynthesiseProblem"]
@@ -25,11 +25,21 @@ class SynthesiseProblem(Problem):
     n_samples : int
     references : tuple of ndarray (N, D)
         Recordings that no model sees.
+    control : ToyProcess or None
+        A process that generated neither the recordings nor the references, for models that must
+        be told one.
     """
 
     times: Frames
     n_samples: int
     references: tuple[FrameByChannel, ...]
+    control: ToyProcess | None = None
+
+    def fit(self, model: Model) -> Model:
+        """Fit ``model`` to what it may see."""
+        if self.control is not None and isinstance(model, Misinformed):
+            model.misinform(self.control)
+        return super().fit(model)
 
     def solve(self, model: Synthesiser, random_state: int) -> Solution:
         """Return ``samples`` (n, N, D)."""

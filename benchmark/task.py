@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from mocapbench.baselines import Informed, Model
+from mocapbench.baselines import Informed, Misinformed, Model
 from mocapbench.benchmark.errors import UnknownNameError
 from mocapbench.benchmark.problem import Problem
 from mocapbench.benchmark.seeds import Seeds
@@ -24,11 +24,16 @@ class Case:
     Parameters
     ----------
     name : str
-        Unique within the task; part of seeds and keys.
+        Unique within the task; part of keys, and of seeds unless there is a ``question``.
     settings : mapping
         What the row varies, as columns of its table.
     sources : tuple of str
-        Addresses of the recordings it needs, such as ``cmu:02_01``.
+        Addresses of the recordings that models see of it, such as ``cmu:02_01``.
+    references : tuple of str
+        Addresses of the recordings that no model sees, which its answers are judged by.
+    question : str
+        What is asked of models, where other cases ask the same and differ in what the answers are
+        judged by: its seeds and fits are shared under this name.
     published : str or None
         The row's name in the published values, None where the paper has no such row.
     synthetic : bool
@@ -37,15 +42,30 @@ class Case:
         Shown where its numbers stand.
     parameters : mapping
         What it sets on every model that has it, for example ``{"n_styles": 4}``.
+    not_comparable : mapping of str to str
+        By label, why the row's published values cannot be set beside ours.
     """
 
     name: str
     settings: Mapping[str, Setting]
     sources: tuple[str, ...] = ()
+    references: tuple[str, ...] = ()
+    question: str = ""
     published: str | None = None
     synthetic: bool = False
     remark: str = ""
     parameters: Mapping[str, object] = field(default_factory=dict)
+    not_comparable: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """Addresses of all recordings that it takes, each once."""
+        return tuple(dict.fromkeys((*self.sources, *self.references)))
+
+    @property
+    def asked(self) -> str:
+        """What seeds and fits know it by."""
+        return self.question or self.name
 
 
 @dataclass(frozen=True)
@@ -69,11 +89,14 @@ class Selection:
         How many folds, from the first.
     budget : mapping
         Parameters set on every model that has them, for example ``{"max_iter": 20}``.
+    without : tuple of str
+        Labels that take part only when they are asked for.
     """
 
     cases: tuple[str, ...]
     folds: int
     budget: Mapping[str, object] = field(default_factory=dict)
+    without: tuple[str, ...] = ()
 
 
 class Task(ABC):
@@ -91,6 +114,8 @@ class Task(ABC):
         The abilities a model must have; others are not applicable.
     has_process : bool
         Whether its data come from a known process, which informed models need.
+    has_control : bool
+        Whether its problems come with an unrelated process, which misinformed models need.
     cases : tuple of Case
     max_folds : int or None
         How many folds there are, None where each draws anew.
@@ -105,8 +130,13 @@ class Task(ABC):
         From our labels and metrics to the paper's names.
     not_comparable : mapping of (label, metric) to str
         Why a published value cannot be set beside ours; metric ``"*"`` stands for all.
+    not_controlled : mapping of str to str
+        Labels whose samples need not resemble the references more than the control's do, and why.
     remarks : tuple of str
         Errata and cautions shown with the tables.
+    crossed : tuple of two str, or None
+        Settings along the rows and the columns of its tables, where one entrant takes part and
+        the cases are pairs.
     illustrated : tuple of str
         Names of cases; the first of them that has solutions is shown in figures.
     illustrated_channels : tuple of str
@@ -125,6 +155,7 @@ class Task(ABC):
     kind: str = "impute"
     requires: tuple[type[Model], ...]
     has_process: bool = False
+    has_control: bool = False
     cases: tuple[Case, ...]
     max_folds: int | None = None
     independent_folds: bool = True
@@ -134,7 +165,9 @@ class Task(ABC):
     published_models: Mapping[str, str] = {}
     published_metrics: Mapping[str, str] = {}
     not_comparable: Mapping[tuple[str, str], str] = {}
+    not_controlled: Mapping[str, str] = {}
     remarks: tuple[str, ...] = ()
+    crossed: tuple[str, str] | None = None
     illustrated: tuple[str, ...] = ()
     illustrated_channels: tuple[str, ...] = ()
     coregionalisation_of: tuple[str, ...] = ()
@@ -153,7 +186,9 @@ class Task(ABC):
     def accepts(self, model: type[Model]) -> bool:
         """Return whether ``model`` has what the task requires, and the task what it requires."""
         able = all(issubclass(model, ability) for ability in self.requires)
-        return able and (self.has_process or not issubclass(model, Informed))
+        informed = self.has_process or not issubclass(model, Informed)
+        misinformed = self.has_control or not issubclass(model, Misinformed)
+        return able and informed and misinformed
 
     def case(self, name: str) -> Case:
         """Return the case called ``name``.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from math import isfinite
 from pathlib import Path
 from typing import BinaryIO
 
@@ -31,7 +32,7 @@ def finite_floats(words: Sequence[str]) -> list[float]:
     # float() also takes Python's 1_000 and the digits of other scripts, as no other reader does.
     joined = "".join(words)
     plain = joined.isascii() and "_" not in joined
-    if not plain or not all(-_HUGE < value < _HUGE for value in values):
+    if not plain or not all(map(isfinite, values)) or max(map(abs, values), default=0.0) > _HUGE:
         raise ValueError(f"expected finite numbers, got {words}")
     return values
 

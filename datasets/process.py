@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets.recording import Frames, Recording
 
-__all__ = ["Layer", "ToyProcess", "Weights", "normal_weights", "uniform_weights"]
+__all__ = ["Layer", "ToyProcess", "Weights", "draw_gaussian", "normal_weights", "uniform_weights"]
 
 Array = NDArray[np.float64]
 
@@ -126,8 +126,8 @@ class ToyProcess:
         self, rng: np.random.Generator, times: Frames, n_replicates: int
     ) -> tuple[Recording, tuple[Recording, ...]]:
         """Draw a new ``parent``, and its children as `draw` gives them from the same generator."""
-        parent = _draw(rng, self.parent.covariance(times), 1)
-        deviations = _draw(rng, self.child.covariance(times), n_replicates)
+        parent = draw_gaussian(rng, self.parent.covariance(times), 1)
+        deviations = draw_gaussian(rng, self.child.covariance(times), n_replicates)
         noise = np.sqrt(self.noise) * rng.standard_normal(deviations.shape)
         names = [f"child-{r + 1}" for r in range(n_replicates)]
         children = zip(names, parent + deviations + noise, strict=True)
@@ -142,11 +142,12 @@ class ToyProcess:
         return Recording(name, times, values, channels, ("",) * self.n_outputs)
 
 
-def _draw(rng: np.random.Generator, covariance: Array, n: int) -> Array:
-    """Draw n vectors with the symmetric root, which exists where RBF's Cholesky factor does not.
+def draw_gaussian(rng: np.random.Generator, covariance: Array, n: int) -> Array:
+    """Return n draws (n, d) of a Gaussian of zero mean.
 
-    The root is unique, unlike the eigenvectors, and the nugget keeps its rounding error below
-    1e-9, so that other LAPACK builds draw the same numbers.
+    By the symmetric root, which exists where RBF's Cholesky factor does not. It is unique,
+    unlike the eigenvectors, and the nugget keeps its rounding error below 1e-9, so that other
+    LAPACK builds draw the same numbers.
     """
     eigenvalues, vectors = np.linalg.eigh(covariance)
     root = (vectors * np.sqrt(np.clip(eigenvalues, 0.0, None) + _NUGGET)) @ vectors.T

@@ -15,6 +15,8 @@ __all__ = ["calibration_table", "cost_table", "oracle_table"]
 
 ORACLE_METRIC = "smse_pooled"
 SHORTEST = 0.001
+_MEASURED = ("entrant", "jobs", "fit, median s", "predict, median s", "peak memory, MB")
+_OPTIONAL = ("iterations, median", "converged", "engine")
 
 
 def oracle_table(results: TaskResults) -> Table | None:
@@ -113,7 +115,10 @@ def _fraction(value: float | None) -> Cell:
 
 
 def cost_table(results: TaskResults) -> Table | None:
-    """Return median seconds, peak memory and convergence per label, over the jobs that finished."""
+    """Return median seconds, peak memory and convergence per label, over the jobs that finished.
+
+    Iterations, convergence and engine get a column where at least one label has them.
+    """
     done = results.records[results.records["status"] == "ok"]
     if done.empty:
         return None
@@ -124,16 +129,17 @@ def cost_table(results: TaskResults) -> Table | None:
             if label in set(done["label"])
         ]
     )
+    columns = zip(*(_cost_row(row) for row in data.to_dict("records")), strict=True)
+    told = {
+        title: cells
+        for title, cells in zip(_MEASURED + _OPTIONAL, columns, strict=True)
+        if title in _MEASURED or any(cell != ABSENT for cell in cells)
+    }
     return Table(
         id=slug(results.layout.name, "cost"),
         caption="Cost: over the jobs that finished",
-        columns=headings(
-            [
-                *("entrant", "jobs", "fit, median s", "predict, median s"),
-                *("peak memory, MB", "iterations, median", "converged", "engine"),
-            ]
-        ),
-        rows=tuple(_cost_row(row) for row in data.to_dict("records")),
+        columns=headings(list(told)),
+        rows=tuple(zip(*told.values(), strict=True)),
         data=data,
     )
 

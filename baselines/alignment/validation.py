@@ -1,43 +1,46 @@
-"""Parameters as `CyclicAlignment` takes them, checked."""
+"""Parameters of the models of cyclic motion, checked."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from mocapbench.baselines.alignment.priors import PRIORS
+from mocapbench.baselines.gp.settings import (
+    check_choice,
+    check_count,
+    check_flag,
+    check_positive,
+    check_seed,
+)
 
 __all__ = ["check_settings"]
 
-_COUNTS = {
-    "n_styles": 1,
-    "max_jump": 1,
-    "n_restarts": 1,
-    "max_iter": 1,
-    "n_inner": 1,
-    "refine_iter": 0,
+_CHECKS: dict[str, Callable[[str, object], None]] = {
+    **dict.fromkeys(
+        ("n_styles", "n_frames", "max_jump", "n_restarts", "max_iter", "n_inner"),
+        partial(check_count, least=1),
+    ),
+    "refine_iter": partial(check_count, least=0),
+    **dict.fromkeys(("regularisation", "closeness", "smoothness", "tolerance"), check_positive),
+    "learn_closeness": check_flag,
+    "prior": partial(check_choice, choices=PRIORS),
+    "random_state": check_seed,
 }
-_POSITIVE = ("regularisation", "closeness", "smoothness")
 
 
 def check_settings(**parameters: Any) -> None:
-    """Check the parameters of `CyclicAlignment`, as far as they are given.
+    """Check parameters that go by the names that `CyclicAlignment` and `KMeans` give them.
 
     Raises
     ------
     ValueError
-        If one is out of range.
+        If one is of the wrong type or out of range.
     """
-    for name in _COUNTS.keys() & parameters:
-        if parameters[name] < _COUNTS[name]:
-            raise ValueError(f"expected {name} >= {_COUNTS[name]}, got {parameters[name]}")
-    for name in set(_POSITIVE) & parameters.keys():
-        if not parameters[name] > 0:
-            raise ValueError(f"expected {name} > 0, got {parameters[name]}")
-    n_states, least = parameters["n_states"], max(3, 2 * parameters["max_jump"] + 1)
-    if n_states is not None and n_states < least:
-        raise ValueError(
-            f"expected n_states >= {least}, so that a jump goes less than half the way round, got "
-            f"{n_states}: raise n_states or lower max_jump"
-        )
-    if parameters.get("prior", "paper") not in PRIORS:
-        raise ValueError(f"expected prior in {sorted(PRIORS)}, got {parameters['prior']!r}")
+    for name, check in _CHECKS.items():
+        if name in parameters:
+            check(name, parameters[name])
+    if parameters.get("n_states") is not None:
+        least = max(3, 2 * parameters["max_jump"] + 1)
+        check_count("n_states (more than twice max_jump)", parameters["n_states"], least)

@@ -15,7 +15,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.gp.coordinates import Coordinates
 from mocapbench.baselines.gp.fitted import FittedProcess
 from mocapbench.baselines.gp.kernels import KERNELS
-from mocapbench.baselines.gp.parameters import CHILD, PARENT, Parameters
+from mocapbench.baselines.gp.parameters import Parameters
 from mocapbench.baselines.gp.planner import PLANS, name_of, reason, with_mapper
 from mocapbench.baselines.gp.reduction import Reduction, Share
 from mocapbench.baselines.gp.replicates import Replicates
@@ -29,6 +29,8 @@ from mocapbench.baselines.gp.settings import (
 )
 from mocapbench.baselines.gp.start import bounds, data_driven, perturbed
 from mocapbench.baselines.gp.training import Budget, Space, Step, Training, maximise
+from mocapbench.baselines.gp.tree import Tree
+from mocapbench.baselines.gp.trends import TRENDS
 from mocapbench.baselines.gp.workers import mapping
 from mocapbench.baselines.pooling import check_recordings
 from mocapbench.baselines.protocols import (
@@ -73,6 +75,9 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         Whether `fit` prints a line for every iteration.
     solver : {"auto", "dense", "latent-split", "state-space", "kronecker"}, default="auto"
         How the likelihood is computed; "auto" takes the solver with the least counted work.
+    sampled_trend : {"mean", "posterior"}, default="mean"
+        The trend that `sample` draws new recordings around: its posterior mean, as in the thesis
+        (§5.2), or one draw from its posterior, which all of a call's recordings share.
     n_jobs : int or None, default=None
         Number of threads over outputs, to which results owe nothing. None means 1, unless in a
         ``joblib.parallel_config`` context; −1 means all processors.
@@ -116,6 +121,7 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         warm_start: bool = False,
         verbose: bool = False,
         solver: str = "auto",
+        sampled_trend: str = "mean",
         n_jobs: int | None = None,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
@@ -129,12 +135,16 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         self.warm_start = warm_start
         self.verbose = verbose
         self.solver = solver
+        self.sampled_trend = sampled_trend
         self.n_jobs = n_jobs
         self.random_state = random_state
 
-    @staticmethod
     @abstractmethod
-    def reduce(replicates: Replicates) -> Reduction:
+    def grow(self, names: Sequence[str]) -> Tree:
+        """Return for each layer whose draw each of the recordings takes part in."""
+
+    @abstractmethod
+    def reduce(self, replicates: Replicates) -> Reduction:
         """Return the likelihood of replicates in standard units as block problems."""
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
@@ -148,8 +158,9 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         SingularCovarianceError
             If the covariance is singular at a start.
         """
-        self._check_parameters()
         checked = check_recordings(recordings)
+        self.tree_ = self.grow([recording.name for recording in checked])
+        self._check_parameters()
         self.scaling_ = Standardisation.of(checked)
         self.recordings_ = {recording.name: recording for recording in checked}
         replicates = Replicates.align([self.scaling_.apply(recording) for recording in checked])
@@ -177,12 +188,38 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Return draws around the trend's posterior mean, (n, N, D), noise included."""
+        """Return draws around the trend, noise included.
+
+        Each is the trend (see ``sampled_trend``), zero where a model has none, and a draw of its
+        own of the last layer. All of them cost one factorisation of the covariances.
+
+        Parameters
+        ----------
+        times : ndarray of shape (N,)
+            In seconds, in any order.
+        n_samples : int
+            Number n of recordings.
+        random_state : int or numpy.random.Generator
+            Seed of the draws.
+
+        Returns
+        -------
+        ndarray of shape (n, N, D)
+            In the outputs' own units.
+
+        Raises
+        ------
+        ValueError
+            If the number of recordings is not a positive integer.
+        """
         check_is_fitted(self)
+        check_count("n_samples", n_samples, 1)
         rng = np.random.default_rng(random_state)
         times = np.asarray(times, dtype=np.float64)
         with self._at_work() as process:
-            return process.observe_new(self.layers[-1], times, n_samples, rng)
+            trend = TRENDS[self.sampled_trend](process, times, rng)
+            layers = self.layers[1:] or self.layers
+            return process.observe_new(layers, trend, times, n_samples, rng)
 
     def posterior_covariance(self, recording: Recording, times: Frames | None = None) -> Array:
         """Return the joint covariance of a recording's curve given all that is visible.
@@ -261,6 +298,11 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         return self._process.prior_covariance(layer, np.asarray(times, dtype=np.float64))
 
     @property
+    def layers(self) -> tuple[str, ...]:
+        """The layers of the fitted model, from the trend down."""
+        return tuple(self.tree_)
+
+    @property
     def coregionalisation_(self) -> Mapping[str, Array]:
         """The matrices B_q of each layer, (Q, D, D), in the outputs' own units."""
         units = np.outer(self.scaling_.scale, self.scaling_.scale)
@@ -307,13 +349,13 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
     @property
     def _draws(self) -> Mapping[str, int]:
         """How many draws of each layer are behind the recordings."""
-        numbers = {PARENT: 1, CHILD: len(self.recordings_)}
-        return {layer: numbers[layer] for layer in self.layers}
+        return {layer: len(set(nodes)) for layer, nodes in self.tree_.items()}
 
     def _start(self, replicates: Replicates) -> Parameters:
         """Return where the first search begins."""
         start = data_driven(
             replicates,
+            self.tree_,
             components_of(self.n_components, self.layers),
             self.rank,
             self.reduction_.within_variance,
@@ -344,6 +386,7 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         check_jobs(self.n_jobs)
         check_choice("kernel", self.kernel, KERNELS)
         check_choice("solver", self.solver, PLANS)
+        check_choice("sampled_trend", self.sampled_trend, TRENDS)
 
     def _shares(self, recording: Recording) -> tuple[Share, ...]:
         """Return the shares of a recording that `fit` has seen."""

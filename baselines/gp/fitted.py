@@ -87,12 +87,18 @@ class FittedProcess:
         return self.scaling.restore(draws)
 
     def observe_new(
-        self, layer: str, times: Frames, n_samples: int, rng: np.random.Generator
+        self,
+        layers: Sequence[str],
+        trend: FrameByChannel,
+        times: Frames,
+        n_samples: int,
+        rng: np.random.Generator,
     ) -> SampleByFrameByChannel:
-        """Return draws of a layer around the trend's posterior mean, (n, M, D), with noise."""
-        draws = draw_layer(self.kernel, self.parameters.layers[layer], times, n_samples, rng)
+        """Return draws of layers around a trend (M, D), with noise: (n, M, D)."""
+        draws = np.zeros((n_samples, len(times), len(self.parameters.log_noise)))
+        for layer in layers:
+            draws += draw_layer(self.kernel, self.parameters.layers[layer], times, n_samples, rng)
         draws += np.sqrt(self.parameters.noise) * rng.standard_normal(draws.shape)
-        ((trend, _),) = self.infer([self.reduction.trend], [times])
         return trend + self.scaling.scale * draws
 
     def prior_covariance(self, layer: str, times: Frames) -> Array:

@@ -4,27 +4,53 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from numbers import Integral, Real
+from typing import TypeGuard
 
 import numpy as np
 
-__all__ = ["check_choice", "check_count", "check_jobs", "check_positive", "components_of"]
+__all__ = [
+    "check_choice",
+    "check_count",
+    "check_flag",
+    "check_jobs",
+    "check_positive",
+    "check_seed",
+    "components_of",
+]
 
 
 def check_count(name: str, value: object, least: int) -> None:
     """Raise ValueError unless ``value`` is an integer of at least ``least``."""
-    if not isinstance(value, Integral) or value < least:
+    if not _is_integer(value) or value < least:
         raise ValueError(f"expected {name} to be an integer of at least {least}, got {value!r}")
 
 
 def check_positive(name: str, value: object) -> None:
     """Raise ValueError unless ``value`` is a finite positive number."""
-    if not isinstance(value, Real) or not 0.0 < float(value) < np.inf:
+    if isinstance(value, bool) or not isinstance(value, Real) or not 0.0 < float(value) < np.inf:
         raise ValueError(f"expected {name} to be a finite positive number, got {value!r}")
+
+
+def check_flag(name: str, value: object) -> None:
+    """Raise ValueError unless ``value`` is True or False."""
+    if not isinstance(value, bool | np.bool_):
+        raise ValueError(f"expected {name} to be True or False, got {value!r}")
+
+
+def check_seed(name: str, value: object) -> None:
+    """Raise ValueError unless ``value`` seeds a `numpy.random.Generator`, is one, or is None."""
+    if value is None or isinstance(value, np.random.Generator):
+        return
+    if not _is_integer(value) or value < 0:
+        raise ValueError(
+            f"expected {name} to be None, an integer of at least 0 or a numpy.random.Generator, "
+            f"got {value!r}"
+        )
 
 
 def check_jobs(value: object) -> None:
     """Raise ValueError unless ``value`` is None or an integer other than 0."""
-    if value is not None and (not isinstance(value, Integral) or value == 0):
+    if value is not None and (not _is_integer(value) or value == 0):
         raise ValueError(
             "expected n_jobs to be None, a positive integer, or a negative one that counts down "
             f"from all processors at -1, got {value!r}"
@@ -33,7 +59,7 @@ def check_jobs(value: object) -> None:
 
 def check_choice(name: str, value: object, choices: Collection[str]) -> None:
     """Raise ValueError unless ``value`` is one of ``choices``."""
-    if value not in choices:
+    if not isinstance(value, str) or value not in choices:
         raise ValueError(f"expected {name} to be one of {sorted(choices)}, got {value!r}")
 
 
@@ -58,3 +84,8 @@ def components_of(
     for layer in layers:
         check_count(f"n_components of {layer!r}", by_layer[layer], 1)
     return {layer: by_layer[layer] for layer in layers}
+
+
+def _is_integer(value: object) -> TypeGuard[Integral]:
+    """Whether ``value`` is an integer; True and False are none."""
+    return isinstance(value, Integral) and not isinstance(value, bool)

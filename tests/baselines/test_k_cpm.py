@@ -1,5 +1,4 @@
 import numpy as np
-import pytest
 
 from mocapbench.baselines.k_cpm import KCPM
 from mocapbench.datasets import Recording
@@ -27,8 +26,3 @@ def test_styles_are_told_apart_and_seeded():
 
 def test_more_styles_than_recordings_give_each_its_own():
     assert sorted(KCPM(9, max_iter=3, random_state=0).fit(WALKS[:3]).labels_) == [0, 1, 2]
-
-
-def test_no_styles_is_an_error():
-    with pytest.raises(ValueError, match="n_styles >= 1"):
-        KCPM(0).fit(WALKS)

@@ -59,12 +59,6 @@ def test_there_are_no_more_clusters_than_recordings():
     assert len(set(KMeans(9, random_state=0).fit(GAITS).labels_)) == len(GAITS)
 
 
-@pytest.mark.parametrize("name", ["n_styles", "n_frames", "n_restarts"])
-def test_numbers_below_one_are_refused(name):
-    with pytest.raises(ValueError, match=f"expected {name} of at least 1, got 0"):
-        KMeans(**{name: 0}).fit(GAITS)
-
-
 def test_a_channel_that_nobody_shows_is_refused():
     hidden = np.repeat([[False, True]], 90, axis=0)
     with pytest.raises(ValueError, match=r"none of \['hip.rx'\]"):

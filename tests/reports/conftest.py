@@ -20,6 +20,9 @@ METRICS = {
         MetricInfo("smse_pooled", "SMSE (pooled)", Direction.LOWER),
         MetricInfo("msll", "MSLL", Direction.LOWER),
         MetricInfo("rms_per_frame", "RMS per frame", Direction.LOWER),
+        MetricInfo("mcc", "MCC", Direction.HIGHER),
+        MetricInfo("mlc", "MLC", Direction.HIGHER),
+        MetricInfo("spread", "Spread", Direction.TARGET, 1.0),
         *(
             MetricInfo(f"coverage_{p}", f"Coverage at {p} %", Direction.TARGET, p / 100)
             for p in (50, 80, 90, 95)
@@ -197,7 +200,8 @@ def bundle() -> Bundle:
                     records.append(record)
                     address = {k: record[k] for k in ("task", "case", "fold", "label", "model")}
                     scores += [
-                        {**address, "metric": metric, "value": value, "left_out": 0}
+                        {**address, "metric": metric, "value": value}
+                        | {"sample_two_sd": np.nan, "left_out": 0}
                         for metric, value in _values(rng, task, position, label).items()
                         if record["status"] == "ok" and metric in METRICS
                     ]
@@ -249,8 +253,8 @@ def small() -> Callable[..., Bundle]:
             for label, folds in labels.items()
             for fold, value in enumerate(folds)
         ]
-        frame = pd.DataFrame(rows).assign(metric=metric, left_out=0)
-        records = frame.drop(columns=["metric", "value", "left_out"]).assign(
+        frame = pd.DataFrame(rows).assign(metric=metric, sample_two_sd=np.nan, left_out=0)
+        records = frame.drop(columns=["metric", "value", "sample_two_sd", "left_out"]).assign(
             parameters="{}",
             status=["ok" if np.isfinite(row["value"]) else "failed" for row in rows],
             **dict.fromkeys(("message", "traceback", "engine"), ""),

@@ -56,6 +56,15 @@ def test_cost_is_the_median_of_seconds_and_the_peak_of_memory(small):
     assert (cost["jobs"], cost["fit_seconds"], cost["peak_memory_mb"]) == (3, 2.0, 30.0)
 
 
+def test_what_no_label_has_gets_no_column(small):
+    bundle = small({"row": {"a": [1.0], "b": [1.0]}})
+    bundle.records[["iterations", "converged", "engine"]] = [[3.0, None, ""], [None, None, ""]]
+    table = cost_table(results_of(bundle))
+    titles = [column.text for column in table.columns]
+    assert titles[-1] == "iterations, median"
+    assert [row[-1].text for row in table.rows] == ["3", "–"]
+
+
 def test_convergence_is_a_share_and_absent_where_it_means_nothing(bundle):
     table = cost_table(results_of(bundle))
     shares = table.data.set_index("label")["converged"]

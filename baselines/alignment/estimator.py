@@ -1,0 +1,106 @@
+"""What every model that aligns recordings to one cycle does alike."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.alignment.em import Run
+from mocapbench.baselines.alignment.inference import best_paths, infer
+from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.period import default_states
+from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.validation import check_settings
+from mocapbench.baselines.gp.scaling import Standardisation
+from mocapbench.baselines.pooling import check_channels, check_recordings
+from mocapbench.baselines.protocols import Aligner, StatePath
+from mocapbench.datasets import Recording
+
+__all__ = ["CycleAligner"]
+
+
+class CycleAligner(Aligner):
+    """An estimator of one common cycle: a subclass says how it learns and what it then describes.
+
+    The model works on channels of zero mean and unit variance, and on recordings in order of name,
+    so that the order in which they come means nothing.
+    """
+
+    n_states: int | None
+    max_jump: int
+    random_state: int | np.random.Generator | None
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Learn the cycle and the alignment of the recordings to it.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is of the wrong type or out of range, there is no recording, channels
+            differ, a name repeats, or a channel is nowhere visible.
+        """
+        check_settings(**self.get_params())
+        checked = check_recordings(recordings)
+        self.channels_ = checked[0].channels
+        ordered = sorted(checked, key=lambda recording: recording.name)
+        self.scaling_ = Standardisation.of(ordered)
+        self.names_ = tuple(recording.name for recording in ordered)
+        self.sequences_ = self._sequences(ordered)
+        self.cycle_length_ = self.n_states or default_states(self.sequences_, self.max_jump)
+        self.hyper_ = self._hyperparameters()
+        run = self._learn(np.random.default_rng(self.random_state))
+        self.state_, self.converged_ = run.state, run.converged
+        self.n_iterations_ = len(run.bounds) - 1
+        order = [self.names_.index(recording.name) for recording in checked]
+        paths = best_paths(self.state_, self.sequences_)
+        self.path_ = tuple(paths[k] for k in order)
+        self.fitted_ = {r.name: (r, path) for r, path in zip(checked, self.path_, strict=True)}
+        self._describe(run, order)
+        return self
+
+    def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
+        """Return the likeliest path of each recording, as in `fit` if it was there.
+
+        A new one is taken to be of the style that suits it best, where there are several.
+
+        Raises
+        ------
+        ValueError
+            If channels differ.
+        """
+        self._check_fitted(recordings)
+        return [self._aligned(recording) for recording in recordings]
+
+    @abstractmethod
+    def _hyperparameters(self) -> Hyperparameters:
+        """Return what is chosen, not learnt."""
+
+    @abstractmethod
+    def _learn(self, rng: np.random.Generator) -> Run:
+        """Run EM on ``sequences_`` from random starts and return the best run."""
+
+    @abstractmethod
+    def _describe(self, run: Run, order: Sequence[int]) -> None:
+        """State what was learnt in the channels' units and in the order of the recordings."""
+
+    def _check_fitted(self, recordings: Sequence[Recording]) -> None:
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_)
+
+    def _aligned(self, recording: Recording) -> StatePath:
+        if recording.name in self.fitted_:
+            fitted, path = self.fitted_[recording.name]
+            if np.array_equal(fitted.values, recording.values, equal_nan=True):
+                return path
+        sequence = self._sequences([recording])
+        return best_paths(infer(sequence, self.state_, self.hyper_), sequence)[0]
+
+    def _sequences(self, recordings: Sequence[Recording]) -> Sequences:
+        return Sequences.of([self.scaling_.apply(recording).values for recording in recordings])
+
+    def _unscaled(self, values: Array) -> Array:
+        return np.asarray(self.scaling_.restore(values))

@@ -1,0 +1,68 @@
+import numpy as np
+import pytest
+
+from mocapbench.baselines.gp_independent import GPIndependent
+from mocapbench.baselines.hgp import HGP
+from mocapbench.baselines.mohgp import MOHGP
+from mocapbench.datasets import ToyProcess
+
+TIMES = np.linspace(0.0, 5.0, 15)
+
+
+def _recordings(seed, n_children=4):
+    rng = np.random.default_rng(seed)
+    process = ToyProcess.random(rng, n_outputs=2, noise=0.01)
+    *others, last = process.draw(rng, TIMES, n_children)
+    return (*others, last.hide(rng.random((15, 2)) < 0.7)), last.values
+
+
+def test_a_channel_is_a_hierarchy_of_its_own():
+    recordings, _ = _recordings(0)
+    together = HGP(max_iter=30).fit(recordings)
+    mean, variance = together.trend(TIMES)
+    for d, channel in enumerate(recordings[0].channels):
+        alone = [recording.select([channel]) for recording in recordings]
+        model = MOHGP(rank=0, max_iter=30).fit(alone)
+        for one, other in zip(together.impute(recordings), model.impute(alone), strict=True):
+            np.testing.assert_array_equal(one.mean[:, [d]], other.mean)
+            np.testing.assert_array_equal(one.variance[:, [d]], other.variance)
+        trend = model.trend(TIMES)
+        np.testing.assert_array_equal(mean[:, [d]], trend[0])
+        np.testing.assert_array_equal(variance[:, [d]], trend[1])
+
+
+def test_samples_have_the_moments_of_a_child_of_a_new_group():
+    recordings, _ = _recordings(1)
+    tree = {r.name: (group,) for r, group in zip(recordings, "aabb", strict=True)}
+    model, n_samples = HGP(tree=tree, max_iter=20).fit(recordings), 20_000
+    samples = model.sample(TIMES[:3], n_samples, 0)
+    mean, _ = model.trend(TIMES[:3])
+    variance = np.concatenate(
+        [
+            sum(one.coregionalisation_[layer].sum(axis=0)[0] for layer in ("group-1", "child"))
+            + one.noise_
+            for one in model.models_
+        ]
+    )
+    # Five standard errors of a mean, and of a variance.
+    assert (np.abs(samples.mean(axis=0) - mean) < 5 * np.sqrt(variance / n_samples)).all()
+    assert (np.abs(samples.var(axis=0) / variance - 1.0) < 5 * np.sqrt(2 / n_samples)).all()
+
+
+def test_a_common_trend_pays_where_there_is_one():
+    errors = dict.fromkeys((HGP, GPIndependent), 0.0)
+    for seed in range(4):
+        recordings, truth = _recordings(seed)
+        for model in errors:
+            (prediction,) = model(kernel="rbf").fit(recordings).impute(recordings[-1:])
+            errors[model] += np.mean((prediction.mean - truth) ** 2)
+    assert errors[HGP] < errors[GPIndependent]
+
+
+def test_every_channel_has_the_tree():
+    recordings, _ = _recordings(2)
+    tree = {recording.name: ("all",) for recording in recordings}
+    model = HGP(tree=tree, max_iter=5).fit(recordings)
+    assert [one.layers for one in model.models_] == [("parent", "group-1", "child")] * 2
+    with pytest.raises(ValueError, match=r"none for \['child-4'\]"):
+        HGP(tree={name: tree[name] for name in list(tree)[:3]}).fit(recordings)
