@@ -76,6 +76,8 @@ def _maps(figure: HeatMaps, prefix: str) -> Markup:
     for axes, each in zip(grid.flat, figure.maps, strict=False):
         _draw_cells(axes, levels_of(each.values, figure.limit))
         _frame(axes, each, figure.labels)
+    for axes in grid.flat[max(0, len(figure.maps) - figure.columns) : len(figure.maps)]:
+        axes.tick_params(labelbottom=True)
     svg = element(
         canvas,
         prefix,

@@ -58,6 +58,12 @@ def test_it_is_xml_with_a_name_and_names_its_maps_rows_and_columns(small):
     assert texts.count("hip") == texts.count("knee") == 3
 
 
+def test_every_column_of_maps_has_its_names_where_the_last_row_is_short():
+    lone = draw(replace(SMALL, maps=(*SMALL.maps, *SMALL.maps[:1]), columns=2))
+    # Two rows of maps have names on the left, and two columns below.
+    assert "".join(ElementTree.fromstring(lone.svg).itertext()).count("knee") == 4
+
+
 def test_small_matrices_are_written_out_and_large_ones_hatched_where_negative(small):
     values = re.findall(r">(−?\d\.\d\d)<", small.svg)
     assert values[:9] == ["1.00", "−0.50", "0.00", "−0.50", "0.25", "0.00", "0.00", "0.00", "2.00"]
