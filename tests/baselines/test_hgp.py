@@ -49,6 +49,17 @@ def test_samples_have_the_moments_of_a_child_of_a_new_group():
     assert (np.abs(samples.var(axis=0) / variance - 1.0) < 5 * np.sqrt(2 / n_samples)).all()
 
 
+def test_samples_may_share_a_draw_of_the_trend():
+    recordings, _ = _recordings(3)
+    model = HGP(max_iter=5).fit(recordings)
+    around_mean = model.sample(TIMES, 2000, 0).mean(axis=0)
+    np.testing.assert_allclose(around_mean, model.trend(TIMES)[0], atol=0.1)
+    model = HGP(max_iter=5, sampled_trend="posterior").fit(recordings)
+    around_draw = model.sample(TIMES, 2000, 0).mean(axis=0)
+    deviation = np.abs(around_draw - model.trend(TIMES)[0]) / np.sqrt(model.trend(TIMES)[1])
+    assert 0.1 < deviation.mean() < 3.0
+
+
 def test_a_common_trend_pays_where_there_is_one():
     errors = dict.fromkeys((HGP, GPIndependent), 0.0)
     for seed in range(4):
