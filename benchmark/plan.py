@@ -123,7 +123,10 @@ def _cases(request: Request, task: Task) -> Iterator[Case]:
 
 def _chosen_entrants(request: Request, task: Task) -> list[Entrant]:
     wanted = set(request.models)
-    return [e for e in entrants(task) if not wanted or wanted & {e.label, e.model}]
+    if wanted:
+        return [e for e in entrants(task) if wanted & {e.label, e.model}]
+    left_out = task.selection(request.profile).without
+    return [e for e in entrants(task) if e.label not in left_out]
 
 
 def _folds(request: Request, task: Task) -> int:

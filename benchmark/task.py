@@ -89,11 +89,14 @@ class Selection:
         How many folds, from the first.
     budget : mapping
         Parameters set on every model that has them, for example ``{"max_iter": 20}``.
+    without : tuple of str
+        Labels that take part only when they are asked for.
     """
 
     cases: tuple[str, ...]
     folds: int
     budget: Mapping[str, object] = field(default_factory=dict)
+    without: tuple[str, ...] = ()
 
 
 class Task(ABC):

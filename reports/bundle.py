@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import pandas as pd
 
 from mocapbench.metrics.base import Direction
+from mocapbench.reports.checks import RegressionCheck
 from mocapbench.reports.illustration import Picture
 
 __all__ = ["Bundle", "CaseLayout", "MetricInfo", "Setting", "TaskLayout"]
@@ -153,11 +154,7 @@ class MetricInfo:
 
     def loss(self, value: float) -> float:
         """Return how bad ``value`` is: lower is better whatever the direction."""
-        return {
-            Direction.LOWER: value,
-            Direction.HIGHER: -value,
-            Direction.TARGET: abs(value - (self.target or 0.0)),
-        }[self.direction]
+        return self.direction.loss(value, self.target)
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,6 +185,8 @@ class Bundle:
         where they are there.
     illustrations : tuple of Illustration or HeatMaps
         Figures of the tasks, in page order.
+    check : RegressionCheck or None
+        What a check against a baseline found, if there was one.
 
     Raises
     ------
@@ -202,6 +201,7 @@ class Bundle:
     metrics: Mapping[str, MetricInfo]
     provenance: Mapping[str, str]
     illustrations: tuple[Picture, ...] = ()
+    check: RegressionCheck | None = None
 
     def __post_init__(self) -> None:
         _require_columns("scores", self.scores, SCORE_COLUMNS)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mocapbench.reports.bundle import CaseLayout
+from mocapbench.reports.published import PublishedValue
 from mocapbench.reports.remarks import footnotes, marks
 from mocapbench.reports.results import TaskResults
 from mocapbench.reports.scoretables import MISSING_ID, score_table
@@ -52,12 +53,16 @@ def _cell(results: TaskResults, case: CaseLayout | None, metric: str, lettered: 
     estimate = results.estimate(case.name, label, metric)
     if estimate is None:
         return Cell("missing", kind="trouble", link=MISSING_ID)
-    published = results.printed(case, label, metric)
-    return Cell(
-        number(estimate.mean, _places(results, metric)),
-        note="" if published is None else f"{published.value:g}",
-        mark=lettered[_erratum(results, case, metric)],
-    )
+    places = _places(results, metric)
+    note = _note(results.printed(case, label, metric), places, lettered)
+    return Cell(number(estimate.mean, places), note=note)
+
+
+def _note(published: PublishedValue | None, places: int, lettered: Lettered) -> str:
+    if published is None:
+        return ""
+    letter = lettered[published.erratum]
+    return number(published.value, places) + (f" ({letter})" if letter else "")
 
 
 def _places(results: TaskResults, metric: str) -> int:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import pandas as pd
 from scipy import stats
 
+from mocapbench.metrics.statistics import SharedRank, shared_rank
 from mocapbench.reports.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
 from mocapbench.reports.published import PublishedTask, PublishedValue, published_values
 
@@ -132,12 +134,33 @@ class TaskResults:
         }
         return sorted(scored, key=scored.__getitem__)
 
+    @cached_property
+    def values(self) -> Mapping[str, pd.DataFrame]:
+        """By metric, the scores by (case, fold), one column per label, NaN where there is none."""
+        return {
+            str(metric): own.pivot(index=["case", "fold"], columns="label", values="value")
+            for metric, own in self.scores.groupby("metric", sort=False)
+        }
+
+    def first_rank(self, case: str, metric: str) -> SharedRank | None:
+        """Return who shares the first rank of a row, by test; None where nobody has a score."""
+        order = tuple(self.ranking(case, metric))
+        if not order:
+            return None
+        units = self.values[metric].loc[[case], list(order)]
+        if not self.layout.independent_folds:
+            units = units.groupby(level="case").mean()
+        return shared_rank(units.map(self.metrics[metric].loss), order)
+
     def best(self, case: str, metric: str) -> set[str]:
-        """Return the labels whose mean no competitor's surpasses."""
-        order = self.ranking(case, metric)
-        means = {label: self.estimates[case, label, metric].mean for label in order}
-        loss = self.metrics[metric].loss
-        return {label for label in order if loss(means[label]) == loss(means[order[0]])}
+        """Return the labels of the first rank: those that no test tells from the best mean."""
+        rank = self.first_rank(case, metric)
+        return set(rank.labels) if rank else set()
+
+    def judged(self, metric: str) -> list[CaseLayout]:
+        """Return the cases with scores; generated motion counts only where there is no other."""
+        scored = [case for case in self.cases if self.ranking(case.name, metric)]
+        return [case for case in scored if not case.synthetic] or scored
 
 
 def task_results(bundle: Bundle, layout: TaskLayout) -> TaskResults:

@@ -10,6 +10,7 @@ import pandas as pd
 
 from mocapbench.reports.bundle import CaseLayout
 from mocapbench.reports.published import PublishedValue
+from mocapbench.reports.ranknotes import rank_notes
 from mocapbench.reports.remarks import footnotes, marks
 from mocapbench.reports.results import DATA_MISSING, Estimate, TaskResults, Trouble
 from mocapbench.reports.tables import (
@@ -54,7 +55,7 @@ def score_table(results: TaskResults, metric: str) -> Table:
         (
             Cell(case.name, note=_case_note(case)),
             *(Cell(str(case.settings.get(key, ""))) for key in settings),
-            Cell(f"n={_n_folds(results, case.name, metric)}"),
+            _folds(results, case.name, metric),
             *_scores(results, case.name, metric, places),
             *(_foreign_cell(printed[case.name, model], places, lettered) for model in foreign),
         )
@@ -77,7 +78,7 @@ def score_table(results: TaskResults, metric: str) -> Table:
 def _meaning(results: TaskResults, metric: str) -> str:
     info = results.metrics[metric]
     goal = info.direction.value if info.target is None else f"closest to {info.target:g}"
-    return f"mean ± {_spread_meaning(results, metric)}, {goal} is better, best mean in bold"
+    return f"mean ± {_spread_meaning(results, metric)}, {goal} is better, first rank in bold"
 
 
 def _spread_meaning(results: TaskResults, metric: str) -> str:
@@ -89,6 +90,12 @@ def _spread_meaning(results: TaskResults, metric: str) -> str:
 
 def _case_note(case: CaseLayout) -> str:
     return " · ".join(filter(None, ["synthetic" if case.synthetic else "", case.remark]))
+
+
+def _folds(results: TaskResults, case: str, metric: str) -> Cell:
+    rank = results.first_rank(case, metric)
+    untested = rank is not None and not rank.tested
+    return Cell(f"n={_n_folds(results, case, metric)}", note="no test" if untested else "")
 
 
 def _n_folds(results: TaskResults, case: str, metric: str) -> int:
@@ -181,7 +188,8 @@ def _notes(results: TaskResults, metric: str) -> tuple[str, ...]:
         if results.layout.control in results.layout.labels
         else ""
     )
-    return tuple(filter(None, [*results.layout.remarks, degenerate, limit, floor]))
+    tests = rank_notes(results, metric)
+    return tuple(filter(None, [*results.layout.remarks, degenerate, limit, floor, *tests]))
 
 
 def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.bundle import TaskLayout
+from mocapbench.reports.contrasts import contrast_table
 from mocapbench.reports.controltables import control_table
 from mocapbench.reports.crosstables import cross_table
 from mocapbench.reports.drawings import draw
@@ -14,6 +15,8 @@ from mocapbench.reports.headlines import Finding, lead_findings, printed_finding
 from mocapbench.reports.illustration import Picture
 from mocapbench.reports.matches import match_table
 from mocapbench.reports.panels import Drawing
+from mocapbench.reports.rankfigures import rank_figure
+from mocapbench.reports.ranks import ranks_over_cases, ranks_over_tasks
 from mocapbench.reports.results import TaskResults, Trouble
 from mocapbench.reports.scoretables import case_name, score_table
 from mocapbench.reports.summaries import calibration_table, cost_table, oracle_table
@@ -21,18 +24,20 @@ from mocapbench.reports.tables import Table, slug
 from mocapbench.reports.verdicts import Tally, comparisons, tally
 from mocapbench.reports.verdicttables import verdict_table
 
-__all__ = ["MetricView", "MissingData", "TaskView", "missing_data", "task_view"]
+__all__ = ["MetricView", "MissingData", "TaskView", "missing_data", "overall_ranks", "task_view"]
 
 
 @dataclass(frozen=True, eq=False)
 class MetricView:
-    """One metric of a task: its table, its figure, and the published values beside ours."""
+    """One metric of a task: its table, figures, contrasts, and the published values beside ours."""
 
     title: str
     table: Table
     figure: ErrorBars | None
     published: Table | None
     verdicts: Tally
+    ranks: Drawing | None
+    contrasts: Table | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +58,9 @@ class TaskView:
     @property
     def tables(self) -> list[Table]:
         """Every table of the section."""
-        pairs = [each for view in self.metrics for each in (view.table, view.published)]
+        pairs = [
+            each for view in self.metrics for each in (view.table, view.contrasts, view.published)
+        ]
         return [table for table in [*pairs, *self.summaries] if table is not None]
 
 
@@ -95,7 +102,26 @@ def _metric_view(results: TaskResults, metric: str) -> MetricView:
         figure=None if crossed else error_bars(results, metric),
         published=verdict_table(results, metric),
         verdicts=tally(comparisons(results, metric)),
+        ranks=_rank_figure(results, metric),
+        contrasts=contrast_table(results, metric),
     )
+
+
+def _rank_figure(results: TaskResults, metric: str) -> Drawing | None:
+    ranks, title = ranks_over_cases(results, metric), results.metrics[metric].title
+    name = slug(results.layout.name, metric)
+    return rank_figure(ranks, f"{title}, ranks over cases", name) if ranks else None
+
+
+def overall_ranks(tasks: Sequence[TaskResults]) -> list[Drawing]:
+    """Return a diagram of the ranks over tasks, for each kind of task that has enough of them."""
+    kinds = dict.fromkeys(task.layout.kind for task in tasks)
+    found = {k: ranks_over_tasks(t for t in tasks if t.layout.kind == k) for k in kinds}
+    return [
+        rank_figure(ranks, f"Tasks that {kind}, ranks over tasks", slug("overall", kind))
+        for kind, ranks in found.items()
+        if ranks
+    ]
 
 
 def missing_data(jobs: Iterable[Trouble]) -> list[MissingData]:

@@ -11,7 +11,7 @@ from mocapbench.baselines.gp.lapack import potrf, potri
 from mocapbench.baselines.gp.parameters import Parameters
 from mocapbench.baselines.gp.solver import SingularCovarianceError
 
-__all__ = ["invert"]
+__all__ = ["invert", "mirror"]
 
 Array = NDArray[np.float64]
 
@@ -32,8 +32,13 @@ def invert(matrix: Array, parameters: Parameters) -> float:
         raise SingularCovarianceError(parameters)
     log_determinant = 2.0 * float(np.log(np.diagonal(matrix)).sum())
     potri(matrix)
-    np.copyto(matrix, matrix.T, where=_above_diagonal(len(matrix)))
+    mirror(matrix)
     return log_determinant
+
+
+def mirror(matrix: Array) -> None:
+    """Overwrite the upper triangle of a square matrix with the lower one."""
+    np.copyto(matrix, matrix.T, where=_above_diagonal(len(matrix)))
 
 
 @lru_cache(maxsize=128)

@@ -14,7 +14,7 @@ from mocapbench.datasets import Archive
 
 __all__ = ["ControlSimilarity", "control_similarity"]
 
-SYNTHETIC = {"gait 1": "gait:01_01", "gait 2": "gait:02_01"}
+SYNTHETIC = {"synthetic 1": "gait:01_01", "synthetic 2": "gait:02_01"}
 
 
 def _pairs(
@@ -58,8 +58,8 @@ class ControlSimilarity(Task):
     max_folds = 1
     metrics = ("mcc", "mlc")
     profiles = {
-        "smoke": Selection(("gait 1 vs gait 2",), folds=1),
-        "quick": Selection(("16(15) vs 35(1)", "gait 1 vs gait 2"), folds=1),
+        "smoke": Selection(("synthetic 1 vs synthetic 2",), folds=1),
+        "quick": Selection(("16(15) vs 35(1)", "synthetic 1 vs synthetic 2"), folds=1),
         "paper": Selection(tuple(case.name for case in cases), folds=1),
     }
     crossed = ("recording", "reference")

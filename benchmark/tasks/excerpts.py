@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, clip, resample, restart
 
-__all__ = ["EVALUATION", "N_FRAMES", "TRAINING", "read_excerpt"]
+__all__ = ["EVALUATION", "N_FRAMES", "TRAINING", "Window", "read_excerpt"]
 
 N_FRAMES = 90
 

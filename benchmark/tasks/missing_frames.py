@@ -9,6 +9,7 @@ from mocapbench.benchmark.imputation import ImputeProblem, Unit
 from mocapbench.benchmark.masks import hide_frames
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.task import Case, Entrant, Selection, Task
+from mocapbench.benchmark.tasks.gap_fillers import GPDM_STARTS, POSE_VITERBI, SLOW
 from mocapbench.datasets import Archive, Recording, excerpt, gpdm_features
 
 __all__ = ["MissingFrames", "missing_frames"]
@@ -80,6 +81,8 @@ class MissingFrames(Task):
     requires = (FrameImputer, Inductive)
     cases = _cases()
     entrants = (
+        *POSE_VITERBI,
+        *GPDM_STARTS,
         Entrant("cyclic-alignment", "cyclic-alignment"),
         Entrant("cyclic-alignment-centred", "cyclic-alignment", {"prior": "centred"}),
     )
@@ -87,15 +90,25 @@ class MissingFrames(Task):
     independent_folds = False
     metrics = ("rms_per_frame",)
     profiles = {
-        "smoke": Selection(("synthetic 1",), folds=1),
+        "smoke": Selection(
+            ("synthetic 1",), folds=1, budget={"max_iter": 2, "fill_iter": 10}, without=SLOW
+        ),
         "quick": Selection(
             tuple(case.name for case in cases if "four" not in case.name),
             folds=N_WINDOWS,
             budget={"n_restarts": 1, "max_iter": 10, "refine_iter": 3},
+            without=SLOW,
         ),
         "paper": Selection(tuple(case.name for case in cases), folds=N_WINDOWS),
     }
-    published_models = {"cubic-spline": "cubic-spline", "knn": "KNN-15"}
+    published_models = {
+        "cubic-spline": "cubic-spline",
+        "knn": "KNN-15",
+        "gpdm-map-linear": "GPDM-MAP",
+        "gpdm-balanced-mean": "B-GPDM",
+        "gpdm-fixed-alpha-window": "GPDM-fixed-alpha",
+        "gpdm-two-stage-window": "GPDM-two-stage-MAP",
+    }
     published_metrics = {"rms_per_frame": "RMS per frame"}
     not_comparable = {
         ("knn", "*"): "the paper does not print its KNN objective, and no reading of it so far "

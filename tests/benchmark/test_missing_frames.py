@@ -25,7 +25,7 @@ pytestmark = [
 ]
 
 
-def _errors(model_name):
+def _errors(model_name, **parameters):
     """Return the RMS per frame of each row, averaged over the twelve windows."""
     archive, rms = open_archive(), METRICS.get("rms_per_frame")
     found = {}
@@ -33,7 +33,7 @@ def _errors(model_name):
         case, values = TASK.case(f"{row} three-walkers"), []
         for fold in range(N_WINDOWS):
             problem = TASK.problem(case, Seeds(0, TASK.name, 1, case.name, fold), archive)
-            model = problem.fit(build_model(model_name, {}, 0))
+            model = problem.fit(build_model(model_name, parameters, 0))
             values.append(rms(problem.outcome(problem.solve(model, 0))).value)
         found[row] = float(np.mean(values))
     return found
@@ -57,6 +57,13 @@ def test_aligned_windows_beat_the_spline_by_half(num_regression):
     assert abs(np.mean(list(found.values())) - 50.3) <= 1.0
     golden = GOLDENS / "missing-frames-aligned-window.csv"
     num_regression.check(found, default_tolerance={"rtol": 1e-9, "atol": 0}, fullpath=golden)
+
+
+def test_a_constant_offset_takes_a_sixth_off_the_error_of_the_matched_frames():
+    offset = np.mean(list(_errors("pose-viterbi").values()))
+    none = np.mean(list(_errors("pose-viterbi", subject_offset=0.0).values()))
+    assert abs(offset - 42.49) <= 0.01
+    assert abs(none - 50.57) <= 0.01
 
 
 def test_the_windows_are_the_papers():

@@ -84,7 +84,7 @@ def test_the_headline_says_that_the_simple_model_wins(page):
 
 
 def test_the_summary_says_what_its_claims_rest_on(page, small):
-    claim = "Claims between entrants compare means over {}; no test has been made"
+    claim = "Claims between entrants compare means over {}. “More than chance” is said where"
     assert claim.format("5 or 12 folds") in page
     assert claim.format("1 fold") in render(small({"row": {"a": [1.0]}}))
     assert "Claims between" not in render(small({"row": {"a": [float("nan")]}}))

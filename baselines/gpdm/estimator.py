@@ -1,0 +1,145 @@
+"""The estimators of the family: one base that learns and fills, whatever prior and learning."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.gaps import hidden_frames
+from mocapbench.baselines.gpdm.conditional import Conditional, Query
+from mocapbench.baselines.gpdm.dynamics import Dynamics
+from mocapbench.baselines.gpdm.kernels import RBF
+from mocapbench.baselines.gpdm.learning import Learning
+from mocapbench.baselines.gpdm.posterior import KAPPA, Estimate, Posterior
+from mocapbench.baselines.gpdm.process import Process
+from mocapbench.baselines.gpdm.sequences import Sequences, whitened_components
+from mocapbench.baselines.gpdm.starts import STARTS
+from mocapbench.baselines.pooling import check_channels
+from mocapbench.baselines.pose_viterbi import PoseViterbi
+from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
+from mocapbench.datasets import FrameByChannel, Recording
+
+__all__ = ["LatentVariableModel"]
+
+Array = NDArray[np.float64]
+
+
+class LatentVariableModel(FrameImputer, Inductive):
+    """Poses as smooth functions of latent positions, which have a prior.
+
+    Subclasses say which prior and which way of learning; their constructors store ``n_latent``,
+    ``start``, ``subject_offset``, ``fill_iter`` and ``random_state``.
+    """
+
+    n_latent: int
+    start: str
+    subject_offset: float
+    fill_iter: int
+    random_state: int | np.random.Generator | None
+
+    @abstractmethod
+    def _dynamics(self) -> Dynamics:
+        """Return the prior of the latent positions."""
+
+    @abstractmethod
+    def _learning(self) -> Learning:
+        """Return the way to learn."""
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Learn latent positions of all complete frames, and the parameters.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of range, there is no recording, channels differ, a name
+            repeats, no two consecutive frames are complete, or no channel moves.
+        """
+        self._check_parameters()
+        dynamics, learning = self._dynamics(), self._learning()
+        self.sequences_ = Sequences.of(recordings)
+        self.channels_ = recordings[0].channels
+        self.matcher_ = PoseViterbi().fit(recordings)
+        self.frame_seconds_ = float(np.median(np.diff(recordings[0].times)))
+        y = self.sequences_.y
+        x = whitened_components(y, self.n_latent)
+        posterior = Posterior(
+            Process(RBF()),
+            dynamics,
+            y,
+            self.sequences_.lengths,
+            learning.weight(y.shape[1], x.shape[1]),
+        )
+        start = Estimate(x, dynamics.start, posterior.reconstruction.start, np.ones(y.shape[1]))
+        rng = np.random.default_rng(self.random_state)
+        self.estimate_ = learning.learn(posterior, start, rng)
+        self.conditional_ = Conditional.of(posterior, self.estimate_)
+        self.kernel_properties_ = self._properties(posterior)
+        return self
+
+    def _check_parameters(self) -> None:
+        for name in ("n_latent", "fill_iter"):
+            if getattr(self, name) < 1:
+                raise ValueError(f"expected {name} of at least 1, got {getattr(self, name)}")
+        if self.start not in STARTS:
+            raise ValueError(f"expected start in {sorted(STARTS)}, got {self.start!r}")
+        if not 0 <= self.subject_offset <= 1:
+            raise ValueError(f"expected a subject_offset from 0 to 1, got {self.subject_offset}")
+
+    def _properties(self, posterior: Posterior) -> dict[str, float]:
+        """Return SNR and CLS of both kernels, GPDM Table 1."""
+        at, process = self.estimate_, posterior.reconstruction
+        n_latent = at.x.shape[1]
+        return {
+            **posterior.dynamics.properties(at.alpha, n_latent),
+            "SNR(β)": process.signal_to_noise(at.beta, n_latent),
+            "CLS(β)": process.kernel.lengthscales(at.beta[:-1])[0],
+        }
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the mean and variance of hidden frames given the training and visible frames.
+
+        Raises
+        ------
+        ValueError
+            If channels differ, a frame is hidden in part, or no frame is visible.
+        """
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_)
+        return [self._filled(recording) for recording in recordings]
+
+    def _filled(self, recording: Recording) -> Prediction:
+        visible = ~hidden_frames(recording)
+        if not visible.any():
+            raise ValueError(f"recording {recording.name!r}: expected a visible frame, got none")
+        offset = self.subject_offset * self.matcher_.residual(recording)
+        query = Query(self._scaled(recording.values - offset), visible)
+        x = STARTS[self.start](self.conditional_, query)
+        x = self.conditional_.improved(x, query, self.fill_iter)
+        mean, variance = self.conditional_.reconstruction.filled(x, query.poses, visible)
+        return Prediction.around(
+            recording, self._unscaled(mean) + offset, np.outer(variance, self._units() ** 2)
+        )
+
+    def _units(self) -> Array:
+        """Return the inverse scales (D,): of a constant channel, the bound (κ² N)^(−½)."""
+        units = np.full(len(self.channels_), 1.0 / (KAPPA * np.sqrt(len(self.sequences_.y))))
+        units[self.sequences_.moving] = 1.0 / self.estimate_.scales
+        return units
+
+    def _scaled(self, values: FrameByChannel) -> Array:
+        """Return the moving channels in the model's units; what is hidden becomes zero."""
+        moving = self.sequences_.moving
+        poses = (values - self.sequences_.mean)[:, moving] * self.estimate_.scales
+        return np.nan_to_num(poses, nan=0.0)
+
+    def _unscaled(self, poses: Array) -> FrameByChannel:
+        """Return poses (…, D') in the recordings' units and channels: (…, D)."""
+        values = np.broadcast_to(self.sequences_.mean, (*poses.shape[:-1], len(self.channels_)))
+        values = values.copy()
+        values[..., self.sequences_.moving] += poses / self.estimate_.scales
+        return values

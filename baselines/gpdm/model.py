@@ -1,0 +1,215 @@
+"""The Gaussian process dynamical model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.gpdm.dynamics import Dynamics, Markov
+from mocapbench.baselines.gpdm.estimator import LatentVariableModel
+from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
+from mocapbench.baselines.gpdm.kernels import RBF, Kernel, Linear, Scaled, Sum
+from mocapbench.baselines.gpdm.learning import (
+    Balanced,
+    FixedDynamics,
+    Learning,
+    MaximumAPosteriori,
+)
+from mocapbench.baselines.gpdm.process import Process
+from mocapbench.baselines.gpdm.rollout import fair_trajectories, mean_trajectory
+from mocapbench.baselines.gpdm.two_stage import TwoStage
+from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
+from mocapbench.datasets import Frames
+
+__all__ = ["GPDM"]
+
+Array = NDArray[np.float64]
+
+_KERNELS: Mapping[str, Callable[[int], Kernel]] = {
+    "linear+rbf": lambda order: Sum(Scaled(RBF(order)), Linear(order)),
+    "rbf": lambda order: Scaled(RBF(order)),
+    "linear": Linear,
+}
+_CARRY = {"position": 0.0, "velocity": 1.0}
+_FIXED_ALPHA = (0.009, 0.2, 0.001, 1e6)  # §4.3
+
+# Of a trajectory drawn from the dynamics: §5.1 has 40 burn-in samples.
+_BURN_IN, _LEAPS, _STEP = 40, 20, 1e-2
+_POSITION_STEP = 3e-3
+
+
+class GPDM(LatentVariableModel, Synthesiser):
+    r"""A Gaussian process dynamical model of several sequences.
+
+    Poses are :math:`y_t = W^{-1}(g(x_t) + n_{y,t})` and latent positions :math:`x_t =
+    f(x_{t-1}) + n_{x,t}`, with both functions integrated out under Gaussian processes. A hidden
+    frame is filled with its mean given the training sequences and the visible frames, at the
+    latent trajectory that a descent from ``start`` ends in; the variance is that of an
+    observation at this trajectory, whose own uncertainty is not in it.
+
+    Channels that are constant in training are left out with a warning and filled with their
+    value, at the variance 1/(κ² N) to which the prior of the scales bounds them. Time is counted
+    in frames, so that all recordings should have one frame rate.
+
+    Parameters
+    ----------
+    learning : {"map", "balanced", "fixed-alpha", "two-stage"}, default="balanced"
+        How the unknowns are learnt: GPDM §4.1 to §4.4.
+    n_latent : int, default=3
+        Latent dimensions; as many as the data have, if they are fewer.
+    dynamics : {"linear+rbf", "rbf", "linear"}, default="linear+rbf"
+        Kernel of the dynamics, (12) and (11).
+    order : {1, 2}, default=1
+        On how many positions the next one depends, (17).
+    predicts : {"position", "velocity"}, default="position"
+        What the dynamics give, (19).
+    start : {"linear", "mean-prediction", "window", "viterbi"}, default="viterbi"
+        Where a sequence to fill starts from.
+    subject_offset : float, default=0.0
+        The share of the mean residual of `PoseViterbi` at the visible frames that is taken off
+        before filling and put back afterwards.
+    max_iter : int, default=100
+        Rounds of learning (the paper's I); of two-stage learning, a tenth as many.
+    n_steps : int, default=10
+        Iterations of L-BFGS in a round (the paper's J). Both are early stopping: the parameters
+        of the kernels drift for thousands of iterations.
+    fill_iter : int, default=100
+        Iterations of L-BFGS on the trajectory of a sequence to fill.
+    n_samples : int, default=50
+        Samples of the latent positions in a round of two-stage learning (the paper's R).
+    random_state : int, numpy.random.Generator or None, default=None
+        Seed of two-stage learning.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+    sequences_ : Sequences
+        The training frames.
+    estimate_ : Estimate
+        Latent positions and parameters.
+    conditional_ : Conditional
+        The distribution of a further sequence.
+    kernel_properties_ : dict of str to float
+        Signal-to-noise ratio and characteristic lengthscale of both kernels: GPDM Table 1.
+    matcher_ : PoseViterbi
+        What the subject's offset is found with.
+    frame_seconds_ : float
+        The time from one training frame to the next.
+
+    References
+    ----------
+    J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical Models for Human
+    Motion, IEEE TPAMI 30(2).
+    """
+
+    def __init__(
+        self,
+        learning: str = "balanced",
+        *,
+        n_latent: int = 3,
+        dynamics: str = "linear+rbf",
+        order: int = 1,
+        predicts: str = "position",
+        start: str = "viterbi",
+        subject_offset: float = 0.0,
+        max_iter: int = 100,
+        n_steps: int = 10,
+        fill_iter: int = 100,
+        n_samples: int = 50,
+        random_state: int | np.random.Generator | None = None,
+    ) -> None:
+        self.learning = learning
+        self.n_latent = n_latent
+        self.dynamics = dynamics
+        self.order = order
+        self.predicts = predicts
+        self.start = start
+        self.subject_offset = subject_offset
+        self.max_iter = max_iter
+        self.n_steps = n_steps
+        self.fill_iter = fill_iter
+        self.n_samples = n_samples
+        self.random_state = random_state
+
+    def _check_parameters(self) -> None:
+        super()._check_parameters()
+        for name, known in (
+            ("learning", tuple(self._learnings())),
+            ("dynamics", tuple(_KERNELS)),
+            ("order", (1, 2)),
+            ("predicts", tuple(_CARRY)),
+        ):
+            if getattr(self, name) not in known:
+                raise ValueError(f"expected {name} in {known}, got {getattr(self, name)!r}")
+        for name in ("max_iter", "n_steps", "n_samples"):
+            if getattr(self, name) < 1:
+                raise ValueError(f"expected {name} of at least 1, got {getattr(self, name)}")
+
+    def _dynamics(self) -> Dynamics:
+        process = Process(_KERNELS[self.dynamics](self.order))
+        return Markov(process, self.order, _CARRY[self.predicts])
+
+    def _learning(self) -> Learning:
+        return self._learnings()[self.learning]
+
+    def _learnings(self) -> Mapping[str, Learning]:
+        rounds, steps = self.max_iter, self.n_steps
+        sampler = HybridMonteCarlo(self.n_samples, n_burn=10, n_leaps=100, step=_POSITION_STEP)
+        return {
+            "map": MaximumAPosteriori(rounds, steps),
+            "balanced": Balanced(rounds, steps),
+            "fixed-alpha": FixedDynamics(rounds, steps, _FIXED_ALPHA),
+            "two-stage": TwoStage(sampler, max(rounds // 10, 1), steps, steps, rounds * steps),
+        }
+
+    def sample(
+        self, times: Frames, n_samples: int, random_state: int | np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Return fair samples of whole recordings, each from the start of a training sequence.
+
+        Trajectories are drawn by hybrid Monte Carlo (§5.1), poses at once from their joint
+        distribution given the trajectory, at the frame rate of training and then interpolated.
+        """
+        check_is_fitted(self)
+        rng = np.random.default_rng(random_state)
+        n_frames = int(np.ceil((times[-1] - times[0]) / self.frame_seconds_ - 1e-6)) + 1
+        n_frames = max(n_frames, self.order + 1)
+        grid = times[0] + self.frame_seconds_ * np.arange(n_frames)
+        drawn = (self._unscaled(self._poses(x, rng)) for x in self._drawn(n_samples, n_frames, rng))
+        return np.stack([_interpolated(times, grid, values) for values in drawn])
+
+    def mean_walk(self, n_frames: int, sequence: int = 0) -> Array:
+        """Return poses (n_frames, D) of the mean prediction from a training sequence's start."""
+        x = mean_trajectory(self.conditional_.motion, self._first(sequence), n_frames)
+        mean, _ = self.conditional_.reconstruction.marginals(x)
+        return self._unscaled(mean)
+
+    def _first(self, sequence: int) -> Array:
+        """Return the first positions (order, d) of a training sequence that has so many."""
+        starts = np.cumsum((0, *self.sequences_.lengths))
+        return self.estimate_.x[starts[sequence] : starts[sequence + 1]][: self.order]
+
+    def _drawn(self, n_samples: int, n_frames: int, rng: np.random.Generator) -> list[Array]:
+        """Return trajectories, those that start from one training sequence from one chain."""
+        lengths = np.asarray(self.sequences_.lengths)
+        origins = rng.choice(np.flatnonzero(lengths >= self.order), n_samples)
+        chains = []
+        for sequence, count in zip(*np.unique(origins, return_counts=True), strict=True):
+            sampler = HybridMonteCarlo(int(count), _BURN_IN, _LEAPS, _STEP, _BURN_IN)
+            first = self._first(int(sequence))
+            chains += [*fair_trajectories(self.conditional_.motion, first, n_frames, sampler, rng)]
+        return chains
+
+    def _poses(self, x: Array, rng: np.random.Generator) -> Array:
+        """Return poses in the model's units, drawn jointly at the positions ``x`` (M, d)."""
+        mean, covariance, _ = self.conditional_.reconstruction.moments(x)
+        values, vectors = np.linalg.eigh(covariance)
+        root = vectors * np.sqrt(np.maximum(values, 0.0))
+        return np.asarray(mean + root @ rng.standard_normal(mean.shape))
+
+
+def _interpolated(times: Frames, grid: Frames, values: Array) -> Array:
+    return np.stack([np.interp(times, grid, column) for column in values.T], axis=1)

@@ -1,0 +1,188 @@
+"""Functions of latent positions that a Gaussian process has drawn, one for each target.
+
+The mapping to poses and that to the next latent position are of one form: with
+K = k(inputs, inputs) + I / precision, each of the p columns of the targets T is N(0, K), as in
+GPDM (6) and (10). Given one set of inputs and targets, another has the density of (24) and (26).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.gp.cholesky import mirror
+from mocapbench.baselines.gp.lapack import potrf, potri
+from mocapbench.baselines.gpdm.kernels import Kernel
+
+__all__ = ["Conditioned", "Process", "Slopes", "invert"]
+
+Array = NDArray[np.float64]
+Moments = tuple[Array, Array, Callable[[Array, Array], Array]]
+
+_NOISE_PRECISION = float(np.e)
+_JITTERS = (0.0, *(10.0**power for power in range(-12, -3)))
+
+
+def invert(matrix: Array) -> tuple[Array, float]:
+    """Return the inverse and log-determinant of a positive definite ``matrix`` (n, n), n ≥ 0.
+
+    A share of the mean diagonal, from 1e-12 to 1e-4, is added where rounding asks for it.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If that is not enough.
+    """
+    if not matrix.size:
+        return matrix, 0.0
+    scale = float(np.trace(matrix)) / len(matrix)
+    for jitter in _JITTERS:
+        factor = np.array(matrix, order="C")
+        factor[np.diag_indices_from(factor)] += jitter * scale
+        if potrf(factor) == 0:
+            log_determinant = 2.0 * float(np.log(np.diagonal(factor)).sum())
+            potri(factor)
+            mirror(factor)
+            return factor, log_determinant
+    raise np.linalg.LinAlgError(
+        f"expected a positive definite covariance of {len(matrix)} frames, got one that is not "
+        f"even with {_JITTERS[-1]:g} of its diagonal added"
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Slopes:
+    """A negative log-density and its slopes with respect to inputs, targets and parameters."""
+
+    value: float
+    inputs: Array
+    targets: Array
+    theta: Array
+
+
+@dataclass(frozen=True)
+class Process:
+    """A Gaussian process with white noise; its parameters are the kernel's and the precision."""
+
+    kernel: Kernel
+
+    @property
+    def start(self) -> Array:
+        """The logarithms of the parameters that learning starts from."""
+        return np.log([*self.kernel.start, _NOISE_PRECISION])
+
+    def negative_log_likelihood(self, theta: Array, inputs: Array, targets: Array) -> Slopes:
+        """Return p/2 ln|K| + ½ tr(K⁻¹ T Tᵀ), without the constants."""
+        gram, pull = self.kernel(theta[:-1], inputs, inputs)
+        inverse, log_determinant = invert(_noisy(gram, theta))
+        dual = inverse @ targets
+        slope = dual @ (-0.5 * dual.T)
+        slope += 0.5 * targets.shape[1] * inverse
+        left, right, d_theta = pull(slope)
+        return Slopes(
+            0.5 * (targets.shape[1] * log_determinant + float((targets * dual).sum())),
+            left + right,
+            dual,
+            np.append(d_theta, -np.trace(slope) * np.exp(-theta[-1])),
+        )
+
+    def conditioned(self, theta: Array, inputs: Array, targets: Array) -> Conditioned:
+        """Return the process given ``targets`` (n, p) at ``inputs`` (n, q)."""
+        gram, _ = self.kernel(theta[:-1], inputs, inputs)
+        inverse, _ = invert(_noisy(gram, theta))
+        return Conditioned(self.kernel, theta, inputs, inverse, inverse @ targets)
+
+    def signal_to_noise(self, theta: Array, n_inputs: int) -> float:
+        """Return GPDM's SNR: the root of the variance at a unit vector over that of the noise."""
+        unit = np.eye(1, n_inputs)
+        variance = self.kernel.diagonal(theta[:-1], unit)[0]
+        return float(np.sqrt(variance * np.exp(theta[-1])))
+
+
+def _noisy(gram: Array, theta: Array) -> Array:
+    gram = gram.copy()
+    gram[np.diag_indices_from(gram)] += np.exp(-theta[-1])
+    return gram
+
+
+@dataclass(frozen=True, eq=False)
+class Conditioned:
+    """A process given its targets at some inputs; the inverse is made once.
+
+    Parameters
+    ----------
+    kernel, theta
+        As of the `Process`.
+    inputs : ndarray of shape (n, q)
+    inverse : ndarray of shape (n, n)
+        K⁻¹.
+    dual : ndarray of shape (n, p)
+        K⁻¹ T.
+    """
+
+    kernel: Kernel
+    theta: Array
+    inputs: Array
+    inverse: Array
+    dual: Array
+
+    def marginals(self, inputs: Array) -> tuple[Array, Array]:
+        """Return the means (m, p) and variances (m,) of single targets, noise included.
+
+        GPDM (33) and (34), or (36) and (37).
+        """
+        cross, _ = self.kernel(self.theta[:-1], self.inputs, inputs)
+        explained = (cross * (self.inverse @ cross)).sum(axis=0)
+        noise = np.exp(-self.theta[-1])
+        prior = self.kernel.diagonal(self.theta[:-1], inputs)
+        return cross.T @ self.dual, np.maximum(prior - explained, 0.0) + noise
+
+    def moments(self, inputs: Array) -> Moments:
+        """Return the joint mean (m, p), covariance (m, m), and the pullback of both to inputs."""
+        theta = self.theta[:-1]
+        cross, pull_cross = self.kernel(theta, self.inputs, inputs)
+        prior, pull_prior = self.kernel(theta, inputs, inputs)
+        gain = self.inverse @ cross
+
+        def pull(d_mean: Array, d_covariance: Array) -> Array:
+            d_cross = self.dual @ d_mean.T - 2.0 * gain @ d_covariance
+            left, right, _ = pull_prior(d_covariance)
+            return left + right + pull_cross(d_cross)[1]
+
+        return cross.T @ self.dual, _noisy(prior, self.theta) - cross.T @ gain, pull
+
+    def negative_log_density(
+        self, inputs: Array, targets: Array, visible: NDArray[np.bool_]
+    ) -> tuple[float, Array, Array]:
+        """Return the surprise at new ``targets`` (m, p), and its slopes with respect to both.
+
+        p/2 ln|S| + ½ tr(S_vv⁻¹ Z Zᵀ): targets that are not visible are at their mean given those
+        that are, where the quadratic form of all equals that of the visible ones.
+        """
+        mean, covariance, pull = self.moments(inputs)
+        rows = np.flatnonzero(visible)
+        inverse, log_determinant = invert(covariance)
+        inverse_visible, _ = invert(covariance[np.ix_(rows, rows)])
+        residual = (targets - mean)[rows]
+        dual = np.zeros_like(mean)
+        dual[rows] = inverse_visible @ residual
+        d_covariance = 0.5 * (mean.shape[1] * inverse - dual @ dual.T)
+        value = 0.5 * (mean.shape[1] * log_determinant + float((dual[rows] * residual).sum()))
+        return value, pull(-dual, d_covariance), dual
+
+    def filled(
+        self, inputs: Array, targets: Array, visible: NDArray[np.bool_]
+    ) -> tuple[Array, Array]:
+        """Return mean (m, p) and variance (m,) of all targets given the visible ones.
+
+        Those of hidden targets include noise; visible ones are themselves, with variance 0.
+        """
+        mean, covariance, _ = self.moments(inputs)
+        inverse, _ = invert(covariance[np.ix_(visible, visible)])
+        gain = covariance[:, visible] @ inverse
+        mean = mean + gain @ (targets - mean)[visible]
+        variance = np.diagonal(covariance) - (gain * covariance[:, visible]).sum(axis=1)
+        return mean, np.where(visible, 0.0, np.maximum(variance, np.exp(-self.theta[-1])))

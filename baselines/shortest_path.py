@@ -1,0 +1,37 @@
+"""The cheapest path through a trellis (Viterbi)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["cheapest_path"]
+
+
+def cheapest_path(
+    emission: NDArray[np.float64], transition: NDArray[np.float64]
+) -> NDArray[np.intp]:
+    """Return the states s_1 … s_T that minimise Σ_t emission[t, s_t] + transition[s_t, s_{t+1}].
+
+    Parameters
+    ----------
+    emission : ndarray of shape (T, S)
+        The cost of each state at each time.
+    transition : ndarray of shape (S, S)
+        The cost from row to column; infinite where there is no way.
+
+    Returns
+    -------
+    ndarray of shape (T,)
+    """
+    states = np.arange(emission.shape[1])
+    cost, before = emission[0], []
+    for here in emission[1:]:
+        total = cost[:, None] + transition
+        best = total.argmin(axis=0)
+        cost = total[best, states] + here
+        before.append(best)
+    path = [int(cost.argmin())]
+    for best in reversed(before):
+        path.append(int(best[path[-1]]))
+    return np.asarray(path[::-1], dtype=np.intp)

@@ -1,0 +1,84 @@
+from itertools import pairwise, product
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocapbench.baselines.pose_viterbi import PoseViterbi
+from mocapbench.baselines.shortest_path import cheapest_path
+from mocapbench.datasets import Recording
+
+
+def recording(name, values):
+    values = np.asarray(values, dtype=float)
+    channels = tuple(f"c{d}" for d in range(values.shape[1]))
+    return Recording(name, np.arange(len(values)) / 30, values, channels, ("",) * len(channels))
+
+
+def circle(start, n_frames):
+    angle = 0.3 * (start + np.arange(n_frames))
+    return np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def gap(n_frames, first, last):
+    hidden = np.zeros((n_frames, 2), dtype=bool)
+    hidden[first:last] = True
+    return hidden
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 4), st.integers(1, 4))
+def test_no_path_is_cheaper(seed, n_times, n_states):
+    rng = np.random.default_rng(seed)
+    emission, transition = rng.random((n_times, n_states)), rng.random((n_states, n_states))
+
+    def cost(path):
+        steps = sum(transition[a, b] for a, b in pairwise(path))
+        return steps + sum(emission[t, s] for t, s in enumerate(path))
+
+    best = min(map(cost, product(range(n_states), repeat=n_times)))
+    assert np.isclose(cost(cheapest_path(emission, transition)), best)
+
+
+@pytest.mark.parametrize(("first", "last"), [(8, 20), (0, 10), (18, 30)])
+def test_a_stretch_of_training_is_found_wherever_the_gap_is(first, last):
+    model = PoseViterbi(subject_offset=0.0).fit([recording("train", circle(0, 60))])
+    truth = recording("new", circle(11, 30))
+    (filled,) = model.impute([truth.hide(gap(30, first, last))])
+    np.testing.assert_allclose(filled.mean, truth.values, atol=1e-10)
+
+
+def test_a_constant_offset_of_the_subject_is_found():
+    model = PoseViterbi().fit([recording("train", circle(0, 20))])
+    truth = recording("new", np.add(circle(2, 16), [0.1, -0.05]))
+    (filled,) = model.impute([truth.hide(gap(16, 4, 12))])
+    np.testing.assert_allclose(filled.mean, truth.values, atol=1e-10)
+
+
+def test_a_path_does_not_run_on_past_the_end_of_a_training_stretch():
+    model = PoseViterbi().fit([recording("a", [[0.0], [1.0]]), recording("b", [[9.0], [10.0]])])
+    assert np.isinf(model.transition_[[1, 3]]).all()
+    assert model.transition_[0, 1] == model.transition_[2, 3] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [({"smoothness": 0.0}, "positive smoothness"), ({"subject_offset": 2.0}, "from 0 to 1")],
+)
+def test_parameters_are_validated(parameters, message):
+    with pytest.raises(ValueError, match=message):
+        PoseViterbi(**parameters).fit([recording("train", circle(0, 10))])
+
+
+def test_what_cannot_be_filled_is_refused():
+    with pytest.raises(ValueError, match="two consecutive complete frames"):
+        PoseViterbi().fit([recording("train", [[1.0, 2.0]])])
+    model = PoseViterbi().fit([recording("train", circle(0, 10))])
+    with pytest.raises(ValueError, match="'new': expected a visible frame"):
+        model.impute([recording("new", circle(0, 5)).hide(gap(5, 0, 5))])
+    with pytest.raises(ValueError, match="expected channels"):
+        model.impute([recording("new", [[1.0], [2.0]])])
+    partly = circle(0, 5)
+    partly[2, 0] = np.nan
+    with pytest.raises(ValueError, match="hidden in part"):
+        model.impute([recording("new", partly)])
