@@ -54,8 +54,8 @@ SAME, CROSS = (Gate(e.value, e.tolerance, e.failing) for e in Environment)
 GATES = (SAME, CROSS, Gate("cross, k = 2", Tolerance(k=2.0, relative=0.02), CROSS.failing))
 SCENARIOS = (
     Scenario("repeated exactly", 0.5, 0.0),
-    Scenario("even folds, other rounding", 0.15, 0.03),
-    Scenario("uneven folds, other rounding", 0.5, 0.03),
+    Scenario("even folds, other rounding", 0.15, 0.01),
+    Scenario("uneven folds, other rounding", 0.5, 0.01),
     Scenario("another algorithm", 0.5, 0.2),
     Scenario("other seeds: nothing is paired", 0.0, 0.5 * math.sqrt(2.0)),
 )
