@@ -8,7 +8,9 @@ from mocapbench.reports.illustration import (
     HeatMaps,
     Illustration,
     Panel,
+    Path3D,
     Picture,
+    Space,
 )
 from mocapbench.reports.page import render
 
@@ -22,7 +24,9 @@ __all__ = [
     "Illustration",
     "MetricInfo",
     "Panel",
+    "Path3D",
     "Picture",
+    "Space",
     "TaskLayout",
     "render",
 ]
