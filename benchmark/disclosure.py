@@ -15,7 +15,7 @@ def disclosed(model: Model, train: Sequence[Recording]) -> Solution:
     """Return what a model fitted to ``train`` is able to tell, as arrays by name.
 
     ``trend-times`` (N,), those of the first recording, with ``trend-mean`` and ``trend-variance``
-    (N, D); ``coregionalisation-parent`` and ``coregionalisation-child`` (Q, D, D).
+    (N, D); ``coregionalisation-parent``, ``coregionalisation-child`` … (Q, D, D), by layer.
     """
     return {**_trend(model, train), **_coregionalisation(model)}
 
