@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, clip, resample, restart
 
-__all__ = ["EVALUATION", "N_FRAMES", "TRAINING", "Window", "read_excerpt"]
+__all__ = ["EVALUATION", "JOINT_GROUPS", "N_FRAMES", "TRAINING", "Window", "read_excerpt"]
 
 N_FRAMES = 90
 
@@ -35,6 +35,12 @@ EVALUATION: Mapping[str, Window] = {
     "cmu:11_01": (130, 362),
 }
 """Frames of the recordings that samples are compared with."""
+
+JOINT_GROUPS: Mapping[str, tuple[str, ...]] = {
+    "left leg": ("lfemur", "ltibia", "lfoot"),
+    "head and left femur": ("head", "lfemur"),
+}
+"""The joints whose coregionalisation Figures 15 and 16 show."""
 
 _GENERATED: Window = (0, 298)
 

@@ -8,7 +8,13 @@ from mocapbench.baselines import Synthesiser
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.synthesis import SynthesiseProblem
 from mocapbench.benchmark.task import Case, Entrant, Selection, Task
-from mocapbench.benchmark.tasks.excerpts import EVALUATION, TRAINING, Window, read_excerpt
+from mocapbench.benchmark.tasks.excerpts import (
+    EVALUATION,
+    JOINT_GROUPS,
+    TRAINING,
+    Window,
+    read_excerpt,
+)
 from mocapbench.datasets import Archive
 
 __all__ = [
@@ -161,6 +167,9 @@ class WalkingSynthesis(MocapSynthesis):
     entrants = (Entrant("mohgp-1", "mohgp", {"n_components": 1, **_MATERN}), _MOHGP_3, *_OTHERS)
     profiles = _profiles(cases, "35(1)", f"without {_ABSENT}")
     published_models = {"mohgp-1": "MOHGP-ICM", **MocapSynthesis.published_models}
+    illustrated = ("35(1)", "12(1)", "synthetic")
+    coregionalisation_of = ("mohgp-3",)
+    joint_groups = JOINT_GROUPS
 
 
 class ExaggeratedSynthesis(MocapSynthesis):

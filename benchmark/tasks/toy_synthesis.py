@@ -60,6 +60,8 @@ class ToySynthesis(Task):
     }
     published_models = {"mohgp-3": "MOHGP", "moa-3": "MOA", "control": "Control"}
     published_metrics = {"mcc": "MCC", "mlc": "MLC"}
+    illustrated = ("test 1",)
+    illustrated_channels = ("output-1",)
     not_comparable = {
         ("control", "*"): "the paper has one unrelated process where every fold here has a new "
         "one, and no side of a control’s score is the better one"
@@ -85,7 +87,7 @@ class ToySynthesis(Task):
         rng = seeds.generator("data")
         process = _process(case, rng)
         times = np.linspace(0.0, 2.0 * np.pi, N_POINTS)
-        children = process.draw(rng, times, n_children + N_REFERENCES)
+        parent, children = process.draw_family(rng, times, n_children + N_REFERENCES)
         return SynthesiseProblem(
             train=children[:n_children],
             process=process,
@@ -93,6 +95,7 @@ class ToySynthesis(Task):
             n_samples=N_SAMPLES,
             references=tuple(child.values for child in children[n_children:]),
             control=_process(case, seeds.generator("control")),
+            parent=parent,
         )
 
 

@@ -7,6 +7,7 @@ from mocapbench.benchmark.imputation import ImputeProblem, Unit
 from mocapbench.benchmark.masks import hide_all_but
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.task import Case, Entrant, Selection, Task
+from mocapbench.benchmark.tasks.excerpts import JOINT_GROUPS
 from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, clip, resample
 
 __all__ = ["WalkingInterpolation", "walking_interpolation"]
@@ -84,10 +85,7 @@ class WalkingInterpolation(Task):
     illustrated = ("observed 40", "synthetic observed 40")
     illustrated_channels = ("lfemur.rx", "ltibia.rx")
     coregionalisation_of = ("mohgp-3",)
-    joint_groups = {
-        "left leg": ("lfemur", "ltibia", "lfoot"),
-        "head and left femur": ("head", "lfemur"),
-    }
+    joint_groups = JOINT_GROUPS
 
     def problem(self, case: Case, seeds: Seeds, archive: Archive) -> ImputeProblem:
         """Hide most of the first walk."""
