@@ -39,7 +39,7 @@ class Win:
     """The cases where the mean of ``winner`` is better, of the ``shared`` ones that both scored.
 
     ``means`` are the two entrants' means over ``cases``, the winner's first; ``overall`` is their
-    contrast over all shared cases, corrected over every win of the metric.
+    contrast over all shared cases, corrected over every pair that could have been a win.
     """
 
     winner: str
@@ -105,12 +105,13 @@ def wins(results: TaskResults, metric: str) -> list[Win]:
         (winner, loser)
         for loser in ours
         for winner in others
-        if _won(results, metric, winner, loser)
+        if _shared(results, metric, winner, loser)
     ]
     overall = corrected([pooled_contrast(results, metric, *each) for each in pairs])
     found = [
-        _win(results, metric, winner, loser, contrast)
-        for (winner, loser), contrast in zip(pairs, overall, strict=True)
+        _win(results, metric, *each, contrast)
+        for each, contrast in zip(pairs, overall, strict=True)
+        if _won(results, metric, *each)
     ]
     return sorted(found, key=lambda win: (ours.index(win.loser), -len(win.cases)))
 

@@ -81,6 +81,14 @@ def test_two_models_of_one_run_are_contrasted(cli, run, tmp_path):
     assert "knn better" in cli.printed
 
 
+def test_two_runs_are_contrasted_for_the_entrants_asked_for(cli, run, tmp_path):
+    one = run("good", records("knn", GOOD), records("nn", GOOD), records("trivial", GOOD))
+    other = run("bad", records("knn", BAD), records("nn", BAD))
+    rows = compared(cli, tmp_path, one, other, "--models", "nn,trivial")
+    assert set(rows["entrant"]) == {"nn"}
+    assert set(compared(cli, tmp_path, one, other)["entrant"]) == {"knn", "nn"}
+
+
 def test_a_run_against_itself_is_identical(cli, run):
     path = run("run", records("knn", GOOD))
     assert cli("compare", path, path) == 0
@@ -149,6 +157,7 @@ def test_what_is_not_paired_is_refused_with_the_reason(cli, run, change, reason)
         (["{run}"], "expected a second run, or --models with two labels"),
         (["{run}", "--models", "knn"], "expected a second run"),
         (["{run}", "--models", "knn,kn"], "did you mean knn"),
+        (["{run}", "{run}", "--models", "kn"], "did you mean knn"),
         (["{run}", "{empty}"], "nothing|no scored (task, case, fold, entrant) in common"),
         (["{run}", "{tmp}"], "is not a mocapbench run"),
         (["{run}", "{run}", "{run}"], "expected one or two run directories, got 3"),
