@@ -15,3 +15,11 @@ def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
 def test_every_job_of_a_profile_has_keys_of_its_own(profile):
     jobs = plan(Request(profile), open_archive())
     assert len({job.key for job in jobs}) == len({job.fit_key for job in jobs}) == len(jobs)
+
+
+def test_a_profile_leaves_out_what_runs_only_when_asked_for():
+    archive = open_archive()
+    quick = {job.label for job in plan(Request(tasks=("missing-frames",)), archive)}
+    asked = Request(tasks=("missing-frames",), models=("gpdm-two-stage-window",))
+    assert "gpdm-two-stage-window" not in quick
+    assert {job.label for job in plan(asked, archive)} == {"gpdm-two-stage-window"}
