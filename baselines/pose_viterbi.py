@@ -103,14 +103,20 @@ class PoseViterbi(FrameImputer, Inductive):
         ValueError
             If a frame is hidden in part, or no frame is visible.
         """
-        return _mean_residual(recording, self._match(recording))
+        return _mean_residual(recording, self.match(recording))
 
     def _filled(self, recording: Recording) -> FrameByChannel:
-        match = self._match(recording)
+        match = self.match(recording)
         return match + self.subject_offset * _mean_residual(recording, match)
 
-    def _match(self, recording: Recording) -> FrameByChannel:
-        """Return the training frames (N, D) of the cheapest path."""
+    def match(self, recording: Recording) -> FrameByChannel:
+        """Return the training frames (N, D) of the cheapest path.
+
+        Raises
+        ------
+        ValueError
+            If a frame is hidden in part, or no frame is visible.
+        """
         visible = ~hidden_frames(recording)
         if not visible.any():
             raise ValueError(f"recording {recording.name!r}: expected a visible frame, got none")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mocapbench.benchmark.task import Entrant
 
-__all__ = ["GPDM_STARTS", "POSE_VITERBI", "REPRODUCTIONS", "SLOW", "WITH_BEST_START"]
+__all__ = ["GPDM_STARTS", "NOT_QUICK", "POSE_VITERBI", "REPRODUCTIONS", "SLOW", "WITH_BEST_START"]
 
 _TWO_STAGE = {"learning": "two-stage", "n_samples": 25}
 
@@ -41,7 +41,16 @@ GPDM_STARTS = (
     ),
 )
 
-SLOW = tuple(
-    entrant.label for entrant in GPDM_STARTS if entrant.parameters.items() >= _TWO_STAGE.items()
-)
+SLOW = ("gpdm-two-stage-window", "gpdm-two-stage-viterbi")
 """Entrants that learn for minutes."""
+
+NOT_QUICK = (
+    *SLOW,
+    "gplvm-linear",
+    "gplvm-window",
+    "gpdm-map-viterbi",
+    "gpdm-fixed-alpha-window",
+    "gpdm-fixed-alpha-viterbi",
+    "gpdm-balanced-6d-viterbi",
+)
+"""Entrants that the default profile has no time for."""

@@ -9,7 +9,13 @@ from mocapbench.benchmark.imputation import ImputeProblem, Unit
 from mocapbench.benchmark.masks import hide_frames
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.task import Case, Entrant, Selection, Task
-from mocapbench.benchmark.tasks.gap_fillers import GPDM_STARTS, POSE_VITERBI, SLOW, WITH_BEST_START
+from mocapbench.benchmark.tasks.gap_fillers import (
+    GPDM_STARTS,
+    NOT_QUICK,
+    POSE_VITERBI,
+    SLOW,
+    WITH_BEST_START,
+)
 from mocapbench.datasets import Archive, Recording, excerpt, gpdm_features
 
 __all__ = ["MissingFrames", "missing_frames"]
@@ -96,8 +102,8 @@ class MissingFrames(Task):
         "quick": Selection(
             tuple(case.name for case in cases if "four" not in case.name),
             folds=N_WINDOWS,
-            budget={"n_restarts": 1, "max_iter": 10, "refine_iter": 3},
-            without=SLOW,
+            budget={"n_restarts": 1, "max_iter": 10, "refine_iter": 3, "fill_iter": 20},
+            without=NOT_QUICK,
         ),
         "paper": Selection(tuple(case.name for case in cases), folds=N_WINDOWS),
     }

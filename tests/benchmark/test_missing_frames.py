@@ -66,6 +66,27 @@ def test_a_constant_offset_takes_a_sixth_off_the_error_of_the_matched_frames():
     assert abs(none - 50.57) <= 0.01
 
 
+def test_kriging_over_poses_takes_another_quarter_off():
+    assert abs(np.mean(list(_errors("pose-kriging").values())) - 29.40) <= 0.01
+
+
+@pytest.mark.slow
+def test_a_balanced_model_is_no_worse_than_the_published_one():
+    archive, rms = open_archive(), METRICS.get("rms_per_frame")
+    model, values = build_model("gpdm", {"start": "viterbi"}, 0), []
+    for row in ROWS:
+        case = TASK.case(f"{row} three-walkers")
+        for fold in range(0, N_WINDOWS, 4):
+            problem = TASK.problem(case, Seeds(0, TASK.name, 1, case.name, fold), archive)
+            if not values:
+                problem.fit(model)
+            values.append(rms(problem.outcome(problem.solve(model, 0))).value)
+    assert np.mean(values) <= 52.84
+    properties = model.kernel_properties_
+    assert 500 <= properties["SNR(α)"] <= 1000
+    assert 3 <= properties["SNR(β)"] <= 6
+
+
 def test_the_windows_are_the_papers():
     archive, case = open_archive(), TASK.case("35-03 three-walkers")
     for fold in range(N_WINDOWS):

@@ -22,3 +22,11 @@ def test_jobs_share_a_fit_only_where_their_cases_put_one_question(profile):
     jobs = plan(Request(profile), open_archive())
     questions = {(job.seeds.task, job.seeds.case, job.seeds.fold, job.label) for job in jobs}
     assert len({job.fit_key for job in jobs}) == len(questions)
+
+
+def test_a_profile_leaves_out_what_runs_only_when_asked_for():
+    archive = open_archive()
+    quick = {job.label for job in plan(Request(tasks=("missing-frames",)), archive)}
+    asked = Request(tasks=("missing-frames",), models=("gpdm-two-stage-window",))
+    assert "gpdm-two-stage-window" not in quick
+    assert {job.label for job in plan(asked, archive)} == {"gpdm-two-stage-window"}
