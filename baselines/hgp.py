@@ -31,6 +31,8 @@ class HGP(Channelwise[MOHGP], Trended):
     ----------
     tree : mapping of str to sequence of str or None, default=None
         For the name of each recording the groups that it is in, as in `MOHGP`.
+    sampled_trend : {"mean", "posterior"}, default="mean"
+        The trends that `sample` draws new recordings around, as in `GaussianProcess`.
 
     References
     ----------
@@ -62,6 +64,7 @@ class HGP(Channelwise[MOHGP], Trended):
         warm_start: bool = False,
         verbose: bool = False,
         solver: str = "auto",
+        sampled_trend: str = "mean",
         random_state: int | np.random.Generator | None = None,
     ) -> None:
         super().__init__(
@@ -77,6 +80,7 @@ class HGP(Channelwise[MOHGP], Trended):
             random_state=random_state,
         )
         self.tree = tree
+        self.sampled_trend = sampled_trend
 
     @staticmethod
     def of_one_channel() -> MOHGP:

@@ -131,7 +131,4 @@ class MOHGP(TrendedProcess):
         if tuple(group) not in self.reduction_.nodes:
             known = sorted(set().union(*self.tree_.values()) - set(self.tree_[CHILD]))
             raise ValueError(f"expected a group of the tree, one of {known}, got {group!r}")
-        curve = self.reduction_.nodes[tuple(group)]
-        with self._at_work() as process:
-            (trend,) = process.infer([curve], [np.asarray(times, dtype=np.float64)])
-        return trend
+        return self._infer(self.reduction_.nodes[tuple(group)], times)

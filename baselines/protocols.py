@@ -14,6 +14,7 @@ an abstract base class, so that a model says what it can do by what it inherits:
 * `Blender` mixes the styles that it has found;
 * `Trended` infers a trend that the recordings vary around;
 * `Layered` shows the covariance of each of its layers, and `Coregionalised` the matrices in it;
+* `Embedded` gives every frame a position in a latent space, and `Dynamical` walks through it;
 * `Informed` is told the generating process (the oracle);
 * `Misinformed` is told another process instead (the control).
 """
@@ -36,6 +37,8 @@ __all__ = [
     "Blender",
     "Clusterer",
     "Coregionalised",
+    "Dynamical",
+    "Embedded",
     "FrameByStyle",
     "FrameImputer",
     "Imputer",
@@ -213,6 +216,40 @@ class Coregionalised(Layered):
     @abstractmethod
     def coregionalisation_(self) -> Mapping[str, NDArray[np.float64]]:
         """The matrices B_q of each layer."""
+
+
+class Embedded(Model):
+    """A model whose frames have positions in a latent space.
+
+    Attributes
+    ----------
+    kernel_properties_ : mapping of str to float
+        After `fit`, what its parameters amount to, by name.
+    """
+
+    kernel_properties_: Mapping[str, float]
+
+    @abstractmethod
+    def latent_paths(self) -> list[NDArray[np.float64]]:
+        """Return the positions (N_p, d) of each stretch of training frames."""
+
+    @abstractmethod
+    def confidence(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return −ln of the variance of poses at ``positions`` (n, d), on the model's scale."""
+
+
+class Dynamical(Embedded):
+    """A model that moves through its latent space."""
+
+    @abstractmethod
+    def latent_walks(
+        self, n_frames: int, n_samples: int, random_state: int | np.random.Generator
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the mean trajectory (N, d) from where training starts, and samples (n, N, d)."""
+
+    @abstractmethod
+    def poses(self, positions: NDArray[np.float64]) -> FrameByChannel:
+        """Return the mean poses (N, D) at ``positions`` (N, d)."""
 
 
 class Informed(Model):

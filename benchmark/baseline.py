@@ -132,7 +132,7 @@ def _row(row: Mapping[str, str]) -> tuple[Address, Mapping[int, float]]:
         for name, text in row.items()
         if name.startswith(_FOLD) and text
     }
-    if not all(map(math.isfinite, values.values())):
+    if not (values and all(map(math.isfinite, values.values()))):
         raise ValueError(f"expected finite values of {address.metric}, got {values}")
     return address, values
 

@@ -10,7 +10,7 @@ from rich.box import SIMPLE
 from rich.markup import escape
 from rich.table import Table
 
-from mocapbench.benchmark.checking import Check, Finding
+from mocapbench.benchmark.findings import Check, Finding
 from mocapbench.benchmark.regression import Verdict
 
 __all__ = ["junit", "markdown", "plain", "summary", "terminal"]
@@ -76,11 +76,11 @@ def plain(check: Check) -> dict[str, Any]:
         "passed": check.exit_code == 0,
         "findings": [
             {
+                **(vars(finding.judgement) if finding.judgement else {}),
                 **finding.address._asdict(),
                 "verdict": finding.verdict,
                 "fails": _fails(check, finding),
                 "reason": finding.reason,
-                **(vars(finding.judgement) if finding.judgement else {}),
             }
             for finding in check.findings
         ],

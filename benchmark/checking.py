@@ -1,87 +1,22 @@
-"""The regression check: the records of a run beside a baseline, as findings and an exit code."""
+"""The regression check: the values of a run beside those of a baseline."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 
 from mocapbench.benchmark.baseline import ENVIRONMENT, Address, Baseline
-from mocapbench.benchmark.errors import ExitCode, UsageError
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.findings import Finding
 from mocapbench.benchmark.record import Record, Status
 from mocapbench.benchmark.registry import METRICS
-from mocapbench.benchmark.regression import Environment, Judgement, Verdict, judge
+from mocapbench.benchmark.regression import Judgement, Verdict, judge
 from mocapbench.benchmark.tolerances import Tolerances
 
-__all__ = ["Check", "Finding", "differences", "find", "updated"]
+__all__ = ["differences", "find", "updated"]
 
 _GRAVITY = tuple(Verdict)
 _REASONS = {Verdict.MOVED: "some fold is worse, the mean not beyond doubt"}
 Troubles = Mapping[tuple[Address, int], Record]
-
-
-@dataclass(frozen=True)
-class Finding:
-    """What became of one metric of one entrant on one case.
-
-    Parameters
-    ----------
-    address : Address
-        Its metric is empty where a job failed that has no baseline.
-    verdict : Verdict
-        The gravest of all that is true of it.
-    judgement : Judgement or None
-        Of the folds that both sides have; None if there are none.
-    reason : str
-        Why folds are absent, where some are.
-    """
-
-    address: Address
-    verdict: Verdict
-    judgement: Judgement | None = None
-    reason: str = ""
-
-
-@dataclass(frozen=True)
-class Check:
-    """Everything that a check found.
-
-    Parameters
-    ----------
-    findings : tuple of Finding
-        By address.
-    environment : Environment
-    differing : tuple of str
-        What differs between the environments of run and baseline.
-    strict : bool
-        Whether what the baseline does not hold yet fails too.
-    """
-
-    findings: tuple[Finding, ...]
-    environment: Environment
-    differing: tuple[str, ...] = ()
-    strict: bool = False
-    counts: Mapping[Verdict, int] = field(init=False)
-
-    def __post_init__(self) -> None:
-        counts = Counter(finding.verdict for finding in self.findings)
-        object.__setattr__(self, "counts", {each: counts[each] for each in Verdict if counts[each]})
-
-    @property
-    def failing(self) -> frozenset[Verdict]:
-        """The verdicts for which the exit code is 1."""
-        unrecorded = {Verdict.BETTER, Verdict.NEW} if self.strict else frozenset[Verdict]()
-        return self.environment.failing | unrecorded
-
-    @property
-    def exit_code(self) -> ExitCode:
-        """Worse before broken before nothing; a run that was compared to nothing is never fine."""
-        if self.failing & self.counts.keys():
-            return ExitCode.REGRESSION
-        if Verdict.BROKEN in self.counts:
-            return ExitCode.JOBS_FAILED
-        compared = any(finding.judgement for finding in self.findings)
-        return ExitCode.OK if compared else ExitCode.NOTHING_RAN
 
 
 def differences(baseline: Baseline, run: Baseline) -> tuple[str, ...]:
@@ -165,12 +100,19 @@ def _told(absent: Mapping[int, tuple[Verdict, str]]) -> str:
 
 
 def _unforeseen(baseline: Baseline, troubles: Troubles) -> Iterator[Finding]:
-    """Yield the failed jobs of which the baseline knows nothing."""
-    known = {address._replace(metric="") for address in baseline.values}
-    failed = {entrant: record for (entrant, _), record in troubles.items() if record.status.broken}
+    """Yield the failed jobs of which the baseline knows nothing, one an entrant."""
+    known = {
+        (address._replace(metric=""), fold)
+        for address, folds in baseline.values.items()
+        for fold in folds
+    }
+    failed = {
+        job[0]: record
+        for job, record in troubles.items()
+        if record.status.broken and job not in known
+    }
     for entrant, record in sorted(failed.items(), key=lambda item: item[0]):
-        if entrant not in known:
-            yield Finding(entrant, Verdict.BROKEN, reason=f"{record.status}: {record.message}")
+        yield Finding(entrant, Verdict.BROKEN, reason=f"{record.status}: {record.message}")
 
 
 def _entrant(record: Record) -> Address:

@@ -11,9 +11,10 @@ from rich.console import Console
 
 from mocapbench.benchmark import check_output
 from mocapbench.benchmark.baseline import Baseline, of_records, read_baseline, write_baseline
-from mocapbench.benchmark.checking import Check, differences, find, updated
+from mocapbench.benchmark.checking import differences, find, updated
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.findings import Check
 from mocapbench.benchmark.record import Record
 from mocapbench.benchmark.regression import Environment
 from mocapbench.benchmark.store import Store

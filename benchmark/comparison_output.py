@@ -67,7 +67,7 @@ def _powerless(n: int) -> str:
     if n == 1:
         return "Where n is 1 no test is possible: more folds, or more cases, are needed."
     return (
-        f"With {n} units Wilcoxon’s signed-rank test cannot go below p = "
+        f"Where n is at most {n}, Wilcoxon’s signed-rank test cannot go below p = "
         f"{least_signed_rank_p(n):.4g}, however large the difference: go by the paired t-test."
     )
 

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from mocapbench.benchmark.coregionalisation_sketch import coregionalisation_sketch
+from mocapbench.benchmark.gap_sketch import gap_sketch
+from mocapbench.benchmark.latent_sketch import latent_sketch
 from mocapbench.benchmark.record import Record, Status
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.seeds import Seeds
@@ -18,7 +20,7 @@ from mocapbench.reports import Picture
 
 __all__ = ["illustrations"]
 
-SKETCHES = (sketch, trend_sketch, coregionalisation_sketch)
+SKETCHES = (sketch, gap_sketch, trend_sketch, coregionalisation_sketch, latent_sketch)
 
 
 def illustrations(records: Sequence[Record], store: Store, archive: Archive) -> tuple[Picture, ...]:

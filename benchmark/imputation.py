@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines import FrameImputer, Prediction
 from mocapbench.benchmark.problem import InvalidPredictionError, Problem, Solution
-from mocapbench.datasets import FrameByChannel, Recording
+from mocapbench.datasets import FrameByChannel, Recording, Skeleton
 from mocapbench.metrics import Imputation
 
 __all__ = ["ImputeProblem", "Unit"]
@@ -56,11 +56,14 @@ class ImputeProblem(Problem):
         Their complete values, which no model sees.
     unit : Unit
         The unit that scores are taken in.
+    skeleton : Skeleton or None
+        Whose degrees of freedom the channels are, for figures.
     """
 
     given: tuple[Recording, ...]
     truth: tuple[FrameByChannel, ...]
     unit: Unit
+    skeleton: Skeleton | None = None
 
     def solve(self, model: FrameImputer, random_state: int) -> Solution:
         """Return ``mean-i`` and, where the model has one, ``variance-i`` for recording i."""

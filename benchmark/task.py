@@ -143,6 +143,8 @@ class Task(ABC):
         The channels that figures of recordings show.
     coregionalisation_of : tuple of str
         Labels whose coregionalisation matrices are shown.
+    latent_of : tuple of str
+        Labels whose latent spaces are shown.
     joint_groups : mapping of str to tuple of str
         Joints whose part of those matrices is shown by itself, by a name for the group.
     """
@@ -171,6 +173,7 @@ class Task(ABC):
     illustrated: tuple[str, ...] = ()
     illustrated_channels: tuple[str, ...] = ()
     coregionalisation_of: tuple[str, ...] = ()
+    latent_of: tuple[str, ...] = ()
     joint_groups: Mapping[str, tuple[str, ...]] = {}
 
     @abstractmethod

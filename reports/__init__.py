@@ -9,7 +9,9 @@ from mocapbench.reports.illustration import (
     HeatMaps,
     Illustration,
     Panel,
+    Path3D,
     Picture,
+    Space,
 )
 from mocapbench.reports.page import render
 
@@ -23,8 +25,10 @@ __all__ = [
     "Illustration",
     "MetricInfo",
     "Panel",
+    "Path3D",
     "Picture",
     "RegressionCheck",
+    "Space",
     "TaskLayout",
     "render",
 ]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import singledispatch
 
-from mocapbench.reports import heatmaps, panels
-from mocapbench.reports.illustration import HeatMaps, Illustration, Picture
+from mocapbench.reports import heatmaps, panels, spaces
+from mocapbench.reports.illustration import HeatMaps, Illustration, Picture, Space
 from mocapbench.reports.panels import Drawing
 
 __all__ = ["draw"]
@@ -20,8 +20,11 @@ def draw(illustration: Picture) -> Drawing:
     TypeError
         If it is of a kind that nothing here draws.
     """
-    raise TypeError(f"expected an Illustration or HeatMaps, got {type(illustration).__name__}")
+    raise TypeError(
+        f"expected an Illustration, HeatMaps or a Space, got {type(illustration).__name__}"
+    )
 
 
 draw.register(Illustration, panels.draw)
 draw.register(HeatMaps, heatmaps.draw)
+draw.register(Space, spaces.draw)

@@ -10,7 +10,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Band", "Curve", "HeatMap", "HeatMaps", "Illustration", "Panel", "Picture"]
+__all__ = [
+    "Band",
+    "Curve",
+    "HeatMap",
+    "HeatMaps",
+    "Illustration",
+    "Panel",
+    "Path3D",
+    "Picture",
+    "Space",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,5 +178,59 @@ class HeatMaps:
             )
 
 
-Picture = Illustration | HeatMaps
+@dataclass(frozen=True, eq=False)
+class Path3D:
+    """A line through points of space.
+
+    Parameters
+    ----------
+    points : ndarray of shape (N, 3)
+    group : str
+        What the legend calls it; all paths of a group look alike.
+    """
+
+    points: NDArray[np.float64]
+    group: str
+
+
+@dataclass(frozen=True, eq=False)
+class Space:
+    """A figure of one task: paths through space, in a cloud of values.
+
+    Parameters
+    ----------
+    task : str
+        Name of the task's layout.
+    title, caption : str
+        Heading, and what is to be seen.
+    paths : tuple of Path3D
+    cloud : ndarray of shape (n, 3)
+    values : ndarray of shape (n,)
+        One for each point of the cloud; the highest tenth of them are shown.
+    value_name : str
+        What the values are.
+
+    Raises
+    ------
+    ValueError
+        If the cloud has not as many points as there are values.
+    """
+
+    task: str
+    title: str
+    caption: str
+    paths: tuple[Path3D, ...]
+    cloud: NDArray[np.float64]
+    values: NDArray[np.float64]
+    value_name: str
+
+    def __post_init__(self) -> None:
+        if self.cloud.shape != (len(self.values), 3):
+            raise ValueError(
+                f"space {self.title!r}: expected a cloud of shape {(len(self.values), 3)}, as "
+                f"many points as values, got {self.cloud.shape}"
+            )
+
+
+Picture = Illustration | HeatMaps | Space
 """A figure of one task, of any kind."""

@@ -52,7 +52,7 @@ def lead_note(results: TaskResults, metric: str, label: str, cases: list[str]) -
     others = dict.fromkeys(other for rank in tested for other in rank.labels if other != label)
     shared = f"{', '.join(others)} cannot be told from it"
     if not alone:
-        return f"The lead may be chance: {shared}."
+        return f"Case by case the lead may be chance: {shared}."
     if not others:
         return "The lead is more than chance."
     return f"More than chance in {counted(len(alone), 'case')}; elsewhere {shared}."

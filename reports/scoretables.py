@@ -194,6 +194,7 @@ def _notes(results: TaskResults, metric: str) -> tuple[str, ...]:
 
 def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:
     """Return one row per (case, label), with n = 0 where there is no score."""
+    best = {case.name: results.best(case.name, metric) for case in results.cases}
     return pd.DataFrame(
         [
             {
@@ -204,6 +205,7 @@ def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:
                 "label": label,
                 "metric": metric,
                 **vars(results.estimate(case.name, label, metric) or Estimate(np.nan, None, 0)),
+                "first_rank": label in best[case.name],
             }
             for case in results.cases
             for label in results.layout.labels

@@ -190,8 +190,9 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
     ) -> SampleByFrameByChannel:
         """Return draws around the trend, noise included.
 
-        Each is the trend (see ``sampled_trend``), zero where a model has none, and a draw of its
-        own of the last layer. All of them cost one factorisation of the covariances.
+        Each is the trend (see ``sampled_trend``), zero where a model has none, and draws of its
+        own of the layers below, or of the only one. All of them cost one factorisation of the
+        covariances.
 
         Parameters
         ----------

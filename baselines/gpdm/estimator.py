@@ -21,7 +21,7 @@ from mocapbench.baselines.gpdm.sequences import Sequences, whitened_components
 from mocapbench.baselines.gpdm.starts import STARTS
 from mocapbench.baselines.pooling import check_channels
 from mocapbench.baselines.pose_viterbi import PoseViterbi
-from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
+from mocapbench.baselines.protocols import Embedded, FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["LatentVariableModel"]
@@ -29,7 +29,7 @@ __all__ = ["LatentVariableModel"]
 Array = NDArray[np.float64]
 
 
-class LatentVariableModel(FrameImputer, Inductive):
+class LatentVariableModel(FrameImputer, Inductive, Embedded):
     """Poses as smooth functions of latent positions, which have a prior.
 
     Subclasses say which prior and which way of learning; their constructors store ``n_latent``,
@@ -124,6 +124,21 @@ class LatentVariableModel(FrameImputer, Inductive):
         return Prediction.around(
             recording, self._unscaled(mean) + offset, np.outer(variance, self._units() ** 2)
         )
+
+    def latent_paths(self) -> list[Array]:
+        """Return the positions (N_p, d) of each training sequence."""
+        check_is_fitted(self)
+        return np.split(self.estimate_.x, np.cumsum(self.sequences_.lengths)[:-1])
+
+    def confidence(self, positions: Array) -> Array:
+        """Return −ln σ_Y² at ``positions`` (n, d), GPDM (34), noise included."""
+        check_is_fitted(self)
+        return -np.log(self.conditional_.reconstruction.marginals(positions)[1])
+
+    def poses(self, positions: Array) -> FrameByChannel:
+        """Return the mean poses (N, D) at ``positions`` (N, d), GPDM (33)."""
+        check_is_fitted(self)
+        return self._unscaled(self.conditional_.reconstruction.marginals(positions)[0])
 
     def _units(self) -> Array:
         """Return the inverse scales (D,): of a constant channel, the bound (κ² N)^(−½)."""

@@ -21,7 +21,7 @@ from mocapbench.baselines.gpdm.learning import (
 from mocapbench.baselines.gpdm.process import Process
 from mocapbench.baselines.gpdm.rollout import fair_trajectories, mean_trajectory
 from mocapbench.baselines.gpdm.two_stage import TwoStage
-from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
+from mocapbench.baselines.protocols import Dynamical, SampleByFrameByChannel, Synthesiser
 from mocapbench.datasets import Frames
 
 __all__ = ["GPDM"]
@@ -41,7 +41,7 @@ _BURN_IN, _LEAPS, _STEP = 40, 20, 1e-2
 _POSITION_STEP = 3e-3
 
 
-class GPDM(LatentVariableModel, Synthesiser):
+class GPDM(LatentVariableModel, Synthesiser, Dynamical):
     r"""A Gaussian process dynamical model of several sequences.
 
     Poses are :math:`y_t = W^{-1}(g(x_t) + n_{y,t})` and latent positions :math:`x_t =
@@ -181,11 +181,20 @@ class GPDM(LatentVariableModel, Synthesiser):
         drawn = (self._unscaled(self._poses(x, rng)) for x in self._drawn(n_samples, n_frames, rng))
         return np.stack([_interpolated(times, grid, values) for values in drawn])
 
-    def mean_walk(self, n_frames: int, sequence: int = 0) -> Array:
-        """Return poses (n_frames, D) of the mean prediction from a training sequence's start."""
-        x = mean_trajectory(self.conditional_.motion, self._first(sequence), n_frames)
-        mean, _ = self.conditional_.reconstruction.marginals(x)
-        return self._unscaled(mean)
+    def latent_walks(
+        self, n_frames: int, n_samples: int, random_state: int | np.random.Generator
+    ) -> tuple[Array, Array]:
+        """Return the mean prediction (N, d) from the first training frame, and fair samples."""
+        check_is_fitted(self)
+        motion, first = self.conditional_.motion, self._first(self._origins()[0])
+        sampler = HybridMonteCarlo(n_samples, _BURN_IN, _LEAPS, _STEP, _BURN_IN)
+        rng = np.random.default_rng(random_state)
+        samples = fair_trajectories(motion, first, n_frames, sampler, rng)
+        return mean_trajectory(motion, first, n_frames), samples
+
+    def _origins(self) -> NDArray[np.intp]:
+        """Return the training sequences that are long enough to start from."""
+        return np.flatnonzero(np.asarray(self.sequences_.lengths) >= self.order)
 
     def _first(self, sequence: int) -> Array:
         """Return the first positions (order, d) of a training sequence that has so many."""
@@ -194,8 +203,7 @@ class GPDM(LatentVariableModel, Synthesiser):
 
     def _drawn(self, n_samples: int, n_frames: int, rng: np.random.Generator) -> list[Array]:
         """Return trajectories, those that start from one training sequence from one chain."""
-        lengths = np.asarray(self.sequences_.lengths)
-        origins = rng.choice(np.flatnonzero(lengths >= self.order), n_samples)
+        origins = rng.choice(self._origins(), n_samples)
         chains = []
         for sequence, count in zip(*np.unique(origins, return_counts=True), strict=True):
             sampler = HybridMonteCarlo(int(count), _BURN_IN, _LEAPS, _STEP, _BURN_IN)

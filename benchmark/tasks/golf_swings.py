@@ -85,6 +85,7 @@ class GolfSwings(Task):
     )
     illustrated = ("64-01", "synthetic")
     illustrated_channels = ("rhumerus.rx", "thorax.ry")
+    latent_of = tuple(entrant.label for entrant in WITH_BEST_START)
 
     def problem(self, case: Case, seeds: Seeds, archive: Archive) -> ImputeProblem:
         """Hide the fold's window of the swing that the case holds out."""
@@ -98,6 +99,7 @@ class GolfSwings(Task):
             given=(given,),
             truth=(test.values,),
             unit=Unit.natural(len(test.channels)),
+            skeleton=archive.read(case.sources[0]).skeleton,
         )
 
 

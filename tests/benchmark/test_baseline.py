@@ -55,6 +55,7 @@ def test_nothing_there_is_no_baseline(tmp_path):
         "# mocapbench baseline\ntask,case\nt,c\n",
         "# mocapbench baseline\ntask,version,case,label,metric,fold 0\nt,one,c,l,mse,1\n",
         "# mocapbench baseline\ntask,version,case,label,metric,fold 0\nt,1,c,l,mse,nan\n",
+        "# mocapbench baseline\ntask,version,case,label,metric,fold 0\nt,1,c,l,mse,\n",
         "# mocapbench baseline\ntask,version,case,label,metric,fold x\nt,1,c,l,mse,1\n",
         "# mocapbench baseline\n# no colon\ntask,version,case,label,metric,fold 0\n",
     ],

@@ -101,10 +101,13 @@ def test_new_values_are_told_and_strict_wants_them_recorded(check, cli, strict):
     ],
     ids=["entrant", "fold", "not a number", "metric"],
 )
-def test_what_is_lost_is_no_silence(check, cli, after):
+def test_what_is_lost_is_no_silence(check, cli, tmp_path, after):
     assert check({"knn": _mse(1.0, 2.0), "nn": _mse(1.0, 2.0)}, after) == 1
     assert "lost" in cli.printed
     assert "no finite value of task version 1" in cli.printed
+    document = json.loads((tmp_path / "after" / "check.json").read_text())
+    told = {(each["verdict"], each["fails"]) for each in document["findings"]}
+    assert ("lost", True) in told
 
 
 def test_another_version_of_a_task_is_another_problem(check, cli, run, tmp_path):
@@ -120,6 +123,10 @@ def test_a_failed_job_is_3(check, cli, status, known):
     before = {"knn": _mse(1.0), **({"nn": _mse(1.0)} if known else {})}
     assert check(before, {"knn": _mse(1.0), "nn": [status]}) == 3
     assert f"{status}: no | luck" in cli.printed
+
+
+def test_a_failed_fold_that_the_baseline_lacks_is_3_too(check):
+    assert check({"knn": _mse(1.0)}, {"knn": [{"mse": 1.0}, Status.FAILED]}) == 3
 
 
 def test_worse_comes_before_broken(check):

@@ -11,7 +11,7 @@ from mocapbench.benchmark.plan import Request, entrants, plan
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.solving import build_model
-from mocapbench.datasets import open_archive
+from mocapbench.datasets import THESIS_CHANNELS, open_archive
 
 GOLDENS = Path(__file__).parents[1] / "goldens"
 SYNTHESIS = ("walking-synthesis", "exaggerated-synthesis", "soccer-synthesis")
@@ -71,6 +71,15 @@ def test_recordings_share_90_frames_of_39_channels_from_time_0(name, case):
         np.testing.assert_array_equal(recording.times, problem.times)
         assert recording.values.shape == (90, 39)
     assert {reference.shape for reference in problem.references} == {(90, 39)}
+
+
+@pytest.mark.recordings
+def test_frames_are_those_of_the_footnotes():
+    problem = _problem("soccer-synthesis", "10(6)")
+    whole = open_archive().read("cmu:10_06").recording("whole").select(THESIS_CHANNELS).values
+    np.testing.assert_array_equal(problem.train[1].values[[0, -1]], whole[[130, 565]])
+    np.testing.assert_array_equal(problem.references[0][[0, -1]], whole[[130, 361]])
+    assert problem.times[-1] == pytest.approx(435 / 120)
 
 
 @pytest.mark.recordings

@@ -10,7 +10,7 @@ import pytest
 
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.benchmark.task import Case, Entrant, Selection
-from mocapbench.benchmark.tasks.toy_interpolation import ToyInterpolation1
+from mocapbench.benchmark.tasks.toy_interpolation_1 import ToyInterpolation1
 from mocapbench.benchmark.testing import (
     ConformanceError,
     check_metric,

@@ -69,7 +69,7 @@ def rows(*pairs):
     ("leads", "words"),
     [
         ((0.5, 0.5), "The lead is more than chance."),
-        ((0.005, 0.005), "The lead may be chance: b cannot be told from it."),
+        ((0.005, 0.005), "Case by case the lead may be chance: b cannot be told from it."),
         ((0.5, 0.005), "More than chance in 1 case; elsewhere b cannot be told from it."),
     ],
 )

@@ -43,6 +43,7 @@ def test_best_cells_are_the_least_mean_and_what_no_test_tells_from_it(bundle):
         best = {label for label in rows["label"] if cell(table, case, label).kind == "best"}
         assert rows.loc[rows["mean"].idxmin(), "label"] in best
         assert best == set(results.first_rank(case, "mse").labels)
+        assert best == set(rows.loc[rows["first_rank"], "label"])
 
 
 CLOSE = {"a": [1.0, 1.2, 0.9], "b": [1.1, 1.1, 1.0], "c": [5.0, 5.1, 4.8]}

@@ -130,7 +130,21 @@ def test_new_walks_look_like_the_old(fitted):
     assert 0.2 < walks.var() / WALKS[0].values.var() < 3.0
     finer = fitted.sample(np.arange(59) / 60, 4, 0)
     np.testing.assert_allclose(finer[:, ::2], walks, atol=1e-9)
-    assert np.abs(fitted.mean_walk(30)).max() < 1.5
+
+
+def test_latent_walks_start_with_training_and_give_poses_like_it(fitted):
+    mean, samples = fitted.latent_walks(30, 3, 0)
+    assert samples.shape == (3, 30, 2)
+    start = fitted.latent_paths()[0][0]
+    np.testing.assert_array_equal(
+        np.concatenate([mean[None], samples])[:, 0], np.tile(start, (4, 1))
+    )
+    assert np.abs(fitted.poses(mean)).max() < 1.5
+
+
+def test_confidence_is_highest_where_training_is(fitted):
+    there = fitted.confidence(fitted.latent_paths()[1])
+    assert there.min() > fitted.confidence(np.full((1, 2), 10.0))[0]
 
 
 def test_a_constant_channel_is_left_out_with_a_warning():

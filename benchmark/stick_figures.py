@@ -1,0 +1,44 @@
+"""A motion as stick figures in a row."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.datasets import (
+    Recording,
+    Skeleton,
+    integrate_root,
+    joint_positions,
+)
+from mocapbench.reports import Curve, Panel
+
+__all__ = ["strip"]
+
+N_FIGURES = 8
+STRIDE = 90.0
+"""Centimetres from one stick figure to the next."""
+
+
+def strip(motion: Recording, skeleton: Skeleton, group: str, title: str = "") -> Panel:
+    """Return stick figures at even times, seen from the side and set apart."""
+    frames = np.linspace(0, len(motion.times) - 1, N_FIGURES).round().astype(int)
+    places = joint_positions(skeleton, integrate_root(motion).frames(frames))
+    places = places - places[:, :1] * [0.0, 0.0, 1.0]
+    places[..., 1] -= places[..., 1].min(axis=1, keepdims=True)
+    places[..., 2] += STRIDE * np.arange(N_FIGURES)[:, None]
+    return Panel(
+        f"{title}every {np.diff(motion.times[frames]).mean():.2g} s",
+        "",
+        "height, cm",
+        tuple(_sticks(skeleton, figure, group) for figure in places),
+        spatial=True,
+    )
+
+
+def _sticks(skeleton: Skeleton, joints: NDArray[np.float64], group: str) -> Curve:
+    """Return the bones between joints (J, 3) as one broken line."""
+    ends = joints[1:]
+    starts = joints[list(skeleton.parents[1:])]
+    line = np.stack([starts, ends, np.full_like(ends, np.nan)], axis=1).reshape(-1, 3)
+    return Curve(line[:, 2], line[:, 1], group)
