@@ -130,6 +130,6 @@ def test_a_run_without_a_control_has_nothing_to_check(cli, tmp_path):
 
 def test_the_check_must_be_told_what_to_check(cli, tmp_path):
     assert cli("check", tmp_path) == 2
-    assert "choose --controls" in cli.printed
+    assert "choose --baseline or --controls" in cli.printed
     assert cli("check", "--controls", tmp_path) == 2
     assert "is not a mocapbench run" in cli.printed
