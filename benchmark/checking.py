@@ -15,7 +15,7 @@ from mocapbench.benchmark.tolerances import Tolerances
 __all__ = ["differences", "find", "updated"]
 
 _GRAVITY = tuple(Verdict)
-_REASONS = {Verdict.MOVED: "some fold is worse, the mean not beyond doubt"}
+_REASONS = {Verdict.MOVED: "some fold is worse"}
 Troubles = Mapping[tuple[Address, int], Record]
 
 
