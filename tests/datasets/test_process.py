@@ -24,7 +24,7 @@ def stacked(children):
 def test_layers_have_the_stated_mean_variance(weights):
     rng = np.random.default_rng(2)
     for n_outputs in (1, 3, 6):
-        process = ToyProcess.random(rng, n_outputs=n_outputs, noise=0.01, weights=weights)
+        process = ToyProcess.random(rng, n_outputs=n_outputs, noise=0.01, draw_weights=weights)
         n = n_outputs * len(TIMES)
         assert np.trace(process.parent.covariance(TIMES)) / n == pytest.approx(1.0)
         assert np.trace(process.child.covariance(TIMES)) / n == pytest.approx(0.25)

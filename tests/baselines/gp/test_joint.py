@@ -154,7 +154,9 @@ def test_the_order_of_replicates_does_not_matter(by, cases):
         order = np.random.default_rng(seed).permutation(len(case.replicates.data))
         old = case.replicates
         shuffled = replace(
-            case, replicates=Replicates(old.times, old.data[order], old.observed[order])
+            case,
+            replicates=Replicates(old.times, old.data[order], old.observed[order]),
+            paths=case.paths and tuple(case.paths[r] for r in order),
         )
         other, _ = curve(shuffled, by, Dense, int(np.flatnonzero(order == r)[0]), AT)
         np.testing.assert_allclose(joint_covariance(*problem), joint_covariance(*other), atol=1e-10)
