@@ -61,8 +61,9 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         Whether :math:`\lambda_{\bar z}` is learnt; the paper keeps it fixed.
     smoothness : float, default=0.1
         Precision :math:`\lambda_s` of a cycle's steps, where it starts; it is learnt.
-    prior : {"normalised", "paper"}, default="normalised"
-        How the prior of a cycle is normalised; the paper's is not a density.
+    prior : {"normalised", "centred", "paper"}, default="normalised"
+        The prior of a cycle: HLM's, normalised; one about the parent, from which a cycle deviates
+        smoothly; or HLM's as the paper has it, which is not a density.
     refine_iter : int, default=10
         Iterations of EM, from where `fit` ended, that `impute` gives to a recording together with
         the fitted ones.

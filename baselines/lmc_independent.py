@@ -7,12 +7,13 @@ with the same covariances and no hierarchy.
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Sequence
 
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.parameters import CHILD
 from mocapbench.baselines.gp.reduction import Reduction, independent
 from mocapbench.baselines.gp.replicates import Replicates
+from mocapbench.baselines.gp.tree import Tree
 
 __all__ = ["LMCIndependent"]
 
@@ -24,9 +25,10 @@ class LMCIndependent(GaussianProcess):
     Parameters and attributes are those of `GaussianProcess`.
     """
 
-    layers: ClassVar[tuple[str, ...]] = (CHILD,)
+    def grow(self, names: Sequence[str]) -> Tree:
+        """Return a draw for every recording."""
+        return {CHILD: [(name,) for name in names]}
 
-    @staticmethod
-    def reduce(replicates: Replicates) -> Reduction:
+    def reduce(self, replicates: Replicates) -> Reduction:
         """Return the likelihood of replicates in standard units as block problems."""
         return independent(replicates)

@@ -7,11 +7,12 @@ why it interpolates so poorly (thesis §5.1).
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Sequence
 
 from mocapbench.baselines.gp.parameters import PARENT
 from mocapbench.baselines.gp.reduction import Reduction, pooled
 from mocapbench.baselines.gp.replicates import Replicates
+from mocapbench.baselines.gp.tree import Tree
 from mocapbench.baselines.gp.trended import TrendedProcess
 
 __all__ = ["MOA"]
@@ -25,9 +26,10 @@ class MOA(TrendedProcess):
     of `GaussianProcess`.
     """
 
-    layers: ClassVar[tuple[str, ...]] = (PARENT,)
+    def grow(self, names: Sequence[str]) -> Tree:
+        """Return the one draw that all recordings take part in."""
+        return {PARENT: [()] * len(names)}
 
-    @staticmethod
-    def reduce(replicates: Replicates) -> Reduction:
+    def reduce(self, replicates: Replicates) -> Reduction:
         """Return the likelihood of replicates in standard units as block problems."""
         return pooled(replicates)

@@ -2,28 +2,44 @@ r"""The multiple-output hierarchical Gaussian process (thesis §4).
 
 Every recording is a child of one parent: :math:`g \sim \mathcal{GP}(0, K_g)`,
 :math:`f_r \sim \mathcal{GP}(g, K_f)`, :math:`y_r = f_r + \varepsilon_r`, with a linear model of
-coregionalisation in both layers (thesis eq. 16 and 17).
+coregionalisation in both layers (thesis eq. 16 and 17). In a tree there are groups in between,
+:math:`e_i \sim \mathcal{GP}(g, K_e)`, :math:`f_{ir} \sim \mathcal{GP}(e_i, K_f)` (thesis eq. 8).
 """
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
 
-from mocapbench.baselines.gp.parameters import CHILD, PARENT
-from mocapbench.baselines.gp.reduction import Reduction, hierarchical
+import numpy as np
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.gp.hierarchy import hierarchical
+from mocapbench.baselines.gp.parameters import CHILD
+from mocapbench.baselines.gp.reduction import Reduction
 from mocapbench.baselines.gp.replicates import Replicates
+from mocapbench.baselines.gp.tree import Path, Tree, grow
 from mocapbench.baselines.gp.trended import TrendedProcess
+from mocapbench.datasets import FrameByChannel, Frames
 
 __all__ = ["MOHGP"]
 
 
 class MOHGP(TrendedProcess):
-    """Recordings vary around a common trend.
+    """Recordings vary around a common trend, or around those of the groups that they are in.
 
     `impute` gives the posterior of each child. `sample` follows the thesis: new children are
     drawn from K_f around the trend's posterior mean, or around a draw of the trend with
-    ``sampled_trend="posterior"``. Parameters and attributes are those of
-    `GaussianProcess`.
+    ``sampled_trend="posterior"``; in a tree, they are children of new groups. Parameters and
+    attributes are those of `GaussianProcess` and one more.
+
+    Parameters
+    ----------
+    tree : mapping of str to sequence of str or None, default=None
+        For the name of each recording the groups that it is in, from the largest to the smallest
+        and equally many for all, such as ``{"02_01": ("walk", "subject 2"), ...}``. Groups of
+        one name in different groups are different. The layers are then ``"parent"``,
+        ``"group-1"``, ``"group-2"`` and so on, ``"child"``. None makes every recording a child
+        of the trend.
 
     Examples
     --------
@@ -36,11 +52,83 @@ class MOHGP(TrendedProcess):
     >>> mean, variance = model.trend(np.linspace(0.0, 6.0, 5))
     >>> mean.shape, variance.shape
     ((5, 2), (5, 2))
+    >>> tree = {"child-1": ("slow",), "child-2": ("slow",), "child-3": ("fast",)}
+    >>> model = MOHGP(tree=tree, kernel="rbf", max_iter=20).fit(children)
+    >>> mean, variance = model.trend(np.linspace(0.0, 6.0, 5), group=("slow",))
     """
 
-    layers: ClassVar[tuple[str, ...]] = (PARENT, CHILD)
+    def __init__(
+        self,
+        *,
+        tree: Mapping[str, Path] | None = None,
+        n_components: int | Mapping[str, int] = 1,
+        rank: int = 1,
+        kernel: str = "matern32",
+        n_restarts: int = 1,
+        max_iter: int = 1000,
+        tol: float = 1e-7,
+        max_seconds: float | None = None,
+        warm_start: bool = False,
+        verbose: bool = False,
+        solver: str = "auto",
+        sampled_trend: str = "mean",
+        n_jobs: int | None = None,
+        random_state: int | np.random.Generator | None = None,
+    ) -> None:
+        super().__init__(
+            n_components=n_components,
+            rank=rank,
+            kernel=kernel,
+            n_restarts=n_restarts,
+            max_iter=max_iter,
+            tol=tol,
+            max_seconds=max_seconds,
+            warm_start=warm_start,
+            verbose=verbose,
+            solver=solver,
+            sampled_trend=sampled_trend,
+            n_jobs=n_jobs,
+            random_state=random_state,
+        )
+        self.tree = tree
 
-    @staticmethod
-    def reduce(replicates: Replicates) -> Reduction:
+    def grow(self, names: Sequence[str]) -> Tree:
+        """Return the draws of each layer that the recordings take part in.
+
+        Raises
+        ------
+        ValueError
+            If ``tree`` does not have a path for each recording and no other, or its paths are not
+            equally long sequences of names.
+        """
+        return grow(names, self.tree)
+
+    def reduce(self, replicates: Replicates) -> Reduction:
         """Return the likelihood of replicates in standard units as block problems."""
-        return hierarchical(replicates)
+        return hierarchical(replicates, self.tree_)
+
+    def trend(self, times: Frames, group: Path = ()) -> tuple[FrameByChannel, FrameByChannel]:
+        """Return the posterior mean and variance of g, or of a group, at ``times`` (N,).
+
+        Parameters
+        ----------
+        times : ndarray of shape (N,)
+            In seconds.
+        group : sequence of str, default=()
+            The group as in ``tree``; () is the trend of all.
+
+        Returns
+        -------
+        mean, variance : ndarray of shape (N, D)
+            In the outputs' own units, noise left out.
+
+        Raises
+        ------
+        ValueError
+            If there is no such group.
+        """
+        check_is_fitted(self)
+        if tuple(group) not in self.reduction_.nodes:
+            known = sorted(set().union(*self.tree_.values()) - set(self.tree_[CHILD]))
+            raise ValueError(f"expected a group of the tree, one of {known}, got {group!r}")
+        return self._infer(self.reduction_.nodes[tuple(group)], times)

@@ -24,7 +24,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -191,15 +191,12 @@ class Trended(Model):
 
 
 class Layered(Model):
-    """A model whose prior covariances can be looked at, one layer of its hierarchy at a time.
+    """A model whose prior covariances can be looked at, one layer of its hierarchy at a time."""
 
-    Attributes
-    ----------
-    layers : tuple of str
-        Names, outermost first; the last is the layer that new recordings are drawn from.
-    """
-
-    layers: ClassVar[tuple[str, ...]]
+    @property
+    @abstractmethod
+    def layers(self) -> tuple[str, ...]:
+        """After `fit`, the layers' names, outermost first; the last is that of each recording."""
 
     @abstractmethod
     def covariance(self, layer: str, times: Frames) -> NDArray[np.float64]:

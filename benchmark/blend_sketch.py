@@ -47,7 +47,8 @@ def blend_sketch(
     caption = (
         f"a passage from {names[0]} to {names[1]}: the mean cycles of two styles of {label}, mixed "
         "by a weight that varies smoothly from one to the other. Clusters are called after most of "
-        "their recordings."
+        "their recordings. A style’s curves are jagged where unlike recordings share it: one that "
+        "advances two or three states a frame leaves out those between, which another then takes."
     )
     panels = (strip(motion, problem.skeleton, PASSAGE), *curves)
     return Illustration(task.name, f"Blend by {label}", caption, panels)

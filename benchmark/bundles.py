@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 from mocapbench.benchmark.record import Record
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.tables import job_table, score_table
 from mocapbench.benchmark.task import Task
-from mocapbench.reports import Bundle, CaseLayout, MetricInfo, Picture, TaskLayout
+from mocapbench.reports import (
+    Bundle,
+    CaseLayout,
+    MetricInfo,
+    Picture,
+    RegressionCheck,
+    TaskLayout,
+)
 
 __all__ = ["bundle"]
 
@@ -17,6 +25,7 @@ def bundle(
     records: Sequence[Record],
     provenance: Mapping[str, str],
     illustrations: tuple[Picture, ...] = (),
+    check: Mapping[str, Any] | None = None,
 ) -> Bundle:
     """Return what the report shows of ``records``, which are in table order.
 
@@ -26,6 +35,8 @@ def bundle(
     provenance : mapping of str to str
         Of the run as a whole.
     illustrations : tuple of Illustration or HeatMaps
+    check : mapping or None
+        The last regression check, as the store keeps it.
     """
     tasks = [TASKS.get(name) for name in _unique(record.task for record in records)]
     shown = {metric for task in tasks for metric in task.metrics}
@@ -39,6 +50,7 @@ def bundle(
         metrics={name: _metric_info(name) for name in sorted(used)},
         provenance=provenance,
         illustrations=illustrations,
+        check=RegressionCheck(**check) if check else None,
     )
 
 
@@ -55,7 +67,14 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
         kind=task.kind,
         description=task.description,
         cases=tuple(
-            CaseLayout(case.name, case.settings, case.published, case.synthetic, case.remark)
+            CaseLayout(
+                case.name,
+                case.settings,
+                case.published,
+                case.synthetic,
+                case.remark,
+                case.not_comparable,
+            )
             for case in task.cases
         ),
         labels=_unique(record.label for record in records if record.task == task.name),
@@ -66,6 +85,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
         not_controlled=task.not_controlled,
         remarks=task.remarks,
         independent_folds=task.independent_folds,
+        crossed=task.crossed,
         budget=budget,
     )
 

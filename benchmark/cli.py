@@ -17,10 +17,11 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from mocapbench.benchmark import cli_check, cli_data, cli_inspect
+from mocapbench.benchmark import cli_check, cli_compare, cli_data, cli_inspect
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.benchmark.files import atomic_write
 from mocapbench.benchmark.job import Job, Settings
+from mocapbench.benchmark.options import Names, split
 from mocapbench.benchmark.plan import Request, plan, required_sources
 from mocapbench.benchmark.provenance import provenance
 from mocapbench.benchmark.record import Record, Status
@@ -42,12 +43,13 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.add_typer(cli_data.app, name="data")
+app.command("check")(cli_check.check)
 app.command("list")(cli_inspect.list_registered)
 app.command("info")(cli_inspect.info)
 app.command("export")(cli_inspect.export)
 app.command("check")(cli_check.check)
+app.command("compare")(cli_compare.compare)
 
-Names = Annotated[list[str] | None, typer.Option(help="Names, repeated or separated by commas.")]
 ModelFiles = Annotated[list[Path] | None, typer.Option(help="A Python file that defines MODELS.")]
 Out = Annotated[Path, typer.Option(help="The run directory: new, empty, or an earlier run's.")]
 
@@ -99,7 +101,7 @@ def run(
     for path in files:
         load_model_file(path)
     request = Request(
-        profile, _split(tasks), _split(models), _split(cases), _split(metrics), folds, seed
+        profile, split(tasks), split(models), split(cases), split(metrics), folds, seed
     )
     archive = cli_data.archive_at(data_dir)
     if not (offline or dry_run):
@@ -176,8 +178,7 @@ def report(
     for path in model_file or ():
         load_model_file(path)
     store, console = Store.open(out), Console()
-    plan_made = store.load_plan()
-    records = [record for key in plan_made["keys"] if (record := store.load(key)) is not None]
+    plan_made, records = store.load_plan(), store.planned()
     if not records:
         raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
     archive, path = cli_data.archive_at(data_dir), to or out / "report.html"
@@ -198,7 +199,8 @@ def _write_report(
     from mocapbench.benchmark.illustrations import illustrations  # noqa: PLC0415
     from mocapbench.reports import render  # noqa: PLC0415
 
-    page = render(bundle(records, about, illustrations(records, store, archive)))
+    figures = illustrations(records, store, archive)
+    page = render(bundle(records, about, figures, store.load_check()))
     with atomic_write(path) as file:
         file.write(page.encode())
     console.print(f"report: {path.resolve()}", soft_wrap=True, highlight=False)
@@ -213,7 +215,7 @@ def _plan_table(planned: Sequence[Job]) -> Table:
     table = Table("task", "case", "entrant", "folds", title=f"{len(planned)} jobs")
     rows: dict[tuple[str, str, str], int] = {}
     for job in planned:
-        address = (job.seeds.task, job.seeds.case, job.label)
+        address = (job.seeds.task, job.case, job.label)
         rows[address] = rows.get(address, 0) + 1
     for address, count in rows.items():
         table.add_row(*address, str(count))
@@ -224,11 +226,6 @@ def _acknowledgement(planned: Sequence[Job]) -> dict[str, str]:
     """Return what the database asks to be said of work that uses it."""
     used = any(uri.startswith("cmu:") for job in planned if not job.missing for uri in job.digests)
     return {"acknowledgement": CMU_ACKNOWLEDGEMENT} if used else {}
-
-
-def _split(names: Sequence[str] | None) -> tuple[str, ...]:
-    parts = (part.strip() for name in names or () for part in name.split(","))
-    return tuple(part for part in parts if part)
 
 
 def _memory_share(n_workers: int) -> float:

@@ -121,7 +121,7 @@ def _addresses(trials: Iterable[str] | None) -> list[str]:
             raise UsageError(str(error)) from error
         return addresses
     cases = (case for name in TASKS.names() for case in TASKS.get(name).cases)
-    sources = {uri for case in cases for uri in case.sources if uri.startswith("cmu:")}
+    sources = {uri for case in cases for uri in case.needs if uri.startswith("cmu:")}
     return sorted(sources)
 
 

@@ -77,5 +77,7 @@ def _reasons(findings: Sequence[ControlFinding]) -> Iterator[str]:
 
 
 def _offences(measure: Measure) -> str:
+    if measure.estimate is None:
+        return "it has no score to set beside the control's"
     cells = [f"{cell.case} fold {cell.fold} {cell.value:.3f}" for cell in measure.offending]
     return ", ".join(cells) or "no cell by itself, but too few to tell; run more cases or folds"

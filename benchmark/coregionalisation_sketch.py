@@ -62,8 +62,8 @@ def _figure(
 
 def _layers(solution: Solution) -> Iterator[tuple[str, NDArray[np.float64]]]:
     """Yield the layers' names and their matrices (Q, D, D) in shares of the layer's variances."""
-    for layer in ("parent", "child"):
-        matrices = solution.get(f"coregionalisation-{layer}")
-        if matrices is not None:
+    for name, matrices in solution.items():
+        kind, _, layer = name.partition("-")
+        if kind == "coregionalisation":
             scale = np.sqrt(np.diagonal(matrices.sum(axis=0)))
             yield layer, matrices / np.outer(scale, scale)

@@ -26,8 +26,8 @@ def disclosed(model: Model, train: Sequence[Recording]) -> Solution:
     """Return what a model fitted to ``train`` is able to tell, as arrays by name.
 
     ``trend-times`` (N,), those of the first recording, with ``trend-mean`` and ``trend-variance``
-    (N, D); ``coregionalisation-parent`` and ``coregionalisation-child`` (Q, D, D); of a latent
-    space of three dimensions ``latent-path-p`` (N_p, 3), ``latent-cloud`` (n, 4), which is
+    (N, D); ``coregionalisation-parent``, ``coregionalisation-child`` … (Q, D, D), by layer; of a
+    latent space of three dimensions ``latent-path-p`` (N_p, 3), ``latent-cloud`` (n, 4), which is
     positions and the confidence there, and ``property-…``; of one with dynamics
     ``latent-mean`` (N, 3), ``latent-sample-i`` (N, 3), and the poses ``walk-mean`` and
     ``walk-sample`` (N, D) of the mean and of the last sample.

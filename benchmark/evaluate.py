@@ -45,7 +45,7 @@ def _evaluate(job: Job, settings: Settings) -> Record:
         load_model_file(path)
     task = TASKS.get(job.seeds.task)
     archive = open_archive(settings.data_dir)
-    problem = task.problem(task.case(job.seeds.case), job.seeds, archive)
+    problem = task.problem(task.case(job.case), job.seeds, archive)
     store = Store(settings.out)
     fit = store.load_fit(job.fit_key)
     if fit is None:

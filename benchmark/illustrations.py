@@ -53,7 +53,7 @@ def _illustrate(
     if not solutions:
         return ()
     about, case = records[0], task.case(records[0].case)
-    seeds = Seeds(about.seed, task.name, task.version, case.name, about.fold)
+    seeds = Seeds(about.seed, task.name, task.version, case.asked, about.fold)
     try:
         problem = task.problem(case, seeds, archive)
     except RecordingUnavailable:

@@ -51,7 +51,9 @@ class Job:
     Parameters
     ----------
     seeds : Seeds
-        Address of the problem: task, version, case, fold, root seed.
+        Address of what is asked: task, version, question, fold, root seed.
+    case : str
+        The row that it is asked for.
     label, model, parameters : str, str, mapping
         The entrant.
     metrics : tuple of str
@@ -65,6 +67,7 @@ class Job:
     """
 
     seeds: Seeds
+    case: str
     label: str
     model: str
     parameters: Mapping[str, Any]
@@ -81,7 +84,7 @@ class Job:
             fit_key=self.fit_key,
             task=self.seeds.task,
             version=self.seeds.version,
-            case=self.seeds.case,
+            case=self.case,
             fold=self.seeds.fold,
             seed=self.seeds.root,
             label=self.label,

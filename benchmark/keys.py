@@ -63,12 +63,12 @@ def fit_key(
     model, parameters
         The class and its full parameters.
     digests : mapping of str to str
-        Digest of each recording that the case needs.
+        Digest of each recording that models see.
     """
     return _digest(
         {
             "task": [task.name, task.version, source_digest(type(task).__module__, _TASK_SOURCES)],
-            "case": [case.name, dict(case.settings), dict(digests)],
+            "case": [*_question(case), dict(digests)],
             "fold": [seeds.fold, seeds.root],
             "entrant": [label, model.__qualname__, dict(parameters)],
             "source": [
@@ -80,15 +80,33 @@ def fit_key(
     )
 
 
+def _question(case: Case) -> tuple[str, dict[str, Any]]:
+    """Return what is asked: where cases share it, settings tell the judgement, not the question."""
+    return case.asked, {} if case.question else dict(case.settings)
+
+
 @cache
 def _installed_version(library: str) -> str:
     return importlib.metadata.version(library)
 
 
-def score_key(fit: str, metrics: Sequence[Metric[Any]]) -> str:
-    """Return the name of a record: the fit key and the metrics it was scored by."""
+def score_key(
+    fit: str, metrics: Sequence[Metric[Any]], case: str, references: Mapping[str, str]
+) -> str:
+    """Return the name of a record: the fit key, and by what it was scored.
+
+    Parameters
+    ----------
+    fit : str
+        The fit key.
+    metrics : sequence of Metric
+    case : str
+        The row; others may share the fit.
+    references : mapping of str to str
+        Digest of each recording that only the scores depend on.
+    """
     scored = {metric.name: _description(metric.statistic) for metric in metrics}
-    return _digest({"fit": fit, "metrics": scored})
+    return _digest({"fit": fit, "metrics": scored, "judged": [case, dict(references)]})
 
 
 def _description(statistic: Callable[..., Any]) -> list[str]:

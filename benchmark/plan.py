@@ -72,7 +72,7 @@ def required_sources(request: Request) -> tuple[str, ...]:
     """Return the addresses of every recording that ``request`` needs, each once."""
     _check_names(request)
     tasks = [task for task in _tasks(request) if _chosen_entrants(request, task)]
-    sources = [uri for task in tasks for case in _cases(request, task) for uri in case.sources]
+    sources = [uri for task in tasks for case in _cases(request, task) for uri in case.needs]
     return tuple(dict.fromkeys(sources))
 
 
@@ -163,14 +163,15 @@ def _check_plain(entrant: Entrant, name: str, value: object) -> None:
 
 
 def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> Iterator[Job]:
-    missing = tuple(uri for uri in case.sources if not archive.available(uri))
-    digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.sources}
+    missing = tuple(uri for uri in case.needs if not archive.available(uri))
+    digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.needs}
+    seen, judging = ({uri: digests[uri] for uri in of} for of in (case.sources, case.references))
     names = tuple(sorted(request.metrics or METRICS.names()))
     metrics = [METRICS.get(name) for name in names]
     for entrant in _chosen_entrants(request, task):
         parameters = _parameters(entrant, case, task.selection(request.profile))
         for fold in range(_folds(request, task)):
-            seeds = Seeds(request.seed, task.name, task.version, case.name, fold)
+            seeds = Seeds(request.seed, task.name, task.version, case.asked, fold)
             fit = fit_key(
                 task,
                 case,
@@ -178,8 +179,8 @@ def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> It
                 label=entrant.label,
                 model=MODELS.get(entrant.model),
                 parameters=parameters,
-                digests=digests,
+                digests=seen,
             )
-            key = score_key(fit, metrics)
+            key = score_key(fit, metrics, case.name, judging)
             label, model = entrant.label, entrant.model
-            yield Job(seeds, label, model, parameters, names, key, fit, digests, missing)
+            yield Job(seeds, case.name, label, model, parameters, names, key, fit, digests, missing)

@@ -10,6 +10,8 @@ import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from threadpoolctl import threadpool_info
+
 __all__ = ["cpu_name", "provenance"]
 
 _LIBRARIES = ("mocapbench", "numpy", "scipy", "pandas", "scikit-learn")
@@ -31,6 +33,9 @@ def provenance(command: Sequence[str], threads: int) -> Mapping[str, str]:
         "commit": _commit(),
         "python version": platform.python_version(),
         "platform": platform.platform(),
+        "machine": platform.machine(),
+        "libc": " ".join(platform.libc_ver()),
+        "BLAS": _blas(),
         "CPU": cpu_name(),
         "cores": str(os.cpu_count()),
         "threads": f"{threads} per job",
@@ -46,6 +51,16 @@ def cpu_name() -> str:
         return platform.processor() or "unknown"
     names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
     return next(names, platform.processor() or "unknown")
+
+
+def _blas() -> str:
+    """Return the BLAS libraries that are loaded, with the processor family they compute for."""
+    names = {
+        " ".join(str(each.get(key)) for key in ("internal_api", "version", "architecture"))
+        for each in threadpool_info()
+        if each["user_api"] == "blas"
+    }
+    return "; ".join(sorted(names)) or "unknown"
 
 
 def _commit() -> str:

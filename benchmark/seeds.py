@@ -26,6 +26,7 @@ class Seeds:
     task : str
     version : int
     case : str
+        Its name, or the question that it shares with others.
     fold : int
         The fold's address.
     """

@@ -5,6 +5,7 @@
     run-directory/
         mocapbench.json             says that the folder is ours
         plan.json                   the keys of the last run, in table order
+        check.json                  what the last regression check of that run found
         records/<score key>.json
         predictions/<fit key>.npz
 
@@ -33,6 +34,7 @@ from mocapbench.benchmark.record import Record, RecordError
 __all__ = ["Fit", "Store"]
 
 _MARKER = "mocapbench.json"
+_CHECK = "check.json"
 _FORMAT = 1
 
 
@@ -98,12 +100,17 @@ class Store:
         UsageError
             If it is not a run directory.
         """
-        if not (path / _MARKER).is_file():
+        if not cls.is_run(path):
             raise UsageError(
                 f"{path} is not a mocapbench run (there is no {_MARKER} in it); "
                 "name the folder that `mocapbench run --out` wrote"
             )
         return cls(path)
+
+    @staticmethod
+    def is_run(path: Path) -> bool:
+        """Return whether ``path`` is a run directory."""
+        return (path / _MARKER).is_file()
 
     @contextmanager
     def locked(self) -> Iterator[None]:
@@ -148,6 +155,17 @@ class Store:
         keys = sorted(path.stem for path in (self.path / "records").glob("*.json"))
         return [record for key in keys if (record := self.load(key)) is not None]
 
+    def planned(self) -> list[Record]:
+        """Return the whole records of the last run, in table order.
+
+        Raises
+        ------
+        UsageError
+            If no run got so far, or its plan is damaged.
+        """
+        keys = self.load_plan()["keys"]
+        return [record for key in keys if (record := self.load(key)) is not None]
+
     def load_fit(self, key: str) -> Fit | None:
         """Return the fit called ``key``, or None if it is absent or damaged."""
         path = self._fit_path(key)
@@ -173,7 +191,8 @@ class Store:
             np.savez_compressed(file, **arrays)
 
     def save_plan(self, plan: Mapping[str, Any]) -> None:
-        """Write what the last run was asked to do."""
+        """Write what the last run was asked to do; a check of an earlier one is dropped."""
+        (self.path / _CHECK).unlink(missing_ok=True)
         with atomic_write(self.path / "plan.json") as file:
             file.write(json.dumps(plan, indent=1).encode())
 
@@ -195,6 +214,25 @@ class Store:
         if not (isinstance(plan, dict) and {"keys", "provenance"} <= plan.keys()):
             raise UsageError(f"{path} is not a plan; run `mocapbench run` again")
         return plan
+
+    def save_check(self, check: Mapping[str, Any]) -> None:
+        """Write what a regression check of the last run found."""
+        with atomic_write(self.path / _CHECK) as file:
+            file.write(json.dumps(check, indent=1).encode())
+
+    def load_check(self) -> Mapping[str, Any] | None:
+        """Return what the last run's check found; None if it was not checked, or is damaged."""
+        path = self.path / _CHECK
+        if not path.is_file():
+            return None
+        try:
+            check = dict(json.loads(path.read_text(encoding="utf-8")))
+            if check.keys() != {"baseline", "summary", "passed", "findings"}:
+                raise ValueError(f"it holds {sorted(check)}")
+            return check
+        except (OSError, ValueError, TypeError) as error:
+            self.damaged.append(f"{path}: not a whole check: {error}")
+            return None
 
     def _record_path(self, key: str) -> Path:
         return self.path / "records" / f"{key}.json"

@@ -24,11 +24,16 @@ class Case:
     Parameters
     ----------
     name : str
-        Unique within the task; part of seeds and keys.
+        Unique within the task; part of keys, and of seeds unless there is a ``question``.
     settings : mapping
         What the row varies, as columns of its table.
     sources : tuple of str
-        Addresses of the recordings it needs, such as ``cmu:02_01``.
+        Addresses of the recordings that models see of it, such as ``cmu:02_01``.
+    references : tuple of str
+        Addresses of the recordings that no model sees, which its answers are judged by.
+    question : str
+        What is asked of models, where other cases ask the same and differ in what the answers are
+        judged by: its seeds and fits are shared under this name.
     published : str or None
         The row's name in the published values, None where the paper has no such row.
     synthetic : bool
@@ -37,15 +42,30 @@ class Case:
         Shown where its numbers stand.
     parameters : mapping
         What it sets on every model that has it, for example ``{"n_styles": 4}``.
+    not_comparable : mapping of str to str
+        By label, why the row's published values cannot be set beside ours.
     """
 
     name: str
     settings: Mapping[str, Setting]
     sources: tuple[str, ...] = ()
+    references: tuple[str, ...] = ()
+    question: str = ""
     published: str | None = None
     synthetic: bool = False
     remark: str = ""
     parameters: Mapping[str, object] = field(default_factory=dict)
+    not_comparable: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """Addresses of all recordings that it takes, each once."""
+        return tuple(dict.fromkeys((*self.sources, *self.references)))
+
+    @property
+    def asked(self) -> str:
+        """What seeds and fits know it by."""
+        return self.question or self.name
 
 
 @dataclass(frozen=True)
@@ -114,6 +134,9 @@ class Task(ABC):
         Labels whose samples need not resemble the references more than the control's do, and why.
     remarks : tuple of str
         Errata and cautions shown with the tables.
+    crossed : tuple of two str, or None
+        Settings along the rows and the columns of its tables, where one entrant takes part and
+        the cases are pairs.
     illustrated : tuple of str
         Names of cases; the first of them that has solutions is shown in figures.
     illustrated_channels : tuple of str
@@ -146,6 +169,7 @@ class Task(ABC):
     not_comparable: Mapping[tuple[str, str], str] = {}
     not_controlled: Mapping[str, str] = {}
     remarks: tuple[str, ...] = ()
+    crossed: tuple[str, str] | None = None
     illustrated: tuple[str, ...] = ()
     illustrated_channels: tuple[str, ...] = ()
     coregionalisation_of: tuple[str, ...] = ()

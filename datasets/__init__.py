@@ -18,6 +18,7 @@ from mocapbench.datasets.preprocessing import (
     excerpt,
     integrate_root,
     resample,
+    restart,
     root_differences,
 )
 from mocapbench.datasets.process import Layer, ToyProcess
@@ -67,5 +68,6 @@ __all__ = [
     "read_skeleton",
     "registered_digests",
     "resample",
+    "restart",
     "root_differences",
 ]

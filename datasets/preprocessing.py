@@ -1,6 +1,7 @@
 """Choosing frames of a recording, and stating the root's path as differences.
 
-Every function is pure, `Recording` in, `Recording` out; frames keep their own times.
+Every function is pure, `Recording` in, `Recording` out; all but `restart` let frames keep their
+own times.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets.recording import Recording
 
-__all__ = ["clip", "excerpt", "integrate_root", "resample", "root_differences"]
+__all__ = ["clip", "excerpt", "integrate_root", "resample", "restart", "root_differences"]
 
 _ROOT_PATH = ("root.tx", "root.ty", "root.tz")
 _ROOT_VELOCITY = ("root.dtx", "root.dty", "root.dtz")
@@ -66,6 +67,15 @@ def resample(recording: Recording, n_frames: int) -> Recording:
             f"got {n_frames}"
         )
     return recording.frames(np.round(np.linspace(0, available - 1, n_frames)))
+
+
+def restart(recording: Recording) -> Recording:
+    """Return the recording with its times counted from its first frame.
+
+    Rounded to nanoseconds, so that excerpts with the same number of frames share a clock, bit for
+    bit, wherever they began.
+    """
+    return replace(recording, times=np.round(recording.times - recording.times[0], 9))
 
 
 def root_differences(recording: Recording) -> Recording:

@@ -22,6 +22,14 @@ class Direction(Enum):
     HIGHER = "higher"
     TARGET = "target"
 
+    def loss(self, value: float, target: float | None) -> float:
+        """Return how bad ``value`` is: lower is better whatever the direction."""
+        return {
+            Direction.LOWER: value,
+            Direction.HIGHER: -value,
+            Direction.TARGET: abs(value - (target or 0.0)),
+        }[self]
+
 
 @dataclass(frozen=True, eq=False)
 class Imputation:
@@ -175,3 +183,7 @@ class Metric(Generic[OutcomeT]):
     def __call__(self, outcome: OutcomeT) -> Score:
         """Return the score of ``outcome``."""
         return self.statistic(outcome)
+
+    def loss(self, value: float) -> float:
+        """Return how bad ``value`` is: lower is better whatever the direction."""
+        return self.direction.loss(value, self.target)

@@ -59,14 +59,17 @@ def best_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
     """Return the mean correlation with the best-matched reference.
 
     Of the references' means over samples and outputs, the greatest: one reference for all
-    samples. Outputs are left out as in `mean_similarity`. Parts: ``"sample"`` (S,), the
-    correlation of each sample with that reference.
+    samples. NaN where there is but one, and nothing to choose from. Outputs are left out as in
+    `mean_similarity`. Parts: ``"sample"`` (S,), the correlation of each sample with that
+    reference.
 
     References
     ----------
     Thesis §A.4.2.
     """
     pairs, left_out = _over_outputs(correlation(outcome))
+    if pairs.shape[1] == 1:
+        return Score(np.nan, {"sample": np.full(len(pairs), np.nan)}, left_out)
     best = pairs[:, pairs.mean(axis=0).argmax()]
     return Score(float(best.mean()), {"sample": best}, left_out)
 
@@ -89,19 +92,17 @@ def variance_ratio(outcome: Synthesis) -> Score:
 
     The variance (ddof 1) is taken over sequences at each frame of each output, around the
     sequences' own mean there, and averaged over frames and outputs before the division. 1 is
-    right; a sampler that collapses to its trend has 0.
+    right; a sampler that collapses to its trend has 0. Fewer than two samples or references have
+    no variance, and the ratio is NaN.
 
     Raises
     ------
     ValueError
-        If there are fewer than two samples or references, or the references do not vary.
+        If the references do not vary.
     """
     check_synthesis(outcome)
     if min(len(outcome.samples), len(outcome.references)) < 2:
-        raise ValueError(
-            "spread: expected at least two samples and two references, "
-            f"got {len(outcome.samples)} and {len(outcome.references)}"
-        )
+        return Score(np.nan)
     of_references = outcome.references.var(axis=0, ddof=1).mean()
     if of_references == 0:
         raise ValueError("spread: expected references that differ, got equal ones")

@@ -1,6 +1,7 @@
 """A results bundle in; tables, figures and one offline HTML page out."""
 
 from mocapbench.reports.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.checks import RegressionCheck
 from mocapbench.reports.illustration import (
     Band,
     Curve,
@@ -26,6 +27,7 @@ __all__ = [
     "Panel",
     "Path3D",
     "Picture",
+    "RegressionCheck",
     "Space",
     "TaskLayout",
     "render",

@@ -13,13 +13,16 @@ from dataclasses import dataclass, field
 import pandas as pd
 
 from mocapbench.metrics.base import Direction
+from mocapbench.reports.checks import RegressionCheck
 from mocapbench.reports.illustration import Picture
 
 __all__ = ["Bundle", "CaseLayout", "MetricInfo", "Setting", "TaskLayout"]
 
 Setting = str | int | float
 
-SCORE_COLUMNS = ("task", "case", "fold", "label", "model", "metric", "value", "left_out")
+SCORE_COLUMNS = (
+    *("task", "case", "fold", "label", "model", "metric", "value", "sample_two_sd", "left_out"),
+)
 RECORD_COLUMNS = (
     *("task", "case", "fold", "label", "model", "parameters", "status", "message", "traceback"),
     *("fit_seconds", "predict_seconds", "peak_memory_mb", "iterations", "converged", "engine"),
@@ -43,6 +46,8 @@ class CaseLayout:
         Whether the row stands on generated rather than recorded motion.
     remark : str
         Shown in the row.
+    not_comparable : mapping of str to str
+        By label, why the row's published values cannot be set beside ours.
     """
 
     name: str
@@ -50,6 +55,7 @@ class CaseLayout:
     published: str | None = None
     synthetic: bool = False
     remark: str = ""
+    not_comparable: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -85,6 +91,9 @@ class TaskLayout:
     independent_folds : bool
         Whether folds are independent draws of the protocol. Overlapping windows of one recording
         are not: their spread is shown, but says nothing of how uncertain the mean is.
+    crossed : tuple of two str, or None
+        Settings along the rows and the columns of the tables, where one entrant takes part and
+        the cases are pairs.
     budget : str
         What the run cut short (``"max_iter=200"``), empty where it spent what the task asks for.
     """
@@ -105,6 +114,7 @@ class TaskLayout:
     oracle: str = "oracle"
     control: str = "control"
     independent_folds: bool = True
+    crossed: tuple[str, str] | None = None
     budget: str = ""
 
     @property
@@ -144,11 +154,7 @@ class MetricInfo:
 
     def loss(self, value: float) -> float:
         """Return how bad ``value`` is: lower is better whatever the direction."""
-        return {
-            Direction.LOWER: value,
-            Direction.HIGHER: -value,
-            Direction.TARGET: abs(value - (self.target or 0.0)),
-        }[self.direction]
+        return self.direction.loss(value, self.target)
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +165,9 @@ class Bundle:
     ----------
     scores : DataFrame
         One row per (task, case, fold, label, metric): columns ``task``, ``case``, ``fold``,
-        ``label``, ``model``, ``metric``, ``value``, ``left_out``.
+        ``label``, ``model``, ``metric``, ``value``, ``sample_two_sd`` (two standard deviations
+        over the samples that the value is a mean of, NaN where it is no such mean),
+        ``left_out``.
     records : DataFrame
         One row per job: columns ``task``, ``case``, ``fold``, ``label``, ``model``,
         ``parameters``, ``status`` (``ok``, ``failed``, ``timeout``, ``out-of-memory``,
@@ -177,6 +185,8 @@ class Bundle:
         where they are there.
     illustrations : tuple of Illustration or HeatMaps
         Figures of the tasks, in page order.
+    check : RegressionCheck or None
+        What a check against a baseline found, if there was one.
 
     Raises
     ------
@@ -191,6 +201,7 @@ class Bundle:
     metrics: Mapping[str, MetricInfo]
     provenance: Mapping[str, str]
     illustrations: tuple[Picture, ...] = ()
+    check: RegressionCheck | None = None
 
     def __post_init__(self) -> None:
         _require_columns("scores", self.scores, SCORE_COLUMNS)

@@ -87,12 +87,12 @@ class ControlFinding:
 
     @property
     def n_cells(self) -> int:
-        """In how many cells it was compared, by the measure that has most."""
-        return max((measure.estimate.n for measure in self.measures if measure.estimate), default=0)
+        """In how many cells it was compared, by the measure that has fewest."""
+        return min(measure.estimate.n if measure.estimate else 0 for measure in self.measures)
 
     @property
     def verdict(self) -> str:
-        """One word or two for a table."""
+        """``"passed"``, ``"failed"`` or ``"need not pass"``."""
         if self.passed:
             return "passed"
         return "need not pass" if self.excuse else "failed"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pandas as pd
 
 from mocapbench.reports.controls import (
@@ -29,15 +31,16 @@ def control_table(results: TaskResults) -> Table | None:
         id=slug(results.layout.name, "control"),
         caption=f"Control: each entrant’s score less that of {control.label}, cell by cell",
         columns=(
-            *headings(["entrant", "cells", "MLC", "MCC", "spread"]),
+            *headings(["entrant"]),
             *headings(["verdict"], "text"),
+            *headings(["cells", "MLC", "MCC", "spread"]),
         ),
         rows=(
             *(_row(finding) for finding in others),
             _row(control, note="its own MLC"),
         ),
         data=pd.DataFrame([_tidy(f, measure) for f in findings for measure in f.measures]),
-        notes=_notes(),
+        notes=_notes(findings),
     )
 
 
@@ -45,10 +48,10 @@ def _row(finding: ControlFinding, note: str = "") -> tuple[Cell, ...]:
     cells = [_cell(measure) for measure in finding.measures]
     return (
         Cell(finding.label, note=note),
+        Cell(finding.verdict, kind="worse" if finding.failed else "text"),
         Cell(str(finding.n_cells)),
         *cells,
         *[ABSENT] * (3 - len(cells)),
-        _verdict(finding),
     )
 
 
@@ -67,12 +70,7 @@ def _count(measure: Measure) -> str:
     return counted(len(measure.offending), "offending cell") if measure.offending else ""
 
 
-def _verdict(finding: ControlFinding) -> Cell:
-    note = "" if finding.passed else finding.excuse
-    return Cell(finding.verdict, note=note, kind="worse" if finding.failed else "text")
-
-
-def _notes() -> tuple[str, ...]:
+def _notes(findings: Sequence[ControlFinding]) -> tuple[str, ...]:
     return (
         "Mean over case × fold ± half its 95 % interval (Student’s t). An entrant passes where "
         "the intervals of MLC and MCC lie above 0 and its mean spread, which is not a difference, "
@@ -80,6 +78,11 @@ def _notes() -> tuple[str, ...]:
         f"lies within ± {NEAR_ZERO}.",
         "To draw too little variance raises MLC and MCC, hence the limit of spread; to draw too "
         "much lowers them.",
+        *(
+            f"{finding.label} need not pass: it {finding.excuse}."
+            for finding in findings
+            if finding.excuse
+        ),
     )
 
 

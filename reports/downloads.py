@@ -45,4 +45,5 @@ def _columns(cell: Cell) -> list[str]:
 
 def _latex(cell: Cell) -> str:
     text = (f"{cell.text} ± {cell.spread}" if cell.spread else cell.text).translate(LATEX)
+    text += rf"\textsuperscript{{{cell.mark}}}" if cell.mark else ""
     return rf"\textbf{{{text}}}" if cell.kind == "best" else text

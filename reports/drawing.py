@@ -14,7 +14,7 @@ from markupsafe import Markup
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-__all__ = ["INK", "LEVELS", "PALETTE", "STYLE", "element"]
+__all__ = ["INK", "LEVELS", "PALETTE", "RULE", "STYLE", "element"]
 
 N_COLOURS = 9
 PALETTE = [f"#fe01{index:02x}" for index in range(N_COLOURS)]

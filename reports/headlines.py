@@ -1,8 +1,8 @@
 """What was found, in plain sentences: whose mean is best where, and better than the paper's models.
 
 A model without a counterpart in the paper whose mean is better than that of one of the paper's
-models is news: it is often a simple baseline that the paper lacks. Means over folds are all that
-is compared here.
+models is news: it is often a simple baseline that the paper lacks. Every claim says whether a
+paired test finds it more than chance.
 """
 
 from __future__ import annotations
@@ -14,8 +14,11 @@ from itertools import groupby
 
 import numpy as np
 
+from mocapbench.metrics.statistics import ALPHA
 from mocapbench.reports.bundle import CaseLayout
+from mocapbench.reports.contrasts import Corrected, corrected, pooled_contrast
 from mocapbench.reports.published import PublishedValue
+from mocapbench.reports.ranknotes import lead_note, untested_reason
 from mocapbench.reports.results import TaskResults
 from mocapbench.reports.scoretables import case_name
 from mocapbench.reports.tables import counted, decimals, number
@@ -35,7 +38,8 @@ class Finding:
 class Win:
     """The cases where the mean of ``winner`` is better, of the ``shared`` ones that both scored.
 
-    ``means`` are the two entrants' means over ``cases``, the winner's first.
+    ``means`` are the two entrants' means over ``cases``, the winner's first; ``overall`` is their
+    contrast over all shared cases, corrected over every pair that could have been a win.
     """
 
     winner: str
@@ -43,22 +47,17 @@ class Win:
     cases: tuple[CaseLayout, ...]
     shared: int
     means: tuple[float, float]
+    overall: Corrected
 
 
 def lead_findings(results: TaskResults, metric: str) -> list[Finding]:
     """Say whose mean is best in which cases and by how much, most cases first."""
-    scored = _judged(results, metric)
+    scored = results.judged(metric)
     champions = Counter(results.ranking(case.name, metric)[0] for case in scored)
     return [
         Finding(label, _lead(results, metric, label, scored))
         for label, _ in champions.most_common()
     ]
-
-
-def _judged(results: TaskResults, metric: str) -> list[CaseLayout]:
-    """Return the cases with scores; generated motion counts only where there is no other."""
-    scored = [case for case in results.cases if results.ranking(case.name, metric)]
-    return [case for case in scored if not case.synthetic] or scored
 
 
 def _lead(results: TaskResults, metric: str, label: str, scored: Sequence[CaseLayout]) -> str:
@@ -70,7 +69,8 @@ def _lead(results: TaskResults, metric: str, label: str, scored: Sequence[CaseLa
     own = _mean(results, metric, led, [label] * len(led))
     other = _mean(results, metric, led, [second for (second,) in seconds])
     one, two = _same_places(own, other)
-    return f"has the best mean {title} in {where}: on average {one} there, next best {two}."
+    lead = f"has the best mean {title} in {where}: on average {one} there, next best {two}."
+    return f"{lead} {lead_note(results, metric, label, [case.name for case in led])}"
 
 
 def _where(cases: Sequence[CaseLayout], total: int) -> str:
@@ -101,24 +101,36 @@ def wins(results: TaskResults, metric: str) -> list[Win]:
     """
     ours = [label for label in results.layout.ranked if label in results.layout.published_models]
     others = [label for label in results.layout.ranked if label not in ours]
-    found = [
-        win
+    pairs = [
+        (winner, loser)
         for loser in ours
         for winner in others
-        if (win := _win(results, metric, winner, loser)) is not None
+        if _shared(results, metric, winner, loser)
+    ]
+    overall = corrected([pooled_contrast(results, metric, *each) for each in pairs])
+    found = [
+        _win(results, metric, *each, contrast)
+        for each, contrast in zip(pairs, overall, strict=True)
+        if _won(results, metric, *each)
     ]
     return sorted(found, key=lambda win: (ours.index(win.loser), -len(win.cases)))
 
 
-def _win(results: TaskResults, metric: str, winner: str, loser: str) -> Win | None:
-    judged = _judged(results, metric)
-    orders = {case.name: results.ranking(case.name, metric) for case in judged}
-    shared = [case for case in judged if {winner, loser} <= set(orders[case.name])]
-    won = [case for case in shared if _beats(results, metric, case.name, winner, loser)]
-    if not won:
-        return None
-    means = [_mean(results, metric, won, [label] * len(won)) for label in (winner, loser)]
-    return Win(winner, loser, tuple(won), len(shared), (means[0], means[1]))
+def _won(results: TaskResults, metric: str, winner: str, loser: str) -> list[CaseLayout]:
+    shared = _shared(results, metric, winner, loser)
+    return [case for case in shared if _beats(results, metric, case.name, winner, loser)]
+
+
+def _shared(results: TaskResults, metric: str, *labels: str) -> list[CaseLayout]:
+    judged = results.judged(metric)
+    return [case for case in judged if set(labels) <= set(results.ranking(case.name, metric))]
+
+
+def _win(results: TaskResults, metric: str, winner: str, loser: str, overall: Corrected) -> Win:
+    won = _won(results, metric, winner, loser)
+    n_shared = len(_shared(results, metric, winner, loser))
+    one, other = (_mean(results, metric, won, [label] * len(won)) for label in (winner, loser))
+    return Win(winner, loser, tuple(won), n_shared, (one, other), overall)
 
 
 def _beats(results: TaskResults, metric: str, case: str, winner: str, loser: str) -> bool:
@@ -130,18 +142,39 @@ def _beats(results: TaskResults, metric: str, case: str, winner: str, loser: str
 def win_findings(results: TaskResults, metric: str) -> list[Finding]:
     """Say, for each of the paper's models, which models that it lacks have a better mean."""
     by_loser = groupby(wins(results, metric), key=lambda win: win.loser)
-    return [_defeat(loser, list(group)) for loser, group in by_loser]
+    return [_defeat(results, loser, list(group)) for loser, group in by_loser]
 
 
-def _defeat(loser: str, found: Sequence[Win]) -> Finding:
+def _defeat(results: TaskResults, loser: str, found: Sequence[Win]) -> Finding:
     first, *rest = found
     one, two = _same_places(*first.means)
     text = f"in {_where(first.cases, first.shared)}: on average {one} there against {two}."
-    others = ", ".join(f"{win.winner} ({len(win.cases)} of {win.shared})" for win in rest)
+    others = ", ".join(
+        f"{win.winner} ({len(win.cases)} of {win.shared}, {_judgement(win)})" for win in rest
+    )
     return Finding(
         f"{first.winner} has a better mean than {loser}",
-        f"{text} Also: {others}." if rest else text,
+        " ".join([text, _overall(results, first), *([f"Also: {others}."] if rest else [])]),
     )
+
+
+def _overall(results: TaskResults, win: Win) -> str:
+    found = win.overall.contrast
+    if found.n < 2:
+        return f"Not tested: {untested_reason(results)}."
+    low, high = _same_places(found.low, found.high)
+    units = {1: f"its {found.n} folds", 2: "both cases"}.get(win.shared, f"all {win.shared} cases")
+    return f"Over {units}, 95 % interval of the lead {low} to {high}: {_judgement(win)}."
+
+
+def _judgement(win: Win) -> str:
+    """Return whether the lead over all shared cases is more than chance."""
+    if win.overall.contrast.n < 2:
+        return "not tested"
+    found = win.overall.contrast
+    if found.advantage > 0.0 and win.overall.separable:
+        return "more than chance"
+    return "may be chance" if found.t_p > ALPHA else "may be chance, after Holm’s correction"
 
 
 def printed_findings(results: TaskResults, metric: str) -> list[Finding]:
@@ -160,7 +193,14 @@ def printed_findings(results: TaskResults, metric: str) -> list[Finding]:
 
 def _best_printed(results: TaskResults, case: CaseLayout, metric: str) -> PublishedValue | None:
     row = (None if case.synthetic else case.published, results.layout.published_metrics.get(metric))
-    printed = [value for value in results.published.values() if (value.case, value.metric) == row]
+    apart = {results.layout.published_models.get(label) for label in case.not_comparable}
+    printed = [
+        value
+        for value in results.published.values()
+        if (value.case, value.metric) == row
+        and value.model not in apart
+        and not value.not_comparable
+    ]
     loss = results.metrics[metric].loss
     return min(printed, key=lambda value: loss(value.value), default=None)
 

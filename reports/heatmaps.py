@@ -7,6 +7,7 @@ and all rectangles of a level one path, which keeps a page with many matrices sm
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
@@ -35,6 +36,8 @@ Level = NDArray[np.intp]
 MOST_WRITTEN = 8
 """Matrices of more rows have no room for their values."""
 SIDE, MARGIN = 2.4, 0.9
+RECTANGLE = re.compile(r"M (\S+) (\S+)\s+L (\S+) \2\s+L \3 (\S+)\s+L \1 \4\s+z\s*")
+"""A rectangle as matplotlib writes it, which takes twice the room that it need."""
 MIDDLE = len(LEVELS) // 2
 HATCH: dict[str, Any] = {"facecolor": "none", "edgecolor": INK, "hatch": "/////", "linewidth": 0.0}
 LOOK = {**STYLE, "hatch.linewidth": 0.35, "xtick.labelsize": 7, "ytick.labelsize": 7}
@@ -73,13 +76,16 @@ def _maps(figure: HeatMaps, prefix: str) -> Markup:
     for axes, each in zip(grid.flat, figure.maps, strict=False):
         _draw_cells(axes, levels_of(each.values, figure.limit))
         _frame(axes, each, figure.labels)
-    return element(
+    for axes in grid.flat[max(0, len(figure.maps) - figure.columns) : len(figure.maps)]:
+        axes.tick_params(labelbottom=True)
+    svg = element(
         canvas,
         prefix,
         role="img",
         aria_label=f"{figure.title}: {counted(len(figure.maps), 'heat map')}",
         style=f"min-width: {width:.2f}in",
     )
+    return Markup(RECTANGLE.sub(r"M\1 \2H\3V\4H\1z", svg))
 
 
 def _draw_cells(axes: Axes, levels: Level) -> None:
@@ -127,7 +133,7 @@ def _frame(axes: Axes, each: HeatMap, labels: Sequence[str]) -> None:
         axes.axvline(end, color=INK, linewidth=0.25)
     if len(labels) <= MOST_WRITTEN:
         for (row, column), value in np.ndenumerate(each.values):
-            text = f"{value:.2f}".replace("-", "−")
+            text = f"{value:z.2f}".replace("-", "−")
             axes.text(column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=7)
 
 

@@ -10,10 +10,11 @@ from jinja2 import Environment, StrictUndefined, Template
 from markupsafe import Markup
 
 from mocapbench.reports.bundle import STATUSES, Bundle
+from mocapbench.reports.checks import check_table
 from mocapbench.reports.downloads import to_csv, to_latex
 from mocapbench.reports.results import DATA_MISSING, task_results, troubles
 from mocapbench.reports.scoretables import MISSING_ID
-from mocapbench.reports.sections import missing_data, task_view
+from mocapbench.reports.sections import missing_data, overall_ranks, task_view
 from mocapbench.reports.tables import Table, counted, slug
 
 __all__ = ["render"]
@@ -21,14 +22,15 @@ __all__ = ["render"]
 
 def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
-    tasks = [
-        task_view(task_results(bundle, layout), bundle.illustrations) for layout in bundle.layouts
-    ]
+    results = [task_results(bundle, layout) for layout in bundle.layouts]
+    tasks = [task_view(each, bundle.illustrations) for each in results]
     every = troubles(bundle)
+    checked = check_table(bundle.check) if bundle.check else None
     return _template().render(
         bundle=bundle,
         provenance=bundle.provenance,
         tasks=tasks,
+        overall=overall_ranks(results),
         statuses=_statuses(bundle),
         entrants=bundle.records["label"].nunique(),
         folds=bundle.records["fold"].nunique(),
@@ -36,7 +38,10 @@ def render(bundle: Bundle) -> str:
         failures=[trouble for trouble in every if trouble.status != DATA_MISSING],
         missing=missing_data(trouble for trouble in every if trouble.status == DATA_MISSING),
         missing_id=MISSING_ID,
-        downloads=_downloads(table for task in tasks for table in task.tables),
+        checked=checked,
+        downloads=_downloads(
+            [*(table for task in tasks for table in task.tables), *([checked] if checked else [])]
+        ),
         css=Markup(_resource("report.css")),
         js=Markup(_resource("report.js")),
     )

@@ -1,20 +1,29 @@
 """The papers' numbers, as printed.
 
 ``published.csv`` holds one row per (source, case, metric, model), where ``source`` is the paper's
-table, ``case`` its row and ``two_sd`` the ± that it prints, empty where it prints none.
+table, ``case`` its row and ``two_sd`` the ± that it prints, empty where it prints none. Errata and
+what is not comparable stand beside it (`mocapbench.reports.remarks`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 from io import StringIO
 
 import pandas as pd
 
-__all__ = ["PublishedTask", "PublishedValue", "parse_published", "published_values"]
+from mocapbench.reports.remarks import Address, parse_remarks, remark_on
+
+__all__ = [
+    "PublishedTask",
+    "PublishedValue",
+    "every_value",
+    "parse_published",
+    "published_values",
+]
 
 KEY = ["source", "case", "metric", "model"]
 COLUMNS = ["source", "task", "case", "settings", "metric", "model", "value", "two_sd"]
@@ -25,7 +34,11 @@ PublishedTask = dict[tuple[str, str, str], "PublishedValue"]
 
 @dataclass(frozen=True)
 class PublishedValue:
-    """A number in a paper's table, and its ± where there is one."""
+    """A number in a paper's table, its ± where there is one, and what must be said of it.
+
+    ``erratum`` is a footnote, ``not_comparable`` the reason why no number here compares; both are
+    empty where there is nothing to say.
+    """
 
     source: str
     task: str
@@ -34,6 +47,13 @@ class PublishedValue:
     model: str
     value: float
     two_sd: float | None
+    erratum: str = ""
+    not_comparable: str = ""
+
+    @property
+    def address(self) -> Address:
+        """Source, case, metric and model."""
+        return self.source, self.case, self.metric, self.model
 
 
 def parse_published(text: str) -> tuple[PublishedValue, ...]:
@@ -67,12 +87,27 @@ def _value(line: int, row: Mapping[Hashable, str]) -> PublishedValue:
 
 
 @cache
-def _shipped() -> tuple[PublishedValue, ...]:
-    return parse_published((files(__package__) / "published.csv").read_text(encoding="utf-8"))
+def every_value() -> tuple[PublishedValue, ...]:
+    """Return every number that ships with the package, with the remarks on it."""
+    errata, reasons = (parse_remarks(_read(f"{name}.csv")) for name in ("errata", "not_comparable"))
+    return tuple(
+        replace(
+            value,
+            erratum=remark_on(value.address, errata),
+            not_comparable=remark_on(value.address, reasons),
+        )
+        for value in parse_published(_read("published.csv"))
+    )
+
+
+def _read(name: str) -> str:
+    return (files(__package__) / name).read_text(encoding="utf-8")
 
 
 def published_values(task: str) -> PublishedTask:
     """Return the published values of ``task`` by (case, metric, model); empty if there are none."""
     return {
-        (value.case, value.metric, value.model): value for value in _shipped() if value.task == task
+        (value.case, value.metric, value.model): value
+        for value in every_value()
+        if value.task == task
     }

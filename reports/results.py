@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import pandas as pd
 from scipy import stats
 
+from mocapbench.metrics.statistics import SharedRank, shared_rank
 from mocapbench.reports.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
-from mocapbench.reports.published import PublishedTask, published_values
+from mocapbench.reports.published import PublishedTask, PublishedValue, published_values
 
 __all__ = ["Estimate", "TaskResults", "Trouble", "task_results", "troubles"]
 
@@ -29,17 +31,31 @@ class Estimate:
         Two standard deviations (ddof 1) over folds; None for a single fold.
     n : int
         Number of folds.
+    sample_two_sd : float or None
+        Two standard deviations (ddof 1) over the samples of a fold, averaged over folds; None
+        where the values are not means over samples.
     """
 
     mean: float
     two_sd: float | None
     n: int
+    sample_two_sd: float | None = None
 
     @classmethod
-    def of(cls, values: Sequence[float]) -> Estimate:
-        """Return the estimate of one or more finite values, one a fold."""
+    def of(cls, values: Sequence[float], sample_two_sds: Sequence[float] = ()) -> Estimate:
+        """Return the estimate of one or more finite values, one a fold.
+
+        ``sample_two_sds`` are those of each value over its samples, NaN where it has none.
+        """
         two_sd = 2.0 * float(np.std(values, ddof=1)) if len(values) > 1 else None
-        return cls(float(np.mean(values)), two_sd, len(values))
+        within = [each for each in sample_two_sds if math.isfinite(each)]
+        sample_two_sd = float(np.mean(within)) if within else None
+        return cls(float(np.mean(values)), two_sd, len(values), sample_two_sd)
+
+    @property
+    def spread(self) -> float | None:
+        """What stands behind ± in tables: that over samples where there is one, else over folds."""
+        return self.two_sd if self.sample_two_sd is None else self.sample_two_sd
 
     @property
     def half_width(self) -> float | None:
@@ -102,6 +118,13 @@ class TaskResults:
         """Return the estimate, or None where the label has no score there."""
         return self.estimates.get((case, label, metric))
 
+    def printed(self, case: CaseLayout, label: str, metric: str) -> PublishedValue | None:
+        """Return the published value that stands beside ours, or None where there is none."""
+        model = self.layout.published_models.get(label, "")
+        return self.published.get(
+            (case.published or "", self.layout.published_metrics.get(metric, ""), model)
+        )
+
     def ranking(self, case: str, metric: str) -> list[str]:
         """Return the competing labels that have a score, best first; ties in table order."""
         scored = {
@@ -111,19 +134,40 @@ class TaskResults:
         }
         return sorted(scored, key=scored.__getitem__)
 
+    @cached_property
+    def values(self) -> Mapping[str, pd.DataFrame]:
+        """By metric, the scores by (case, fold), one column per label, NaN where there is none."""
+        return {
+            str(metric): own.pivot(index=["case", "fold"], columns="label", values="value")
+            for metric, own in self.scores.groupby("metric", sort=False)
+        }
+
+    def first_rank(self, case: str, metric: str) -> SharedRank | None:
+        """Return who shares the first rank of a row, by test; None where nobody has a score."""
+        order = tuple(self.ranking(case, metric))
+        if not order:
+            return None
+        units = self.values[metric].loc[[case], list(order)]
+        if not self.layout.independent_folds:
+            units = units.groupby(level="case").mean()
+        return shared_rank(units.map(self.metrics[metric].loss), order)
+
     def best(self, case: str, metric: str) -> set[str]:
-        """Return the labels whose mean no competitor's surpasses."""
-        order = self.ranking(case, metric)
-        means = {label: self.estimates[case, label, metric].mean for label in order}
-        loss = self.metrics[metric].loss
-        return {label for label in order if loss(means[label]) == loss(means[order[0]])}
+        """Return the labels of the first rank: those that no test tells from the best mean."""
+        rank = self.first_rank(case, metric)
+        return set(rank.labels) if rank else set()
+
+    def judged(self, metric: str) -> list[CaseLayout]:
+        """Return the cases with scores; generated motion counts only where there is no other."""
+        scored = [case for case in self.cases if self.ranking(case.name, metric)]
+        return [case for case in scored if not case.synthetic] or scored
 
 
 def task_results(bundle: Bundle, layout: TaskLayout) -> TaskResults:
     """Return the results of the task that ``layout`` describes."""
     scores = bundle.scores[bundle.scores["task"] == layout.name]
     scores = scores[np.isfinite(scores["value"].to_numpy(float))].sort_values("fold", kind="stable")
-    groups = scores.groupby(["case", "label", "metric"], sort=False)["value"]
+    groups = scores.groupby(["case", "label", "metric"], sort=False)
     by_address: dict[tuple[str, str], tuple[Trouble, ...]] = {}
     for trouble in troubles(bundle):
         if trouble.task == layout.name:
@@ -134,7 +178,10 @@ def task_results(bundle: Bundle, layout: TaskLayout) -> TaskResults:
         metrics=bundle.metrics,
         scores=scores,
         records=bundle.records[bundle.records["task"] == layout.name],
-        estimates={key: Estimate.of(values.to_list()) for key, values in groups},
+        estimates={
+            key: Estimate.of(group["value"].to_list(), group["sample_two_sd"].to_list())
+            for key, group in groups
+        },
         troubles=by_address,
         published=published_values(layout.name),
     )

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
 
-from mocapbench.reports.bundle import CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.bundle import CaseLayout
+from mocapbench.reports.published import PublishedValue
+from mocapbench.reports.ranknotes import rank_notes
+from mocapbench.reports.remarks import footnotes, marks
 from mocapbench.reports.results import DATA_MISSING, Estimate, TaskResults, Trouble
 from mocapbench.reports.tables import (
     ABSENT,
@@ -24,7 +27,9 @@ from mocapbench.reports.tables import (
 __all__ = ["case_name", "score_table", "settings_of"]
 
 MISSING_ID = "missing-data"
+FOLDS = "2 sd over folds"
 WINDOWS = "spread over overlapping windows (2 sd)"
+SAMPLES = "2 sd over the samples of a fold, averaged over folds"
 
 
 def case_name(case: CaseLayout) -> str:
@@ -41,14 +46,18 @@ def score_table(results: TaskResults, metric: str) -> Table:
     """Return the table of ``metric``; columns that only the paper has come last."""
     info, cases, labels = results.metrics[metric], results.cases, results.layout.labels
     settings, foreign = settings_of(cases), _published_only(results, metric)
+    printed = {
+        (c.name, model): _foreign(results, c, metric, model) for c in cases for model in foreign
+    }
+    lettered = marks(value.erratum for value in printed.values() if value is not None)
     places = decimals(e.mean for (_, _, name), e in results.estimates.items() if name == metric)
     rows = tuple(
         (
             Cell(case.name, note=_case_note(case)),
             *(Cell(str(case.settings.get(key, ""))) for key in settings),
-            Cell(f"n={_n_folds(results, case.name, metric)}"),
+            _folds(results, case.name, metric),
             *_scores(results, case.name, metric, places),
-            *(_foreign_cell(results, case, metric, model, places) for model in foreign),
+            *(_foreign_cell(printed[case.name, model], places, lettered) for model in foreign),
         )
         for case in cases
     )
@@ -58,22 +67,35 @@ def score_table(results: TaskResults, metric: str) -> Table:
     )
     return Table(
         id=slug(results.layout.name, metric),
-        caption=f"{info.title}: {_meaning(results.layout, info)}",
+        caption=f"{info.title}: {_meaning(results, metric)}",
         columns=columns,
         rows=rows,
         data=_tidy(results, metric),
-        notes=_notes(results, metric),
+        notes=(*_notes(results, metric), *footnotes(lettered)),
     )
 
 
-def _meaning(layout: TaskLayout, info: MetricInfo) -> str:
+def _meaning(results: TaskResults, metric: str) -> str:
+    info = results.metrics[metric]
     goal = info.direction.value if info.target is None else f"closest to {info.target:g}"
-    spread = "2 sd over folds" if layout.independent_folds else WINDOWS
-    return f"mean ± {spread}, {goal} is better, best mean in bold"
+    return f"mean ± {_spread_meaning(results, metric)}, {goal} is better, first rank in bold"
+
+
+def _spread_meaning(results: TaskResults, metric: str) -> str:
+    estimates = (e for (_, _, name), e in results.estimates.items() if name == metric)
+    if any(estimate.sample_two_sd is not None for estimate in estimates):
+        return SAMPLES
+    return FOLDS if results.layout.independent_folds else WINDOWS
 
 
 def _case_note(case: CaseLayout) -> str:
     return " · ".join(filter(None, ["synthetic" if case.synthetic else "", case.remark]))
+
+
+def _folds(results: TaskResults, case: str, metric: str) -> Cell:
+    rank = results.first_rank(case, metric)
+    untested = rank is not None and not rank.tested
+    return Cell(f"n={_n_folds(results, case, metric)}", note="no test" if untested else "")
 
 
 def _n_folds(results: TaskResults, case: str, metric: str) -> int:
@@ -110,7 +132,7 @@ def _score(
     lost = [f"{count} {status}" for status, count in counts.items()]
     return Cell(
         text=number(estimate.mean, places),
-        spread="" if estimate.two_sd is None else number(estimate.two_sd, places),
+        spread="" if estimate.spread is None else number(estimate.spread, places),
         note=", ".join(filter(None, [remaining, *lost])),
         kind=kind,
         link=link,
@@ -124,19 +146,28 @@ def _explanation(trouble: Trouble) -> str:
 def _published_only(results: TaskResults, metric: str) -> list[str]:
     """Return the paper's models of this metric that none of our labels stands for."""
     name = results.layout.published_metrics.get(metric)
-    models = dict.fromkeys(model for _, other, model in results.published if other == name)
+    models = dict.fromkeys(
+        value.model
+        for value in results.published.values()
+        if value.metric == name and not value.not_comparable
+    )
     return [model for model in models if model not in results.layout.published_models.values()]
 
 
-def _foreign_cell(
-    results: TaskResults, case: CaseLayout, metric: str, model: str, places: int
-) -> Cell:
-    key = (case.published or "", results.layout.published_metrics[metric], model)
-    value = results.published.get(key)
-    if value is None or case.synthetic:
+def _foreign(
+    results: TaskResults, case: CaseLayout, metric: str, model: str
+) -> PublishedValue | None:
+    if case.synthetic or case.published is None:
+        return None
+    return results.published.get((case.published, results.layout.published_metrics[metric], model))
+
+
+def _foreign_cell(value: PublishedValue | None, places: int, lettered: Mapping[str, str]) -> Cell:
+    if value is None:
         return ABSENT
     spread = "" if value.two_sd is None else number(value.two_sd, places)
-    return Cell(number(value.value, places), spread=spread, kind="published")
+    mark = lettered[value.erratum]
+    return Cell(number(value.value, places), spread=spread, mark=mark, kind="published")
 
 
 def _notes(results: TaskResults, metric: str) -> tuple[str, ...]:
@@ -157,11 +188,13 @@ def _notes(results: TaskResults, metric: str) -> tuple[str, ...]:
         if results.layout.control in results.layout.labels
         else ""
     )
-    return tuple(filter(None, [*results.layout.remarks, degenerate, limit, floor]))
+    tests = rank_notes(results, metric)
+    return tuple(filter(None, [*results.layout.remarks, degenerate, limit, floor, *tests]))
 
 
 def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:
     """Return one row per (case, label), with n = 0 where there is no score."""
+    best = {case.name: results.best(case.name, metric) for case in results.cases}
     return pd.DataFrame(
         [
             {
@@ -172,6 +205,7 @@ def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:
                 "label": label,
                 "metric": metric,
                 **vars(results.estimate(case.name, label, metric) or Estimate(np.nan, None, 0)),
+                "first_rank": label in best[case.name],
             }
             for case in results.cases
             for label in results.layout.labels

@@ -6,12 +6,17 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.bundle import TaskLayout
+from mocapbench.reports.contrasts import contrast_table
 from mocapbench.reports.controltables import control_table
+from mocapbench.reports.crosstables import cross_table
 from mocapbench.reports.drawings import draw
 from mocapbench.reports.figures import ErrorBars, error_bars
 from mocapbench.reports.headlines import Finding, lead_findings, printed_findings, win_findings
 from mocapbench.reports.illustration import Picture
+from mocapbench.reports.matches import match_table
 from mocapbench.reports.panels import Drawing
+from mocapbench.reports.rankfigures import rank_figure
+from mocapbench.reports.ranks import ranks_over_cases, ranks_over_tasks
 from mocapbench.reports.results import TaskResults, Trouble
 from mocapbench.reports.scoretables import case_name, score_table
 from mocapbench.reports.summaries import calibration_table, cost_table, oracle_table
@@ -19,18 +24,20 @@ from mocapbench.reports.tables import Table, slug
 from mocapbench.reports.verdicts import Tally, comparisons, tally
 from mocapbench.reports.verdicttables import verdict_table
 
-__all__ = ["MetricView", "MissingData", "TaskView", "missing_data", "task_view"]
+__all__ = ["MetricView", "MissingData", "TaskView", "missing_data", "overall_ranks", "task_view"]
 
 
 @dataclass(frozen=True, eq=False)
 class MetricView:
-    """One metric of a task: its table, its figure, and the published values beside ours."""
+    """One metric of a task: its table, figures, contrasts, and the published values beside ours."""
 
     title: str
     table: Table
     figure: ErrorBars | None
     published: Table | None
     verdicts: Tally
+    ranks: Drawing | None
+    contrasts: Table | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +58,9 @@ class TaskView:
     @property
     def tables(self) -> list[Table]:
         """Every table of the section."""
-        pairs = [each for view in self.metrics for each in (view.table, view.published)]
+        pairs = [
+            each for view in self.metrics for each in (view.table, view.contrasts, view.published)
+        ]
         return [table for table in [*pairs, *self.summaries] if table is not None]
 
 
@@ -68,7 +77,7 @@ def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> Ta
     """Return the section of one task, with those of the ``illustrations`` that are its own."""
     layout, first = results.layout, results.layout.metrics[0]
     pairs = [pair for metric in layout.metrics for pair in comparisons(results, metric)]
-    builders = (oracle_table, control_table, calibration_table, cost_table)
+    builders = (match_table, oracle_table, control_table, calibration_table, cost_table)
     summaries = [build(results) for build in builders]
     ran = {case.name for case in results.cases}
     return TaskView(
@@ -86,13 +95,33 @@ def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> Ta
 
 
 def _metric_view(results: TaskResults, metric: str) -> MetricView:
+    crossed = results.layout.crossed
     return MetricView(
         title=results.metrics[metric].title,
-        table=score_table(results, metric),
-        figure=error_bars(results, metric),
+        table=cross_table(results, metric, crossed) if crossed else score_table(results, metric),
+        figure=None if crossed else error_bars(results, metric),
         published=verdict_table(results, metric),
         verdicts=tally(comparisons(results, metric)),
+        ranks=_rank_figure(results, metric),
+        contrasts=contrast_table(results, metric),
     )
+
+
+def _rank_figure(results: TaskResults, metric: str) -> Drawing | None:
+    ranks, title = ranks_over_cases(results, metric), results.metrics[metric].title
+    name = slug(results.layout.name, metric)
+    return rank_figure(ranks, f"{title}, ranks over cases", name) if ranks else None
+
+
+def overall_ranks(tasks: Sequence[TaskResults]) -> list[Drawing]:
+    """Return a diagram of the ranks over tasks, for each kind of task that has enough of them."""
+    kinds = dict.fromkeys(task.layout.kind for task in tasks)
+    found = {k: ranks_over_tasks(t for t in tasks if t.layout.kind == k) for k in kinds}
+    return [
+        rank_figure(ranks, f"Tasks that {kind}, ranks over tasks", slug("overall", kind))
+        for kind, ranks in found.items()
+        if ranks
+    ]
 
 
 def missing_data(jobs: Iterable[Trouble]) -> list[MissingData]:

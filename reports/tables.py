@@ -28,6 +28,8 @@ class Cell:
         The ± behind the text, without its sign.
     note : str
         A small line below.
+    mark : str
+        The letter of a footnote.
     kind : str
         ``""``, ``"best"``, ``"text"``, ``"absent"``, ``"trouble"``, ``"published"`` or a verdict.
     link : str
@@ -39,6 +41,7 @@ class Cell:
     text: str
     spread: str = ""
     note: str = ""
+    mark: str = ""
     kind: str = ""
     link: str = ""
     span: int = 1

@@ -111,24 +111,25 @@ def comparisons(results: TaskResults, metric: str) -> list[Comparison]:
 
 
 def _comparisons(results: TaskResults, metric: str) -> Iterator[Comparison]:
-    name = results.layout.published_metrics.get(metric, "")
     for label in results.layout.labels:
-        model = results.layout.published_models.get(label, "")
         for case in results.cases:
-            published = results.published.get((case.published or "", name, model))
+            published = results.printed(case, label, metric)
             ours = results.estimate(case.name, label, metric)
             if published is not None and ours is not None:
-                reason = _reason(results, case, label, metric)
+                reason = _reason(results, case, label, metric, published)
                 half_width = ours.half_width if results.layout.independent_folds else None
                 judged = verdict(ours.mean, published, results.metrics[metric], half_width)
                 final = Verdict.NOT_COMPARABLE if reason else judged
                 yield Comparison(case, label, ours, published, half_width, final, reason)
 
 
-def _reason(results: TaskResults, case: CaseLayout, label: str, metric: str) -> str:
+def _reason(
+    results: TaskResults, case: CaseLayout, label: str, metric: str, published: PublishedValue
+) -> str:
     reasons = results.layout.not_comparable
     synthetic = "generated motion" if case.synthetic else ""
-    return reasons.get((label, metric)) or reasons.get((label, "*")) or synthetic
+    of_task = reasons.get((label, metric)) or reasons.get((label, "*"))
+    return of_task or case.not_comparable.get(label) or published.not_comparable or synthetic
 
 
 def tally(pairs: Sequence[Comparison]) -> Tally:

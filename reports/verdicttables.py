@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import pandas as pd
 
 from mocapbench.reports.bundle import TaskLayout
+from mocapbench.reports.published import PublishedValue
+from mocapbench.reports.remarks import footnotes, marks
 from mocapbench.reports.results import TaskResults
 from mocapbench.reports.tables import Cell, Table, decimals, headings, number, slug
 from mocapbench.reports.verdicts import Comparison, allowance, comparisons
@@ -32,6 +36,7 @@ def verdict_table(results: TaskResults, metric: str) -> Table | None:
     pairs = comparisons(results, metric)
     if not pairs:
         return None
+    lettered = marks(pair.published.erratum for pair in pairs)
     places = decimals(value for pair in pairs for value in (pair.ours.mean, pair.published.value))
     return Table(
         id=slug(results.layout.name, metric, "published"),
@@ -41,9 +46,9 @@ def verdict_table(results: TaskResults, metric: str) -> Table | None:
             *headings(["folds", "ours", "published", "difference"]),
             *headings(["verdict"], "text"),
         ),
-        rows=tuple(_row(pair, places) for pair in pairs),
+        rows=tuple(_row(pair, places, lettered[pair.published.erratum]) for pair in pairs),
         data=pd.DataFrame([_tidy(pair, metric) for pair in pairs]),
-        notes=_rules(results.layout),
+        notes=(*footnotes(lettered), *_rules(results.layout)),
     )
 
 
@@ -51,7 +56,7 @@ def _rules(layout: TaskLayout) -> tuple[str, ...]:
     return RULES if layout.independent_folds else WINDOW_RULES
 
 
-def _row(pair: Comparison, places: int) -> tuple[Cell, ...]:
+def _row(pair: Comparison, places: int, mark: str) -> tuple[Cell, ...]:
     ours, published = pair.ours, pair.published
     note = "one fold" if pair.on_one_fold else pair.reason
     return (
@@ -59,8 +64,8 @@ def _row(pair: Comparison, places: int) -> tuple[Cell, ...]:
         Cell(pair.label, kind="text"),
         Cell(published.model, kind="text"),
         Cell(f"n={ours.n}"),
-        Cell(number(ours.mean, places), spread=_spread(ours.two_sd, places)),
-        Cell(number(published.value, places), spread=_spread(published.two_sd, places)),
+        Cell(number(ours.mean, places), spread=_spread(ours.spread, places)),
+        Cell(number(published.value, places), spread=_spread(published.two_sd, places), mark=mark),
         Cell(number(ours.mean - published.value, places)),
         Cell(pair.verdict.value, note=note, kind=slug(pair.verdict.value)),
     )
@@ -86,6 +91,12 @@ def _tidy(pair: Comparison, metric: str) -> dict[str, object]:
         "published_two_sd": pair.published.two_sd,
         "allowance": allowance(pair.published),
         "difference": pair.ours.mean - pair.published.value,
+        "relative_difference": _relative(pair.ours.mean - pair.published.value, pair.published),
         "verdict": pair.verdict.value,
         "reason": pair.reason,
+        "erratum": pair.published.erratum,
     }
+
+
+def _relative(difference: float, published: PublishedValue) -> float:
+    return difference / abs(published.value) if published.value else math.nan

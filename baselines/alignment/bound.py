@@ -32,7 +32,7 @@ def _cycles(state: State, hyper: Hyperparameters) -> float:
     theta, cycles = state.parameters, state.cycles
     n_states, n_styles, n_channels = cycles.mean.shape
     normaliser = hyper.prior.log_normaliser(theta.smoothness, theta.closeness, n_states)
-    energy = theta.smoothness * roughness(cycles)
+    energy = theta.smoothness * roughness(cycles, hyper.prior.reference(theta.parent))
     energy += theta.closeness * distance(cycles, theta.parent)
     log_determinants = cycles.log_determinant.sum()
     n_cycles = n_styles * n_channels

@@ -44,9 +44,10 @@ def residuals(state: State, sequences: Sequences) -> Array:
     return np.asarray(sequences.squares[:, None] + explained)
 
 
-def roughness(cycles: Ring) -> float:
-    """Return the expected sum of squared steps round all cycles."""
-    steps = np.roll(cycles.mean, -1, axis=0) - cycles.mean
+def roughness(cycles: Ring, reference: Array) -> float:
+    """Return the expected sum of squared steps, less those of a curve (M, F), round all cycles."""
+    deviation = cycles.mean - reference[:, None]
+    steps = np.roll(deviation, -1, axis=0) - deviation
     return float((steps**2).sum() + 2.0 * (cycles.variance - cycles.neighbour).sum())
 
 

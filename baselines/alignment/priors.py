@@ -1,8 +1,9 @@
 r"""The prior of a style's cycle: smooth, and close to its parent.
 
-Its exponent is :math:`-\tfrac12\lambda_s\sum_m(z_m - z_{m-1})^2
+HLM's exponent is :math:`-\tfrac12\lambda_s\sum_m(z_m - z_{m-1})^2
 -\tfrac12\lambda_{\bar z}\sum_m(z_m - \bar z_m)^2` per channel; what makes it a density in the two
-precisions is stated in two ways.
+precisions is stated in two ways, and in a third one it is the deviation from the parent that is
+smooth.
 """
 
 from __future__ import annotations
@@ -14,13 +15,17 @@ from scipy.optimize import brentq
 
 from mocapbench.baselines.alignment.sequences import Array
 
-__all__ = ["PRIORS", "CyclePrior", "NormalisedPrior", "PaperPrior"]
+__all__ = ["PRIORS", "CentredPrior", "CyclePrior", "NormalisedPrior", "PaperPrior"]
 
 _NARROWEST = 1e-12  # least precision, in parts of the largest that can be best
 
 
 class CyclePrior(ABC):
     """How the prior of a cycle is normalised."""
+
+    def reference(self, curves: Array) -> Array:
+        """Return what a cycle's steps are compared with where its parent is ``curves`` (M, …)."""
+        return np.zeros_like(curves)
 
     @abstractmethod
     def log_normaliser(self, smoothness: float, closeness: float, n_states: int) -> float:
@@ -55,6 +60,19 @@ class NormalisedPrior(CyclePrior):
         return _best_scale(np.ones(n_states), smoothness * _laplacian(n_states), distance)
 
 
+class CentredPrior(NormalisedPrior):
+    r"""A Gaussian about the parent: its exponent has :math:`z - \bar z` in place of z in the steps.
+
+    A cycle is then its parent but for a smooth deviation. HLM's own steps draw it to a constant:
+    its mean is the parent made smoother, and the part of a cycle that nothing shows is nearly
+    straight.
+    """
+
+    def reference(self, curves: Array) -> Array:
+        """Return the parent itself."""
+        return curves
+
+
 class PaperPrior(CyclePrior):
     """HLM eq. (5): each of the 2M factors normalised for itself, although their product is not."""
 
@@ -75,7 +93,11 @@ class PaperPrior(CyclePrior):
         return n_states / distance
 
 
-PRIORS: dict[str, CyclePrior] = {"normalised": NormalisedPrior(), "paper": PaperPrior()}
+PRIORS: dict[str, CyclePrior] = {
+    "normalised": NormalisedPrior(),
+    "centred": CentredPrior(),
+    "paper": PaperPrior(),
+}
 
 
 def _laplacian(n_states: int) -> Array:

@@ -53,6 +53,8 @@ def draw_path(
 def blended(state: State, weights: Array) -> Array:
     """Return the styles' mean cycles mixed by weights (N, C), at the mean pace: (N, F).
 
+    A pose between two states is between theirs, for a pace is not a whole number of states.
+
     Raises
     ------
     ValueError
@@ -61,8 +63,15 @@ def blended(state: State, weights: Array) -> Array:
     _check_weights(weights, state.labels.shape[1])
     jumps = state.parameters.jumps.mean(axis=0)
     pace = jumps @ np.arange(1, len(jumps) + 1)
-    path = np.rint(pace * np.arange(len(weights))).astype(np.intp) % len(state.cycles.mean)
-    return np.asarray(np.einsum("nc,ncf->nf", weights, state.cycles.mean[path]))
+    position = pace * np.arange(len(weights))
+    return np.asarray(np.einsum("nc,ncf->nf", weights, _poses(state.cycles.mean, position)))
+
+
+def _poses(cycles: Array, position: Array) -> Array:
+    """Return cycles (M, …) at positions (N,) on the ring, linear between states: (N, …)."""
+    state, n_states = position.astype(np.intp), len(cycles)
+    share = (position - state).reshape(-1, *[1] * (cycles.ndim - 1))
+    return (1.0 - share) * cycles[state % n_states] + share * cycles[(state + 1) % n_states]
 
 
 def _check_weights(weights: Array, n_styles: int) -> None:

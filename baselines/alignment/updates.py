@@ -20,8 +20,8 @@ from mocapbench.baselines.alignment.expectations import (
     residuals,
     roughness,
 )
-from mocapbench.baselines.alignment.model import Evidence, Hyperparameters, State
-from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.alignment.model import Evidence, Hyperparameters, Parameters, State
+from mocapbench.baselines.alignment.sequences import Array, Sequences
 
 __all__ = [
     "update_closeness",
@@ -52,7 +52,7 @@ def update_labels(state: State, sequences: Sequences, _: Hyperparameters) -> Sta
     return replace(state, labels=labels / labels.sum(axis=1, keepdims=True))
 
 
-def update_cycles(state: State, _: Sequences, __: Hyperparameters) -> State:
+def update_cycles(state: State, _: Sequences, hyper: Hyperparameters) -> State:
     """Q(Z), eq. (9).
 
     The precision of a channel has the diagonal 2λ_s + λ_z̄ + λ_f n_m, n_m the expected number of
@@ -61,24 +61,28 @@ def update_cycles(state: State, _: Sequences, __: Hyperparameters) -> State:
     theta = state.parameters
     counts, sums = state.evidence.by_style(state.labels)
     ground = theta.closeness + theta.precisions * counts
-    right = theta.closeness * theta.parent[:, None] + theta.precisions * sums
+    right = _pull(theta.parent, theta, hyper)[:, None] + theta.precisions * sums
     return replace(state, cycles=ring.solve(theta.smoothness, ground, right))
 
 
 def update_parent(state: State, _: Sequences, hyper: Hyperparameters) -> State:
-    """Eq. (17) with its bracket: (Cλ_z̄ + 4η) z̄_m − 2η (z̄_{m−1} + z̄_{m+1}) = λ_z̄ Σ_c ⟨z_m^c⟩."""
-    closeness, eta = state.parameters.closeness, hyper.regularisation
-    n_states, n_styles, _channels = state.cycles.mean.shape
-    column = np.zeros(n_states)
-    column[0] = n_styles * closeness + 4.0 * eta
-    column[[1, -1]] = -2.0 * eta
-    return _learnt(state, parent=solve_circulant(column, closeness * state.cycles.mean.sum(axis=1)))
+    """Eq. (17) with its bracket: (Cλ_z̄ + 4η) z̄_m − 2η (z̄_{m−1} + z̄_{m+1}) = λ_z̄ Σ_c ⟨z_m^c⟩.
+
+    Where the prior is centred, the whole precision of a cycle stands in place of λ_z̄.
+    """
+    theta, (n_states, n_styles, _channels) = state.parameters, state.cycles.mean.shape
+    impulse = np.eye(n_states)[0]
+    column = n_styles * _pull(impulse, theta, hyper)
+    column += 2.0 * hyper.regularisation * _curvature(impulse)
+    right = _pull(state.cycles.mean.sum(axis=1), theta, hyper)
+    return _learnt(state, parent=solve_circulant(column, right))
 
 
 def update_smoothness(state: State, _: Sequences, hyper: Hyperparameters) -> State:
     """λ_s, eq. (13), as the prior is normalised."""
     n_states, *batch = state.cycles.mean.shape
-    mean = roughness(state.cycles) / np.prod(batch)
+    reference = hyper.prior.reference(state.parameters.parent)
+    mean = roughness(state.cycles, reference) / np.prod(batch)
     best = hyper.prior.smoothness(state.parameters.closeness, n_states, mean)
     return _learnt(state, smoothness=best)
 
@@ -109,6 +113,17 @@ def update_jumps(state: State, _: Sequences, hyper: Hyperparameters) -> State:
     """d, eq. (16), ξ being the joint posterior of two successive states."""
     jumps = hyper.regularisation + state.paths.jumps
     return _learnt(state, jumps=jumps / jumps.sum(axis=1, keepdims=True))
+
+
+def _pull(curves: Array, theta: Parameters, hyper: Hyperparameters) -> Array:
+    """Return what a parent (M, …) adds to precision times mean of its cycles; λ_z̄ z̄ in HLM."""
+    shape = theta.smoothness * _curvature(hyper.prior.reference(curves))
+    return theta.closeness * curves + shape
+
+
+def _curvature(curves: Array) -> Array:
+    """Return the Laplacian of the ring times curves (M, …)."""
+    return 2.0 * curves - np.roll(curves, 1, axis=0) - np.roll(curves, -1, axis=0)
 
 
 def _learnt(state: State, **parameters: Any) -> State:

@@ -15,7 +15,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.gp.coordinates import Coordinates
 from mocapbench.baselines.gp.fitted import FittedProcess
 from mocapbench.baselines.gp.kernels import KERNELS
-from mocapbench.baselines.gp.parameters import CHILD, PARENT, Parameters
+from mocapbench.baselines.gp.parameters import Parameters
 from mocapbench.baselines.gp.planner import PLANS, name_of, reason, with_mapper
 from mocapbench.baselines.gp.reduction import Reduction, Share
 from mocapbench.baselines.gp.replicates import Replicates
@@ -29,6 +29,7 @@ from mocapbench.baselines.gp.settings import (
 )
 from mocapbench.baselines.gp.start import bounds, data_driven, perturbed
 from mocapbench.baselines.gp.training import Budget, Space, Step, Training, maximise
+from mocapbench.baselines.gp.tree import Tree
 from mocapbench.baselines.gp.trends import TRENDS
 from mocapbench.baselines.gp.workers import mapping
 from mocapbench.baselines.pooling import check_recordings
@@ -138,9 +139,12 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         self.n_jobs = n_jobs
         self.random_state = random_state
 
-    @staticmethod
     @abstractmethod
-    def reduce(replicates: Replicates) -> Reduction:
+    def grow(self, names: Sequence[str]) -> Tree:
+        """Return for each layer whose draw each of the recordings takes part in."""
+
+    @abstractmethod
+    def reduce(self, replicates: Replicates) -> Reduction:
         """Return the likelihood of replicates in standard units as block problems."""
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
@@ -154,8 +158,9 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         SingularCovarianceError
             If the covariance is singular at a start.
         """
-        self._check_parameters()
         checked = check_recordings(recordings)
+        self.tree_ = self.grow([recording.name for recording in checked])
+        self._check_parameters()
         self.scaling_ = Standardisation.of(checked)
         self.recordings_ = {recording.name: recording for recording in checked}
         replicates = Replicates.align([self.scaling_.apply(recording) for recording in checked])
@@ -185,8 +190,9 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
     ) -> SampleByFrameByChannel:
         """Return draws around the trend, noise included.
 
-        Each is the trend (see ``sampled_trend``), zero where a model has none, and a draw of its
-        own of the last layer. All of them cost one factorisation of the covariances.
+        Each is the trend (see ``sampled_trend``), zero where a model has none, and draws of its
+        own of the layers below, or of the only one. All of them cost one factorisation of the
+        covariances.
 
         Parameters
         ----------
@@ -213,7 +219,8 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         times = np.asarray(times, dtype=np.float64)
         with self._at_work() as process:
             trend = TRENDS[self.sampled_trend](process, times, rng)
-            return process.observe_new(self.layers[-1], trend, times, n_samples, rng)
+            layers = self.layers[1:] or self.layers
+            return process.observe_new(layers, trend, times, n_samples, rng)
 
     def posterior_covariance(self, recording: Recording, times: Frames | None = None) -> Array:
         """Return the joint covariance of a recording's curve given all that is visible.
@@ -292,6 +299,11 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         return self._process.prior_covariance(layer, np.asarray(times, dtype=np.float64))
 
     @property
+    def layers(self) -> tuple[str, ...]:
+        """The layers of the fitted model, from the trend down."""
+        return tuple(self.tree_)
+
+    @property
     def coregionalisation_(self) -> Mapping[str, Array]:
         """The matrices B_q of each layer, (Q, D, D), in the outputs' own units."""
         units = np.outer(self.scaling_.scale, self.scaling_.scale)
@@ -338,13 +350,13 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
     @property
     def _draws(self) -> Mapping[str, int]:
         """How many draws of each layer are behind the recordings."""
-        numbers = {PARENT: 1, CHILD: len(self.recordings_)}
-        return {layer: numbers[layer] for layer in self.layers}
+        return {layer: len(set(nodes)) for layer, nodes in self.tree_.items()}
 
     def _start(self, replicates: Replicates) -> Parameters:
         """Return where the first search begins."""
         start = data_driven(
             replicates,
+            self.tree_,
             components_of(self.n_components, self.layers),
             self.rank,
             self.reduction_.within_variance,

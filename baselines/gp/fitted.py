@@ -88,14 +88,16 @@ class FittedProcess:
 
     def observe_new(
         self,
-        layer: str,
+        layers: Sequence[str],
         trend: FrameByChannel,
         times: Frames,
         n_samples: int,
         rng: np.random.Generator,
     ) -> SampleByFrameByChannel:
-        """Return draws of a layer around a trend (M, D), with noise: (n, M, D)."""
-        draws = draw_layer(self.kernel, self.parameters.layers[layer], times, n_samples, rng)
+        """Return draws of layers around a trend (M, D), with noise: (n, M, D)."""
+        draws = np.zeros((n_samples, len(times), len(self.parameters.log_noise)))
+        for layer in layers:
+            draws += draw_layer(self.kernel, self.parameters.layers[layer], times, n_samples, rng)
         draws += np.sqrt(self.parameters.noise) * rng.standard_normal(draws.shape)
         return trend + self.scaling.scale * draws
 

@@ -1,15 +1,14 @@
-r"""From replicates to block problems, exactly, for three structures of replication.
+r"""From replicates to block problems, exactly; `hierarchy` does it for more than one layer.
 
-The observations are :math:`y_r = g + (f_r - g) + \varepsilon_r`. In each reduction the
-log-likelihood is the sum of the log-densities of a few `Block` problems and of a closed form, and
-what is to be inferred about a replicate is a sum of independent `Share`\ s, one from each block
-that knows about it.
+In each reduction the log-likelihood is the sum of the log-densities of a few `Block` problems and
+of a closed form, and what is to be inferred about a replicate is a sum of independent `Share`\ s,
+one from each block that knows about it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +17,9 @@ from mocapbench.baselines.gp.block import Block, Target
 from mocapbench.baselines.gp.parameters import CHILD, PARENT, Parameters
 from mocapbench.baselines.gp.replicates import Pattern, Replicates
 from mocapbench.baselines.gp.solver import Solver
+from mocapbench.baselines.gp.tree import Node
 
-__all__ = ["Reduction", "Share", "hierarchical", "independent", "pooled"]
+__all__ = ["Reduction", "Share", "independent", "pooled"]
 
 Array = NDArray[np.float64]
 
@@ -61,6 +61,8 @@ class Reduction:
         What does not depend on the parameters.
     within_dof, within_scatter : ndarray of shape (D,)
         m_d and S_d of the term −½ m_d log 2πβ_d − S_d / 2β_d that sees the noise alone.
+    nodes : mapping of tuple of str to tuple of Share
+        The shares of the curve of each node of a tree, where there is one.
     """
 
     blocks: tuple[Block, ...]
@@ -69,6 +71,7 @@ class Reduction:
     constant: float
     within_dof: Array
     within_scatter: Array
+    nodes: Mapping[Node, tuple[Share, ...]] = field(default_factory=dict)
 
     def evaluate(self, solvers: Sequence[Solver], parameters: Parameters) -> tuple[float, Array]:
         """Return the log-likelihood and its gradient in the free coordinates (n_parameters,).
@@ -95,37 +98,6 @@ class Reduction:
         by_output = 0.5 * (scatter / noise - dof)
         layers = {name: layer.zeros() for name, layer in parameters.layers.items()}
         return value, Parameters(layers, by_output).flat
-
-
-def hierarchical(replicates: Replicates) -> Reduction:
-    r"""Reduce replicates whose curves are draws around a common trend, f_r ~ GP(g, K_f).
-
-    With :math:`C = K_f + \Gamma` the mean curves of the patterns have covariance
-    :math:`K_g + \delta_{pq} C / R_p`, and are independent of the deviations from them, which
-    have covariance :math:`(\delta_{rs} - 1 / R_p)\, C` and rank :math:`R_p - 1`. The Jacobian of
-    taking means is :math:`R_p^{-n_p/2}`.
-    """
-    patterns = replicates.patterns
-    sizes = np.array([pattern.size for pattern in patterns], dtype=np.float64)
-    nobody = np.zeros(len(patterns))
-    shares: list[tuple[Share, ...]] = [(_around_trend(nobody, fresh=1.0),)] * len(replicates.data)
-    blocks = [_means(replicates, sizes)]
-    for weights, pattern in zip(np.diag(sizes**-0.5), patterns, strict=True):
-        of_mean = _around_trend(weights, fresh=0.0)
-        for column, r in enumerate(pattern.members):
-            shares[r] = (of_mean, Share(len(blocks), column, _child()))
-        if pattern.size > 1:
-            blocks.append(_deviations(replicates, pattern))
-        else:
-            shares[pattern.members[0]] = (of_mean,)
-    counts = blocks[0].observed.sum(axis=(1, 2))
-    return Reduction(
-        blocks=tuple(blocks),
-        replicates=tuple(shares),
-        trend=(Share(0, 0, Target({PARENT: np.ones(1), CHILD: nobody}, {})),),
-        constant=-0.5 * float(counts @ np.log(sizes)),
-        **_no_within(replicates),
-    )
 
 
 def pooled(replicates: Replicates) -> Reduction:
@@ -160,20 +132,19 @@ def pooled(replicates: Replicates) -> Reduction:
 
 def independent(replicates: Replicates) -> Reduction:
     """Reduce replicates that are independent draws of one process, f_r ~ GP(0, K_f)."""
+    nothing = np.zeros(replicates.data.shape[1])
     unseen = Target({CHILD: np.zeros(1)}, {CHILD: 1.0})
     shares = [(Share(0, 0, unseen),)] * len(replicates.data)
     for index, pattern in enumerate(replicates.patterns):
         for column, r in enumerate(pattern.members):
             shares[r] = (Share(index, column, _child()),)
     return Reduction(
-        blocks=tuple(
-            _draws(replicates, pattern, replicates.data[pattern.members], pattern.size)
-            for pattern in replicates.patterns
-        ),
+        blocks=tuple(_draws(replicates, pattern) for pattern in replicates.patterns),
         replicates=tuple(shares),
         trend=(),
         constant=0.0,
-        **_no_within(replicates),
+        within_dof=nothing,
+        within_scatter=nothing,
     )
 
 
@@ -181,40 +152,12 @@ def _child() -> Target:
     return Target({CHILD: np.ones(1)}, {})
 
 
-def _around_trend(weights: Array, fresh: float) -> Share:
-    """Return g plus a child with the given weights on the patterns' draws."""
-    return Share(0, 0, Target({PARENT: np.ones(1), CHILD: weights}, {CHILD: fresh}))
-
-
-def _means(replicates: Replicates, sizes: Array) -> Block:
-    """Return the mean curves of the patterns, coupled by the parent."""
-    observed = np.stack([pattern.observed for pattern in replicates.patterns])
-    return Block(
-        times=replicates.times,
-        units={PARENT: np.ones((len(sizes), 1)), CHILD: np.diag(sizes**-0.5)},
-        observed=observed,
-        data=replicates.means()[None],
-        noise_scale=np.broadcast_to(1.0 / sizes[:, None, None], observed.shape),
-        multiplicity=1,
-    )
-
-
-def _deviations(replicates: Replicates, pattern: Pattern) -> Block:
-    data = replicates.data[pattern.members]
-    return _draws(replicates, pattern, data - data.mean(axis=0), pattern.size - 1)
-
-
-def _draws(replicates: Replicates, pattern: Pattern, data: Array, multiplicity: int) -> Block:
+def _draws(replicates: Replicates, pattern: Pattern) -> Block:
     return Block(
         times=replicates.times,
         units={CHILD: _ONE},
         observed=pattern.observed[None],
-        data=data[:, None],
+        data=replicates.data[pattern.members][:, None],
         noise_scale=np.ones((1, *pattern.observed.shape)),
-        multiplicity=multiplicity,
+        multiplicity=pattern.size,
     ).trimmed()
-
-
-def _no_within(replicates: Replicates) -> Mapping[str, Array]:
-    n_outputs = replicates.data.shape[1]
-    return {"within_dof": np.zeros(n_outputs), "within_scatter": np.zeros(n_outputs)}

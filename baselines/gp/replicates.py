@@ -86,7 +86,3 @@ class Replicates:
             for members in groups.values()
             if self.observed[members[0]].any()
         )
-
-    def means(self) -> Array:
-        """Return (P, D, N), the mean curve of each pattern."""
-        return np.stack([self.data[pattern.members].mean(axis=0) for pattern in self.patterns])

@@ -8,14 +8,15 @@ lengthscales.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.parameters import CHILD, PARENT, Layer, Parameters
+from mocapbench.baselines.gp.parameters import Layer, Parameters
 from mocapbench.baselines.gp.replicates import Replicates
+from mocapbench.baselines.gp.tree import Tree
 
 __all__ = ["bounds", "data_driven", "perturbed"]
 
@@ -31,7 +32,11 @@ MIN_VARIANCE = 1e-2
 
 
 def data_driven(
-    replicates: Replicates, n_components: Mapping[str, int], rank: int, within: Array
+    replicates: Replicates,
+    tree: Tree,
+    n_components: Mapping[str, int],
+    rank: int,
+    within: Array,
 ) -> Parameters:
     """Return a start, from data in standard units.
 
@@ -39,8 +44,10 @@ def data_driven(
     ----------
     replicates : Replicates
         The data.
+    tree : Tree
+        Whose draw of each layer they take part in.
     n_components : mapping of str to int
-        Q of each layer: of `PARENT`, `CHILD` or both.
+        Q of each layer.
     rank : int
         Number of columns of each W_q.
     within : ndarray of shape (D,)
@@ -48,7 +55,7 @@ def data_driven(
     """
     noise = _noise(replicates)
     lengthscale = _lengthscale(replicates, noise)
-    curves = _curves(replicates, n_components)
+    curves = _curves(replicates, tree)
     return Parameters(
         {
             name: Layer(_spread(lengthscale, size), _coregionalisation(curves[name], size, rank))
@@ -140,14 +147,22 @@ def _spread(lengthscale: float, n_components: int) -> Array:
     return np.asarray(np.log(lengthscale) + np.log(2.0) * octaves)
 
 
-def _curves(replicates: Replicates, layers: Collection[str]) -> Mapping[str, Array]:
-    """Return for each layer empirical curves of it, (M, D, N), 0 where nothing is known."""
-    if PARENT not in layers:
-        return {CHILD: replicates.data}
-    counts = replicates.observed.sum(axis=0)
-    mean = replicates.data.sum(axis=0) / np.maximum(counts, 1)
-    deviations = np.where(replicates.observed, replicates.data - mean, 0.0)
-    return {PARENT: mean[None], CHILD: deviations}
+def _curves(replicates: Replicates, tree: Tree) -> Mapping[str, Array]:
+    """Return for each layer empirical curves of it, (M, D, N), 0 where nothing is known.
+
+    They are the mean curves of its nodes, less those of the nodes above.
+    """
+    curves, above = {}, np.zeros(replicates.data.shape)
+    for layer, nodes in tree.items():
+        names = list(dict.fromkeys(nodes))
+        members = [[r for r, node in enumerate(nodes) if node == name] for name in names]
+        counts = np.stack([replicates.observed[each].sum(axis=0) for each in members])
+        sums = np.stack([replicates.data[each].sum(axis=0) for each in members])
+        means = sums / np.maximum(counts, 1)
+        first = [each[0] for each in members]
+        curves[layer] = np.where(counts > 0, means - above[first], 0.0)
+        above = means[[names.index(node) for node in nodes]]
+    return curves
 
 
 def _coregionalisation(curves: Array, n_components: int, rank: int) -> Coregionalisation:

@@ -7,10 +7,6 @@ from mocapbench.benchmark.tasks.toy_interpolation import RBF, Design, ToyInterpo
 
 __all__ = ["ToyInterpolation1", "toy_interpolation_1"]
 
-_REMARKS = dict.fromkeys(
-    (4, 7), "The thesis prints identical MOHGP values for tests 4 and 7; one of them is an error."
-)
-
 
 def _cases() -> tuple[Case, ...]:
     rows = [(noise, d, r) for noise in (0.001, 0.01, 0.1) for d, r in ((3, 5), (6, 6), (3, 10))]
@@ -19,7 +15,6 @@ def _cases() -> tuple[Case, ...]:
             name=f"test {number}",
             settings={"noise": noise, "outputs": d, "children": r},
             published=f"test {number}",
-            remark=_REMARKS.get(number, ""),
         )
         for number, (noise, d, r) in enumerate(rows, start=1)
     )

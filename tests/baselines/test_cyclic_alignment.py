@@ -132,9 +132,18 @@ def test_a_blend_lies_between_the_styles_that_it_mixes(fitted):
     share = np.linspace(0.0, 1.0, 30)[:, None]
     mixed = fitted.blend(np.hstack([1.0 - share, share]))
     np.testing.assert_allclose(mixed, (1.0 - share) * pure[0] + share * pure[1])
-    assert {tuple(np.round(frame, 9)) for frame in pure[0]} <= {
-        tuple(np.round(state, 9)) for state in fitted.cycles_[0]
-    }
+
+
+def test_a_style_by_itself_is_its_cycle_at_the_mean_pace(fitted):
+    jumps = fitted.state_.parameters.jumps.mean(axis=0)
+    position = np.arange(30) * (jumps @ [1, 2, 3])
+    n_states = fitted.cycle_length_
+    for style, cycle in enumerate(fitted.cycles_):
+        motion = fitted.blend(np.tile(np.eye(2)[style], (30, 1)))
+        expected = [
+            np.interp(position, np.arange(n_states), column, period=n_states) for column in cycle.T
+        ]
+        np.testing.assert_allclose(motion, np.column_stack(expected))
 
 
 @pytest.mark.parametrize("weights", [np.ones((5, 3)), np.full((5, 2), 0.6), [[1.5, -0.5]]])

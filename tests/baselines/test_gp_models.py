@@ -1,16 +1,17 @@
-"""What the four Gaussian-process models have in common."""
+"""What the Gaussian-process models have in common."""
 
 import numpy as np
 import pytest
 from sklearn.base import clone
 
 from mocapbench.baselines.gp_independent import GPIndependent
+from mocapbench.baselines.hgp import HGP
 from mocapbench.baselines.lmc_independent import LMCIndependent
 from mocapbench.baselines.moa import MOA
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.datasets import ToyProcess
 
-MODELS = (MOHGP, MOA, LMCIndependent, GPIndependent)
+MODELS = (MOHGP, MOA, LMCIndependent, GPIndependent, HGP)
 JOINT = (MOHGP, MOA, LMCIndependent)
 TIMES = np.linspace(0.0, 5.0, 12)
 
@@ -163,7 +164,8 @@ def test_constant_outputs_do_no_harm(model, recordings):
 
 @pytest.mark.parametrize("model", JOINT)
 def test_every_layer_may_have_its_own_number_of_components(model, recordings):
-    sizes = {name: size for name, size in {"parent": 3, "child": 1}.items() if name in model.layers}
+    layers = model(max_iter=1).fit(recordings).layers
+    sizes = {name: size for name, size in {"parent": 3, "child": 1}.items() if name in layers}
     fitted = model(n_components=sizes, max_iter=10).fit(recordings)
     assert {name: len(b) for name, b in fitted.coregionalisation_.items()} == sizes
     for name, size in sizes.items():

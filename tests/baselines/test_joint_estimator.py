@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.gp_independent import GPIndependent
+from mocapbench.baselines.hgp import HGP
 from mocapbench.baselines.lmc_independent import LMCIndependent
 from mocapbench.baselines.moa import MOA
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.datasets import ToyProcess
 
-MODELS = (MOHGP, MOA, LMCIndependent, GPIndependent)
+MODELS = (MOHGP, MOA, LMCIndependent, GPIndependent, HGP)
 TIMES = np.linspace(0.0, 5.0, 8)
 OFF = np.array([4.1, 0.3, 0.3])
 

@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 
-from mocapbench.baselines import Imputer, Prediction
+from mocapbench.baselines import Aligner, Blender, Imputer, Inductive, Prediction, Synthesiser
 
 
 class _Mean(Imputer):
@@ -110,3 +110,204 @@ MODELS = {
     "hungry": Hungry,
     "well-behaved": _Mean,
 }
+
+
+class Unconstructible(_Mean):
+    """Needs an argument."""
+
+    def __init__(self, size):
+        self.size = size
+
+
+class Eager(_Mean):
+    """Learns in the constructor."""
+
+    def __init__(self):
+        self.mean_ = 0.0
+
+
+class Converting(_Mean):
+    """Stores something else than it is given."""
+
+    def __init__(self, size=3):
+        self.size = [size]
+
+
+class Forgetful(_Mean):
+    """Returns nothing from fit."""
+
+    def fit(self, recordings):
+        super().fit(recordings)
+
+
+class Restless(_Mean):
+    """Changes a parameter in fit."""
+
+    def __init__(self, size=3):
+        self.size = size
+
+    def fit(self, recordings):
+        self.size += 1
+        return super().fit(recordings)
+
+
+class Global(_Mean):
+    """Seeds everybody."""
+
+    def fit(self, recordings):
+        np.random.seed(0)  # noqa: NPY002
+        return super().fit(recordings)
+
+
+class Unseeded(_Mean):
+    """Draws without a seed."""
+
+    def impute(self, recordings):
+        rng = np.random.default_rng()
+        return [Prediction.around(r, rng.standard_normal(r.values.shape)) for r in recordings]
+
+
+class FirstOnly(_Mean):
+    """Learns from the first recording alone."""
+
+    def fit(self, recordings):
+        return super().fit(recordings[:1])
+
+
+class Overwrites(_Mean):
+    """Puts its mean over what is visible."""
+
+    def impute(self, recordings):
+        return [Prediction(np.full(r.values.shape, self.mean_)) for r in recordings]
+
+
+class VariesVisible(_Mean):
+    """Is unsure of what is visible."""
+
+    def impute(self, recordings):
+        shapes = [r.values.shape for r in recordings]
+        means = super().impute(recordings)
+        return [Prediction(p.mean, np.ones(s)) for p, s in zip(means, shapes, strict=True)]
+
+
+class FramesOnly(_Mean):
+    """Fills whole frames and nothing else."""
+
+    def impute(self, recordings):
+        if any((r.visible.any(axis=1) != r.visible.all(axis=1)).any() for r in recordings):
+            raise NotImplementedError("whole frames only")
+        return super().impute(recordings)
+
+
+class Stranger(_Mean, Inductive):
+    """Says it takes new recordings, and does not."""
+
+    def fit(self, recordings):
+        self.names_ = [recording.name for recording in recordings]
+        return super().fit(recordings)
+
+    def impute(self, recordings):
+        if any(recording.name not in self.names_ for recording in recordings):
+            raise ValueError("never seen")
+        return super().impute(recordings)
+
+
+class _Sampler(_Mean, Synthesiser):
+    """Samples noise."""
+
+    def sample(self, times, n_samples, random_state):
+        return np.random.default_rng(random_state).standard_normal((n_samples, len(times), 2))
+
+
+class Transposed(_Sampler):
+    """Samples channels by frames."""
+
+    def sample(self, times, n_samples, random_state):
+        return super().sample(times, n_samples, random_state).transpose(0, 2, 1)
+
+
+class SameSamples(_Sampler):
+    """Ignores the seed of its samples."""
+
+    def sample(self, times, n_samples, random_state):
+        return super().sample(times, n_samples, 0)
+
+
+class _Styles(Blender, Aligner):
+    """One style, one state."""
+
+    cycle_length_ = 1
+
+    def __init__(self, n_styles=2):
+        self.n_styles = n_styles
+
+    def fit(self, recordings):
+        self.labels_ = np.zeros(len(recordings), dtype=int)
+        self.path_ = tuple(self.align(recordings))
+        return self
+
+    def align(self, recordings):
+        return [np.zeros(len(r.times), dtype=int) for r in recordings]
+
+    def blend(self, weights):
+        return np.zeros((len(weights), 2))
+
+
+class Labels(_Styles):
+    """Labels frames rather than recordings."""
+
+    def fit(self, recordings):
+        super().fit(recordings).labels_ = np.zeros(7)
+        return self
+
+
+class Divides(_Styles):
+    """Finds more clusters than it may."""
+
+    def fit(self, recordings):
+        super().fit(recordings).labels_ = np.arange(len(recordings))
+        return self
+
+
+class Derails(_Styles):
+    """Names a state that the cycle does not have."""
+
+    def align(self, recordings):
+        return [path + 5 for path in super().align(recordings)]
+
+
+class Bends(_Styles):
+    """Blends by the squares of the weights."""
+
+    def blend(self, weights):
+        return np.asarray(weights)[:, :2] ** 2
+
+
+NONCONFORMING = {
+    Raises: "expected that .* got RuntimeError: the model <b>raised</b>",
+    NotANumber: "expected a finite mean, got 40 NaN or infinite entries",
+    WrongShape: r"expected a mean of shape \(20, 2\), got \(2, 2\)",
+    WrongCount: r"expected impute to return a list of 1 Prediction, got \[\]",
+    NoVariance: "visible entries copied into the mean",
+    Arrays: r"expected impute to return a list of 1 Prediction, got \['ndarray'\]",
+    Unconstructible: "constructor works without arguments .* TypeError",
+    Eager: r"no learned state before fit, got \['mean_'\]",
+    Converting: "does not set or modifies parameter size",
+    Forgetful: "expected fit to return self, got None",
+    Restless: "expected the parameters {'size': 3}, got {'size': 4}",
+    Global: "expected NumPy's global random state untouched",
+    Unseeded: "the same answer from the same seed",
+    FirstOnly: "recordings in another order, got a difference of",
+    Overwrites: "visible entries copied into the mean",
+    VariesVisible: "expected no variance at visible entries",
+    FramesOnly: "hidden entries are filled wherever they are, got NotImplementedError",
+    Stranger: "a recording that fit has not seen is filled.* got ValueError: never seen",
+    Counts: "expected a ValueError that names child-4, which fit has not seen, got list",
+    Transposed: r"expected samples of shape \(3, 20, 2\), got \(3, 2, 20\)",
+    SameSamples: "expected other samples from another seed, got the same",
+    Labels: r"expected labels_ of 4 integers, one a recording, got shape \(7,\) of float64",
+    Divides: r"expected one cluster with n_styles=1, got \[0, 1, 2, 3\]",
+    Derails: r"expected states 0 to 0, got \[5\]",
+    Bends: "expected the weighted mean of the styles, got a difference of",
+}
+"""What the conformance kit says of each."""

@@ -190,7 +190,8 @@ def test_export_holds_one_row_per_score(cli, records, tmp_path):
     table = pd.read_parquet(tmp_path / "tables" / "scores.parquet")
     found = records(tmp_path / "run").values()
     assert len(table) == sum(len(record["scores"]) for record in found)
-    text = pd.read_csv(tmp_path / "tables" / "scores.csv", keep_default_na=False)
+    missing = {"keep_default_na": False, "na_values": {"sample_two_sd": [""]}}
+    text = pd.read_csv(tmp_path / "tables" / "scores.csv", **missing)
     pd.testing.assert_frame_equal(table, text, check_dtype=False)
 
 

@@ -39,22 +39,34 @@ def test_order_of_parameters_does_not():
     assert _key(parameters={"a": 1, "b": 2}) == _key(parameters={"b": 2, "a": 1})
 
 
+def _score_key(metrics, case="row", references=None):
+    return score_key("fit", metrics, case, references or {})
+
+
 def test_a_metric_changes_the_score_key_alone():
     mse, msll = METRICS.get("mse"), METRICS.get("msll")
-    assert score_key("fit", [mse]) != score_key("fit", [mse, msll])
-    assert score_key("fit", [mse, msll]) == score_key("fit", [msll, mse])
+    assert _score_key([mse]) != _score_key([mse, msll])
+    assert _score_key([mse, msll]) == _score_key([msll, mse])
+
+
+def test_rows_and_references_change_the_score_key_alone():
+    mse, asked = METRICS.get("mse"), dataclasses.replace(TASK.cases[0], question="what is asked")
+    row, other = (dataclasses.replace(asked, name=name, settings={"row": name}) for name in "ab")
+    assert _key(row) == _key(other) != _key()
+    keys = [_score_key([mse], "a"), _score_key([mse], "b"), _score_key([mse], "a", {"r": "0"})]
+    assert len({*keys, _score_key([mse], "a", {"r": "1"})}) == 4
 
 
 @pytest.mark.parametrize("name", METRICS.names())
 def test_a_metric_is_named_by_its_own_source(name, monkeypatch):
     """Also where the function is bound to arguments, which count too."""
     metric = METRICS.get(name)
-    before = score_key("fit", [metric])
+    before = _score_key([metric])
     statistic = functools.partial(metric.statistic, level=0.123)
-    assert score_key("fit", [dataclasses.replace(metric, statistic=statistic)]) != before
+    assert _score_key([dataclasses.replace(metric, statistic=statistic)]) != before
     monkeypatch.setattr(keys, "_source", lambda module: f"# {module}" * ("mocapbench" in module))
     source_digest.cache_clear()
-    assert score_key("fit", [metric]) != before
+    assert _score_key([metric]) != before
     source_digest.cache_clear()
 
 

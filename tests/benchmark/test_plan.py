@@ -12,9 +12,10 @@ def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
 
 
 @pytest.mark.parametrize("profile", ["smoke", "quick", "paper"])
-def test_every_job_of_a_profile_has_keys_of_its_own(profile):
+def test_every_job_of_a_profile_has_a_key_of_its_own_and_every_question_a_fit(profile):
     jobs = plan(Request(profile), open_archive())
-    assert len({job.key for job in jobs}) == len({job.fit_key for job in jobs}) == len(jobs)
+    assert len({job.key for job in jobs}) == len(jobs)
+    assert len({job.fit_key for job in jobs}) == len({(job.seeds, job.label) for job in jobs})
 
 
 def test_a_profile_leaves_out_what_runs_only_when_asked_for():

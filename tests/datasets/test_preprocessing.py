@@ -12,6 +12,7 @@ from mocapbench.datasets import (
     excerpt,
     integrate_root,
     resample,
+    restart,
     root_differences,
 )
 
@@ -84,3 +85,12 @@ def test_a_path_is_needed():
     for function in (root_differences, integrate_root):
         with pytest.raises(ValueError, match="has no channels"):
             function(WALK.select(["knee.rx"]))
+
+
+def test_excerpts_of_one_length_share_a_clock_bit_for_bit_wherever_they_begin():
+    times = np.arange(500) / 120
+    recording = Recording("r", times, np.zeros((500, 1)), ("x",), ("",))
+    early, late = (restart(clip(recording, start, start + 300)) for start in (0, 130))
+    assert early.times[0] == 0.0
+    np.testing.assert_array_equal(early.times, late.times)
+    np.testing.assert_allclose(late.times, times[:300], atol=1e-9)

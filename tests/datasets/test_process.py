@@ -7,6 +7,7 @@ from mocapbench.datasets import Layer, ToyProcess
 from mocapbench.datasets.process import uniform_weights
 
 TIMES = np.linspace(0.0, 2.0 * np.pi, 6)
+NORMAL, UNIFORM = np.random.Generator.standard_normal, np.random.Generator.random
 
 
 @pytest.fixture
@@ -19,13 +20,27 @@ def stacked(children):
     return np.stack([child.values.T.ravel() for child in children])
 
 
-def test_layers_have_the_stated_mean_variance():
+@pytest.mark.parametrize("weights", [NORMAL, UNIFORM])
+def test_layers_have_the_stated_mean_variance(weights):
     rng = np.random.default_rng(2)
     for n_outputs in (1, 3, 6):
-        process = ToyProcess.random(rng, n_outputs=n_outputs, noise=0.01)
+        process = ToyProcess.random(rng, n_outputs=n_outputs, noise=0.01, weights=weights)
         n = n_outputs * len(TIMES)
         assert np.trace(process.parent.covariance(TIMES)) / n == pytest.approx(1.0)
         assert np.trace(process.child.covariance(TIMES)) / n == pytest.approx(0.25)
+
+
+def test_uniform_weights_correlate_outputs_positively_and_more():
+    rng = np.random.default_rng(2)
+    correlations = {}
+    for weights in (NORMAL, UNIFORM):
+        layers = [Layer.random(rng, 3, 3, 1.0, weights) for _ in range(50)]
+        total = np.stack([layer.coregionalisation.sum(axis=0) for layer in layers])
+        scale = np.sqrt(np.diagonal(total, axis1=1, axis2=2))
+        correlations[weights] = (total / scale[:, :, None] / scale[:, None, :])[:, 0, 1]
+    assert (correlations[UNIFORM] > 0.0).all()
+    assert (correlations[NORMAL] < 0.0).any()
+    assert np.abs(correlations[UNIFORM]).mean() > np.abs(correlations[NORMAL]).mean()
 
 
 def test_a_layer_is_a_sum_of_kronecker_products(process):

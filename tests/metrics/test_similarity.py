@@ -154,8 +154,16 @@ def test_unsound_outcomes_are_refused(metric, samples, references, message):
         metric(Synthesis(samples, references))
 
 
-def test_spread_needs_sequences_that_differ():
-    with pytest.raises(ValueError, match="at least two"):
-        spread(outcome(0, n_samples=1))
+@pytest.mark.parametrize("metric", [mcc_best, mlc_best, spread], ids=lambda metric: metric.name)
+def test_one_reference_leaves_no_choice_and_no_variance(metric):
+    assert np.isnan(metric(outcome(0, n_references=1)).value)
+    assert np.isfinite(metric(outcome(0)).value)
+
+
+def test_one_sample_has_no_spread():
+    assert np.isnan(spread(outcome(0, n_samples=1)).value)
+
+
+def test_spread_needs_references_that_differ():
     with pytest.raises(ValueError, match="differ"):
         spread(Synthesis(np.zeros((2, 5, 3)), np.ones((2, 5, 3))))

@@ -200,7 +200,8 @@ def bundle() -> Bundle:
                     records.append(record)
                     address = {k: record[k] for k in ("task", "case", "fold", "label", "model")}
                     scores += [
-                        {**address, "metric": metric, "value": value, "left_out": 0}
+                        {**address, "metric": metric, "value": value}
+                        | {"sample_two_sd": np.nan, "left_out": 0}
                         for metric, value in _values(rng, task, position, label).items()
                         if record["status"] == "ok" and metric in METRICS
                     ]
@@ -252,8 +253,8 @@ def small() -> Callable[..., Bundle]:
             for label, folds in labels.items()
             for fold, value in enumerate(folds)
         ]
-        frame = pd.DataFrame(rows).assign(metric=metric, left_out=0)
-        records = frame.drop(columns=["metric", "value", "left_out"]).assign(
+        frame = pd.DataFrame(rows).assign(metric=metric, sample_two_sd=np.nan, left_out=0)
+        records = frame.drop(columns=["metric", "value", "sample_two_sd", "left_out"]).assign(
             parameters="{}",
             status=["ok" if np.isfinite(row["value"]) else "failed" for row in rows],
             **dict.fromkeys(("message", "traceback", "engine"), ""),

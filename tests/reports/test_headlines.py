@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 from mocapbench.reports.bundle import CaseLayout
@@ -26,7 +27,7 @@ def test_the_best_entrant_of_each_case_is_named(small):
     texts = {finding.subject: finding.text for finding in found}
     assert texts["mohgp-3"] == (
         "has the best mean MSE in 1 of 2 cases (observed 40): "
-        "on average 0.10 there, next best 0.15."
+        "on average 0.10 there, next best 0.15. Not tested: one fold."
     )
 
 
@@ -42,14 +43,55 @@ def test_the_sentence_says_so_plainly(small):
     found = win_findings(results_of(small(VALUES, published_models=PUBLISHED)), "mse")
     assert found[0].subject == "gp-independent has a better mean than mohgp-1"
     assert found[0].text.startswith("in both cases: on average ")
-    assert found[1].text == ("in 1 of 2 cases (observed 20): on average 0.20 there against 0.30.")
+    assert found[1].text == (
+        "in 1 of 2 cases (observed 20): on average 0.20 there against 0.30. "
+        "Over both cases, 95 % interval of the lead −0.93 to 0.98: may be chance."
+    )
 
 
 def test_other_winners_follow_in_the_same_sentence(small):
     values = {"row": {"mohgp-1": [0.4], "spline": [0.3], "gp-independent": [0.2]}}
     (found,) = win_findings(results_of(small(values, published_models=PUBLISHED)), "mse")
     assert found.subject == "spline has a better mean than mohgp-1"
-    assert found.text.endswith("Also: gp-independent (1 of 1).")
+    assert found.text.endswith("Not tested: one fold. Also: gp-independent (1 of 1, not tested).")
+
+
+def rows(*pairs):
+    """Return two cases of five folds with these leads of a over b."""
+    noise = np.array([0.01, -0.02, 0.0, 0.02, -0.01])
+    return {
+        f"row {number}": {"a": list(1.0 + noise), "b": list(1.0 + lead + 2.0 * noise)}
+        for number, lead in enumerate(pairs, 1)
+    }
+
+
+@pytest.mark.parametrize(
+    ("leads", "words"),
+    [
+        ((0.5, 0.5), "The lead is more than chance."),
+        ((0.005, 0.005), "Case by case the lead may be chance: b cannot be told from it."),
+        ((0.5, 0.005), "More than chance in 1 case; elsewhere b cannot be told from it."),
+    ],
+)
+def test_a_lead_is_told_with_the_test_of_it(small, leads, words):
+    (found,) = lead_findings(results_of(small(rows(*leads))), "mse")
+    assert found.text.endswith(words)
+
+
+def test_windows_of_one_recording_test_no_lead(small):
+    (found,) = lead_findings(results_of(small(rows(0.5, 0.5), independent_folds=False)), "mse")
+    assert found.text.endswith(
+        "Not tested: overlapping windows of one recording count as one unit."
+    )
+
+
+def test_a_win_is_tested_over_all_shared_cases(small):
+    values = rows(0.5, 0.5, 0.49, 0.51)
+    results = results_of(small(values, published_models={"b": "MOHGP"}))
+    (win,) = wins(results, "mse")
+    assert (win.overall.contrast.n, win.overall.separable) == (4, True)
+    (found,) = win_findings(results, "mse")
+    assert found.text.endswith("95 % interval of the lead 0.49 to 0.51: more than chance.")
 
 
 def test_the_papers_models_do_not_beat_each_other(small):
@@ -118,3 +160,21 @@ def test_a_win_follows_the_metrics_direction(small):
     near = {"row": {"mohgp-1": [0.5], "gp-independent": [0.2]}}
     bundle = small(near, metric="coverage_50", published_models=PUBLISHED)
     assert wins(results_of(bundle), "coverage_50") == []
+
+
+@pytest.mark.parametrize(
+    ("not_comparable", "found"), [({}, 1), ({"mohgp-1": "trained on other walks"}, 0)]
+)
+def test_what_cannot_be_compared_is_no_better_value(small, not_comparable, found):
+    """The paper prints 22.546 for its ICM, and otherwise 23.082 or more (less is taken as better).
+
+    MOHGP-LMC, 25.248, is printed twice and counts once.
+    """
+    bundle = small(
+        {"row": {"mohgp-1": [23.0], "mohgp-3": [24.0]}},
+        task="walking-synthesis",
+        cases=(CaseLayout("row", {}, published="35(1)", not_comparable=not_comparable),),
+        published_models={"mohgp-1": "MOHGP-ICM", "mohgp-3": "MOHGP"},
+        published_metrics={"mse": "MCC"},
+    )
+    assert len(printed_findings(results_of(bundle), "mse")) == found

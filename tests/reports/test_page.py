@@ -5,6 +5,7 @@ from dataclasses import replace
 from html.parser import HTMLParser
 from itertools import pairwise
 
+import pandas as pd
 import pytest
 
 from mocapbench.reports import CaseLayout, render
@@ -84,10 +85,26 @@ def test_the_headline_says_that_the_simple_model_wins(page):
 
 
 def test_the_summary_says_what_its_claims_rest_on(page, small):
-    claim = "Claims between entrants compare means over {}; no test has been made"
+    claim = "Claims between entrants compare means over {}. “More than chance” is said where"
     assert claim.format("5 or 12 folds") in page
     assert claim.format("1 fold") in render(small({"row": {"a": [1.0]}}))
     assert "Claims between" not in render(small({"row": {"a": [float("nan")]}}))
+
+
+def test_ranks_over_tasks_stand_in_the_summary(small):
+    levels = {"spline": 2.0, "knn": 1.0, "nn": 3.0, "trivial": 4.0}
+    values = {case: {label: [x] for label, x in levels.items()} for case in ("one", "two")}
+    one, two = (small(values, task=task) for task in ("here", "there"))
+    both = replace(
+        one,
+        scores=pd.concat([one.scores, two.scores]),
+        records=pd.concat([one.records, two.records]),
+        layouts=one.layouts + two.layouts,
+    )
+    text = render(both)
+    assert text.index("Tasks that impute, ranks over tasks") < text.index('id="task-here"')
+    assert "mean ranks of 4 entrants over 2 tasks" in text
+    assert "ranks over tasks" not in render(one)
 
 
 def test_one_of_each_is_singular(small):

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from mocapbench.reports import Curve, Illustration, Panel, render
+from mocapbench.reports import Band, Curve, Illustration, Panel, render
 from mocapbench.reports.panels import draw
 
 X = np.arange(5.0)
@@ -90,3 +90,12 @@ def test_a_task_that_the_bundle_lacks_is_refused(bundle):
 def test_a_curve_needs_as_many_x_as_y():
     with pytest.raises(ValueError, match="as many x as y"):
         Curve(X, X[:3], "walk")
+
+
+def test_a_band_is_an_area_in_the_colour_of_its_group():
+    band = Band(X, X - 1.0, X + 1.0, "run")
+    panel = Panel("", "", "", (WALK, RUN), bands=(band,))
+    drawn = draw(replace(ILLUSTRATION, panels=(panel,)))
+    areas = re.findall(r'style="fill: var\((--series-\d)\)', drawn.svg)
+    assert "--series-1" in areas
+    assert "fill-opacity: 0.2" in drawn.svg

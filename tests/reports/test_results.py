@@ -78,3 +78,15 @@ def test_every_job_without_a_score_is_a_trouble(bundle):
     assert len(found) == (bundle.records["status"] != "ok").sum()
     assert len({trouble.id for trouble in found}) == len(found)
     assert all(trouble.message for trouble in found)
+
+
+@given(values, st.lists(st.floats(0.0, 1e3), min_size=1, max_size=12))
+def test_the_spread_over_samples_is_averaged_over_folds_and_comes_first(sample, within):
+    plain, sampled = Estimate.of(sample), Estimate.of(sample, within)
+    assert plain.spread == plain.two_sd == sampled.two_sd
+    assert sampled.spread == sampled.sample_two_sd == pytest.approx(np.mean(within))
+    assert sampled.half_width == plain.half_width
+
+
+def test_values_that_are_no_means_over_samples_spread_over_folds():
+    assert Estimate.of([1.0, 3.0], [math.nan, math.nan]) == Estimate.of([1.0, 3.0])

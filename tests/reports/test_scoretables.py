@@ -36,11 +36,44 @@ def test_one_fold_shows_no_spread_and_says_so(small):
     assert cell(table, "row", "folds").text == "n=1"
 
 
-def test_best_cells_have_the_least_mean(bundle):
-    table = table_of(bundle, "mse")
+def test_best_cells_are_the_least_mean_and_what_no_test_tells_from_it(bundle):
+    results = task_results(bundle, bundle.layouts[0])
+    table = score_table(results, "mse")
     for case, rows in table.data[table.data["label"] != "oracle"].groupby("case"):
         best = {label for label in rows["label"] if cell(table, case, label).kind == "best"}
-        assert best == {rows.loc[rows["mean"].idxmin(), "label"]}
+        assert rows.loc[rows["mean"].idxmin(), "label"] in best
+        assert best == set(results.first_rank(case, "mse").labels)
+        assert best == set(rows.loc[rows["first_rank"], "label"])
+
+
+CLOSE = {"a": [1.0, 1.2, 0.9], "b": [1.1, 1.1, 1.0], "c": [5.0, 5.1, 4.8]}
+
+
+def bold(table):
+    return {c.text for c, v in zip(table.columns, table.rows[0], strict=True) if v.kind == "best"}
+
+
+def test_what_is_not_separable_shares_the_rank_and_a_note_says_by_what_test(small):
+    table = table_of(small({"row": CLOSE}), "mse")
+    assert bold(table) == {"a", "b"}
+    assert table.notes == (
+        "Bold: the best mean of a row, and every mean that the paired t-test with Holm’s "
+        "correction cannot tell from it (5 %, n = 3 folds).",
+    )
+
+
+@pytest.mark.parametrize(
+    ("values", "independent", "reason"),
+    [
+        (CLOSE, False, "overlapping windows of one recording count as one unit"),
+        ({label: folds[:1] for label, folds in CLOSE.items()}, True, "one fold"),
+    ],
+)
+def test_a_row_of_one_unit_is_not_tested_and_says_so(small, values, independent, reason):
+    table = table_of(small({"row": values}, independent_folds=independent), "mse")
+    assert bold(table) == {"a"}
+    assert cell(table, "row", "folds").note == "no test"
+    assert table.notes == (f"No test: {reason}; there the best mean alone is in bold.",)
 
 
 def test_a_failed_cell_leads_to_its_failure(bundle):
@@ -128,3 +161,25 @@ def test_the_caption_says_what_the_spread_is(small, independent, words):
 def test_the_caption_says_which_way_is_better(small, metric):
     words = {"mse": "lower is better", "coverage_50": "closest to 0.5 is better"}
     assert words[metric] in table_of(small({"row": {"a": [1.0]}}, metric=metric), metric).caption
+
+
+def test_scores_of_samples_spread_over_samples(small):
+    bundle = small({"row": {"a": [1.0, 3.0]}})
+    bundle.scores["sample_two_sd"] = [0.4, 0.6]
+    table = table_of(bundle, "mse")
+    assert cell(table, "row", "a").spread == "0.50"
+    assert "2 sd over the samples of a fold, averaged over folds" in table.caption
+
+
+def test_errata_of_columns_that_only_the_paper_has_are_footnotes(small):
+    bundle = small(
+        {"row": {"a": [8.0]}, "other": {"a": [9.0]}},
+        task="toy-synthesis",
+        cases=(CaseLayout("row", {}, "test 1"), CaseLayout("other", {}, "test 2")),
+        published_metrics={"mse": "MCC"},
+        published_models={"a": "MOHGP"},
+    )
+    table = table_of(bundle, "mse")
+    assert cell(table, "row", "Control (published)").mark == "a"
+    assert cell(table, "other", "Control (published)").mark == ""
+    assert table.notes[-1].startswith("a: ")

@@ -1,3 +1,5 @@
+import dataclasses
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -175,3 +177,38 @@ def test_the_table_holds_ours_theirs_and_the_difference(bundle):
 def test_no_table_where_the_paper_has_nothing(small):
     bundle = small({"row": {"a": [1.0]}})
     assert verdict_table(task_results(bundle, bundle.layouts[0]), "mse") is None
+
+
+def test_an_erratum_stands_on_the_number_and_under_the_table(bundle):
+    table = verdict_table(task_results(bundle, bundle.layouts[0]), "mse")
+    marked = [(row[0].text, row[2].text) for row in table.rows if row[5].mark]
+    assert marked == [("test 4", "MOHGP"), ("test 7", "MOHGP")]
+    assert table.notes[0].startswith("a: The thesis prints identical")
+    assert (table.data["erratum"] != "").sum() == 2
+
+
+def test_a_row_may_have_a_reason_of_its_own(small):
+    bundle = spline_on_35_03(small, [62.98])
+    (case,) = bundle.layouts[0].cases
+    reasoned = dataclasses.replace(case, not_comparable={"cubic-spline": "another training set"})
+    layout = dataclasses.replace(bundle.layouts[0], cases=(reasoned,))
+    (pair,) = comparisons(
+        task_results(dataclasses.replace(bundle, layouts=(layout,)), layout), "rms_per_frame"
+    )
+    assert (pair.verdict, pair.reason) == (Verdict.NOT_COMPARABLE, "another training set")
+
+
+def test_what_the_papers_number_lacks_is_a_reason(small):
+    bundle = small(
+        {"row": {"replay": [1.0]}},
+        task="control-similarity",
+        cases=(CaseLayout("row", {}, "12(1) vs 16(15)"),),
+        published_metrics={"mse": "MCC"},
+        published_models={"replay": "real"},
+    )
+    results = task_results(bundle, bundle.layouts[0])
+    (pair,) = comparisons(results, "mse")
+    assert pair.verdict is Verdict.NOT_COMPARABLE
+    assert "approached" in pair.reason
+    (difference,) = verdict_table(results, "mse").data["relative_difference"]
+    assert difference == pytest.approx((1.0 - 20.551) / 20.551)

@@ -11,25 +11,30 @@ from hypothesis import strategies as st
 
 from mocapbench.baselines.gp.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.dense import Dense
+from mocapbench.baselines.gp.hierarchy import hierarchical
 from mocapbench.baselines.gp.kernels import KERNELS, Kernel
 from mocapbench.baselines.gp.parameters import CHILD, PARENT, Layer, Parameters
-from mocapbench.baselines.gp.reduction import Reduction, hierarchical, independent, pooled
+from mocapbench.baselines.gp.reduction import Reduction, independent, pooled
 from mocapbench.baselines.gp.replicates import Replicates
 from mocapbench.baselines.gp.solver import Solver
+from mocapbench.baselines.gp.tree import Path, Tree, grow
 
 
 @dataclass(frozen=True)
 class Structure:
-    """A reduction and the layers that its model has."""
+    """A reduction, the layers that its model has, and the length of its replicates' paths."""
 
-    reduce: Callable[[Replicates], Reduction]
+    reduce: Callable[[Replicates, Tree], Reduction]
     layers: tuple[str, ...]
+    depth: int = 0
 
 
 STRUCTURES = {
     "hierarchical": Structure(hierarchical, (PARENT, CHILD)),
-    "pooled": Structure(pooled, (PARENT,)),
-    "independent": Structure(independent, (CHILD,)),
+    "pooled": Structure(lambda replicates, tree: pooled(replicates), (PARENT,)),
+    "independent": Structure(lambda replicates, tree: independent(replicates), (CHILD,)),
+    "grouped": Structure(hierarchical, (PARENT, "group-1", CHILD), 1),
+    "nested": Structure(hierarchical, (PARENT, "group-1", "group-2", CHILD), 2),
 }
 
 
@@ -41,10 +46,17 @@ class Case:
     replicates: Replicates
     parameters: Parameters
     kernel: Kernel
+    paths: tuple[Path, ...] | None
+
+    @property
+    def tree(self) -> Tree:
+        names = [str(r) for r in range(len(self.replicates.data))]
+        grown = grow(names, self.paths and dict(zip(names, self.paths, strict=True)))
+        return {name: grown[name] for name in self.structure.layers}
 
     @property
     def reduction(self) -> Reduction:
-        return self.structure.reduce(self.replicates)
+        return self.structure.reduce(self.replicates, self.tree)
 
 
 class BruteForce:
@@ -94,6 +106,12 @@ class BruteForce:
         signal = self._signal(parameters, points, points, tuple(parameters.layers))
         return signal + np.diag(parameters.noise[self.rows[:, 1]])
 
+    def _draws(self, name: str) -> np.ndarray:
+        """Return which draw of a layer each replicate takes part in, and last of all a new one."""
+        nodes = self.case.tree[name]
+        known = list(dict.fromkeys(nodes))
+        return np.array([*(known.index(node) for node in nodes), 0 if name == PARENT else -1])
+
     def _points(self) -> list[tuple[int, int, float]]:
         times = self.case.replicates.times
         return [(int(r), int(d), float(times[t])) for r, d, t in self.rows]
@@ -105,7 +123,8 @@ class BruteForce:
         total = np.zeros((len(left), len(right)))
         for name in layers:
             layer = parameters.layers[name]
-            shared = np.ones_like(total) if name == PARENT else np.equal.outer(r1, r2)
+            draws = self._draws(name)
+            shared = np.equal.outer(draws[r1], draws[r2])
             for b, scale in zip(layer.coregionalisation.matrices, layer.lengthscales, strict=True):
                 kernel = self.case.kernel.value(np.subtract.outer(t1, t2), scale)
                 total += shared * b[np.ix_(d1, d2)] * kernel
@@ -143,7 +162,14 @@ def draw_case(
     }
     parameters = Parameters(layers, rng.uniform(-3.0, 0.0, n_outputs))
     replicates = Replicates(times, data, observed)
-    return Case(STRUCTURES[structure], replicates, parameters, KERNELS[kernel])
+    paths = _paths(rng, n_replicates, STRUCTURES[structure].depth)
+    return Case(STRUCTURES[structure], replicates, parameters, KERNELS[kernel], paths)
+
+
+def _paths(rng: np.random.Generator, n_replicates: int, depth: int) -> tuple[Path, ...] | None:
+    """Return paths of a depth, of up to two branches a node, or None for two layers."""
+    labels = rng.integers(2, size=(n_replicates, depth)).astype(str)
+    return tuple(tuple(path) for path in labels) if depth else None
 
 
 def _mixed(rng: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
@@ -171,7 +197,7 @@ def _cases(draw: st.DrawFn) -> Case:
         structure=draw(st.sampled_from(sorted(STRUCTURES))),
         kernel=draw(st.sampled_from(sorted(KERNELS))),
         n_outputs=draw(st.integers(1, 3)),
-        n_replicates=draw(st.integers(1, 4)),
+        n_replicates=draw(st.integers(1, 5)),
         n_times=draw(st.integers(1, 6)),
         n_components=draw(st.integers(1, 2)),
         rank=draw(st.integers(0, 2)),

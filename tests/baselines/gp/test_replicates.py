@@ -25,4 +25,3 @@ def test_replicates_with_the_same_visible_entries_form_a_pattern():
     data = np.where(observed, [[[1.0, 3.0]], [[5.0, 5.0]], [[3.0, 9.0]], [[7.0, 7.0]]], 0.0)
     replicates = Replicates(np.arange(2.0), data, observed)
     assert [pattern.members.tolist() for pattern in replicates.patterns] == [[0, 2], [1]]
-    np.testing.assert_array_equal(replicates.means(), [[[2.0, 6.0]], [[5.0, 0.0]]])

@@ -6,7 +6,8 @@ from mocapbench.baselines.gp.start import bounds, data_driven, perturbed
 
 def _start(example, n_components=2, rank=1):
     by_layer = dict.fromkeys(example.structure.layers, n_components)
-    return data_driven(example.replicates, by_layer, rank, example.reduction.within_variance)
+    within = example.reduction.within_variance
+    return data_driven(example.replicates, example.tree, by_layer, rank, within)
 
 
 @pytest.mark.parametrize("structure", ["hierarchical", "pooled", "independent"])
@@ -25,7 +26,8 @@ def test_starts_lie_within_bounds_where_gradients_are_alive(structure, masks, n_
 def test_every_layer_has_its_own_number_of_components(case):
     example = case(np.random.default_rng(3), n_outputs=4, n_times=9)
     sizes = {"parent": 3, "child": 1}
-    start = data_driven(example.replicates, sizes, 2, example.reduction.within_variance)
+    within = example.reduction.within_variance
+    start = data_driven(example.replicates, example.tree, sizes, 2, within)
     assert start.shapes == {"parent": (3, 4, 2), "child": (1, 4, 2)}
     np.testing.assert_allclose(
         np.diff(start.layers["parent"].log_lengthscales), np.log(2.0), rtol=1e-12

@@ -19,6 +19,7 @@ def example(case):
 def _start(example):
     return data_driven(
         example.replicates,
+        example.tree,
         dict.fromkeys(example.structure.layers, 2),
         1,
         example.reduction.within_variance,

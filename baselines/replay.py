@@ -1,0 +1,70 @@
+"""Replay: samples that are the training recordings themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.pooling import check_recordings
+from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
+from mocapbench.datasets import FrameByChannel, Frames, Recording
+
+__all__ = ["Replay"]
+
+
+class Replay(Synthesiser):
+    """Draw recordings from those given to `fit`, with replacement.
+
+    What the scores of a synthesiser mean is seen beside those of real recordings: this model makes
+    nothing new, and never errs. Hidden entries, and times between frames, are interpolated
+    linearly; before the first and after the last visible entry of a channel its value there holds.
+
+    Attributes
+    ----------
+    recordings_ : tuple of Recording
+        The recordings given to `fit`.
+    """
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Keep the recordings.
+
+        Raises
+        ------
+        ValueError
+            If there is none, their channels differ, a name repeats, or a recording has a channel
+            without a visible entry.
+        """
+        self.recordings_ = check_recordings(recordings)
+        for recording in self.recordings_:
+            _check_visible(recording)
+        return self
+
+    def sample(
+        self, times: Frames, n_samples: int, random_state: int | np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Return ``n_samples`` of the recordings, drawn with replacement, at ``times`` (N,)."""
+        check_is_fitted(self)
+        chosen = np.random.default_rng(random_state).choice(len(self.recordings_), n_samples)
+        replayed = np.stack([_at(times, recording) for recording in self.recordings_])
+        return np.asarray(replayed[chosen])
+
+
+def _check_visible(recording: Recording) -> None:
+    seen = recording.visible.any(axis=0)
+    if not seen.all():
+        hidden = [recording.channels[d] for d in np.flatnonzero(~seen)]
+        raise ValueError(
+            f"recording {recording.name!r}: expected a visible entry of every channel to replay, "
+            f"got none of {hidden}; leave the recording or the channels out"
+        )
+
+
+def _at(times: Frames, recording: Recording) -> FrameByChannel:
+    columns = [
+        np.interp(times, recording.times[seen], values[seen])
+        for values, seen in zip(recording.values.T, recording.visible.T, strict=True)
+    ]
+    return np.stack(columns, axis=1)

@@ -1,0 +1,114 @@
+"""What an imputer promises."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from mocapbench.baselines import Prediction
+from mocapbench.benchmark.testing.errors import ConformanceError, require, require_equal
+from mocapbench.benchmark.testing.subject import COMPLETE, GAP, SCATTERED, Subject, problem
+from mocapbench.datasets import Recording
+
+__all__ = [
+    "fills_any_mask",
+    "fills_new_recordings",
+    "fills_whole_frames",
+    "ignores_the_order_of_recordings",
+    "refuses_new_recordings",
+    "repeats_itself",
+]
+
+_TOLERANCE = 1e-4
+
+
+def fills_whole_frames(subject: Subject) -> None:
+    """Check that frames that are hidden as a whole are filled."""
+    recordings = problem(GAP)
+    _filled(subject.fitted(recordings), [recordings[-1]])
+
+
+def fills_any_mask(subject: Subject) -> None:
+    """Check that hidden entries are filled wherever they are."""
+    recordings = problem(SCATTERED)
+    _filled(subject.fitted(recordings), list(recordings))
+
+
+def repeats_itself(subject: Subject) -> None:
+    """Check that the same seed gives the same answer."""
+    recordings = problem(GAP)
+    one, two = (_filled(subject.fitted(recordings), [recordings[-1]])[0].mean for _ in range(2))
+    advice = "take all randomness from random_state"
+    require_equal(one, two, "the same answer from the same seed", advice)
+
+
+def ignores_the_order_of_recordings(subject: Subject) -> None:
+    """Check that the order of the other recordings means nothing."""
+    *others, last = problem(GAP)
+    orders = ((*others, last), (*reversed(others), last))
+    one, two = (_filled(subject.fitted(order), [last])[0].mean for order in orders)
+    gap = float(np.abs(one - two).max())
+    require(
+        np.allclose(one, two, rtol=_TOLERANCE, atol=_TOLERANCE),
+        "the same answer for recordings in another order",
+        f"a difference of {gap:.2g}",
+        "sort the recordings, or let every one count alike",
+    )
+
+
+def fills_new_recordings(subject: Subject) -> None:
+    """Check that a recording that fit has not seen is filled: the class is `Inductive`."""
+    seen = COMPLETE[-1]
+    new = Recording("new", seen.times, seen.values, seen.channels, seen.units).hide(GAP)
+    _filled(subject.fitted(COMPLETE[:-1]), [new])
+
+
+def refuses_new_recordings(subject: Subject) -> None:
+    """Check that a recording that fit has not seen is refused by name: it is not `Inductive`."""
+    new = COMPLETE[-1].hide(GAP)
+    model = subject.fitted(COMPLETE[:-1])
+    expected = f"a ValueError that names {new.name}, which fit has not seen"
+    advice = "raise it, or inherit Inductive if you can fill new recordings"
+    try:
+        answer = model.impute([new])
+    except ValueError as error:
+        require(new.name in str(error), expected, f"{error!r}", advice)
+    else:
+        raise ConformanceError(f"expected {expected}, got {type(answer).__name__}: {advice}")
+
+
+def _filled(model: Any, recordings: list[Recording]) -> list[Prediction]:
+    predictions = model.impute(recordings)
+    kinds = [type(prediction).__name__ for prediction in predictions]
+    require(
+        kinds == [Prediction.__name__] * len(recordings),
+        f"impute to return a list of {len(recordings)} Prediction",
+        kinds,
+        "return one Prediction per recording, in order",
+    )
+    for recording, prediction in zip(recordings, predictions, strict=True):
+        _check_mean(recording, prediction.mean)
+        if prediction.variance is not None:
+            _check_variance(recording, prediction.variance)
+    return list(predictions)
+
+
+def _check_mean(recording: Recording, mean: Any) -> None:
+    shape, advice = recording.values.shape, "Prediction.around(recording, mean) does it"
+    require(np.shape(mean) == shape, f"a mean of shape {shape}", np.shape(mean), advice)
+    bad = int((~np.isfinite(mean)).sum())
+    require(bad == 0, "a finite mean", f"{bad} NaN or infinite entries", "fill every hidden entry")
+    visible = recording.visible
+    expected = "visible entries copied into the mean"
+    require_equal(mean[visible], recording.values[visible], expected, advice)
+
+
+def _check_variance(recording: Recording, variance: Any) -> None:
+    shape, advice = recording.values.shape, "Prediction.around(recording, mean, variance) does it"
+    require(np.shape(variance) == shape, f"a variance of shape {shape}", np.shape(variance), advice)
+    least = float(np.min(variance[~recording.visible], initial=np.inf))
+    none = "return no variance if the model has no predictive distribution"
+    require(least > 0, "a positive variance at hidden entries", f"{least:g}", none)
+    visible = variance[recording.visible]
+    require_equal(visible, np.zeros_like(visible), "no variance at visible entries", advice)

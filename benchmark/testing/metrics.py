@@ -1,0 +1,94 @@
+"""Whether a metric is a directed, pure, finite function of its outcome."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mocapbench.benchmark.testing.errors import raised_by, require
+from mocapbench.benchmark.testing.subject import COMPLETE, GAP
+from mocapbench.metrics import (
+    Clustering,
+    Direction,
+    Imputation,
+    Metric,
+    Recovery,
+    Score,
+    Synthesis,
+)
+
+__all__ = ["check_metric"]
+
+OUTCOMES: Mapping[type, Any] = {
+    Imputation: Imputation(
+        truth=COMPLETE[0].values,
+        mean=COMPLETE[0].values + 0.1,
+        variance=np.full((20, 2), 0.5),
+        hidden=GAP,
+        visible_mean=np.zeros(2),
+        visible_variance=np.ones(2),
+    ),
+    Synthesis: Synthesis(
+        np.stack([r.values for r in COMPLETE[:2]]), np.stack([r.values for r in COMPLETE[2:]])
+    ),
+    Recovery: Recovery(
+        truth={"parent": 2.0 * np.eye(3), "child": np.eye(3)},
+        estimate={"parent": np.eye(3), "child": 0.5 + np.eye(3)},
+        noise=0.1,
+    ),
+    Clustering: Clustering(np.array(["walk", "walk", "run"]), np.array([0, 1, 1])),
+}
+"""A small outcome of each kind."""
+
+
+def check_metric(metric: Metric[Any]) -> None:
+    """Check that a metric is a directed, pure, finite function of its outcome.
+
+    Raises
+    ------
+    ConformanceError
+        At the first thing that is wrong.
+    """
+    with raised_by(f"metric {metric.name}", "it scores an outcome"):
+        _check_declaration(metric)
+        _check_values(metric)
+    if metric.outcome is Imputation:
+        with raised_by(f"metric {metric.name}", "it looks at hidden entries"):
+            _check_hidden_only(metric)
+
+
+def _check_declaration(metric: Metric[Any]) -> None:
+    kinds = [kind.__name__ for kind in OUTCOMES]
+    require(metric.outcome in OUTCOMES, f"an outcome among {kinds}", metric.outcome, "take one")
+    targeted = metric.direction is Direction.TARGET
+    has_target = metric.target is not None
+    expected = "a target" if targeted else f"no target where {metric.direction.value} is better"
+    require(targeted == has_target, expected, metric.target, "set direction and target together")
+    documented = inspect.getdoc(metric.statistic)
+    advice = "state formula, axis and ddof"
+    require(documented, "a docstring of the statistic", documented, advice)
+
+
+def _check_values(metric: Metric[Any]) -> None:
+    one, two = (metric(OUTCOMES[metric.outcome]) for _ in range(2))
+    require(type(one) is Score, "a Score", type(one).__name__, "return Score(value)")
+    advice = "leave degenerate outputs out"
+    require(np.isfinite(one.value), "a finite value of a plain outcome", one.value, advice)
+    advice = "draw nothing in a metric"
+    require(one.value == two.value, f"{one.value} again", two.value, advice)
+
+
+def _check_hidden_only(metric: Metric[Any]) -> None:
+    outcome: Imputation = OUTCOMES[Imputation]
+    elsewhere = replace(
+        outcome,
+        truth=np.where(outcome.hidden, outcome.truth, 1e6),
+        mean=np.where(outcome.hidden, outcome.mean, -1e6),
+    )
+    one, two = metric(outcome).value, metric(elsewhere).value
+    expected = f"{one} whatever the visible entries are"
+    require(one == two, expected, two, "select outcome.hidden before you average")

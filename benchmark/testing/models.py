@@ -1,0 +1,129 @@
+"""Whether a model keeps what its abilities promise."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from sklearn.base import clone
+
+from mocapbench.baselines import (
+    Aligner,
+    Blender,
+    Clusterer,
+    Coregionalised,
+    FrameImputer,
+    Imputer,
+    Inductive,
+    Layered,
+    Model,
+    Synthesiser,
+    Trended,
+)
+from mocapbench.benchmark.testing import abilities, imputers, layers
+from mocapbench.benchmark.testing.errors import (
+    global_randomness_untouched,
+    raised_by,
+    require,
+    require_equal,
+)
+from mocapbench.benchmark.testing.subject import GAP, Subject, problem
+
+__all__ = ["check_model", "model_checks"]
+
+ModelCheck = Callable[[Subject], None]
+
+
+def check_model(model: type[Model], **parameters: Any) -> None:
+    """Check a model class against the protocols of the abilities it inherits.
+
+    Parameters
+    ----------
+    model : type
+        A subclass of `mocapbench.baselines.Model`.
+    **parameters
+        Set on every instance, for example a smaller budget.
+
+    Raises
+    ------
+    ConformanceError
+        At the first promise that it does not keep.
+    """
+    for check in model_checks(model):
+        check(model, **parameters)
+
+
+def model_checks(model: type[Model]) -> tuple[Callable[..., None], ...]:
+    """Return the checks that apply to ``model``, each to be called as `check_model` is."""
+    groups = [group for ability, group in _CHECKS.items() if issubclass(model, ability)]
+    if issubclass(model, FrameImputer):
+        new = {True: imputers.fills_new_recordings, False: imputers.refuses_new_recordings}
+        groups.append((new[issubclass(model, Inductive)],))
+    return tuple(_named(check) for group in groups for check in group)
+
+
+def _named(check: ModelCheck) -> Callable[..., None]:
+    promise = (inspect.getdoc(check) or "").removeprefix("Check that ").rstrip(".")
+
+    def run(model: type[Model], **parameters: Any) -> None:
+        with raised_by(model.__name__, promise), global_randomness_untouched():
+            check(Subject(model, parameters))
+
+    run.__name__ = check.__name__
+    return run
+
+
+def is_documented(subject: Subject) -> None:
+    """Check that the class says what it is."""
+    own = subject.model.__dict__.get("__doc__")
+    require(own, "a docstring of the class", repr(own), "say what the model is")
+
+
+def constructor_only_stores(subject: Subject) -> None:
+    """Check that the constructor works without arguments and only stores them."""
+    model = subject.model()
+    learned = sorted(name for name in vars(model) if name.endswith("_"))
+    require(not learned, "no learned state before fit", learned, "set it in fit")
+    before, after = model.get_params(), clone(model).get_params()
+    require(
+        repr(before) == repr(after),
+        f"a clone with the parameters {before}",
+        after,
+        "store each argument of __init__ unchanged under its own name",
+    )
+
+
+def fit_returns_the_model(subject: Subject) -> None:
+    """Check that fit returns the model, and changes no parameter and no recording."""
+    recordings, model = problem(GAP), subject.build(3)
+    values = [recording.values.copy() for recording in recordings]
+    before = repr(model.get_params())
+    returned = model.fit(recordings)
+    require(returned is model, "fit to return self", repr(returned)[:80], "end it in return self")
+    after = repr(model.get_params())
+    require(before == after, f"the parameters {before}", after, "keep what is learned apart")
+    for recording, value in zip(recordings, values, strict=True):
+        require_equal(recording.values, value, "recordings as they were", "copy before you change")
+
+
+_CHECKS: Mapping[type, tuple[ModelCheck, ...]] = {
+    Model: (
+        is_documented,
+        constructor_only_stores,
+        fit_returns_the_model,
+    ),
+    FrameImputer: (
+        imputers.fills_whole_frames,
+        imputers.repeats_itself,
+        imputers.ignores_the_order_of_recordings,
+    ),
+    Imputer: (imputers.fills_any_mask,),
+    Synthesiser: (abilities.draws_samples,),
+    Clusterer: (abilities.clusters_every_recording, abilities.makes_one_cluster_of_one_style),
+    Aligner: (abilities.aligns_every_frame,),
+    Blender: (abilities.blends_frame_by_frame,),
+    Trended: (layers.infers_a_trend_at_any_time,),
+    Layered: (layers.shows_the_covariance_of_every_layer,),
+    Coregionalised: (layers.shows_matrices_that_add_up_to_the_covariance,),
+}

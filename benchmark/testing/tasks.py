@@ -1,0 +1,122 @@
+"""Whether a task is consistent and its problems are functions of their address."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from mocapbench.baselines import FrameImputer, Imputer, Model
+from mocapbench.benchmark.plan import entrants
+from mocapbench.benchmark.problem import Problem
+from mocapbench.benchmark.registry import METRICS
+from mocapbench.benchmark.seeds import Seeds
+from mocapbench.benchmark.task import Case, Task
+from mocapbench.benchmark.testing.errors import ConformanceError, raised_by, require, require_equal
+from mocapbench.datasets import Archive, open_archive
+
+__all__ = ["check_task"]
+
+
+def check_task(task: Task, archive: Archive | None = None) -> None:
+    """Check that a task is consistent, and its problems pure functions of their address.
+
+    Parameters
+    ----------
+    task : Task
+    archive : Archive or None
+        Where recordings are; the default one if None. The first case whose recordings are there
+        is posed.
+
+    Raises
+    ------
+    ConformanceError
+        At the first thing that is wrong.
+    """
+    with raised_by(f"task {task.name}", "it is consistent"):
+        _check_names(task)
+        _check_profiles(task)
+    with raised_by(f"task {task.name}", "it poses a problem"):
+        _check_problems(task, archive or open_archive(None))
+
+
+def _check_names(task: Task) -> None:
+    cases = [case.name for case in task.cases]
+    labels = [entrant.label for entrant in entrants(task)]
+    _require_distinct("cases", cases)
+    _require_distinct("labels of entrants", labels)
+    require(task.version >= 1, "a version from 1", task.version, "raise it when problems change")
+    require(task.metrics, "metrics to show", "none", "name at least one")
+    abilities = all(issubclass(each, Model) for each in task.requires)
+    require(abilities, "abilities from mocapbench.baselines", task.requires, "say what is needed")
+    _require_among("metrics", task.metrics, METRICS.names())
+    _require_among("published_models", task.published_models, labels)
+    _require_among("published_metrics", task.published_metrics, task.metrics)
+
+
+def _check_profiles(task: Task) -> None:
+    require(task.profiles, "at least one profile", "none", "say what smoke, quick and paper run")
+    for profile, selection in task.profiles.items():
+        cases = [case.name for case in task.cases]
+        _require_among(f"cases of profile {profile}", selection.cases, cases)
+        folds = selection.folds
+        most = folds if task.max_folds is None else task.max_folds
+        expected = f"1 to {most} folds in profile {profile}"
+        require(1 <= folds <= most, expected, folds, "change its Selection")
+
+
+def _check_problems(task: Task, archive: Archive) -> None:
+    case = _posable(task, archive)
+    one, two = (_posed(task, case, 0, archive) for _ in range(2))
+    require(one.train, "recordings to learn from", "none", "fill Problem.train")
+    advice = "draw from seeds.generator alone"
+    for a, b in zip(one.train, two.train, strict=True):
+        require(a.name == b.name, f"the recording {a.name} again", b.name, advice)
+        require_equal(a.values, b.values, f"{a.name} again at the same address", advice)
+    if {Imputer, FrameImputer} & set(task.requires):
+        _check_masks(one, two)
+        if task.max_folds != 1:
+            _check_folds(one, _posed(task, case, 1, archive))
+
+
+def _check_masks(one: Any, two: Any) -> None:
+    """Check that the same entries are hidden at the same address, and nothing but hidden."""
+    for given, again, truth in zip(one.given, two.given, one.truth, strict=True):
+        advice = "draw masks from seeds.generator('mask')"
+        require_equal(given.values, again.values, "the same mask at the same address", advice)
+        hidden = int(np.isnan(given.values).sum())
+        require(hidden, f"hidden entries in {given.name}", "none", "hide them with Recording.hide")
+        seen = given.visible
+        advice = "take the truth from the recording that is hidden in part"
+        require_equal(truth[seen], given.values[seen], "the truth where it is visible", advice)
+
+
+def _check_folds(one: Any, other: Any) -> None:
+    same = np.array_equal(one.given[0].values, other.given[0].values, equal_nan=True)
+    require(not same, "another problem in another fold", "the same", "draw anew for every fold")
+
+
+def _posable(task: Task, archive: Archive) -> Case:
+    for case in task.cases:
+        if all(map(archive.available, case.needs)):
+            return case
+    raise ConformanceError(
+        "expected a case whose recordings are at hand, got none: add one on generated data, so "
+        "that the task can be tried anywhere"
+    )
+
+
+def _posed(task: Task, case: Case, fold: int, archive: Archive) -> Problem:
+    return task.problem(case, Seeds(0, task.name, task.version, case.name, fold), archive)
+
+
+def _require_distinct(what: str, names: Sequence[str]) -> None:
+    twice = sorted(name for name, count in Counter(names).items() if count > 1)
+    require(not twice, f"{what} with different names", twice, "rename one of each")
+
+
+def _require_among(what: str, names: Iterable[str], known: Iterable[str]) -> None:
+    unknown = sorted(set(names) - set(known))
+    require(not unknown, f"{what} among {', '.join(known)}", unknown, "correct or register them")

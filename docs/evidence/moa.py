@@ -1,0 +1,149 @@
+"""How the thesis must have computed MOA: what `docs/moa.md` rests on.
+
+::
+
+    python docs/evidence/moa.py masks [TEST …]     # one dataset, five masks, as in Tables 1–3
+    python docs/evidence/moa.py visible            # more and more points of one dataset, Table 7
+    python docs/evidence/moa.py walking [FOLDS]    # Table 11, each walk in its own range
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+
+from mocapbench.baselines.lmc_independent import LMCIndependent
+from mocapbench.baselines.moa import MOA
+from mocapbench.benchmark.imputation import ImputeProblem, Unit
+from mocapbench.benchmark.registry import METRICS, TASKS
+from mocapbench.benchmark.seeds import Seeds
+from mocapbench.datasets import Recording, open_archive
+
+MODELS = {"pooled": MOA, "independent": LMCIndependent}
+SCORES = {"mse": "MSE", "smse_pooled": "SMSE", "msll": "MSLL"}
+N_DATASETS, N_MASKS = 3, 5
+
+
+@dataclass(frozen=True)
+class OneDataset(Seeds):
+    """Seeds whose folds draw new masks of the dataset that fold ``dataset`` has."""
+
+    dataset: int = 0
+
+    def generator(self, stream: str) -> np.random.Generator:
+        """Return the generator of a stream, the data's of the one dataset."""
+        fold = self.dataset if stream == "data" else self.fold
+        return np.random.default_rng(replace(self, fold=fold).sequence(stream))
+
+
+def problem(task: str, case: str, dataset: int, mask: int) -> ImputeProblem:
+    """Return the problem of a toy case with a given dataset and mask."""
+    known = TASKS.get(task)
+    seeds = OneDataset(0, known.name, known.version, case, mask, dataset=dataset)
+    return known.problem(known.case(case), seeds, open_archive())
+
+
+def scores(posed: ImputeProblem, name: str, **settings: object) -> dict[str, float]:
+    """Return what a model scores on a problem."""
+    model = MODELS[name](random_state=0, **settings).fit(posed.train)
+    outcome = posed.outcome(posed.solve(model, 0))
+    return {title: METRICS.get(metric)(outcome).value for metric, title in SCORES.items()}
+
+
+def masks(tests: Sequence[str]) -> pd.DataFrame:
+    """Return the error and its 2 sd over the masks of one dataset, averaged over datasets."""
+    rows = [
+        {"test": f"test {test}", "model": name, "dataset": dataset}
+        | scores(
+            problem("toy-interpolation-1", f"test {test}", dataset, mask),
+            name,
+            n_components=3,
+            kernel="rbf",
+        )
+        for test in tests
+        for dataset in range(N_DATASETS)
+        for mask in range(N_MASKS)
+        for name in MODELS
+    ]
+    of_dataset = pd.DataFrame(rows).groupby(["test", "model", "dataset"])
+    mean, spread = of_dataset.mean(), 2.0 * of_dataset.std()
+    table = mean.assign(**{"2 sd / MSE": spread["MSE"] / mean["MSE"]})
+    return table.groupby(["test", "model"]).mean()
+
+
+def visible() -> pd.DataFrame:
+    """Return the errors of Tables 7–9's data as more points of the same data become visible."""
+    task = TASKS.get("toy-interpolation-3")
+    rows = [
+        {"missing in": missing, "visible": n_visible, "model": name}
+        | scores(_shown(task.name, missing, n_visible, fold), name, n_components=3, kernel="rbf")
+        for missing in ("all", "one")
+        for n_visible in (10, 20)
+        for fold in range(N_MASKS)
+        for name in MODELS
+    ]
+    return pd.DataFrame(rows).groupby(["missing in", "visible", "model"]).mean()
+
+
+def _shown(name: str, missing: str, n_visible: int, fold: int) -> ImputeProblem:
+    """Return a case with the data of the case that shows 10 points."""
+    task = TASKS.get(name)
+    wanted = {"visible": n_visible, "missing in": missing}
+    (case,) = (case for case in task.cases if dict(case.settings) == wanted)
+    (ten,) = (case for case in task.cases if dict(case.settings) == wanted | {"visible": 10})
+    return task.problem(case, Seeds(0, task.name, task.version, ten.name, fold), open_archive())
+
+
+def walking(n_folds: int) -> pd.DataFrame:
+    """Return Table 11 with each walk mapped to [0, 1] by its own range before training."""
+    task = TASKS.get("walking-interpolation")
+    rows = [
+        {"visible": case.settings["visible frames"], "model": name}
+        | scores(_in_own_range(task.problem(case, seeds, open_archive())), name, max_iter=500)
+        for case in task.cases
+        if not case.synthetic
+        for fold in range(n_folds)
+        for seeds in [Seeds(0, task.name, task.version, case.name, fold)]
+        for name in MODELS
+    ]
+    return pd.DataFrame(rows).groupby(["visible", "model"], sort=False).mean()
+
+
+def _in_own_range(posed: ImputeProblem) -> ImputeProblem:
+    """Return the problem with every recording in the unit of its own complete range."""
+    (given,), (truth,) = posed.given, posed.truth
+    own = posed.unit
+    first = given.with_values(own.of(given.values))
+    return replace(
+        posed,
+        train=(first, *map(_normalised, posed.train[1:])),
+        given=(first,),
+        truth=(own.of(truth),),
+        unit=Unit.natural(truth.shape[1]),
+    )
+
+
+def _normalised(recording: Recording) -> Recording:
+    return recording.with_values(Unit.range_of(recording.values).of(recording.values))
+
+
+def main(arguments: Sequence[str]) -> Iterator[pd.DataFrame]:
+    """Yield the tables that were asked for."""
+    match list(arguments):
+        case ["masks", *tests]:
+            yield masks(tests or list("123456789"))
+        case ["visible"]:
+            yield visible()
+        case ["walking", *folds]:
+            yield walking(int(folds[0]) if folds else 5)
+        case _:
+            sys.exit(__doc__)
+
+
+if __name__ == "__main__":
+    for table in main(sys.argv[1:]):
+        print(table.round(3).to_string())

@@ -1,0 +1,44 @@
+"""Statistics of paired comparisons: whether a difference of two entrants is more than chance.
+
+A difference is an *advantage*: the loss of the second entrant minus that of the first, so that
+positive speaks for the first whatever the metric's direction. `pairing` says what one unit is,
+`differences` and `posterior` what a sample of differences tells, `contrast` puts these together,
+`shared_rank` and `ranking` order more than two entrants. docs/statistics.md says what is used
+where and why.
+"""
+
+from mocapbench.metrics.statistics.contrast import ROPE, Contrast, contrast
+from mocapbench.metrics.statistics.differences import (
+    ALPHA,
+    holm,
+    least_signed_rank_p,
+    mean_interval,
+    signed_rank_test,
+    t_test,
+)
+from mocapbench.metrics.statistics.pairing import case_units, pair, pooled_units
+from mocapbench.metrics.statistics.posterior import Posterior, correlated_t_test
+from mocapbench.metrics.statistics.ranking import RankComparison, compare_ranks, nemenyi
+from mocapbench.metrics.statistics.shared_rank import SharedRank, shared_rank
+
+__all__ = [
+    "ALPHA",
+    "ROPE",
+    "Contrast",
+    "Posterior",
+    "RankComparison",
+    "SharedRank",
+    "case_units",
+    "compare_ranks",
+    "contrast",
+    "correlated_t_test",
+    "holm",
+    "least_signed_rank_p",
+    "mean_interval",
+    "nemenyi",
+    "pair",
+    "pooled_units",
+    "shared_rank",
+    "signed_rank_test",
+    "t_test",
+]

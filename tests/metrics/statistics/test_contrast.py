@@ -1,0 +1,124 @@
+import math
+from dataclasses import astuple
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocapbench.metrics.statistics import case_units, contrast, pair, pooled_units
+
+NAN = math.nan
+values = st.lists(
+    st.tuples(*[st.floats(0.1, 10.0).map(lambda x: round(x, 3))] * 2), min_size=1, max_size=8
+)
+
+
+def lower(value):
+    return value
+
+
+def series(cases):
+    rows = {(case, fold): v for case, vs in cases.items() for fold, v in enumerate(vs)}
+    return pd.Series(list(rows.values()), index=pd.MultiIndex.from_tuples(rows))
+
+
+def units(rows):
+    return pd.DataFrame(rows, columns=["first", "second"])
+
+
+@settings(max_examples=25)
+@given(values)
+def test_exchanging_the_two_turns_the_contrast_round(rows):
+    there = contrast(units(rows), lower)
+    back = contrast(units([(b, a) for a, b in rows]), lower)
+    turned = (
+        *(there.n, there.second, there.first, -there.advantage, -there.high, -there.low),
+        *(there.t_p, there.signed_rank_p, there.worse, there.equivalent, there.better),
+    )
+    assert astuple(back) == pytest.approx(turned, nan_ok=True, abs=1e-9)
+
+
+@settings(max_examples=25)
+@given(values, st.sampled_from([0.5, 2.0, 1024.0]))
+def test_p_values_and_probabilities_do_not_depend_on_the_unit(rows, factor):
+    there, scaled = (contrast(units(r), lower) for r in (rows, factor * np.array(rows)))
+    assert astuple(scaled)[6:] == pytest.approx(astuple(there)[6:], nan_ok=True, abs=1e-9)
+    assert scaled.advantage == pytest.approx(factor * there.advantage)
+
+
+@settings(max_examples=25)
+@given(values, st.integers(0, 99))
+def test_the_order_of_units_does_not_matter(rows, seed):
+    there = contrast(units(rows), lower)
+    shuffled = contrast(units(np.random.default_rng(seed).permutation(rows)), lower)
+    assert astuple(shuffled) == pytest.approx(astuple(there), nan_ok=True, abs=1e-9)
+
+
+def test_an_advantage_follows_the_direction():
+    rows = units([(1.0, 3.0), (2.0, 5.0)])
+    assert contrast(rows, lower).advantage == 2.5
+    assert contrast(rows, lambda value: -value).advantage == -2.5
+    assert contrast(rows, lambda value: abs(value - 5.0)).advantage == -2.5
+
+
+def test_identical_entrants_are_equivalent():
+    same = contrast(units([(1.0, 1.0), (2.0, 2.0), (0.5, 0.5)]), lower)
+    assert (same.advantage, same.t_p, same.signed_rank_p, same.equivalent) == (0.0, 1.0, 1.0, 1.0)
+
+
+def test_one_unit_has_an_advantage_and_nothing_else():
+    lone = contrast(units([(1.0, 3.0)]), lower)
+    assert (lone.n, lone.advantage) == (1, 2.0)
+    assert all(math.isnan(value) for value in astuple(lone)[4:])
+
+
+def test_nothing_in_common_is_no_contrast():
+    nothing = contrast(units([]), lower)
+    assert nothing.n == 0
+    assert all(math.isnan(value) for value in astuple(nothing)[1:])
+
+
+def test_the_region_is_a_share_of_the_mean_value():
+    rows = units([(100.0, 101.0)] * 3)
+    assert contrast(rows, lower, rope=0.02).equivalent == 1.0
+    assert contrast(rows, lower, rope=0.001).better == 1.0
+    with pytest.raises(ValueError, match="expected a region"):
+        contrast(rows, lower, rope=-0.1)
+
+
+def test_only_finite_values_at_common_addresses_are_paired():
+    first = series({"x": [1.0, 2.0, NAN, 4.0], "only first": [1.0]})
+    second = series({"x": [1.5, NAN, 3.0]})
+    pairs = pair(first, second)
+    assert pairs.to_dict("list") == {"first": [1.0], "second": [1.5]}
+    assert case_units(pairs, "only first", independent=False).empty
+
+
+def test_overlapping_windows_are_one_unit():
+    pairs = pair(series({"x": [1.0, 3.0]}), series({"x": [2.0, 6.0]}))
+    assert len(case_units(pairs, "x", independent=True)) == 2
+    (unit,) = case_units(pairs, "x", independent=False).to_dict("records")
+    assert unit == {"first": 2.0, "second": 4.0}
+
+
+def test_cases_are_the_units_of_a_task_however_many_folds_they_have():
+    pairs = pair(
+        series({"x": [1.0, 3.0], "y": [5.0]}), series({"x": [2.0, 6.0], "y": [7.0, 100.0]})
+    )
+    assert pooled_units(pairs, independent=True).to_dict("list") == {
+        "first": [2.0, 5.0],
+        "second": [4.0, 7.0],
+    }
+
+
+@pytest.mark.parametrize(("independent", "n"), [(True, 2), (False, 1)])
+def test_a_lone_case_is_pooled_over_its_own_units(independent, n):
+    pairs = pair(series({"x": [1.0, 3.0]}), series({"x": [2.0, 6.0]}))
+    assert len(pooled_units(pairs, independent=independent)) == n
+
+
+def test_pooling_nothing_gives_nothing():
+    empty = pair(series({"x": [1.0]}), series({"y": [1.0]}))
+    assert pooled_units(empty, independent=True).empty

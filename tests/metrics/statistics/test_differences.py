@@ -1,0 +1,116 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy import stats
+
+from mocapbench.metrics.statistics import (
+    holm,
+    least_signed_rank_p,
+    mean_interval,
+    signed_rank_test,
+    t_test,
+)
+
+samples = st.lists(st.floats(-1e3, 1e3).map(lambda x: round(x, 3)), min_size=2, max_size=9)
+p_lists = st.lists(st.floats(0.0, 1.0), min_size=1, max_size=10)
+TESTS = (t_test, signed_rank_test)
+
+
+@given(samples)
+def test_the_t_test_and_its_interval_are_those_of_scipy(sample):
+    assume(np.ptp(sample) > 0.0)
+    expected = stats.ttest_1samp(sample, 0.0)
+    interval = expected.confidence_interval(0.95)
+    assert t_test(sample) == pytest.approx(expected.pvalue, abs=1e-12)
+    assert mean_interval(sample) == pytest.approx((interval.low, interval.high))
+
+
+@pytest.mark.parametrize("test", TESTS)
+@given(sample=samples, factor=st.floats(0.01, 100.0), seed=st.integers(0, 99))
+def test_no_test_depends_on_sign_scale_or_order(test, sample, factor, seed):
+    expected = test(sample)
+    shuffled = np.random.default_rng(seed).permutation(sample)
+    assert test([-x for x in sample]) == pytest.approx(expected)
+    assert test(shuffled) == pytest.approx(expected)
+    if test is t_test:
+        assert test([factor * x for x in sample]) == pytest.approx(expected, rel=1e-6)
+
+
+@given(samples)
+def test_the_interval_of_the_opposite_is_the_opposite(sample):
+    low, high = mean_interval(sample)
+    assert mean_interval([-x for x in sample]) == pytest.approx((-high, -low))
+
+
+@given(samples)
+def test_the_interval_holds_zero_exactly_when_the_test_does_not_reject(sample):
+    low, high = mean_interval(sample)
+    p = t_test(sample)
+    assume(abs(p - 0.05) > 1e-9)
+    assert (low <= 0.0 <= high) == (p > 0.05)
+
+
+@pytest.mark.parametrize("test", TESTS)
+def test_no_difference_is_no_evidence_and_one_unit_none_either(test):
+    assert test([0.0, 0.0, 0.0]) == 1.0
+    assert math.isnan(test([0.3]))
+
+
+def test_equal_differences_leave_no_doubt_of_their_mean():
+    assert t_test([0.1, 0.1, 0.1]) == 0.0
+    assert mean_interval([0.1, 0.1, 0.1]) == pytest.approx((0.1, 0.1), rel=1e-12)
+    assert all(math.isnan(end) for end in mean_interval([0.1]))
+
+
+@pytest.mark.parametrize("n", range(2, 13))
+def test_signed_ranks_cannot_go_below_their_least_p(n):
+    tied, distinct = [1.0] * n, list(range(1, n + 1))
+    assert signed_rank_test(tied) == pytest.approx(least_signed_rank_p(n))
+    assert signed_rank_test(distinct) == pytest.approx(least_signed_rank_p(n))
+
+
+def test_five_units_cannot_reject_by_signed_ranks():
+    assert least_signed_rank_p(5) == 0.0625
+
+
+@settings(max_examples=20)
+@given(samples)
+def test_signed_ranks_are_enumerated_as_scipy_does(sample):
+    every_sign = stats.PermutationMethod(n_resamples=2 ** len(sample))
+    assume(any(sample))
+    expected = stats.wilcoxon(sample, method=every_sign).pvalue
+    assert signed_rank_test(sample) == pytest.approx(expected)
+
+
+def test_many_units_agree_with_the_normal_approximation():
+    sample = np.random.default_rng(0).normal(0.3, 1.0, 40)
+    expected = stats.wilcoxon(sample, method="approx").pvalue
+    assert signed_rank_test(sample) == pytest.approx(expected, abs=0.01)
+
+
+@pytest.mark.parametrize("bad", [[], [math.nan, 1.0], [math.inf], [[1.0, 2.0]]])
+def test_what_is_no_sample_is_refused(bad):
+    with pytest.raises(ValueError, match="finite differences"):
+        t_test(bad)
+
+
+def test_holm_in_closed_form():
+    assert holm([0.01, 0.04, 0.03, 0.005]) == pytest.approx([0.03, 0.06, 0.06, 0.02])
+
+
+@given(p_lists, st.integers(0, 99))
+def test_holm_keeps_order_raises_every_p_and_ignores_arrangement(p_values, seed):
+    adjusted, p = holm(p_values), np.array(p_values)
+    assert (adjusted >= p).all()
+    assert (adjusted <= np.minimum(len(p) * p, 1.0) + 1e-12).all()  # never above Bonferroni's
+    assert (np.diff(adjusted[np.argsort(p)]) >= 0.0).all()
+    order = np.random.default_rng(seed).permutation(len(p))
+    np.testing.assert_allclose(holm(p[order]), adjusted[order])
+
+
+def test_a_test_that_was_not_made_does_not_count_in_the_family():
+    np.testing.assert_allclose(holm([0.02, math.nan, 0.03]), [0.04, math.nan, 0.04])
+    assert holm([]).size == 0

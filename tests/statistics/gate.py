@@ -1,0 +1,116 @@
+"""False alarms and power of the regression gate: `python gate.py [PAGE]`.
+
+A simulated run is n paired folds. Fold i has the value exp(s a_i + u b_i / √2) in the baseline and
+f exp(s a_i + u c_i / √2) in the run, with a, b, c standard normal: s is how uneven the folds are,
+u is what pairing does not cancel, and f is 1 for a run that is as good. s and u are the standard
+deviations that `noise.py` measures.
+
+Prints the tables; puts them into the page as well where one is named.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy import stats
+
+from mocapbench.benchmark.regression import Environment, Tolerance, Verdict, judge
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "speed"))
+from page import place, table
+
+__all__ = ["CROSS", "SAME", "Gate", "Scenario", "failing"]
+
+SEED = 20_240_601
+N_RUNS = 1_000
+FOLDS = (5, 12)
+DEGRADATION = 1.1
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """Standard deviations of log values over folds: of difficulty, and of what is not paired."""
+
+    name: str
+    uneven: float
+    unpaired: float
+
+
+@dataclass(frozen=True)
+class Gate:
+    """What a change may be, and the verdicts that fail."""
+
+    name: str
+    tolerance: Tolerance
+    failing: frozenset[Verdict]
+
+
+SAME, CROSS = (Gate(e.value, e.tolerance, e.failing) for e in Environment)
+GATES = (SAME, CROSS, Gate("cross, k = 2", Tolerance(k=2.0, relative=0.02), CROSS.failing))
+SCENARIOS = (
+    Scenario("repeated exactly", 0.5, 0.0),
+    Scenario("even folds, other rounding", 0.15, 0.01),
+    Scenario("uneven folds, other rounding", 0.5, 0.01),
+    Scenario("another algorithm", 0.5, 0.2),
+    Scenario("other seeds: nothing is paired", 0.0, 0.5 * math.sqrt(2.0)),
+)
+
+
+def failing(scenario: Scenario, n_folds: int, factor: float) -> Mapping[str, float]:
+    """Return, by gate, the share of simulated runs that it fails.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    n_folds : int
+    factor : float
+        What every value of the run is multiplied by.
+    """
+    rng = np.random.default_rng([SEED, n_folds])
+    a, b, c = rng.standard_normal((3, N_RUNS, n_folds))
+    s, u = scenario.uneven, scenario.unpaired / math.sqrt(2.0)
+    baseline, run = np.exp(s * a + u * b), factor * np.exp(s * a + u * c)
+    pairs = list(zip(baseline.tolist(), run.tolist(), strict=True))
+    return {
+        gate.name: np.mean(
+            [judge(*pair, float, gate.tolerance).verdict in gate.failing for pair in pairs]
+        )
+        for gate in GATES
+    }
+
+
+def rows(factor: float) -> Iterator[list[str]]:
+    """Yield one row per scenario and number of folds."""
+    for scenario in SCENARIOS:
+        noise = [f"{each:.2f}" for each in (scenario.uneven, scenario.unpaired)]
+        for n_folds in FOLDS:
+            shares = failing(scenario, n_folds, factor)
+            percent = [f"{100.0 * shares[gate.name]:.1f} %" for gate in GATES]
+            yield [scenario.name, *noise, str(n_folds), *percent]
+
+
+def report() -> str:
+    """Return both tables, for runs that are as good and for worse ones."""
+    head = ["what differs", "s", "u", "folds", *(gate.name for gate in GATES)]
+    tails = " and ".join(f"{100.0 * stats.t.sf(3.0, n - 1):.2f} % at {n} folds" for n in FOLDS)
+    return "\n\n".join(
+        [
+            f"False alarms: of {N_RUNS} runs that are as good, those that fail. Normal theory, "
+            f"for k = 3 without a floor: {tails}.",
+            table(head, rows(1.0)),
+            f"Power: of {N_RUNS} runs that are 10 % worse, those that fail.",
+            table(head, rows(DEGRADATION)),
+        ]
+    )
+
+
+if __name__ == "__main__":
+    text = report()
+    print(text)
+    for page in sys.argv[1:]:
+        place(Path(page), "gate", text)

@@ -1,0 +1,21 @@
+"""What docs/statistics.md says of the first rank."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+import first_rank
+
+PAGE = Path(__file__).parents[2] / "docs" / "statistics.md"
+
+
+def test_two_equals_are_told_apart_as_often_as_the_level_says():
+    rows, entrants = first_rank.left_out(5, 2)
+    assert rows == entrants == pytest.approx(0.05, abs=3.0 * (0.05 * 0.95 / 1000) ** 0.5)
+
+
+@pytest.mark.slow
+def test_the_page_holds_what_the_simulation_gives():
+    assert first_rank.report() in PAGE.read_text(encoding="utf-8")
