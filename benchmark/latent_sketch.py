@@ -39,10 +39,8 @@ def _space(task: Task, label: str, solution: Solution) -> Space:
     }
     listed = ", ".join(f"{name} {value:.3g}" for name, value in found.items())
     caption = (
-        f"latent positions of the training frames by {label} and the confidence −ln σ² with "
-        f"which poses are reconstructed around them; where there are dynamics, also the mean "
-        f"prediction and fair samples of {_n_frames(solution)} frames from the first training "
-        f"frame. Kernels: {listed}."
+        f"latent positions of the training frames by {label}, and the confidence −ln σ² with "
+        f"which poses are reconstructed around them{_walked(solution)}. Kernels: {listed}."
     )
     cloud = np.asarray(solution["latent-cloud"], dtype=np.float64)
     return Space(
@@ -56,8 +54,11 @@ def _space(task: Task, label: str, solution: Solution) -> Space:
     )
 
 
-def _n_frames(solution: Solution) -> int:
-    return len(solution["latent-mean"]) if "latent-mean" in solution else 0
+def _walked(solution: Solution) -> str:
+    if "latent-mean" not in solution:
+        return ""
+    n_frames = len(solution["latent-mean"])
+    return f"; the mean prediction and fair samples of {n_frames} frames from the first one"
 
 
 def _paths(solution: Solution) -> Iterator[Path3D]:
