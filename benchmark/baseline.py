@@ -110,7 +110,9 @@ def _joined(path: Path, parts: Sequence[Baseline]) -> Baseline:
     return Baseline(_distinct(row for part in parts for row in part.values.items()), about)
 
 
-def _distinct(rows: Iterable[tuple[Address, Mapping[int, float]]]) -> dict[Address, Mapping[int, float]]:
+def _distinct(
+    rows: Iterable[tuple[Address, Mapping[int, float]]],
+) -> dict[Address, Mapping[int, float]]:
     """Return ``rows`` by address: which of two rows a merge meant cannot be known."""
     values: dict[Address, Mapping[int, float]] = {}
     for address, folds in rows:
