@@ -134,16 +134,15 @@ def scored(tmp_path):
     """Return a maker of runs of toy-synthesis from {label: [scores or status per fold]}."""
 
     def make(entrants):
-        store = Store.create(tmp_path)
+        store, keys = Store.create(tmp_path), []
         for label, folds in entrants.items():
             for fold, found in enumerate(folds):
                 fields = {"status": found, "message": "no luck"}
                 if isinstance(found, dict):
                     fields = {"status": Status.OK, "scores": found}
-                key = f"{label}-{fold}"
+                keys.append(key := f"{label}-{fold}")
                 where = ("toy-synthesis", 1, "test 1", fold, 0, label, label, {})
                 store.save(Record(key, key, *where, **fields, provenance={}))
-        keys = [f"{label}-{fold}" for label, folds in entrants.items() for fold in range(len(folds))]
         store.save_plan({"keys": keys, "provenance": {}})
         return store.path
 
