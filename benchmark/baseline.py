@@ -105,27 +105,43 @@ def _joined(path: Path, parts: Sequence[Baseline]) -> Baseline:
         if len({part.about.get(name) for part in parts}) > 1:
             raise UsageError(
                 f"--baseline: expected one {name} in all files of {path}, got {about[name]}; "
-                "write them again with --update"
+                "delete them and write them again with --update"
             )
-    values = {address: folds for part in parts for address, folds in part.values.items()}
-    return Baseline(values, about)
+    return Baseline(_distinct(row for part in parts for row in part.values.items()), about)
+
+
+def _distinct(
+    rows: Iterable[tuple[Address, Mapping[int, float]]],
+) -> dict[Address, Mapping[int, float]]:
+    """Return ``rows`` by address: which of two rows a merge meant cannot be known."""
+    values: dict[Address, Mapping[int, float]] = {}
+    for address, folds in rows:
+        if address in values:
+            raise UsageError(f"--baseline: {', '.join(map(str, address))} has two rows; keep one")
+        values[address] = folds
+    return values
 
 
 def _parse(path: Path) -> Baseline:
     try:
-        lines = path.read_text(encoding="utf-8").split("\n")
+        *lines, rest = path.read_text(encoding="utf-8").split("\n")
         head = [line[2:] for line in lines if line.startswith("# ")]
         if head[:1] != [FORMAT]:
             raise ValueError(f"its first line is not '# {FORMAT}'")
-        values = dict(map(_row, csv.DictReader(lines[len(head) :], strict=True)))
+        if rest:
+            raise ValueError("its last line is cut short")
+        values = _distinct(map(_row, csv.DictReader(lines[len(head) :], strict=True)))
         return Baseline(values, dict(line.split(": ", 1) for line in head[1:]))
     except (OSError, ValueError, KeyError, TypeError, csv.Error) as error:
         raise UsageError(
-            f"--baseline: {path} is not a baseline ({error}); write one with --update"
+            f"--baseline: {path} is not a baseline ({error}); mend it, or delete it and write one "
+            "with --update"
         ) from error
 
 
-def _row(row: Mapping[str, str]) -> tuple[Address, Mapping[int, float]]:
+def _row(row: Mapping[Any, Any]) -> tuple[Address, Mapping[int, float]]:
+    if None in row or None in row.values():
+        raise ValueError(f"expected as many cells in a row as in the head, got {[*row.values()]}")
     address = Address(row["task"], int(row["version"]), row["case"], row["label"], row["metric"])
     values = {
         int(name.removeprefix(_FOLD)): float(text)
@@ -139,7 +155,7 @@ def _row(row: Mapping[str, str]) -> tuple[Address, Mapping[int, float]]:
 
 def write_baseline(path: Path, baseline: Baseline) -> None:
     """Write ``baseline`` to a ``.csv`` file, or to one per task of a folder; each is whole."""
-    if path.suffix == ".csv":
+    if path.suffix == ".csv" and not path.is_dir():
         return _write(path, baseline.values, baseline.about)
     by_task: dict[str, dict[Address, Mapping[int, float]]] = {}
     for address, folds in baseline.values.items():

@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import time
+import traceback
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
@@ -43,7 +44,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.add_typer(cli_data.app, name="data")
-app.command("check")(cli_check.check)
 app.command("list")(cli_inspect.list_registered)
 app.command("info")(cli_inspect.info)
 app.command("export")(cli_inspect.export)
@@ -67,6 +67,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except OSError as error:
         console.print(f"[bold red]error:[/] cannot read or write: {escape(str(error))}")
         sys.exit(ExitCode.USAGE)
+    except Exception:  # else the interpreter's exit code would say that a metric got worse
+        traceback.print_exc()
+        console.print("[bold red]error:[/] a defect of mocapbench or an added package; see above")
+        sys.exit(ExitCode.DEFECT)
 
 
 @app.command()

@@ -55,9 +55,12 @@ def check(
     if (baseline is None) != controls:
         raise UsageError("expected something to check against: choose --baseline or --controls")
     if baseline is None:
+        of_baseline = (tolerances, environment, strict, junit, markdown, update, allow_failures)
+        if any(of_baseline):
+            raise UsageError("--controls: expected no other option: they all go with --baseline")
         raise typer.Exit(_check_controls(run, Console()))
     for path in (junit, markdown):
-        if path is not None and not path.parent.is_dir():
+        if path is not None and (path.is_dir() or not path.parent.is_dir()):
             raise UsageError(f"{path}: expected a file in a folder that exists")
     store, console = Store.open(run), Console()
     records, known = store.planned(), read_baseline(baseline)
@@ -82,6 +85,12 @@ def check(
         write_baseline(baseline, updated(known, values, records))
         console.print(f"{baseline} now holds this run: review it like code", soft_wrap=True)
         raise typer.Exit(ExitCode.OK)
+    if result.exit_code is ExitCode.NOTHING_RAN:
+        console.print(
+            f"nothing was compared: expected values that both {run} and {baseline} hold; "
+            "run what the baseline holds, or record this run with --update",
+            soft_wrap=True,
+        )
     store.save_check({"baseline": str(baseline), **check_output.plain(result)})
     raise typer.Exit(result.exit_code)
 
@@ -102,6 +111,8 @@ def _refuse_to_update(
 ) -> None:
     if baseline.is_dir() and Store.is_run(baseline):
         raise UsageError(f"--update: {baseline} is a run directory; name a .csv file or a folder")
+    if baseline.is_file() and baseline.suffix != ".csv":
+        raise UsageError(f"--update: expected a .csv file or a folder, got the file {baseline}")
     failed = [record for record in records if record.status.broken]
     if failed and not allow_failures:
         raise UsageError(

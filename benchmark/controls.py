@@ -19,8 +19,8 @@ __all__ = ["check_controls"]
 def check_controls(records: Sequence[Record], console: Console) -> ExitCode:
     """Show what `control_check` finds in every task of ``records``, and return the exit code.
 
-    `ExitCode.REGRESSION` if an entrant or a control fails, `ExitCode.NOTHING_RAN` if no task has a
-    control with scores in two cells.
+    `ExitCode.REGRESSION` if an entrant or a control fails, `ExitCode.JOBS_FAILED` if a job did,
+    `ExitCode.NOTHING_RAN` if no task has a control with scores in two cells.
     """
     results = bundle(records, {})
     found = {
@@ -32,13 +32,20 @@ def check_controls(records: Sequence[Record], console: Console) -> ExitCode:
             "nothing to check: expected scores of the entrant 'control' in at least two cells "
             "(case × fold); run a task that has one, such as toy-synthesis"
         )
-        return ExitCode.NOTHING_RAN
     for task, findings in checked.items():
         console.print(_table(task, findings))
         for line in _reasons(findings):
             console.print(f"{task}: {line}", markup=False, highlight=False, soft_wrap=True)
     failed = [finding for findings in checked.values() for finding in findings if finding.failed]
-    return ExitCode.REGRESSION if failed else ExitCode.OK
+    broken = [record for record in records if record.status.broken]
+    for record in broken[:1]:
+        told = f"{len(broken)} jobs failed and were not checked ({record.label}: {record.message})"
+        console.print(told, markup=False, highlight=False, soft_wrap=True)
+    if failed:
+        return ExitCode.REGRESSION
+    if broken:
+        return ExitCode.JOBS_FAILED
+    return ExitCode.OK if checked else ExitCode.NOTHING_RAN
 
 
 def _table(task: str, findings: Sequence[ControlFinding]) -> Table:

@@ -17,6 +17,7 @@ class ExitCode(IntEnum):
     USAGE = 2
     JOBS_FAILED = 3
     NOTHING_RAN = 4
+    DEFECT = 70
     INTERRUPTED = 130
 
 

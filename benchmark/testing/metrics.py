@@ -53,6 +53,8 @@ def check_metric(metric: Metric[Any]) -> None:
     ConformanceError
         At the first thing that is wrong.
     """
+    advice = "wrap the function in a Metric with a name and a direction"
+    require(isinstance(metric, Metric), "a mocapbench.metrics.Metric", repr(metric), advice)
     with raised_by(f"metric {metric.name}", "it scores an outcome"):
         _check_declaration(metric)
         _check_values(metric)

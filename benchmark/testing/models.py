@@ -55,7 +55,19 @@ def check_model(model: type[Model], **parameters: Any) -> None:
 
 
 def model_checks(model: type[Model]) -> tuple[Callable[..., None], ...]:
-    """Return the checks that apply to ``model``, each to be called as `check_model` is."""
+    """Return the checks that apply to ``model``, each to be called as `check_model` is.
+
+    Raises
+    ------
+    ConformanceError
+        If it is no class of models, or inherits no ability: there would be nothing to check.
+    """
+    advice = "pass the class itself, which inherits the abilities that it has"
+    kind = isinstance(model, type) and issubclass(model, Model)
+    require(kind, "a subclass of mocapbench.baselines.Model", repr(model), advice)
+    able = any(issubclass(model, ability) for ability in _CHECKS if ability is not Model)
+    names = ", ".join(ability.__name__ for ability in _CHECKS if ability is not Model)
+    require(able, f"a model with an ability of {names}", model.__name__, advice)
     groups = [group for ability, group in _CHECKS.items() if issubclass(model, ability)]
     if issubclass(model, FrameImputer):
         new = {True: imputers.fills_new_recordings, False: imputers.refuses_new_recordings}

@@ -46,9 +46,9 @@ class Subject:
     def build(self, seed: int = 0, **parameters: Any) -> Any:
         """Return an unfitted model."""
         model = self.model()
-        asked = {**_BUDGET, "random_state": seed, **self.parameters}
-        known = {name: value for name, value in asked.items() if name in model.get_params()}
-        model.set_params(**known, **parameters)
+        usual = {**_BUDGET, "random_state": seed}
+        known = {name: value for name, value in usual.items() if name in model.get_params()}
+        model.set_params(**{**known, **self.parameters, **parameters})
         if isinstance(model, Informed):
             model.inform(_PROCESS)
         if isinstance(model, Misinformed):

@@ -35,6 +35,8 @@ def check_task(task: Task, archive: Archive | None = None) -> None:
     ConformanceError
         At the first thing that is wrong.
     """
+    advice = "pass an instance, not its class or name"
+    require(isinstance(task, Task), "a mocapbench.benchmark.task.Task", repr(task), advice)
     with raised_by(f"task {task.name}", "it is consistent"):
         _check_names(task)
         _check_profiles(task)

@@ -57,6 +57,10 @@ def test_nothing_there_is_no_baseline(tmp_path):
         "# mocapbench baseline\ntask,version,case,label,metric,fold 0\nt,1,c,l,mse,nan\n",
         "# mocapbench baseline\ntask,version,case,label,metric,fold 0\nt,1,c,l,mse,\n",
         "# mocapbench baseline\ntask,version,case,label,metric,fold x\nt,1,c,l,mse,1\n",
+        "# mocapbench baseline\ntask,version,case,label,metric,fold 0\nt,1,c,l,mse,0.25,1\n",
+        "# mocapbench baseline\ntask,version,case,label,metric,fold 0,fold 1\nt,1,c,l,mse,1\n",
+        "# mocapbench baseline\ntask,version,case,label,metric,fold 0\nt,1,c,l,mse,0.2",
+        "# mocapbench baseline\ntask,version,case,label,metric,fold 0\n" + 2 * "t,1,c,l,mse,1\n",
         "# mocapbench baseline\n# no colon\ntask,version,case,label,metric,fold 0\n",
     ],
 )
@@ -64,6 +68,22 @@ def test_a_file_that_is_none_is_refused(tmp_path, text):
     (tmp_path / "b.csv").write_text(text)
     with pytest.raises(UsageError, match=r"b\.csv is not a baseline .*--update"):
         read_baseline(tmp_path)
+
+
+def test_a_file_and_its_copy_do_not_belong_together(tmp_path):
+    for name in ("one.csv", "copy.csv"):
+        address = Address("t", 1, "c", "l", "mse")
+        write_baseline(tmp_path / name, Baseline({address: {0: 1.0}}, ABOUT))
+    with pytest.raises(UsageError, match="t, 1, c, l, mse has two rows; keep one"):
+        read_baseline(tmp_path)
+
+
+def test_a_folder_may_be_called_like_a_file(tmp_path):
+    path = tmp_path / "folder.csv"
+    path.mkdir()
+    baseline = Baseline({Address("t", 1, "c", "l", "mse"): {0: 1.0}}, ABOUT)
+    write_baseline(path, baseline)
+    assert read_baseline(path) == baseline
 
 
 def test_files_of_two_profiles_do_not_belong_together(tmp_path):

@@ -144,8 +144,9 @@ def test_missing_data_are_skipped_and_stay_in_the_baseline(check, cli, tmp_path)
     assert baseline.read_text() == kept
 
 
-def test_a_run_that_was_compared_to_nothing_is_4(check):
+def test_a_run_that_was_compared_to_nothing_is_4(check, cli):
     assert check({"knn": _mse(1.0)}, {"knn": [Status.DATA_MISSING]}) == 4
+    assert "nothing was compared: expected values that both" in cli.printed
 
 
 def test_a_baseline_that_is_not_there_is_4(cli, run, tmp_path):
@@ -178,6 +179,15 @@ def test_a_run_directory_is_a_baseline_but_not_one_to_write(cli, run):
     assert "is a run directory" in cli.printed
 
 
+def test_a_file_that_is_read_whatever_its_name_is_not_written(cli, run, tmp_path):
+    path, csv, text = (tmp_path / name for name in ("run", "b.csv", "b.txt"))
+    assert cli("check", run("run", {"knn": _mse(1.0)}), "--baseline", csv, "--update") == 0
+    csv.rename(text)
+    assert cli("check", path, "--baseline", text) == 0
+    assert cli("check", path, "--baseline", text, "--update") == 2
+    assert "expected a .csv file or a folder" in cli.printed
+
+
 def test_failed_jobs_are_no_baseline_unless_asked(cli, run, tmp_path):
     baseline = tmp_path / "baseline"
     good = run("good", {"knn": _mse(1.0), "nn": _mse(1.0)})
@@ -207,7 +217,10 @@ def test_runs_that_cannot_be_paired_are_refused(check, cli, run, tmp_path, name)
     [
         ((), "choose --baseline"),
         (("--baseline", "b.csv", "--junit", "no/such/folder.xml"), "in a folder that exists"),
+        (("--baseline", "b.csv", "--markdown", "/"), "in a folder that exists"),
         (("--baseline", "b.csv", "--environment", "near"), "near"),
+        (("--controls", "--junit", "j.xml"), "--controls: expected no other option"),
+        (("--controls", "--strict"), "--controls: expected no other option"),
     ],
 )
 def test_bad_requests_are_2(cli, run, arguments, complaint):

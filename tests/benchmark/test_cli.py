@@ -7,7 +7,10 @@ import time
 import pandas as pd
 import pytest
 
+from mocapbench.benchmark import cli_check
+from mocapbench.benchmark.cli import main
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.store import Store
 
 TOY = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
 FAST = (*TOY, "--models", "trivial,cubic-spline")
@@ -211,6 +214,17 @@ def test_a_report_into_a_folder_that_is_not_there_exits_with_2(cli, tmp_path):
     assert cli(*FAST, "--out", tmp_path / "run") == 0
     assert cli("report", "--out", tmp_path / "run", "--to", tmp_path / "no" / "page.html") == 2
     assert "cannot read or write" in cli.printed
+
+
+def test_a_defect_is_told_from_a_worse_metric(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(cli_check, "read_baseline", lambda path: 1 / 0)
+    Store.create(tmp_path).save_plan({"keys": [], "provenance": {}})
+    with pytest.raises(SystemExit) as ended:
+        main(["check", str(tmp_path), "--baseline", "b.csv"])
+    assert ended.value.code == 70
+    printed = capsys.readouterr().err
+    assert "ZeroDivisionError" in printed
+    assert "a defect of mocapbench or an added package" in printed
 
 
 @pytest.mark.slow

@@ -8,7 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mocapbench.baselines import Model
 from mocapbench.baselines.mohgp import MOHGP
+from mocapbench.baselines.trivial import Trivial
 from mocapbench.benchmark.task import Case, Entrant, Selection
 from mocapbench.benchmark.tasks.toy_interpolation_1 import ToyInterpolation1
 from mocapbench.benchmark.testing import (
@@ -43,9 +45,38 @@ def test_parameters_reach_the_model():
         check_model(MOHGP, n_components=-1)
 
 
+def test_parameters_that_the_model_has_not_are_no_silence():
+    with pytest.raises(ConformanceError, match="max_itr"):
+        check_model(Trivial, max_itr=20)
+
+
+class _Unable(Model):
+    """Inherits no ability."""
+
+    def fit(self, recordings):
+        return self
+
+
+@pytest.mark.parametrize("model", [Trivial(), "trivial", int, _Unable])
+def test_what_is_no_model_is_told_so(model):
+    with pytest.raises(ConformanceError, match=r"expected a .*: pass the class itself"):
+        check_model(model)
+
+
+@pytest.mark.parametrize("task", [ToyInterpolation1, "toy-interpolation-1"])
+def test_what_is_no_task_is_told_so(task):
+    with pytest.raises(ConformanceError, match=r"expected a mocapbench\.benchmark\.task\.Task"):
+        check_task(task)
+
+
 def _value(outcome):
     """Return one."""
     return Score(1.0)
+
+
+def test_what_is_no_metric_is_told_so():
+    with pytest.raises(ConformanceError, match=r"expected a mocapbench\.metrics\.Metric"):
+        check_metric(_value)
 
 
 def _undocumented(outcome):

@@ -8,6 +8,7 @@ import pytest
 from mocapbench.baselines.control import Control
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.baselines.oracle import Oracle
+from mocapbench.benchmark.record import Record, Status
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.store import Store
@@ -126,6 +127,46 @@ def test_a_run_without_a_control_has_nothing_to_check(cli, tmp_path):
     Store.create(tmp_path).save_plan({"keys": [], "provenance": {}})
     assert cli("check", "--controls", tmp_path) == 4
     assert "nothing to check" in cli.printed
+
+
+@pytest.fixture
+def scored(tmp_path):
+    """Return a maker of runs of toy-synthesis from {label: [scores or status per fold]}."""
+
+    def make(entrants):
+        store, keys = Store.create(tmp_path), []
+        for label, folds in entrants.items():
+            for fold, found in enumerate(folds):
+                fields = {"status": found, "message": "no luck"}
+                if isinstance(found, dict):
+                    fields = {"status": Status.OK, "scores": found}
+                keys.append(key := f"{label}-{fold}")
+                where = ("toy-synthesis", 1, "test 1", fold, 0, label, label, {})
+                store.save(Record(key, key, *where, **fields, provenance={}))
+        store.save_plan({"keys": keys, "provenance": {}})
+        return store.path
+
+    return make
+
+
+SCORES = {
+    "control": [{"mlc": m, "mcc": 7.0 + m, "spread": 1.0} for m in (0.02, -0.03, 0.01)],
+    "replay": [{"mlc": 0.8 + m, "mcc": 9.0 + m, "spread": 1.0} for m in (0.02, -0.03, 0.05)],
+}
+
+
+@pytest.mark.parametrize(
+    ("changed", "code"),
+    [
+        ({}, 0),
+        ({"replay": [*SCORES["replay"], Status.FAILED]}, 3),
+        ({"control": [Status.FAILED]}, 3),
+        ({"replay": [*SCORES["control"], Status.FAILED]}, 1),
+    ],
+)
+def test_a_failed_job_is_never_a_passed_control_check(cli, scored, changed, code):
+    assert cli("check", "--controls", scored({**SCORES, **changed})) == code
+    assert ("jobs failed and were not checked" in cli.printed) == bool(changed)
 
 
 def test_the_check_must_be_told_what_to_check(cli, tmp_path):
