@@ -19,6 +19,7 @@ from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.gaps import hidden_frames, runs
+from mocapbench.baselines.gp.settings import check_not_negative, check_positive
 from mocapbench.baselines.pooling import check_channels, check_recordings
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
@@ -91,10 +92,8 @@ class PoseKriging(FrameImputer, Inductive):
             repeats, or no two consecutive frames are complete.
         """
         for name in ("pose_lengthscale", "time_lengthscale"):
-            if not getattr(self, name) > 0:
-                raise ValueError(f"expected a positive {name}, got {getattr(self, name)}")
-        if not self.pose_variance >= 0:
-            raise ValueError(f"expected no negative pose_variance, got {self.pose_variance}")
+            check_positive(name, getattr(self, name))
+        check_not_negative("pose_variance", self.pose_variance)
         checked = check_recordings(recordings)
         self.channels_ = checked[0].channels
         usable = [recording for recording in checked if _has_step(recording)]

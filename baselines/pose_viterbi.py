@@ -17,6 +17,7 @@ from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.gaps import hidden_frames, runs
+from mocapbench.baselines.gp.settings import check_positive, check_share
 from mocapbench.baselines.pooling import check_channels, check_recordings
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.baselines.shortest_path import cheapest_path
@@ -65,10 +66,8 @@ class PoseViterbi(FrameImputer, Inductive):
             If a parameter is out of range, there is no recording, channels differ, a name
             repeats, or no two consecutive frames are complete.
         """
-        if not self.smoothness > 0:
-            raise ValueError(f"expected a positive smoothness, got {self.smoothness}")
-        if not 0 <= self.subject_offset <= 1:
-            raise ValueError(f"expected a subject_offset from 0 to 1, got {self.subject_offset}")
+        check_positive("smoothness", self.smoothness)
+        check_share("subject_offset", self.subject_offset)
         checked = check_recordings(recordings)
         self.channels_ = checked[0].channels
         stretches = [

@@ -13,8 +13,10 @@ __all__ = [
     "check_count",
     "check_flag",
     "check_jobs",
+    "check_not_negative",
     "check_positive",
     "check_seed",
+    "check_share",
     "components_of",
 ]
 
@@ -29,6 +31,18 @@ def check_positive(name: str, value: object) -> None:
     """Raise ValueError unless ``value`` is a finite positive number."""
     if isinstance(value, bool) or not isinstance(value, Real) or not 0.0 < float(value) < np.inf:
         raise ValueError(f"expected {name} to be a finite positive number, got {value!r}")
+
+
+def check_not_negative(name: str, value: object) -> None:
+    """Raise ValueError unless ``value`` is a finite number of at least 0."""
+    if isinstance(value, bool) or not isinstance(value, Real) or not 0.0 <= float(value) < np.inf:
+        raise ValueError(f"expected {name} to be a finite number of at least 0, got {value!r}")
+
+
+def check_share(name: str, value: object) -> None:
+    """Raise ValueError unless ``value`` is a number from 0 to 1."""
+    if isinstance(value, bool) or not isinstance(value, Real) or not 0.0 <= float(value) <= 1.0:
+        raise ValueError(f"expected {name} to be a number from 0 to 1, got {value!r}")
 
 
 def check_flag(name: str, value: object) -> None:

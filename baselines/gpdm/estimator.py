@@ -11,6 +11,12 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.gaps import hidden_frames
+from mocapbench.baselines.gp.settings import (
+    check_choice,
+    check_count,
+    check_seed,
+    check_share,
+)
 from mocapbench.baselines.gpdm.conditional import Conditional, Query
 from mocapbench.baselines.gpdm.dynamics import Dynamics
 from mocapbench.baselines.gpdm.kernels import RBF
@@ -83,12 +89,10 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
 
     def _check_parameters(self) -> None:
         for name in ("n_latent", "fill_iter"):
-            if getattr(self, name) < 1:
-                raise ValueError(f"expected {name} of at least 1, got {getattr(self, name)}")
-        if self.start not in STARTS:
-            raise ValueError(f"expected start in {sorted(STARTS)}, got {self.start!r}")
-        if not 0 <= self.subject_offset <= 1:
-            raise ValueError(f"expected a subject_offset from 0 to 1, got {self.subject_offset}")
+            check_count(name, getattr(self, name), 1)
+        check_choice("start", self.start, STARTS)
+        check_share("subject_offset", self.subject_offset)
+        check_seed("random_state", self.random_state)
 
     def _properties(self, posterior: Posterior) -> dict[str, float]:
         """Return SNR and CLS of both kernels, GPDM Table 1."""

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from mocapbench.baselines.gp.settings import check_choice, check_count
 from mocapbench.baselines.gpdm.dynamics import Dynamics, Markov
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
 from mocapbench.baselines.gpdm.kernels import RBF, Kernel, Linear, Scaled, Sum
@@ -126,17 +127,13 @@ class GPDM(DynamicalModel):
 
     def _check_parameters(self) -> None:
         super()._check_parameters()
-        for name, known in (
-            ("learning", tuple(self._learnings())),
-            ("dynamics", tuple(_KERNELS)),
-            ("order", (1, 2)),
-            ("predicts", tuple(_CARRY)),
-        ):
-            if getattr(self, name) not in known:
-                raise ValueError(f"expected {name} in {known}, got {getattr(self, name)!r}")
         for name in ("max_iter", "n_steps", "n_samples"):
-            if getattr(self, name) < 1:
-                raise ValueError(f"expected {name} of at least 1, got {getattr(self, name)}")
+            check_count(name, getattr(self, name), 1)
+        check_choice("learning", self.learning, self._learnings())
+        check_choice("dynamics", self.dynamics, _KERNELS)
+        check_choice("predicts", self.predicts, _CARRY)
+        if self.order not in (1, 2):
+            raise ValueError(f"expected order to be 1 or 2, got {self.order!r}")
 
     def _dynamics(self) -> Dynamics:
         process = Process(_KERNELS[self.dynamics](self.order))

@@ -71,10 +71,10 @@ def test_mean_and_variance_are_those_of_the_joint_normal():
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
-        ({"pose_lengthscale": 0.0}, "positive pose_lengthscale"),
-        ({"time_lengthscale": -1.0}, "positive time_lengthscale"),
-        ({"pose_variance": -1.0}, "no negative pose_variance"),
-        ({"smoothness": 0.0}, "positive smoothness"),
+        ({"pose_lengthscale": 0.0}, "pose_lengthscale to be a finite positive"),
+        ({"time_lengthscale": -1.0}, "time_lengthscale to be a finite positive"),
+        ({"pose_variance": -1.0}, "pose_variance to be a finite number of at least 0"),
+        ({"smoothness": "1"}, "smoothness to be a finite positive"),
     ],
 )
 def test_parameters_are_validated(parameters, message):

@@ -63,7 +63,10 @@ def test_a_path_does_not_run_on_past_the_end_of_a_training_stretch():
 
 @pytest.mark.parametrize(
     ("parameters", "message"),
-    [({"smoothness": 0.0}, "positive smoothness"), ({"subject_offset": 2.0}, "from 0 to 1")],
+    [
+        ({"smoothness": 0.0}, "smoothness to be a finite positive"),
+        ({"subject_offset": 2.0}, "from 0 to 1"),
+    ],
 )
 def test_parameters_are_validated(parameters, message):
     with pytest.raises(ValueError, match=message):

@@ -170,14 +170,14 @@ def test_a_latent_space_above_the_data_is_cut_with_a_warning():
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
-        ({"learning": "sleep"}, "expected learning in"),
-        ({"dynamics": "cubic"}, "expected dynamics in"),
-        ({"predicts": "jerk"}, "expected predicts in"),
-        ({"order": 3}, "expected order in"),
-        ({"start": "middle"}, "expected start in"),
+        ({"learning": "sleep"}, "expected learning to be one of"),
+        ({"dynamics": "cubic"}, "expected dynamics to be one of"),
+        ({"predicts": "jerk"}, "expected predicts to be one of"),
+        ({"order": 3}, "expected order to be 1 or 2"),
+        ({"start": "middle"}, "expected start to be one of"),
         ({"subject_offset": -1.0}, "from 0 to 1"),
-        ({"n_latent": 0}, "n_latent of at least 1"),
-        ({"max_iter": 0}, "max_iter of at least 1"),
+        ({"n_latent": 0}, "n_latent to be an integer of at least 1"),
+        ({"max_iter": 2.5}, "max_iter to be an integer of at least 1"),
         ({"learning": "fixed-alpha", "order": 2}, "dynamics with 4 parameters"),
     ],
 )
