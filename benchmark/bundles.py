@@ -8,7 +8,7 @@ from typing import Any
 from mocapbench.benchmark.record import Record
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.tables import job_table, score_table
-from mocapbench.benchmark.task import Case, Task
+from mocapbench.benchmark.task import Task
 from mocapbench.reports import (
     Bundle,
     CaseLayout,
@@ -74,7 +74,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
                 case.synthetic,
                 case.remark,
                 case.not_comparable,
-                _pools(case, task),
+                task.pools(case),
             )
             for case in task.cases
         ),
@@ -89,13 +89,6 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
         crossed=task.crossed,
         budget=budget,
     )
-
-
-def _pools(case: Case, task: Task) -> bool:
-    """Whether other cases that ask the same are each about one of the case's references."""
-    alone = {each.references for each in task.cases if each.asked == case.asked}
-    single = {(reference,) for reference in case.references}
-    return len(single) > 1 and single <= alone
 
 
 def _metric_info(name: str) -> MetricInfo:
