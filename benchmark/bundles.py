@@ -74,6 +74,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
                 case.synthetic,
                 case.remark,
                 case.not_comparable,
+                task.pools(case),
             )
             for case in task.cases
         ),

@@ -213,10 +213,13 @@ def _rows(task: Task, metric: str, pairs: Mapping[str, pd.DataFrame], rope: floa
 
 
 def _judged(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
-    """Return the pairs on recordings; those on generated motion where there are no others."""
-    made = {case.name for case in task.cases if case.synthetic}
-    real = pairs[~pairs.index.get_level_values("case").isin(made)]
-    return pairs if real.empty else real
+    """Return the pairs that count over cases, by the rule of `TaskResults.judged`."""
+    made = [case.name for case in task.cases if case.synthetic]
+    pooling = [case.name for case in task.cases if task.pools(case)]
+    for apart in (made, pooling):
+        others = pairs[~pairs.index.get_level_values("case").isin(apart)]
+        pairs = pairs if others.empty else others
+    return pairs
 
 
 def _corrected(rows: Sequence[Row]) -> list[Row]:

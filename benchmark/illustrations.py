@@ -60,7 +60,7 @@ def _illustrate(
         return ()
     suffix = " (synthetic)" if case.synthetic else ""
     return [
-        replace(each, title=f"{each.title}: {case.name}{suffix}")
+        replace(each, title=f"{each.title}: {case.asked}{suffix}")
         for draw in SKETCHES
         for each in draw(problem, task, solutions)
     ]

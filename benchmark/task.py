@@ -206,6 +206,12 @@ class Task(ABC):
                 return case
         raise UnknownNameError(f"case of {self.name}", name, [case.name for case in self.cases])
 
+    def pools(self, case: Case) -> bool:
+        """Return whether others ask the same and are about each of the references of ``case``."""
+        alone = {each.references for each in self.cases if each.asked == case.asked}
+        single = {(reference,) for reference in case.references}
+        return len(single) > 1 and single <= alone
+
     def selection(self, profile: str) -> Selection:
         """Return what ``profile`` runs of this task.
 

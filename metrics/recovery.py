@@ -34,7 +34,7 @@ def relative_frobenius(outcome: Recovery, layer: str) -> Score:
 def log_det_divergence(outcome: Recovery, layer: str) -> Score:
     r"""Return tr(A B⁻¹) − log det(A B⁻¹) − n with A = K + σ² I and B = K̂ + σ² I, K (n, n).
 
-    That is twice the Kullback–Leibler divergence of N(0, B) from N(0, A): what a model that takes
+    That is twice the Kullback–Leibler divergence KL(N(0, A) ‖ N(0, B)): what a model that takes
     K̂ for the covariance of ``layer`` loses on curves of the layer. Smooth curves have covariances
     of hardly any rank, and the divergence is infinite where K̂ lacks a direction of K; σ², the
     variance of the true noise for both, leaves out of account what is too small to be observed.

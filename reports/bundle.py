@@ -48,6 +48,8 @@ class CaseLayout:
         Shown in the row.
     not_comparable : mapping of str to str
         By label, why the row's published values cannot be set beside ours.
+    pooled : bool
+        Whether the row is a mean of other rows, which count in its stead over cases.
     """
 
     name: str
@@ -56,6 +58,7 @@ class CaseLayout:
     synthetic: bool = False
     remark: str = ""
     not_comparable: Mapping[str, str] = field(default_factory=dict)
+    pooled: bool = False
 
 
 @dataclass(frozen=True)
@@ -88,6 +91,8 @@ class TaskLayout:
         The label that is told the generating process: a limit, never ranked.
     control : str
         The label whose samples owe nothing to the data: never ranked either.
+    replay : str
+        The label whose samples are the training recordings themselves: nor is it.
     independent_folds : bool
         Whether folds are independent draws of the protocol. Overlapping windows of one recording
         are not: their spread is shown, but says nothing of how uncertain the mean is.
@@ -113,14 +118,16 @@ class TaskLayout:
     remarks: tuple[str, ...] = ()
     oracle: str = "oracle"
     control: str = "control"
+    replay: str = "replay"
     independent_folds: bool = True
     crossed: tuple[str, str] | None = None
     budget: str = ""
 
     @property
     def ranked(self) -> tuple[str, ...]:
-        """The labels that compete: all but the oracle and the control."""
-        return tuple(label for label in self.labels if label not in {self.oracle, self.control})
+        """The labels that compete: all but the oracle, the control and the replay."""
+        apart = {self.oracle, self.control, self.replay}
+        return tuple(label for label in self.labels if label not in apart)
 
 
 @dataclass(frozen=True)

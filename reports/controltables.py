@@ -19,6 +19,8 @@ from mocapbench.reports.tables import ABSENT, Cell, Table, counted, headings, nu
 __all__ = ["control_table"]
 
 PLACES = 3
+TOO_FEW = "too few cells to tell"
+"""Of a measure that fails though every cell by itself speaks for the entrant."""
 
 
 def control_table(results: TaskResults) -> Table | None:
@@ -67,7 +69,7 @@ def _cell(measure: Measure) -> Cell:
 
 
 def _count(measure: Measure) -> str:
-    return counted(len(measure.offending), "offending cell") if measure.offending else ""
+    return counted(len(measure.offending), "offending cell") if measure.offending else TOO_FEW
 
 
 def _notes(findings: Sequence[ControlFinding]) -> tuple[str, ...]:

@@ -36,7 +36,7 @@ LOG_RANGE = 20.0
 SMALLEST_WIDTH = 4.9
 SMALLEST_SCALE = 0.7
 """A page narrower than the drawing shrinks it so far and then scrolls it."""
-INTERVALS = "mean and 95 % interval over folds (Student’s t)."
+INTERVALS = "mean and 95 % interval over folds (Student’s t), of which one fold has none."
 POINTS = (
     "mean over folds, which are overlapping windows of one recording: "
     "not independent draws, so there is no interval."

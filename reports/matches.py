@@ -53,7 +53,7 @@ def match_table(results: TaskResults) -> Table | None:
         data=_tidy(results, [(case.name, label) for case, label in rows], metrics),
         notes=(
             "Real motions differ, so that no sample can resemble every reference: the thesis "
-            "(§A.4.2) compares models by the one that is matched best. Best mean in bold.",
+            "(§A.4.2) compares models by the one that is matched best. First rank in bold.",
         ),
     )
 

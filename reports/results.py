@@ -158,9 +158,13 @@ class TaskResults:
         return set(rank.labels) if rank else set()
 
     def judged(self, metric: str) -> list[CaseLayout]:
-        """Return the cases with scores; generated motion counts only where there is no other."""
+        """Return the cases with scores that count over cases.
+
+        Generated motion, and rows that pool others, count only where there is nothing else.
+        """
         scored = [case for case in self.cases if self.ranking(case.name, metric)]
-        return [case for case in scored if not case.synthetic] or scored
+        recorded = [case for case in scored if not case.synthetic] or scored
+        return [case for case in recorded if not case.pooled] or recorded
 
 
 def task_results(bundle: Bundle, layout: TaskLayout) -> TaskResults:

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
-from mocapbench.reports.bundle import CaseLayout
+from mocapbench.reports.bundle import CaseLayout, TaskLayout
 from mocapbench.reports.published import PublishedValue
 from mocapbench.reports.ranknotes import rank_notes
 from mocapbench.reports.remarks import footnotes, marks
@@ -177,19 +177,19 @@ def _notes(results: TaskResults, metric: str) -> tuple[str, ...]:
     degenerate = (
         f"Left out as degenerate: up to {counted(left_out, 'output')} a fold." if left_out else ""
     )
-    limit = (
-        f"{results.layout.oracle} knows the generating process: a limit, not ranked."
-        if results.layout.oracle in results.layout.labels
-        else ""
-    )
-    floor = (
-        f"{results.layout.control} draws from an unrelated process: what no resemblance scores, "
-        "not ranked."
-        if results.layout.control in results.layout.labels
-        else ""
-    )
-    tests = rank_notes(results, metric)
-    return tuple(filter(None, [*results.layout.remarks, degenerate, limit, floor, *tests]))
+    apart, tests = _unranked(results.layout), rank_notes(results, metric)
+    return tuple(filter(None, [*results.layout.remarks, degenerate, *apart, *tests]))
+
+
+def _unranked(layout: TaskLayout) -> list[str]:
+    """Return why labels that do not compete are shown beside those that do."""
+    what = {
+        layout.oracle: "knows the generating process: a limit",
+        layout.control: "draws from an unrelated process: what no resemblance scores",
+        layout.replay: "repeats its training recordings: what they score, with nothing made new",
+    }
+    beside = layout.labels if layout.ranked else ()
+    return [f"{label} {text}, not ranked." for label, text in what.items() if label in beside]
 
 
 def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:

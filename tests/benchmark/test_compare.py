@@ -107,6 +107,15 @@ def test_overlapping_windows_count_as_one(cli, run, tmp_path):
     assert "one unit: no test" in cli.printed
 
 
+def test_rows_that_are_means_of_others_do_not_count_beside_them(cli, run, tmp_path):
+    cases = {"12(1)": [20.0], "35(1)": [22.0], "without 38(2)": [21.0]}
+    given = {"task": "walking-synthesis", "metric": "mcc"}
+    one = run("one", records("moa-3", cases, **given))
+    other = run("other", records("moa-3", {case: [19.0] for case in cases}, **given))
+    rows = compared(cli, tmp_path, one, other, "--metrics", "mcc")
+    assert rows.loc["all cases", "n"] == 2
+
+
 def test_generated_motion_is_not_pooled_with_recordings(cli, run, tmp_path):
     cases = {"observed 40": [1.0, 1.0], "observed 10": [2.0, 2.1], "synthetic observed 40": [9.0]}
     doubled = {case: [2.0 * value for value in values] for case, values in cases.items()}

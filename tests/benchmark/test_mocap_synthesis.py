@@ -7,7 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mocapbench.benchmark.bundles import bundle
 from mocapbench.benchmark.plan import Request, entrants, plan
+from mocapbench.benchmark.record import Status
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.solving import build_model
@@ -56,6 +58,15 @@ def test_a_job_has_the_digest_of_every_recording_that_it_takes(jobs):
         assert set(job.digests) == set(TASKS.get(job.seeds.task).case(job.case).needs)
 
 
+def test_rows_over_several_references_do_not_count_beside_those_of_each(jobs):
+    layouts = bundle([job.record(Status.DATA_MISSING, "fetch it") for job in jobs], {}).layouts
+    assert {layout.name for layout in layouts} == set(SYNTHESIS)
+    for layout in layouts:
+        counted = [c for c in layout.cases if not (c.pooled or c.synthetic)]
+        assert all(case.published == case.settings["reference"] for case in counted)
+        assert {case.published for case in layout.cases if case.pooled} == {None}
+
+
 def test_rows_with_one_question_are_fitted_once(cli, tmp_path):
     arguments = ("--tasks", CONTROL.name, "--cases", "synthetic 1 vs *", "--offline")
     assert cli("run", *arguments, "--out", tmp_path) == 0
@@ -71,6 +82,12 @@ def test_recordings_share_90_frames_of_39_channels_from_time_0(name, case):
         np.testing.assert_array_equal(recording.times, problem.times)
         assert recording.values.shape == (90, 39)
     assert {reference.shape for reference in problem.references} == {(90, 39)}
+
+
+def test_kicks_that_models_learn_from_are_none_of_the_unseen():
+    rows = [c for c in TASKS.get("soccer-synthesis").cases if c.name.startswith("unseen only")]
+    assert [len(case.references) for case in rows] == [3, 3]
+    assert not any(set(case.references) & set(case.sources) for case in rows)
 
 
 @pytest.mark.recordings

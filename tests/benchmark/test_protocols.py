@@ -59,7 +59,33 @@ def test_a_problem_is_what_it_was(task, case, num_regression):
         "visible variance": float(outcome.visible_variance.mean()),
         "spline error": METRICS.get("mse")(outcome).value,
     }
-    golden = GOLDENS / f"{task}-{case.replace(' ', '-')}.csv"
+    _check_golden(num_regression, found, f"{task}-{case.replace(' ', '-')}")
+
+
+def test_a_synthesis_problem_is_what_it_was(num_regression):
+    problem = _problem("toy-synthesis", "test 5")
+    found = {
+        "train": _size([r.values for r in problem.train]),
+        "references": _size(problem.references),
+        "parent": _size(problem.parent.values),
+        "control": _size(problem.control.covariance(problem.times)),
+    }
+    _check_golden(num_regression, found, "toy-synthesis-test-5")
+
+
+def test_a_recovery_problem_is_what_it_was(num_regression):
+    problem = _problem("covariance-recovery", "correlated outputs")
+    found = {layer: _size(covariance) for layer, covariance in problem.truth.items()}
+    found["train"] = _size([r.values for r in problem.train])
+    _check_golden(num_regression, found, "covariance-recovery")
+
+
+def _size(values):
+    return float(np.abs(values).mean())
+
+
+def _check_golden(num_regression, found, name):
+    golden = GOLDENS / f"{name}.csv"
     num_regression.check(found, default_tolerance={"rtol": 1e-7, "atol": 0}, fullpath=golden)
 
 

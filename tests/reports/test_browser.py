@@ -43,6 +43,16 @@ drawings => drawings.map(svg => {
 })
 """
 
+PARTS_THAT_BREAK = """
+notes => notes.flatMap(note => note.textContent.split("; ").filter(part => {
+  const range = document.createRange(), text = note.firstChild;
+  const start = text.data.indexOf(part);
+  range.setStart(text, start);
+  range.setEnd(text, start + part.length);
+  return range.getClientRects().length > 1;
+}))
+"""
+
 
 @pytest.fixture(scope="module")
 def address(page, tmp_path_factory):
@@ -114,6 +124,14 @@ def test_a_legend_is_never_cut_and_a_drawing_stays_legible(visit, width):
     assert 0 < max(ends) <= width
     sizes = tab.eval_on_selector_all("figure .scroll svg", LETTERS)
     assert min(sizes) >= 9.0
+
+
+def test_no_interval_of_a_contrast_breaks_on_a_phone(visit):
+    tab = visit(390)
+    unfold(tab)
+    notes = "td.contrast small"
+    assert tab.locator(notes).count() > 0
+    assert tab.eval_on_selector_all(notes, PARTS_THAT_BREAK) == []
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -10,6 +10,7 @@ from scipy import stats
 from mocapbench.reports.controls import LEAST_SPREAD, NEAR_ZERO, control_check
 from mocapbench.reports.controltables import control_table
 from mocapbench.reports.results import task_results
+from mocapbench.reports.scoretables import score_table
 
 CONTROL = {"mlc": [0.05, -0.06, 0.02, -0.03], "mcc": [7.0, 7.4, 6.8, 7.1], "spread": [5.0] * 4}
 GOOD = {"mlc": [0.8, 0.7, 0.9, 0.75], "mcc": [9.0, 9.3, 8.9, 9.2], "spread": [1.0, 1.2, 0.8, 1.1]}
@@ -145,6 +146,14 @@ def test_without_a_control_or_with_one_cell_of_it_nothing_is_checked(check):
         assert control_table(results) is None
 
 
-def test_the_control_is_not_ranked(check):
-    results = check({"good": GOOD, "control": {**CONTROL, "mlc": [0.99] * 4}})
+@pytest.mark.parametrize("label", ["oracle", "control", "replay"])
+def test_what_is_no_synthesiser_is_not_ranked_and_a_note_says_so(check, label):
+    results = check({"good": GOOD, label: {**CONTROL, "mlc": [0.99] * 4}})
     assert results.best("one", "mlc") == {"good"}
+    assert any(note.startswith(f"{label} ") for note in score_table(results, "mlc").notes)
+
+
+def test_a_failure_that_no_cell_explains_is_explained(check):
+    scattered = {**GOOD, "mlc": [2.0, 0.1, 0.1, 0.1]}
+    table = control_table(check({"scattered": scattered, "control": CONTROL}))
+    assert [cell.note for cell in table.rows[0][3:]] == ["too few cells to tell", "", ""]

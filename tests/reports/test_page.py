@@ -183,3 +183,9 @@ def test_a_run_without_any_score_still_has_a_page(bundle):
 def test_an_empty_run_still_has_a_page(bundle):
     empty = replace(bundle, records=bundle.records.head(0), scores=bundle.scores.head(0))
     assert "No job failed." in render(empty)
+
+
+def test_where_nobody_competes_the_page_does_not_say_that_there_are_no_scores(small):
+    text = render(small({"row": {"replay": [1.0]}}))
+    assert "No entrant here is ranked." in text
+    assert "No entrant has a score." not in text

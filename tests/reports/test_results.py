@@ -6,6 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy import stats
 
+from mocapbench.reports.bundle import CaseLayout
 from mocapbench.reports.results import Estimate, task_results, troubles
 
 values = st.lists(st.floats(-1e3, 1e3), min_size=2, max_size=12)
@@ -90,3 +91,10 @@ def test_the_spread_over_samples_is_averaged_over_folds_and_comes_first(sample, 
 
 def test_values_that_are_no_means_over_samples_spread_over_folds():
     assert Estimate.of([1.0, 3.0], [math.nan, math.nan]) == Estimate.of([1.0, 3.0])
+
+
+@pytest.mark.parametrize("rows", [{"one", "two", "both"}, {"one", "both"}, {"both"}])
+def test_a_row_that_pools_others_counts_only_where_it_is_alone(small, rows):
+    cases = tuple(CaseLayout(name, {}, pooled=name == "both") for name in ("one", "two", "both"))
+    results = results_of(small({name: {"a": [1.0]} for name in rows}, cases=cases))
+    assert {case.name for case in results.judged("mse")} == (rows - {"both"} or rows)
