@@ -90,11 +90,18 @@ def read_baseline(path: Path) -> Baseline | None:
     Raises
     ------
     UsageError
-        If a file is not a baseline, or the files of a folder do not belong together.
+        If a file is not a baseline, the files of a folder do not belong together, or a record of
+        a run directory is damaged.
     """
     if path.is_dir() and Store.is_run(path):
         store = Store.open(path)
-        return of_records(store.planned(), store.load_plan())
+        records = store.planned()
+        if store.damaged:
+            raise UsageError(
+                f"--baseline: {path} holds a damaged record ({store.damaged[0]}); run "
+                "`mocapbench run` there again, which mends it"
+            )
+        return of_records(records, store.load_plan())
     files = sorted(path.glob("*.csv")) if path.is_dir() else [path] * path.is_file()
     return _joined(path, [_parse(file) for file in files]) if files else None
 

@@ -68,7 +68,8 @@ def check(
     for message in store.damaged:
         console.print(f"damaged, so left out: {message}", markup=False)
     if update:
-        _refuse_to_update(baseline, values, records, allow_failures)
+        n_absent = len(store.load_plan()["keys"]) - len(records)
+        _refuse_to_update(baseline, values, records, n_absent, allow_failures)
         known = known or Baseline({}, values.about)
         environment = environment or Environment.SAME  # whatever moves is worth a review
     if known is None:
@@ -107,12 +108,17 @@ def _check_controls(run: Path, console: Console) -> ExitCode:
 
 
 def _refuse_to_update(
-    baseline: Path, run: Baseline, records: Sequence[Record], allow_failures: bool
+    baseline: Path, run: Baseline, records: Sequence[Record], n_absent: int, allow_failures: bool
 ) -> None:
     if baseline.is_dir() and Store.is_run(baseline):
         raise UsageError(f"--update: {baseline} is a run directory; name a .csv file or a folder")
     if baseline.is_file() and baseline.suffix != ".csv":
         raise UsageError(f"--update: expected a .csv file or a folder, got the file {baseline}")
+    if n_absent:
+        raise UsageError(
+            f"--update: {n_absent} jobs of the run have no whole record, so a baseline would lack "
+            "them; resume it with `mocapbench run`"
+        )
     failed = [record for record in records if record.status.broken]
     if failed and not allow_failures:
         raise UsageError(

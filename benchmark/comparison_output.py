@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
+from rich.box import SIMPLE
 from rich.markup import escape
 from rich.table import Table
 
@@ -32,7 +33,9 @@ def terminal(rows: Sequence[Row], sides: tuple[str, str]) -> Iterator[Table]:
     """Yield one table per task and metric; rows that are identical are left out."""
     for title, group in _by_metric(rows):
         shown = [row for row in group if outcome(row, sides) != "identical"]
-        table = Table(*_columns(sides), title=escape(title), title_justify="left")
+        table = Table(box=SIMPLE, padding=0, title=escape(title), title_justify="left")
+        for head in _columns(sides):
+            table.add_column(escape(head), overflow="fold")
         for row in shown:
             style = "bold" if outcome(row, sides).endswith("better") else ""
             table.add_row(*map(escape, _cells(row, sides)), style=style)

@@ -58,7 +58,8 @@ def ranks_over_tasks(tasks: Iterable[TaskResults]) -> Ranks | None:
         return None
     common = reduce(pd.Index.intersection, [table.dropna(axis=1).columns for table in losses])
     ranked = [stats.rankdata(table[common], axis=1).mean(axis=0) for table in losses]
-    return _ranks(pd.DataFrame(ranked, columns=common), "tasks")
+    entered = list(dict.fromkeys(label for table in losses for label in table.columns))
+    return _ranks(pd.DataFrame(ranked, columns=common).reindex(columns=entered), "tasks")
 
 
 def case_losses(results: TaskResults, metric: str) -> pd.DataFrame:

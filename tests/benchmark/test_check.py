@@ -188,6 +188,18 @@ def test_a_file_that_is_read_whatever_its_name_is_not_written(cli, run, tmp_path
     assert "expected a .csv file or a folder" in cli.printed
 
 
+def test_half_a_run_is_no_baseline(cli, run, tmp_path):
+    whole, cut = (run(name, {"knn": _mse(1.0), "nn": _mse(1.0)}) for name in ("whole", "cut"))
+    record = cut / "records" / "nn-0-1.json"
+    record.write_text(record.read_text()[:50])
+    assert cli("check", whole, "--baseline", cut) == 2
+    assert "cut holds a damaged record" in cli.printed
+    record.unlink()
+    assert cli("check", cut, "--baseline", tmp_path / "b.csv", "--update") == 2
+    assert "1 jobs of the run have no whole record" in cli.printed
+    assert not (tmp_path / "b.csv").exists()
+
+
 def test_failed_jobs_are_no_baseline_unless_asked(cli, run, tmp_path):
     baseline = tmp_path / "baseline"
     good = run("good", {"knn": _mse(1.0), "nn": _mse(1.0)})

@@ -52,6 +52,15 @@ def compared(cli, tmp_path, *arguments):
     return pd.read_csv(tmp_path / "rows.csv", keep_default_na=True).set_index("case")
 
 
+def test_a_narrow_terminal_cuts_no_word(cli, run, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    path = run("run", records("lmc-independent-1", GOOD), records("gp-independent", BAD))
+    models = "lmc-independent-1,gp-independent"
+    assert cli("compare", path, "--models", models, "--metrics", "mse") == 0
+    assert "test 1" in cli.printed
+    assert "…" not in cli.printed
+
+
 def test_two_runs_are_contrasted_case_by_case_and_over_all(cli, run, tmp_path):
     one, other = run("good", records("knn", GOOD)), run("bad", records("knn", BAD))
     rows = compared(cli, tmp_path, one, other, "--metrics", "mse")

@@ -61,11 +61,8 @@ def test_a_task_counts_once_however_many_cases_it_has(small):
 
 def test_only_common_entrants_are_ranked_over_tasks(small):
     other = small({"row": {"a": [1.0], "b": [2.0], "c": [3.0], "d": [0.1]}})
-    assert ranks_over_tasks([results_of(small(ORDERED)), results_of(other)]).labels == (
-        "a",
-        "b",
-        "c",
-    )
+    ranks = ranks_over_tasks([results_of(small(ORDERED)), results_of(other)])
+    assert (ranks.labels, ranks.left_out) == (("a", "b", "c"), ("d",))
     strangers = small({"row": {"x": [1.0], "y": [2.0], "z": [3.0]}})
     assert ranks_over_tasks([results_of(small(ORDERED)), results_of(strangers)]) is None
     assert ranks_over_tasks([results_of(small(ORDERED))]) is None
