@@ -90,6 +90,16 @@ def test_kicks_that_models_learn_from_are_none_of_the_unseen():
     assert not any(set(case.references) & set(case.sources) for case in rows)
 
 
+@pytest.mark.slow
+@pytest.mark.recordings
+def test_figures_are_named_after_what_models_learn_from(cli, tmp_path):
+    _problem("walking-synthesis", "35(1)")
+    which = ("--tasks", "walking-synthesis", "--cases", "35(1)", "--models", "mohgp-3", "--offline")
+    assert cli("run", *which, "--profile", "smoke", "--out", tmp_path) == 0
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "Coregionalisation by mohgp-3, all joints: two walks" in page
+
+
 @pytest.mark.recordings
 def test_frames_are_those_of_the_footnotes():
     problem = _problem("soccer-synthesis", "10(6)")

@@ -3,7 +3,7 @@ from importlib.resources import files
 
 import pytest
 
-from mocapbench.reports.published import parse_published, published_values
+from mocapbench.reports.published import every_value, parse_published, published_values
 
 HEADER = "source,task,case,settings,metric,model,value,two_sd\n"
 ROW = "t1,task,row,,MSE,MOHGP,0.5,0.1\n"
@@ -66,3 +66,13 @@ def test_an_unknown_task_has_no_published_values():
 def test_a_malformed_table_is_refused(text, message):
     with pytest.raises(ValueError, match=message):
         parse_published(text)
+
+
+def test_a_column_that_repeats_another_tables_gets_no_verdict():
+    repeated, moa = (
+        [v for v in every_value() if (v.source, v.metric, v.model) == ("thesis-table-16", "MLC", m)]
+        for m in ("MOHGP", "MOA")
+    )
+    assert sum(v.value for v in repeated) / 5 == pytest.approx(0.209)
+    assert all(v.erratum and v.not_comparable for v in repeated)
+    assert not any(v.erratum or v.not_comparable for v in moa)
