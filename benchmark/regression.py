@@ -11,7 +11,8 @@ if
 *better* if −d̄ is, and *moved* if neither holds but some fold lies beyond the first two.
 
 In one environment a program repeats itself, so there `Environment.SAME` lets no fold move for the
-worse unless the mean is better; across platforms the folds of a model that searches scatter, and only their mean is held.
+worse unless the mean is better; across platforms the folds of a model that searches scatter, and
+only their mean is held.
 """
 
 from __future__ import annotations
