@@ -211,7 +211,10 @@ class Store:
             raise UsageError(
                 f"{path} cannot be read ({error}); run `mocapbench run` again"
             ) from error
-        if not (isinstance(plan, dict) and {"keys", "provenance"} <= plan.keys()):
+        kinds = {"keys": list, "provenance": dict}
+        if not isinstance(plan, dict) or any(
+            not isinstance(plan.get(name), kind) for name, kind in kinds.items()
+        ):
             raise UsageError(f"{path} is not a plan; run `mocapbench run` again")
         return plan
 

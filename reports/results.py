@@ -126,13 +126,16 @@ class TaskResults:
         )
 
     def ranking(self, case: str, metric: str) -> list[str]:
-        """Return the competing labels that have a score, best first; ties in table order."""
-        scored = {
-            label: self.metrics[metric].loss(estimate.mean)
-            for label in self.layout.ranked
-            if (estimate := self.estimate(case, label, metric)) is not None
-        }
-        return sorted(scored, key=scored.__getitem__)
+        """Return the competing labels that have a score, best first; ties in table order.
+
+        Who lacks a fold that others have comes after all who do not: the mean of the folds that it
+        survived, which may be the easy ones, must not lead.
+        """
+        found = {label: self.estimate(case, label, metric) for label in self.layout.ranked}
+        scored = {label: estimate for label, estimate in found.items() if estimate is not None}
+        most = max((estimate.n for estimate in scored.values()), default=0)
+        loss = self.metrics[metric].loss
+        return sorted(scored, key=lambda name: (scored[name].n < most, loss(scored[name].mean)))
 
     @cached_property
     def values(self) -> Mapping[str, pd.DataFrame]:

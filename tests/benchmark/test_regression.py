@@ -92,6 +92,12 @@ def test_a_fold_that_is_worse_is_seen_though_the_mean_is_not_beyond_doubt():
     assert Verdict.MOVED not in Environment.CROSS.failing
 
 
+def test_one_fold_alone_is_never_beyond_doubt_however_far_it_runs_off():
+    judgement = judge([1.0] * 5, [1.0] * 4 + [1e6], MSE, CROSS)
+    assert judgement.verdict is Verdict.MOVED
+    assert judgement.allowance == pytest.approx(CROSS.k * judgement.change)
+
+
 def test_no_fold_worse_and_one_better_is_better():
     assert _verdict([1.0, 1.0], [1.0, 0.5]) is Verdict.BETTER
 

@@ -157,7 +157,7 @@ def test_a_file_in_place_of_the_folder_is_refused(tmp_path):
 def test_a_damaged_plan_says_what_to_do(store):
     with pytest.raises(UsageError, match="run `mocapbench run` again"):
         store.load_plan()
-    for foreign in ("{}", "5", "[]"):
+    for foreign in ("{}", "5", "[]", '{"keys": 3, "provenance": {}}'):
         (store.path / "plan.json").write_text(foreign)
         with pytest.raises(UsageError, match="is not a plan"):
             store.load_plan()

@@ -47,6 +47,14 @@ def test_the_ranking_follows_the_direction(small):
     assert results_of(small(near, metric="coverage_50")).ranking("row", "coverage_50")[0] == "b"
 
 
+def test_who_failed_on_a_hard_fold_does_not_lead(small):
+    table = {"row": {"a": [1.0, 9.0, 2.0], "fails": [1.1, np.nan, 2.1], "b": [2.0, 9.5, 3.0]}}
+    results = results_of(small(table))
+    assert results.estimate("row", "fails", "mse").mean < results.estimate("row", "a", "mse").mean
+    assert results.ranking("row", "mse") == ["a", "b", "fails"]
+    assert "a" in results.best("row", "mse")
+
+
 def test_the_oracle_is_never_ranked(small):
     results = results_of(small({"row": {"a": [1.0], "oracle": [0.1]}}))
     assert results.ranking("row", "mse") == ["a"]
