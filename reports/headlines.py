@@ -149,13 +149,19 @@ def _defeat(results: TaskResults, loser: str, found: Sequence[Win]) -> Finding:
     first, *rest = found
     one, two = _same_places(*first.means)
     text = f"in {_where(first.cases, first.shared)}: on average {one} there against {two}."
-    others = ", ".join(
-        f"{win.winner} ({len(win.cases)} of {win.shared}, {_judgement(win)})" for win in rest
-    )
     return Finding(
         f"{first.winner} has a better mean than {loser}",
-        " ".join([text, _overall(results, first), *([f"Also: {others}."] if rest else [])]),
+        " ".join([text, _overall(results, first), *([f"Also, {_others(rest)}."] if rest else [])]),
     )
+
+
+def _others(found: Sequence[Win]) -> str:
+    """Return the winners by what their leads are, with the cases of those that lead in some."""
+    by_judgement: dict[str, list[str]] = {}
+    for win in found:
+        some = "" if len(win.cases) == win.shared else f" ({len(win.cases)} of {win.shared})"
+        by_judgement.setdefault(_judgement(win), []).append(f"{win.winner}{some}")
+    return "; ".join(f"{what}: {', '.join(names)}" for what, names in by_judgement.items())
 
 
 def _overall(results: TaskResults, win: Win) -> str:
