@@ -21,6 +21,7 @@ __all__ = ["rank_figure"]
 
 WIDTH, ROW_HEIGHT, FRAME_HEIGHT = 5.2, 0.24, 0.85
 GROUP_GAP = 0.18
+LABEL_SHARE = 0.14  # of the axis, what the number beside the last dot needs
 
 
 def rank_figure(ranks: Ranks, title: str, name: str) -> Drawing:
@@ -43,7 +44,7 @@ def _diagram(ranks: Ranks, title: str, prefix: str) -> Markup:
         axes.annotate(f"{mean:.1f}", (mean, row), (6, 0), textcoords="offset points", va="center")
     for place, group in enumerate(comparison.groups, start=1):
         ends = [rows[group[0]] - 0.25, rows[group[-1]] + 0.25]
-        across = last + 0.4 + GROUP_GAP * last * place / 4
+        across = last * (1.0 + LABEL_SHARE + GROUP_GAP * place / 4)
         axes.plot([across] * 2, ends, color=INK, linewidth=3.0, solid_capstyle="butt")
     axes.set_yticks(range(last), [ranks.labels[entrant] for entrant in order])
     axes.set_xticks(range(1, last + 1))
