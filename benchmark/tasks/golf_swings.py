@@ -75,7 +75,7 @@ class GolfSwings(Task):
             tuple(case.name for case in cases),
             folds=2,
             budget={"n_restarts": 1, "max_iter": 10, "refine_iter": 3},
-            without=NOT_QUICK,
+            without=(*NOT_QUICK, "gpdm-balanced-viterbi"),
         ),
         "paper": Selection(tuple(case.name for case in cases), folds=N_WINDOWS),
     }
