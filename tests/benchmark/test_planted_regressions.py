@@ -95,7 +95,7 @@ def test_a_kernel_with_a_wrong_factor(failing, monkeypatch):
 
 
 def test_a_gradient_with_a_wrong_factor(failing, monkeypatch):
-    """The search of a model that learns ends elsewhere: which metrics pay for it, libraries decide."""
+    """The search of a model that learns ends elsewhere; libraries decide what pays for it."""
     right = RBF.gradient
 
     def gradient(self, lags, lengthscale):
