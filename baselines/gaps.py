@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.datasets import Recording
+from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["hidden_frames", "runs"]
+__all__ = ["complete_stretches", "hidden_frames", "runs"]
 
 
 def hidden_frames(recording: Recording) -> NDArray[np.bool_]:
@@ -34,3 +36,21 @@ def runs(frames: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
     index = np.flatnonzero(frames)
     breaks = np.flatnonzero(np.diff(index) > 1) + 1
     return [run for run in np.split(index, breaks) if len(run)]
+
+
+def complete_stretches(recordings: Sequence[Recording]) -> list[FrameByChannel]:
+    """Return each unbroken run of complete frames (N, D), recording by recording.
+
+    Raises
+    ------
+    ValueError
+        If no two consecutive frames are complete.
+    """
+    stretches = [
+        recording.values[run]
+        for recording in recordings
+        for run in runs(np.asarray(recording.visible.all(axis=1)))
+    ]
+    if max(map(len, stretches), default=0) < 2:
+        raise ValueError("expected two consecutive complete frames in training, got none")
+    return stretches

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.gaps import hidden_frames, runs
+from mocapbench.baselines.gaps import complete_stretches, hidden_frames
 from mocapbench.baselines.gp.settings import check_positive, check_share
 from mocapbench.baselines.pooling import check_channels, check_recordings
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
@@ -70,13 +70,7 @@ class PoseViterbi(FrameImputer, Inductive):
         check_share("subject_offset", self.subject_offset)
         checked = check_recordings(recordings)
         self.channels_ = checked[0].channels
-        stretches = [
-            recording.values[run]
-            for recording in checked
-            for run in runs(np.asarray(recording.visible.all(axis=1)))
-        ]
-        if max(map(len, stretches), default=0) < 2:
-            raise ValueError("expected two consecutive complete frames in training, got none")
+        stretches = complete_stretches(checked)
         self.frames_ = np.concatenate(stretches)
         ends = np.cumsum([len(stretch) for stretch in stretches]) - 1
         self.transition_ = self.smoothness * _jumps(self.frames_, ends)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -20,6 +21,7 @@ __all__ = [
 ]
 
 Array = NDArray[np.float64]
+Statistic = Callable[..., Score]
 
 
 def relative_frobenius(outcome: Recovery, layer: str) -> Score:
@@ -75,43 +77,26 @@ def _pair(outcome: Recovery, layer: str) -> tuple[Array, Array]:
     return truth, estimate
 
 
-def _has_child(outcome: Recovery) -> bool:
-    return "child" in outcome.estimate
+def _has(outcome: Recovery, layer: str) -> bool:
+    return layer in outcome.estimate
 
 
-def _has_parent(outcome: Recovery) -> bool:
-    return "parent" in outcome.estimate
+def _metric(name: str, title: str, of_layer: Statistic, layer: str) -> Metric[Recovery]:
+    return Metric(
+        name,
+        title,
+        Direction.LOWER,
+        Recovery,
+        partial(of_layer, layer=layer),
+        defined=partial(_has, layer=layer),
+    )
 
 
-frobenius_child = Metric(
-    "frobenius_child",
-    "Relative Frobenius error of K_f",
-    Direction.LOWER,
-    Recovery,
-    partial(relative_frobenius, layer="child"),
-    defined=_has_child,
+frobenius_child = _metric(
+    "frobenius_child", "Relative Frobenius error of K_f", relative_frobenius, "child"
 )
-frobenius_parent = Metric(
-    "frobenius_parent",
-    "Relative Frobenius error of K_g",
-    Direction.LOWER,
-    Recovery,
-    partial(relative_frobenius, layer="parent"),
-    defined=_has_parent,
+frobenius_parent = _metric(
+    "frobenius_parent", "Relative Frobenius error of K_g", relative_frobenius, "parent"
 )
-logdet_child = Metric(
-    "logdet_child",
-    "Log-det divergence of K_f",
-    Direction.LOWER,
-    Recovery,
-    partial(log_det_divergence, layer="child"),
-    defined=_has_child,
-)
-logdet_parent = Metric(
-    "logdet_parent",
-    "Log-det divergence of K_g",
-    Direction.LOWER,
-    Recovery,
-    partial(log_det_divergence, layer="parent"),
-    defined=_has_parent,
-)
+logdet_child = _metric("logdet_child", "Log-det divergence of K_f", log_det_divergence, "child")
+logdet_parent = _metric("logdet_parent", "Log-det divergence of K_g", log_det_divergence, "parent")

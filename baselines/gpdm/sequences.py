@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.extmath import svd_flip
 
-from mocapbench.baselines.gaps import runs
+from mocapbench.baselines.gaps import complete_stretches
 from mocapbench.baselines.pooling import check_recordings
 from mocapbench.datasets import Recording
 
@@ -53,13 +53,7 @@ class Sequences:
             are complete, or no channel moves.
         """
         checked = sorted(check_recordings(recordings), key=lambda recording: recording.name)
-        stretches = [
-            recording.values[run]
-            for recording in checked
-            for run in runs(np.asarray(recording.visible.all(axis=1)))
-        ]
-        if max(map(len, stretches), default=0) < 2:
-            raise ValueError("expected two consecutive complete frames in training, got none")
+        stretches = complete_stretches(checked)
         values = np.concatenate(stretches)
         size = np.maximum(np.abs(values).max(axis=0), 1.0)
         moving = np.ptp(values, axis=0) > _CONSTANT * size
