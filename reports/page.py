@@ -13,6 +13,7 @@ from mocapbench.reports.bundle import STATUSES, Bundle
 from mocapbench.reports.checks import check_table
 from mocapbench.reports.downloads import to_csv, to_latex
 from mocapbench.reports.results import DATA_MISSING, task_results, troubles
+from mocapbench.reports.scorecard import scorecard
 from mocapbench.reports.scoretables import MISSING_ID
 from mocapbench.reports.sections import missing_data, overall_ranks, task_view
 from mocapbench.reports.tables import Table, counted, slug
@@ -26,6 +27,8 @@ def render(bundle: Bundle) -> str:
     tasks = [task_view(each, bundle.illustrations) for each in results]
     every = troubles(bundle)
     checked = check_table(bundle.check) if bundle.check else None
+    scored = scorecard(results)
+    tables = [*(table for task in tasks for table in task.tables), checked, scored]
     return _template().render(
         bundle=bundle,
         provenance=bundle.provenance,
@@ -39,9 +42,8 @@ def render(bundle: Bundle) -> str:
         missing=missing_data(trouble for trouble in every if trouble.status == DATA_MISSING),
         missing_id=MISSING_ID,
         checked=checked,
-        downloads=_downloads(
-            [*(table for task in tasks for table in task.tables), *([checked] if checked else [])]
-        ),
+        scored=scored,
+        downloads=_downloads(table for table in tables if table is not None),
         css=Markup(_resource("report.css")),
         js=Markup(_resource("report.js")),
     )

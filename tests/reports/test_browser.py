@@ -157,7 +157,7 @@ def test_the_first_screen_says_what_was_found(visit):
 
 def test_it_reads_without_scripts(visit):
     tab = visit(java_script_enabled=False)
-    assert tab.locator("table").first.is_visible()
+    assert tab.locator("#toy-interpolation-1-mse").is_visible()
     assert tab.locator("figure svg").first.is_visible()
     assert not tab.locator(".downloads").first.is_visible()
 
@@ -170,7 +170,7 @@ def test_a_link_to_a_failure_opens_it(visit):
 def test_a_table_downloads_as_csv(visit, bundle):
     tab = visit(accept_downloads=True)
     with tab.expect_download() as caught:
-        tab.locator("button[data-format=csv]").first.click()
+        tab.locator("button[data-table=toy-interpolation-1-mse][data-format=csv]").click()
     assert caught.value.suggested_filename == "toy-interpolation-1-mse.csv"
     header = Path(caught.value.path()).read_text(encoding="utf-8").splitlines()[0]
     assert header.startswith("task,case,noise,outputs,children")
