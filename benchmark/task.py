@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from mocapbench.baselines import Informed, Misinformed, Model
@@ -12,7 +12,7 @@ from mocapbench.benchmark.problem import Problem
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.datasets import Archive
 
-__all__ = ["Case", "Entrant", "Selection", "Task"]
+__all__ = ["Case", "Entrant", "Selection", "Task", "without_stand_ins"]
 
 Setting = str | int | float
 
@@ -66,6 +66,11 @@ class Case:
     def asked(self) -> str:
         """What seeds and fits know it by."""
         return self.question or self.name
+
+
+def without_stand_ins(cases: Iterable[Case]) -> tuple[str, ...]:
+    """Return the names of the cases that do not stand on generated gait."""
+    return tuple(case.name for case in cases if not case.synthetic)
 
 
 @dataclass(frozen=True)

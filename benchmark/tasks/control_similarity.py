@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from mocapbench.baselines.replay import Replay
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.synthesis import SynthesiseProblem
-from mocapbench.benchmark.task import Case, Selection, Task
+from mocapbench.benchmark.task import Case, Selection, Task, without_stand_ins
 from mocapbench.benchmark.tasks.excerpts import EVALUATION, read_excerpt
 from mocapbench.benchmark.tasks.mocap_synthesis import KICKS, WALKS
 from mocapbench.datasets import Archive
@@ -60,7 +60,7 @@ class ControlSimilarity(Task):
     profiles = {
         "smoke": Selection(("synthetic 1 vs synthetic 2",), folds=1),
         "quick": Selection(("16(15) vs 35(1)", "synthetic 1 vs synthetic 2"), folds=1),
-        "paper": Selection(tuple(case.name for case in cases), folds=1),
+        "paper": Selection(without_stand_ins(cases), folds=1),
     }
     crossed = ("recording", "reference")
     published_models = {"replay": "real"}

@@ -8,7 +8,7 @@ from mocapbench.baselines import FrameImputer, Inductive
 from mocapbench.benchmark.imputation import ImputeProblem, Unit
 from mocapbench.benchmark.masks import hide_frames
 from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Entrant, Selection, Task
+from mocapbench.benchmark.task import Case, Entrant, Selection, Task, without_stand_ins
 from mocapbench.benchmark.tasks.gap_fillers import (
     GPDM_STARTS,
     NOT_QUICK,
@@ -105,7 +105,7 @@ class MissingFrames(Task):
             budget={"n_restarts": 1, "max_iter": 10, "refine_iter": 3, "fill_iter": 20},
             without=NOT_QUICK,
         ),
-        "paper": Selection(tuple(case.name for case in cases), folds=N_WINDOWS),
+        "paper": Selection(without_stand_ins(cases), folds=N_WINDOWS),
     }
     published_models = {
         "cubic-spline": "cubic-spline",

@@ -6,7 +6,7 @@ from mocapbench.baselines import Imputer
 from mocapbench.benchmark.imputation import ImputeProblem, Unit
 from mocapbench.benchmark.masks import hide_all_but
 from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Entrant, Selection, Task
+from mocapbench.benchmark.task import Case, Entrant, Selection, Task, without_stand_ins
 from mocapbench.benchmark.tasks.excerpts import JOINT_GROUPS
 from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, clip, resample
 
@@ -66,7 +66,7 @@ class WalkingInterpolation(Task):
         "quick": Selection(
             ("observed 40", "synthetic observed 40"), folds=1, budget={"max_iter": 200}
         ),
-        "paper": Selection(tuple(case.name for case in cases), folds=5, budget={"max_iter": 500}),
+        "paper": Selection(without_stand_ins(cases), folds=5, budget={"max_iter": 500}),
     }
     published_models = {
         **dict.fromkeys(("mohgp-1", "mohgp-3", "mohgp-1+5"), "MOHGP"),

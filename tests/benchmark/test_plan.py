@@ -1,6 +1,7 @@
 import pytest
 
 from mocapbench.benchmark.plan import Request, plan, required_sources
+from mocapbench.benchmark.registry import TASKS
 from mocapbench.datasets import open_archive
 
 
@@ -24,3 +25,13 @@ def test_a_profile_leaves_out_what_runs_only_when_asked_for():
     asked = Request(tasks=("missing-frames",), models=("gpdm-two-stage-window",))
     assert "gpdm-two-stage-window" not in quick
     assert {job.label for job in plan(asked, archive)} == {"gpdm-two-stage-window"}
+
+
+@pytest.mark.parametrize("name", TASKS.names())
+def test_generated_gait_stands_in_for_recordings_but_not_among_the_rows_of_the_papers(name):
+    task = TASKS.get(name)
+    of_paper = {case.name for case in task.cases if not case.synthetic}
+    assert set(task.selection("paper").cases) == of_paper
+    for profile in ("smoke", "quick"):
+        chosen = [task.case(case) for case in task.selection(profile).cases]
+        assert any(case.synthetic or not case.needs for case in chosen)
