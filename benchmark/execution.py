@@ -10,13 +10,17 @@ import multiprocessing
 from collections.abc import Iterator, Sequence
 from concurrent.futures import CancelledError, Future, as_completed
 
-from pebble import ProcessExpired, ProcessPool
+from pebble import CONSTS, ProcessExpired, ProcessPool
 
 from mocapbench.benchmark.evaluate import evaluate
 from mocapbench.benchmark.job import Job, Settings
 from mocapbench.benchmark.record import Record, Status
 
 __all__ = ["execute"]
+
+# How often the pool looks whether a worker has ended and the next may start, in seconds. A process
+# a job, at pebble's tenth of a second an idle core would wait as long as most baselines compute.
+CONSTS.sleep_unit = 0.01
 
 # The command line is what a worker takes for its main module.
 _PRELOAD = ["mocapbench.benchmark.cli", "scipy.interpolate", "scipy.optimize", "sklearn.impute"]
