@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from mocapbench.baselines import Synthesiser
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.synthesis import SynthesiseProblem
-from mocapbench.benchmark.task import Case, Entrant, Selection, Task
+from mocapbench.benchmark.task import Case, Entrant, Selection, Task, without_stand_ins
 from mocapbench.benchmark.tasks.excerpts import (
     EVALUATION,
     JOINT_GROUPS,
@@ -55,7 +55,10 @@ _MOHGP_3 = Entrant("mohgp-3", "mohgp", _THREE)
 _OTHERS = (
     Entrant("moa-3", "moa", _THREE),
     Entrant("lmc-independent-3", "lmc-independent", _THREE),
+    Entrant("mohgp-3-rbf", "mohgp", {"n_components": 3, "kernel": "rbf"}),
+    Entrant("moa-3-rbf", "moa", {"n_components": 3, "kernel": "rbf"}),
 )
+_SECOND_KERNEL = ("mohgp-3-rbf", "moa-3-rbf")
 
 
 def _rows(
@@ -99,11 +102,19 @@ def _synthetic(trained_on: tuple[str, ...], references: tuple[str, ...]) -> Case
 
 def _profiles(cases: tuple[Case, ...], *quick: str) -> dict[str, Selection]:
     return {
-        "smoke": Selection(("synthetic",), folds=1, budget={"max_iter": 5, "n_restarts": 1}),
-        "quick": Selection(
-            (*quick, "synthetic"), folds=1, budget={"max_iter": 30}, without=("gpdm",)
+        "smoke": Selection(
+            ("synthetic",),
+            folds=1,
+            budget={"max_iter": 5, "n_restarts": 1},
+            without=_SECOND_KERNEL,
         ),
-        "paper": Selection(tuple(case.name for case in cases), folds=5, budget={"max_iter": 200}),
+        "quick": Selection(
+            (*quick, "synthetic"),
+            folds=1,
+            budget={"max_iter": 30},
+            without=("gpdm", *_SECOND_KERNEL),
+        ),
+        "paper": Selection(without_stand_ins(cases), folds=5, budget={"max_iter": 200}),
     }
 
 
@@ -115,16 +126,23 @@ class MocapSynthesis(Task):
     requires = (Synthesiser,)
     entrants: tuple[Entrant, ...] = (_MOHGP_3, *_OTHERS)
     metrics = ("mcc", "mlc")
-    published_models = {"mohgp-3": "MOHGP", "moa-3": "MOA"}
+    published_models = {
+        **dict.fromkeys(("mohgp-3", "mohgp-3-rbf"), "MOHGP"),
+        **dict.fromkeys(("moa-3", "moa-3-rbf"), "MOA"),
+    }
     published_metrics = {"mcc": "MCC", "mlc": "MLC"}
     windows: Mapping[str, Mapping[str, Window]] = {}
     """Frames of the training recordings by question, where they are not those of `TRAINING`."""
     remarks: tuple[str, ...] = (
         "The thesis does not disclose its 39 channels or its exact resampling. MCC and MLC scale "
         "each recording's channels to [0, 1]; models see angles as recorded.",
+        "The thesis does not name the kernel here. Matérn-3/2 is that of its interpolation of "
+        "walks; under the RBF its MLC is closer, as was found after seeing the published values.",
         "Real motions differ: judge a model by the reference that its samples match best "
         "(thesis §A.4.2), which the table of best matches shows beside the mean.",
         "Folds vary the start of the search and the samples, not the recordings.",
+        "Spread sets how samples vary beside how the references, other people, differ: 1 is not "
+        "nominal here.",
     )
 
     def problem(self, case: Case, seeds: Seeds, archive: Archive) -> SynthesiseProblem:
@@ -165,7 +183,7 @@ class WalkingSynthesis(MocapSynthesis):
             {**_TWO, "7(2)": "cmu:07_02"},
             WALKS,
             suffix=" from three walks",
-            not_comparable=dict.fromkeys(("mohgp-3", "moa-3"), _TRAINED_ON_TWO),
+            not_comparable=dict.fromkeys(("mohgp-3", "moa-3", *_SECOND_KERNEL), _TRAINED_ON_TWO),
         ),
         _synthetic(("01_01", "01_02"), ("02_01", "03_01", "04_01")),
     )
