@@ -1,0 +1,115 @@
+"""Why samples follow real motion less than the thesis prints: what `docs/thesis.md` rests on.
+
+::
+
+    python docs/evidence/synthesis.py frames               # what the mean of two walks reaches
+    python docs/evidence/synthesis.py variants [MAX_ITER]  # other kernels, and other units
+
+Recordings are those of the folder that MOCAPBENCH_DATA names.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from mocapbench.baselines.gp.trended import TrendedProcess
+from mocapbench.baselines.moa import MOA
+from mocapbench.baselines.mohgp import MOHGP
+from mocapbench.benchmark.registry import METRICS
+from mocapbench.benchmark.tasks.excerpts import EVALUATION, TRAINING, Window, read_excerpt
+from mocapbench.benchmark.tasks.mocap_synthesis import KICKS, N_SAMPLES, WALKS
+from mocapbench.datasets import Recording, open_archive
+from mocapbench.metrics import Synthesis
+
+REFERENCES = {name: uri for name, uri in WALKS.items() if name != "38(2)"}
+TWO_WALKS = ("cmu:02_01", "cmu:02_02")
+PAIRS = {
+    "two walks": (TWO_WALKS, TRAINING, REFERENCES),
+    "walk and stride": (("cmu:02_01", "cmu:08_07"), TRAINING, REFERENCES),
+    "short kicks": (("cmu:10_05", "cmu:10_06"), EVALUATION, KICKS),
+}
+FRAMES: Sequence[Window] = ((0, 298), (0, 343), (20, 298), (20, 343))
+
+
+def scaled(recording: Recording) -> Recording:
+    """Return a recording with every channel mapped to [0, 1]."""
+    low, span = recording.values.min(axis=0), np.ptp(recording.values, axis=0)
+    return replace(recording, values=(recording.values - low) / np.where(span, span, 1.0))
+
+
+UNITS: Mapping[str, Callable[[Recording], Recording]] = {
+    "recorded": lambda recording: recording,
+    "ranges": scaled,
+}
+MODELS: Mapping[str, type[TrendedProcess]] = {"mohgp-3": MOHGP, "moa-3": MOA}
+
+
+def excerpts(uris: Sequence[str], windows: Mapping[str, Window]) -> list[Recording]:
+    """Return 90 frames of each recording."""
+    archive = open_archive(Path(os.environ["MOCAPBENCH_DATA"]))
+    return [read_excerpt(archive, uri, windows) for uri in uris]
+
+
+def mlc(samples: np.ndarray, references: Mapping[str, str]) -> dict[str, float]:
+    """Return the MLC of samples (n, N, D) with each reference."""
+    found = excerpts(list(references.values()), EVALUATION)
+    score = METRICS.get("mlc")
+    return {
+        name: score(Synthesis(samples, each.values[None])).value
+        for name, each in zip(references, found, strict=True)
+    }
+
+
+def frames() -> Iterator[dict[str, object]]:
+    """Yield the MLC of the mean of both walks, frame by frame, for several cuts."""
+    for window in FRAMES:
+        curves = [each.values for each in excerpts(TWO_WALKS, dict.fromkeys(TRAINING, window))]
+        yield {"frames": window, **mlc(np.mean(curves, axis=0)[None], REFERENCES)}
+
+
+def variants(max_iter: int) -> Iterator[dict[str, object]]:
+    """Yield what samples, and the trend that they vary around, reach in other units and kernels."""
+    for pair, (uris, windows, references) in PAIRS.items():
+        recorded = excerpts(uris, windows)
+        for kernel, unit in product(("matern32", "matern52", "rbf"), UNITS):
+            train = [UNITS[unit](each) for each in recorded]
+            for label, model in MODELS.items():
+                fitted = model(n_components=3, kernel=kernel, max_iter=max_iter).fit(train)
+                row = {"trained on": pair, "kernel": kernel, "units": unit, "model": label}
+                yield {
+                    **row,
+                    "log L": fitted.log_likelihood_,
+                    **_heights(fitted, train, references),
+                }
+
+
+def _heights(
+    fitted: TrendedProcess, train: Sequence[Recording], references: Mapping[str, str]
+) -> dict[str, float]:
+    """Return how much samples vary in time, as a multiple of half the two recordings' difference.
+
+    It is the median over channels; the MLC of samples with each reference stands beside it.
+    """
+    times = train[0].times
+    samples, (trend, _) = fitted.sample(times, N_SAMPLES, 0), fitted.trend(times)
+    drawn = (samples - trend).var(axis=1).mean(axis=0)
+    differed = 0.5 * (train[0].values - train[1].values).var(axis=0)
+    return {"drawn / differed": float(np.median(drawn / differed)), **mlc(samples, references)}
+
+
+def main(what: str, max_iter: str = "200") -> None:
+    """Print one of the tables."""
+    rows = {"frames": frames, "variants": lambda: variants(int(max_iter))}[what]()
+    print(pd.DataFrame(rows).round(3).to_string(index=False))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
