@@ -15,28 +15,32 @@ from mocapbench.reports.verdicts import Comparison, Verdict, comparisons
 __all__ = ["scorecard"]
 
 VERDICTS = tuple(each.value for each in Verdict)
+UNANSWERED = "no score of ours"
+COUNTS = ("values", *VERDICTS, UNANSWERED)
 NOTES = (
-    "Values: what the paper prints there. Not run: those with no score of ours beside them.",
-    "A value that several entrants or cases of ours answer counts once for each, so that a row "
-    "may have more verdicts than values.",
+    "Values: what the paper prints there. The other columns count verdicts: a value that several "
+    "entrants or cases of ours answer has one for each, and a row may have more than values.",
+    "Not comparable: a reason stands beside the value, whether it has a score of ours or not.",
 )
 
 
 def scorecard(tasks: Iterable[TaskResults]) -> Table | None:
-    """Return a row per published table of the ``tasks``; None where nothing is compared."""
+    """Return a row per published table of the ``tasks``; None where nothing is compared.
+
+    A column counts verdicts, one for each pair of a published value and an estimate of ours.
+    """
     rows = [row for results in tasks for row in _rows(results)]
     if not any(row[verdict] for row in rows for verdict in VERDICTS):
         return None
-    counts = ("values", *VERDICTS, "not run")
     return Table(
         id="scorecard",
-        caption="The papers’ tables, and how many of our numbers agree with theirs",
-        columns=(*headings(["published in"]), *headings(["task"], "text"), *headings(counts)),
+        caption="The papers’ tables, and the verdicts on our numbers beside theirs",
+        columns=(*headings(["published in"]), *headings(["task"], "text"), *headings(COUNTS)),
         rows=tuple(
             (
                 Cell(_spoken(str(row["source"]))),
                 Cell(str(row["task"]), kind="text", link=slug("task", str(row["task"]))),
-                *(Cell(str(row[name])) if row[name] else ABSENT for name in counts),
+                *(Cell(str(row[name])) if row[name] else ABSENT for name in COUNTS),
             )
             for row in rows
         ),
@@ -61,12 +65,15 @@ def _row(
     pairs = [pair for pair in every if pair.published.source == source]
     counts = Counter(pair.verdict.value for pair in pairs)
     answered = {pair.published.address for pair in pairs}
+    others = [value for value in values if value.address not in answered]
+    excused = sum(bool(value.not_comparable) for value in others)
+    counts[Verdict.NOT_COMPARABLE.value] += excused
     return {
         "source": source,
         "task": task,
         "values": len(values),
         **{verdict: counts[verdict] for verdict in VERDICTS},
-        "not run": sum(value.address not in answered for value in values),
+        UNANSWERED: len(others) - excused,
     }
 
 

@@ -137,12 +137,13 @@ class MocapSynthesis(Task):
         "The thesis does not disclose its 39 channels or its exact resampling. MCC and MLC scale "
         "each recording's channels to [0, 1]; models see angles as recorded.",
         "The thesis does not name the kernel here. Matérn-3/2 is that of its interpolation of "
-        "walks; under the RBF its MLC is closer, as was found after seeing the published values.",
+        "walks. The RBF was added after seeing the published values, to which its MLC is closer "
+        "from two walks and from short kicks, and not from a walk and a stride.",
         "Real motions differ: judge a model by the reference that its samples match best "
         "(thesis §A.4.2), which the table of best matches shows beside the mean.",
         "Folds vary the start of the search and the samples, not the recordings.",
-        "Spread sets how samples vary beside how the references, other people, differ: 1 is not "
-        "nominal here.",
+        "Spread divides how samples vary by how the references differ among themselves, which no "
+        "model is told: it says here neither that one is too sure nor that it is too cautious.",
     )
 
     def problem(self, case: Case, seeds: Seeds, archive: Archive) -> SynthesiseProblem:

@@ -9,7 +9,7 @@ import numpy as np
 from mocapbench.baselines import Synthesiser
 from mocapbench.benchmark.seeds import Seeds
 from mocapbench.benchmark.synthesis import SynthesiseProblem
-from mocapbench.benchmark.task import Case, Entrant, Selection, Task, without_stand_ins
+from mocapbench.benchmark.task import Case, Entrant, Selection, Task
 from mocapbench.benchmark.tasks.toy_interpolation_1 import toy_interpolation_1
 from mocapbench.datasets import Archive
 from mocapbench.datasets.process import ToyProcess, uniform_weights
@@ -56,7 +56,7 @@ class ToySynthesis(Task):
     profiles = {
         "smoke": Selection(("test 1",), folds=2, budget={"max_iter": 25, "n_restarts": 1}),
         "quick": Selection(("test 1", "test 4", "test 9"), folds=3, without=("gpdm",)),
-        "paper": Selection(without_stand_ins(cases), folds=5, without=("gpdm",)),
+        "paper": Selection(tuple(case.name for case in cases), folds=5, without=("gpdm",)),
     }
     published_models = {"mohgp-3": "MOHGP", "moa-3": "MOA", "control": "Control"}
     published_metrics = {"mcc": "MCC", "mlc": "MLC"}
