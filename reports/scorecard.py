@@ -10,7 +10,7 @@ import pandas as pd
 from mocapbench.reports.published import PublishedValue
 from mocapbench.reports.results import TaskResults
 from mocapbench.reports.tables import ABSENT, Cell, Table, headings, slug
-from mocapbench.reports.verdicts import Comparison, Verdict, comparisons
+from mocapbench.reports.verdicts import Comparison, Verdict, every_comparison
 
 __all__ = ["scorecard"]
 
@@ -51,12 +51,11 @@ def scorecard(tasks: Iterable[TaskResults]) -> Table | None:
 
 def _rows(results: TaskResults) -> list[dict[str, object]]:
     """Return a row for each table that prints values of the task."""
-    layout = results.layout
-    pairs = [pair for metric in layout.metrics for pair in comparisons(results, metric)]
+    task, pairs = results.layout.name, every_comparison(results)
     by_source: dict[str, list[PublishedValue]] = {}
     for value in results.published.values():
         by_source.setdefault(value.source, []).append(value)
-    return [_row(layout.name, source, values, pairs) for source, values in by_source.items()]
+    return [_row(task, source, values, pairs) for source, values in by_source.items()]
 
 
 def _row(

@@ -21,7 +21,7 @@ from mocapbench.reports.results import TaskResults, Trouble
 from mocapbench.reports.scoretables import case_name, score_table
 from mocapbench.reports.summaries import calibration_table, cost_table, oracle_table
 from mocapbench.reports.tables import Table, slug
-from mocapbench.reports.verdicts import Tally, comparisons, tally
+from mocapbench.reports.verdicts import Tally, comparisons, every_comparison, tally
 from mocapbench.reports.verdicttables import verdict_table
 
 __all__ = ["MetricView", "MissingData", "TaskView", "missing_data", "overall_ranks", "task_view"]
@@ -76,7 +76,6 @@ class MissingData:
 def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> TaskView:
     """Return the section of one task, with those of the ``illustrations`` that are its own."""
     layout, first = results.layout, results.layout.metrics[0]
-    pairs = [pair for metric in layout.metrics for pair in comparisons(results, metric)]
     builders = (match_table, oracle_table, control_table, calibration_table, cost_table)
     summaries = [build(results) for build in builders]
     ran = {case.name for case in results.cases}
@@ -85,7 +84,7 @@ def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> Ta
         layout=layout,
         leads=[*lead_findings(results, first), *printed_findings(results, first)],
         wins=win_findings(results, first),
-        verdicts=tally(pairs),
+        verdicts=tally(every_comparison(results)),
         metrics=[_metric_view(results, metric) for metric in layout.metrics],
         drawings=[draw(each) for each in illustrations if each.task == layout.name],
         summaries=[table for table in summaries if table is not None],

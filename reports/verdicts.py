@@ -15,7 +15,16 @@ from mocapbench.reports.bundle import CaseLayout, MetricInfo
 from mocapbench.reports.published import PublishedValue
 from mocapbench.reports.results import Estimate, TaskResults
 
-__all__ = ["Comparison", "Tally", "Verdict", "allowance", "comparisons", "tally", "verdict"]
+__all__ = [
+    "Comparison",
+    "Tally",
+    "Verdict",
+    "allowance",
+    "comparisons",
+    "every_comparison",
+    "tally",
+    "verdict",
+]
 
 RELATIVE_TOLERANCE = 0.02
 
@@ -108,6 +117,11 @@ def verdict(
 def comparisons(results: TaskResults, metric: str) -> list[Comparison]:
     """Return every pair of an estimate of ours and its published value, label by label."""
     return list(_comparisons(results, metric))
+
+
+def every_comparison(results: TaskResults) -> list[Comparison]:
+    """Return the comparisons of all metrics that the task shows, metric by metric."""
+    return [pair for metric in results.layout.metrics for pair in comparisons(results, metric)]
 
 
 def _comparisons(results: TaskResults, metric: str) -> Iterator[Comparison]:

@@ -6,7 +6,7 @@ from mocapbench.reports.published import published_values
 from mocapbench.reports.results import task_results
 from mocapbench.reports.scorecard import COUNTS, UNANSWERED, VERDICTS, scorecard
 from mocapbench.reports.tables import ABSENT
-from mocapbench.reports.verdicts import comparisons
+from mocapbench.reports.verdicts import every_comparison
 
 
 @pytest.fixture
@@ -19,18 +19,16 @@ def table(tasks):
     return scorecard(tasks)
 
 
-def _pairs(results):
-    return [p for metric in results.layout.metrics for p in comparisons(results, metric)]
-
-
 def test_every_published_value_of_the_tasks_is_counted_under_its_table(tasks, table):
     printed = [each for results in tasks for each in published_values(results.layout.name).values()]
     assert table.data.set_index("source")["values"].to_dict() == Counter(p.source for p in printed)
 
 
 def test_verdicts_are_those_of_the_comparisons_table_by_table(tasks, table):
-    passed = Counter((p.published.source, p.verdict.value) for r in tasks for p in _pairs(r))
-    answered = {pair.published.address for results in tasks for pair in _pairs(results)}
+    passed = Counter(
+        (p.published.source, p.verdict.value) for r in tasks for p in every_comparison(r)
+    )
+    answered = {pair.published.address for results in tasks for pair in every_comparison(results)}
     values = [v for results in tasks for v in results.published.values()]
     excused = [v for v in values if v.not_comparable and v.address not in answered]
     passed.update((value.source, "not comparable") for value in excused)
@@ -42,7 +40,7 @@ def test_verdicts_are_those_of_the_comparisons_table_by_table(tasks, table):
 
 def test_a_value_has_a_verdict_or_a_reason_or_no_score_of_ours(tasks, table):
     for results in tasks:
-        answered = {pair.published.address for pair in _pairs(results)}
+        answered = {pair.published.address for pair in every_comparison(results)}
         left = Counter(
             value.source
             for value in results.published.values()
