@@ -52,13 +52,14 @@ _ABSENT = "38(2)"
 _MATERN = {"kernel": "matern32"}
 _THREE = {"n_components": 3, **_MATERN}
 _MOHGP_3 = Entrant("mohgp-3", "mohgp", _THREE)
+_RBF = {"n_components": 3, "kernel": "rbf"}
+_WITH_RBF = (Entrant("mohgp-3-rbf", "mohgp", _RBF), Entrant("moa-3-rbf", "moa", _RBF))
 _OTHERS = (
     Entrant("moa-3", "moa", _THREE),
     Entrant("lmc-independent-3", "lmc-independent", _THREE),
-    Entrant("mohgp-3-rbf", "mohgp", {"n_components": 3, "kernel": "rbf"}),
-    Entrant("moa-3-rbf", "moa", {"n_components": 3, "kernel": "rbf"}),
+    *_WITH_RBF,
 )
-_SECOND_KERNEL = ("mohgp-3-rbf", "moa-3-rbf")
+_SECOND_KERNEL = tuple(entrant.label for entrant in _WITH_RBF)
 
 
 def _rows(

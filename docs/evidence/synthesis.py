@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from sklearn.preprocessing import minmax_scale
 
 from mocapbench.baselines.gp.trended import TrendedProcess
 from mocapbench.baselines.moa import MOA
@@ -41,8 +42,7 @@ FRAMES: Sequence[Window] = ((0, 298), (0, 343), (20, 298), (20, 343))
 
 def scaled(recording: Recording) -> Recording:
     """Return a recording with every channel mapped to [0, 1]."""
-    low, span = recording.values.min(axis=0), np.ptp(recording.values, axis=0)
-    return replace(recording, values=(recording.values - low) / np.where(span, span, 1.0))
+    return replace(recording, values=minmax_scale(recording.values))
 
 
 UNITS: Mapping[str, Callable[[Recording], Recording]] = {
@@ -58,13 +58,17 @@ def excerpts(uris: Sequence[str], windows: Mapping[str, Window]) -> list[Recordi
     return [read_excerpt(archive, uri, windows) for uri in uris]
 
 
-def mlc(samples: np.ndarray, references: Mapping[str, str]) -> dict[str, float]:
+def compared_with(uris: Mapping[str, str]) -> dict[str, np.ndarray]:
+    """Return the curves (N, D) of each reference."""
+    found = excerpts(list(uris.values()), EVALUATION)
+    return {name: each.values for name, each in zip(uris, found, strict=True)}
+
+
+def mlc(samples: np.ndarray, references: Mapping[str, np.ndarray]) -> dict[str, float]:
     """Return the MLC of samples (n, N, D) with each reference."""
-    found = excerpts(list(references.values()), EVALUATION)
     score = METRICS.get("mlc")
     return {
-        name: score(Synthesis(samples, each.values[None])).value
-        for name, each in zip(references, found, strict=True)
+        name: score(Synthesis(samples, curves[None])).value for name, curves in references.items()
     }
 
 
@@ -74,13 +78,14 @@ def frames() -> Iterator[dict[str, object]]:
     A cut ends where a recording does, 2(1) after 343 frames and 2(2) after 298; each is then
     resampled to 90, so that the mean is of equal shares of the walks rather than of equal times.
     """
+    references = compared_with(REFERENCES)
     for window in FRAMES:
-        curves = [each.values for each in excerpts(TWO_WALKS, dict.fromkeys(TRAINING, window))]
-        alike = METRICS.get("mlc")(Synthesis(curves[0][None], curves[1][None])).value
+        one, other = (r.values for r in excerpts(TWO_WALKS, dict.fromkeys(TRAINING, window)))
+        mean = 0.5 * (one + other)
         yield {
             "frames": window,
-            "each other": alike,
-            **mlc(np.mean(curves, axis=0)[None], REFERENCES),
+            **mlc(one[None], {"each other": other}),
+            **mlc(mean[None], references),
         }
 
 
@@ -90,7 +95,7 @@ def variants(max_iter: int) -> Iterator[dict[str, object]]:
     Log-likelihoods compare within one kind of units only.
     """
     for pair, (uris, windows, references) in PAIRS.items():
-        recorded = excerpts(uris, windows)
+        recorded, compared = excerpts(uris, windows), compared_with(references)
         for kernel, unit in product(("matern32", "matern52", "rbf"), UNITS):
             train = [UNITS[unit](each) for each in recorded]
             for label, model in MODELS.items():
@@ -99,12 +104,12 @@ def variants(max_iter: int) -> Iterator[dict[str, object]]:
                 yield {
                     **row,
                     "log L": fitted.log_likelihood_,
-                    **_measures(fitted, train, references),
+                    **_measures(fitted, train, compared),
                 }
 
 
 def _measures(
-    fitted: TrendedProcess, train: Sequence[Recording], references: Mapping[str, str]
+    fitted: TrendedProcess, train: Sequence[Recording], references: Mapping[str, np.ndarray]
 ) -> dict[str, float]:
     """Return how much samples vary in time, as a multiple of half the two recordings' difference.
 
