@@ -1,45 +1,5 @@
 """The models, one module each, behind the abilities of `mocapbench.baselines.protocols`."""
 
-from mocapbench.baselines.protocols import (
-    Aligner,
-    Blender,
-    Clusterer,
-    Coregionalised,
-    Dynamical,
-    Embedded,
-    FrameByStyle,
-    FrameImputer,
-    Imputer,
-    Inductive,
-    Informed,
-    Layered,
-    Misinformed,
-    Model,
-    Prediction,
-    SampleByFrameByChannel,
-    StatePath,
-    Synthesiser,
-    Trended,
-)
+import lazy_loader
 
-__all__ = [
-    "Aligner",
-    "Blender",
-    "Clusterer",
-    "Coregionalised",
-    "Dynamical",
-    "Embedded",
-    "FrameByStyle",
-    "FrameImputer",
-    "Imputer",
-    "Inductive",
-    "Informed",
-    "Layered",
-    "Misinformed",
-    "Model",
-    "Prediction",
-    "SampleByFrameByChannel",
-    "StatePath",
-    "Synthesiser",
-    "Trended",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

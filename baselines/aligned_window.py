@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.gaps import hidden_frames, runs
-from mocapbench.baselines.pooling import check_channels, check_recordings
+from mocapbench.baselines.common.gaps import hidden_frames, runs
+from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 

@@ -12,7 +12,7 @@ from typing import Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.pooling import check_outputs, check_recordings
+from mocapbench.baselines.common.recordings import check_outputs, check_recordings
 from mocapbench.baselines.protocols import Misinformed, SampleByFrameByChannel, Synthesiser
 from mocapbench.datasets import Frames, Recording, ToyProcess
 from mocapbench.datasets.process import draw_gaussian

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.pooling import check_channels, check_recordings, visible_moments
+from mocapbench.baselines.common.recordings import check_channels, check_recordings, visible_moments
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 

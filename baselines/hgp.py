@@ -14,7 +14,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.gp.channelwise import Channelwise
-from mocapbench.baselines.gp.tree import Path
+from mocapbench.baselines.gp.reduction.tree import Path
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.baselines.protocols import Trended
 from mocapbench.datasets import FrameByChannel, Frames

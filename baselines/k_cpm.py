@@ -11,8 +11,8 @@ from sklearn.cluster import KMeans
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.validation import check_settings
+from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.baselines.cpm import CPM
-from mocapbench.baselines.pooling import check_recordings
 from mocapbench.baselines.protocols import Aligner, Clusterer, StatePath
 from mocapbench.datasets import Recording
 

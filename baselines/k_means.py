@@ -12,7 +12,7 @@ from sklearn.cluster import KMeans as ScikitLearnKMeans
 from mocapbench.baselines.alignment.period import cycle_length
 from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.validation import check_settings
-from mocapbench.baselines.pooling import check_recordings, check_visible, visible_moments
+from mocapbench.baselines.common.recordings import check_recordings, check_visible, visible_moments
 from mocapbench.baselines.protocols import Clusterer
 from mocapbench.datasets import FrameByChannel, Recording
 

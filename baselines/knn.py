@@ -11,16 +11,16 @@ from sklearn.impute import KNNImputer
 from sklearn.neighbors import NearestNeighbors
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.gaps import hidden_frames, runs
-from mocapbench.baselines.pooling import (
+from mocapbench.baselines.common.gaps import hidden_frames, runs
+from mocapbench.baselines.common.recordings import (
     check_recordings,
     check_visible,
     pool,
     stack,
     visible_moments,
 )
+from mocapbench.baselines.common.transitions import Steps, fill_gap
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
-from mocapbench.baselines.transitions import Steps, fill_gap
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["KNN"]
@@ -33,8 +33,9 @@ class KNN(Imputer, Inductive):
 
     A recording whose frames are all visible or all hidden as a whole has each gap filled by the
     transition model: the path from one end of the gap to the other whose steps are nearest to the
-    mean steps of the training frames around it (`mocapbench.baselines.transitions`). Any other
-    recording goes through scikit-learn's `KNNImputer` on the stacked frames of all recordings,
+    mean steps of the training frames around it (`mocapbench.baselines.common.transitions`). Any
+    other recording goes through scikit-learn's `KNNImputer` on the stacked frames of all
+    recordings,
     with time as one more column, in units that give it the median channel's spread.
 
     Both look at the recordings given to `fit` and at the recording to fill, whose visible entries

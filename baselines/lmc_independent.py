@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mocapbench.baselines.gp.estimator import GaussianProcess
-from mocapbench.baselines.gp.parameters import CHILD
-from mocapbench.baselines.gp.reduction import Reduction, independent
-from mocapbench.baselines.gp.replicates import Replicates
-from mocapbench.baselines.gp.tree import Tree
+from mocapbench.baselines.gp.prior.parameters import CHILD
+from mocapbench.baselines.gp.reduction.reduction import Reduction, independent
+from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.tree import Tree
 
 __all__ = ["LMCIndependent"]
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mocapbench.baselines.gp.parameters import PARENT
-from mocapbench.baselines.gp.reduction import Reduction, pooled
-from mocapbench.baselines.gp.replicates import Replicates
-from mocapbench.baselines.gp.tree import Tree
+from mocapbench.baselines.gp.prior.parameters import PARENT
+from mocapbench.baselines.gp.reduction.reduction import Reduction, pooled
+from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.tree import Tree
 from mocapbench.baselines.gp.trended import TrendedProcess
 
 __all__ = ["MOA"]

@@ -13,11 +13,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.gp.hierarchy import hierarchical
-from mocapbench.baselines.gp.parameters import CHILD
-from mocapbench.baselines.gp.reduction import Reduction
-from mocapbench.baselines.gp.replicates import Replicates
-from mocapbench.baselines.gp.tree import Path, Tree, grow
+from mocapbench.baselines.gp.prior.parameters import CHILD
+from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
+from mocapbench.baselines.gp.reduction.reduction import Reduction
+from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow
 from mocapbench.baselines.gp.trended import TrendedProcess
 from mocapbench.datasets import FrameByChannel, Frames
 

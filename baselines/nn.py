@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from sklearn.metrics.pairwise import nan_euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.pooling import check_channels, check_recordings, stack
+from mocapbench.baselines.common.recordings import check_channels, check_recordings, stack
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 

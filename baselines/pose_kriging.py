@@ -18,9 +18,9 @@ from scipy.linalg import cho_factor, cho_solve
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.gaps import hidden_frames, runs
-from mocapbench.baselines.gp.settings import check_not_negative, check_positive
-from mocapbench.baselines.pooling import check_channels, check_recordings
+from mocapbench.baselines.common.gaps import hidden_frames, runs
+from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.validation import check_not_negative, check_positive
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording

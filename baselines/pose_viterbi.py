@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.gaps import complete_stretches, hidden_frames
-from mocapbench.baselines.gp.settings import check_positive, check_share
-from mocapbench.baselines.pooling import check_channels, check_recordings
+from mocapbench.baselines.common.gaps import complete_stretches, hidden_frames
+from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.shortest_path import cheapest_path
+from mocapbench.baselines.common.validation import check_positive, check_share
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
-from mocapbench.baselines.shortest_path import cheapest_path
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["PoseViterbi"]

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.pooling import check_recordings
+from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 

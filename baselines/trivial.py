@@ -8,7 +8,12 @@ from typing import Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.pooling import check_recordings, check_visible, pool, visible_moments
+from mocapbench.baselines.common.recordings import (
+    check_recordings,
+    check_visible,
+    pool,
+    visible_moments,
+)
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import Recording
 

@@ -17,7 +17,7 @@ from typing import Any, Generic, TypeVar, cast
 
 from mocapbench.baselines import Model
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
-from mocapbench.benchmark.task import Task
+from mocapbench.benchmark.tasks.base import Task
 from mocapbench.metrics import Metric
 
 __all__ = ["METRICS", "MODELS", "TASKS", "Registry", "load_model_file"]

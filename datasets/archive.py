@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pooch
 
-from mocapbench.datasets.acclaim_errors import AcclaimError
-from mocapbench.datasets.acclaim_motion import Motion
+from mocapbench.datasets.acclaim.errors import AcclaimError
+from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.cmu import CMULibrary
 from mocapbench.datasets.digests import DigestMismatch
 from mocapbench.datasets.gait import GaitLibrary

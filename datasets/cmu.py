@@ -11,9 +11,9 @@ from functools import partial
 from hashlib import sha256
 from pathlib import Path
 
-from mocapbench.datasets.acclaim_motion import Motion
-from mocapbench.datasets.acclaim_motion_reader import read_motion
-from mocapbench.datasets.acclaim_skeleton_reader import read_skeleton
+from mocapbench.datasets.acclaim.motion import Motion
+from mocapbench.datasets.acclaim.motion_reader import read_motion
+from mocapbench.datasets.acclaim.skeleton_reader import read_skeleton
 from mocapbench.datasets.digests import (
     DigestMismatch,
     DigestRegistry,

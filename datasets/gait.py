@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mocapbench.datasets.acclaim_motion import Motion, format_motion
-from mocapbench.datasets.acclaim_motion_reader import parse_motion
-from mocapbench.datasets.acclaim_skeleton_reader import read_skeleton
+from mocapbench.datasets.acclaim.motion import Motion, format_motion
+from mocapbench.datasets.acclaim.motion_reader import parse_motion
+from mocapbench.datasets.acclaim.skeleton_reader import read_skeleton
 from mocapbench.datasets.gait_curves import STYLES
 from mocapbench.datasets.gait_walker import walk
 from mocapbench.datasets.library import Library, split_key

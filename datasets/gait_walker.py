@@ -13,8 +13,8 @@ from math import pi
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
-from mocapbench.datasets.acclaim_motion import FRAME_RATE, Motion
-from mocapbench.datasets.acclaim_skeleton import Skeleton
+from mocapbench.datasets.acclaim.motion import FRAME_RATE, Motion
+from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.gait_curves import CURVES, Style
 from mocapbench.datasets.kinematics import FrameByJointBy3, joint_positions
 from mocapbench.datasets.recording import FrameByChannel, Frames, Recording

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from mocapbench.datasets.acclaim_skeleton import Segment, Skeleton
+from mocapbench.datasets.acclaim.skeleton import Segment, Skeleton
 from mocapbench.datasets.recording import Frames, Recording
 
 __all__ = ["FrameByJointBy3", "joint_positions"]

@@ -6,7 +6,7 @@ import re
 from abc import ABC, abstractmethod
 from typing import NamedTuple
 
-from mocapbench.datasets.acclaim_motion import Motion
+from mocapbench.datasets.acclaim.motion import Motion
 
 __all__ = ["Library", "RecordingStatus", "RecordingUnavailable", "split_key"]
 

@@ -3,6 +3,7 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
+FOLDERS = ("datasets", "metrics", "baselines", "reports", "benchmark")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
 
@@ -12,20 +13,18 @@ def test_the_lowest_versions_tested_are_the_lowest_declared():
 
 
 def test_every_folder_with_modules_is_packaged():
-    folders = PROJECT["tool"]["setuptools"]["package-dir"].values()
     found = {
-        str(path.parent.relative_to(ROOT))
-        for top in ("datasets", "metrics", "baselines", "reports", "benchmark")
+        ".".join(("mocapbench", *path.parent.relative_to(ROOT).parts))
+        for top in FOLDERS
         for path in (ROOT / top).rglob("__init__.py")
     }
-    assert found == set(folders)
+    assert {"mocapbench", *found} == set(PROJECT["tool"]["setuptools"]["packages"])
 
 
 def test_every_public_module_says_what_is_public():
-    for folder in PROJECT["tool"]["setuptools"]["package-dir"].values():
-        for path in (ROOT / folder).glob("*.py"):
-            source = path.read_text()
-            assert re.search(r"^__all__ = ", source, re.MULTILINE) or "import" not in source, path
+    for path in (path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py")):
+        source = path.read_text()
+        assert re.search(r"__all__ = ", source, re.MULTILINE) or "import" not in source, path
 
 
 def test_the_readme_tells_the_truth_about_names():

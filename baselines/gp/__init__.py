@@ -8,9 +8,9 @@ differentiate and condition. On top of it stand training by maximum likelihood (
 """
 
 from mocapbench.baselines.gp.estimator import GaussianProcess
-from mocapbench.baselines.gp.kernels import KERNELS, Kernel
-from mocapbench.baselines.gp.parameters import CHILD, PARENT, Layer, Parameters
-from mocapbench.baselines.gp.solver import Posterior, SingularCovarianceError, Solver
+from mocapbench.baselines.gp.prior.kernels import KERNELS, Kernel
+from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, Layer, Parameters
+from mocapbench.baselines.gp.solvers.solver import Posterior, SingularCovarianceError, Solver
 
 __all__ = [
     "CHILD",

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.gp.estimator import GaussianProcess
-from mocapbench.baselines.gp.settings import check_positive
-from mocapbench.baselines.pooling import check_recordings
 from mocapbench.baselines.protocols import (
     Imputer,
     Prediction,

@@ -12,27 +12,33 @@ from joblib import effective_n_jobs
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.gp.coordinates import Coordinates
-from mocapbench.baselines.gp.fitted import FittedProcess
-from mocapbench.baselines.gp.kernels import KERNELS
-from mocapbench.baselines.gp.parameters import Parameters
-from mocapbench.baselines.gp.planner import PLANS, name_of, reason, with_mapper
-from mocapbench.baselines.gp.reduction import Reduction, Share
-from mocapbench.baselines.gp.replicates import Replicates
-from mocapbench.baselines.gp.scaling import Standardisation
-from mocapbench.baselines.gp.settings import (
+from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.scaling import Standardisation
+from mocapbench.baselines.common.threads import mapping
+from mocapbench.baselines.common.validation import (
     check_choice,
     check_count,
     check_jobs,
     check_positive,
     components_of,
 )
-from mocapbench.baselines.gp.start import bounds, data_driven, perturbed
-from mocapbench.baselines.gp.training import Budget, Space, Step, Training, maximise
-from mocapbench.baselines.gp.tree import Tree
-from mocapbench.baselines.gp.trends import TRENDS
-from mocapbench.baselines.gp.workers import mapping
-from mocapbench.baselines.pooling import check_recordings
+from mocapbench.baselines.gp.planner import PLANS, name_of, reason, with_mapper
+from mocapbench.baselines.gp.posterior.fitted import FittedProcess
+from mocapbench.baselines.gp.posterior.trends import TRENDS
+from mocapbench.baselines.gp.prior.kernels import KERNELS
+from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.baselines.gp.reduction.reduction import Reduction, Share
+from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.tree import Tree
+from mocapbench.baselines.gp.training.coordinates import Coordinates
+from mocapbench.baselines.gp.training.maximum_likelihood import (
+    Budget,
+    Space,
+    Step,
+    Training,
+    maximise,
+)
+from mocapbench.baselines.gp.training.start import bounds, data_driven, perturbed
 from mocapbench.baselines.protocols import (
     Coregionalised,
     Imputer,

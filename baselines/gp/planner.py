@@ -7,15 +7,15 @@ from types import MappingProxyType
 
 import numpy as np
 
-from mocapbench.baselines.gp.dense import Dense
-from mocapbench.baselines.gp.kernels import Kernel
-from mocapbench.baselines.gp.kronecker import Kronecker
-from mocapbench.baselines.gp.latent_split import LatentSplit
-from mocapbench.baselines.gp.parameters import Parameters
-from mocapbench.baselines.gp.reduction import Reduction
-from mocapbench.baselines.gp.solver import Solver
-from mocapbench.baselines.gp.state_space import StateSpace
-from mocapbench.baselines.gp.workers import Mapper
+from mocapbench.baselines.common.threads import Mapper
+from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.baselines.gp.reduction.reduction import Reduction
+from mocapbench.baselines.gp.solvers.dense import Dense
+from mocapbench.baselines.gp.solvers.kronecker import Kronecker
+from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
+from mocapbench.baselines.gp.solvers.solver import Solver
+from mocapbench.baselines.gp.solvers.state_space.solver import StateSpace
 
 __all__ = ["PLANS", "Plan", "name_of", "reason", "with_mapper", "work"]
 

@@ -6,7 +6,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.gp.estimator import GaussianProcess
-from mocapbench.baselines.gp.reduction import Share
+from mocapbench.baselines.gp.reduction.reduction import Share
 from mocapbench.baselines.protocols import Trended
 from mocapbench.datasets import FrameByChannel, Frames
 

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.gaps import hidden_frames
-from mocapbench.baselines.gp.settings import (
+from mocapbench.baselines.common.gaps import hidden_frames
+from mocapbench.baselines.common.recordings import check_channels
+from mocapbench.baselines.common.validation import (
     check_choice,
     check_count,
     check_seed,
@@ -25,7 +26,6 @@ from mocapbench.baselines.gpdm.posterior import KAPPA, Estimate, Posterior
 from mocapbench.baselines.gpdm.process import Process
 from mocapbench.baselines.gpdm.sequences import Sequences, whitened_components
 from mocapbench.baselines.gpdm.starts import STARTS
-from mocapbench.baselines.pooling import check_channels
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import Embedded, FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from mocapbench.baselines.gp.settings import check_choice, check_count
+from mocapbench.baselines.common.validation import check_choice, check_count
 from mocapbench.baselines.gpdm.dynamics import Dynamics, Markov
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
 from mocapbench.baselines.gpdm.kernels import RBF, Kernel, Linear, Scaled, Sum

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.extmath import svd_flip
 
-from mocapbench.baselines.gaps import complete_stretches
-from mocapbench.baselines.pooling import check_recordings
+from mocapbench.baselines.common.gaps import complete_stretches
+from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.datasets import Recording
 
 __all__ = ["Sequences", "whitened_components"]

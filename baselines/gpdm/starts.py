@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.metrics.pairwise import euclidean_distances
 
+from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.gpdm.conditional import Conditional, Query
 from mocapbench.baselines.gpdm.rollout import followed
-from mocapbench.baselines.shortest_path import cheapest_path
 
 __all__ = ["STARTS", "linear", "mean_prediction", "viterbi", "window"]
 

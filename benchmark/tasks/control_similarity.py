@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from mocapbench.baselines.replay import Replay
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.synthesis import SynthesiseProblem
-from mocapbench.benchmark.task import Case, Selection, Task, without_stand_ins
-from mocapbench.benchmark.tasks.excerpts import EVALUATION, read_excerpt
+from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
+from mocapbench.benchmark.tasks.base import Case, Selection, Task, without_stand_ins
 from mocapbench.benchmark.tasks.mocap_synthesis import KICKS, WALKS
+from mocapbench.benchmark.tasks.seeds import Seeds
+from mocapbench.benchmark.tasks.thesis_recordings import EVALUATION, read_excerpt
 from mocapbench.datasets import Archive
 
 __all__ = ["ControlSimilarity", "control_similarity"]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines import Layered
-from mocapbench.benchmark.recovery import RecoverProblem
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Entrant, Selection, Task
+from mocapbench.benchmark.problems.recover import RecoverProblem
+from mocapbench.benchmark.tasks.base import Case, Entrant, Selection, Task
+from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 from mocapbench.datasets.process import ToyProcess, uniform_weights
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines import FrameImputer, Inductive
-from mocapbench.benchmark.imputation import ImputeProblem, Unit
-from mocapbench.benchmark.masks import hide_frames
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Selection, Task, without_stand_ins
-from mocapbench.benchmark.tasks.gap_fillers import NOT_QUICK, POSE_VITERBI, SLOW, WITH_BEST_START
+from mocapbench.benchmark.problems.impute import ImputeProblem, Unit
+from mocapbench.benchmark.problems.masks import hide_frames
+from mocapbench.benchmark.tasks.base import Case, Selection, Task, without_stand_ins
+from mocapbench.benchmark.tasks.gpdm_entrants import NOT_QUICK, POSE_VITERBI, SLOW, WITH_BEST_START
+from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive, Recording, excerpt, gpdm_features
 
 __all__ = ["GolfSwings", "golf_swings"]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from mocapbench.baselines import Synthesiser
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.synthesis import SynthesiseProblem
-from mocapbench.benchmark.task import Case, Entrant, Selection, Task, without_stand_ins
-from mocapbench.benchmark.tasks.excerpts import (
+from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
+from mocapbench.benchmark.tasks.base import Case, Entrant, Selection, Task, without_stand_ins
+from mocapbench.benchmark.tasks.seeds import Seeds
+from mocapbench.benchmark.tasks.thesis_recordings import (
     EVALUATION,
     JOINT_GROUPS,
     TRAINING,

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from mocapbench.baselines import Clusterer
-from mocapbench.benchmark.clustering import ClusterProblem
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Entrant, Selection, Task, without_stand_ins
-from mocapbench.benchmark.tasks.locomotion import CMU, SYNTHETIC
+from mocapbench.benchmark.problems.cluster import ClusterProblem
+from mocapbench.benchmark.tasks.base import Case, Entrant, Selection, Task, without_stand_ins
+from mocapbench.benchmark.tasks.hlm_recordings import CMU, SYNTHETIC
+from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 
 __all__ = ["StyleClustering", "style_clustering"]

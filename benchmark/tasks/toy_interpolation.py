@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from mocapbench.baselines import Imputer
-from mocapbench.benchmark.imputation import ImputeProblem, Unit
-from mocapbench.benchmark.masks import hide_all_but
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Entrant, Setting, Task
+from mocapbench.benchmark.problems.impute import ImputeProblem, Unit
+from mocapbench.benchmark.problems.masks import hide_all_but
+from mocapbench.benchmark.tasks.base import Case, Entrant, Setting, Task
+from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 from mocapbench.datasets.process import ToyProcess
 

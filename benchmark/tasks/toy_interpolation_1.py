@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mocapbench.benchmark.task import Case, Entrant, Selection
+from mocapbench.benchmark.tasks.base import Case, Entrant, Selection
 from mocapbench.benchmark.tasks.toy_interpolation import RBF, Design, ToyInterpolation, baselines
 
 __all__ = ["ToyInterpolation1", "toy_interpolation_1"]

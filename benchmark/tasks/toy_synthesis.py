@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from mocapbench.baselines import Synthesiser
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.synthesis import SynthesiseProblem
-from mocapbench.benchmark.task import Case, Entrant, Selection, Task
+from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
+from mocapbench.benchmark.tasks.base import Case, Entrant, Selection, Task
+from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.benchmark.tasks.toy_interpolation_1 import toy_interpolation_1
 from mocapbench.datasets import Archive
 from mocapbench.datasets.process import ToyProcess, uniform_weights

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines import Imputer, Inductive
-from mocapbench.benchmark.imputation import ImputeProblem, Unit
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Selection, Task, without_stand_ins
-from mocapbench.benchmark.tasks.locomotion import CMU, SYNTHETIC
+from mocapbench.benchmark.problems.impute import ImputeProblem, Unit
+from mocapbench.benchmark.tasks.base import Case, Selection, Task, without_stand_ins
+from mocapbench.benchmark.tasks.hlm_recordings import CMU, SYNTHETIC
+from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive, Mask, Recording
 
 __all__ = ["UpperBodyMissing", "upper_body_missing"]

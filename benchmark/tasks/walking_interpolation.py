@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from mocapbench.baselines import Imputer
-from mocapbench.benchmark.imputation import ImputeProblem, Unit
-from mocapbench.benchmark.masks import hide_all_but
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Entrant, Selection, Task, without_stand_ins
-from mocapbench.benchmark.tasks.excerpts import JOINT_GROUPS
+from mocapbench.benchmark.problems.impute import ImputeProblem, Unit
+from mocapbench.benchmark.problems.masks import hide_all_but
+from mocapbench.benchmark.tasks.base import Case, Entrant, Selection, Task, without_stand_ins
+from mocapbench.benchmark.tasks.seeds import Seeds
+from mocapbench.benchmark.tasks.thesis_recordings import JOINT_GROUPS
 from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, clip, resample
 
 __all__ = ["WalkingInterpolation", "walking_interpolation"]

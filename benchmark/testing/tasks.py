@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from mocapbench.baselines import FrameImputer, Imputer, Model
-from mocapbench.benchmark.plan import entrants
-from mocapbench.benchmark.problem import Problem
+from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.registry import METRICS
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Task
+from mocapbench.benchmark.runs.plan import entrants
+from mocapbench.benchmark.tasks.base import Case, Task
+from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.benchmark.testing.errors import ConformanceError, raised_by, require, require_equal
 from mocapbench.datasets import Archive, open_archive
 
@@ -36,7 +36,7 @@ def check_task(task: Task, archive: Archive | None = None) -> None:
         At the first thing that is wrong.
     """
     advice = "pass an instance, not its class or name"
-    require(isinstance(task, Task), "a mocapbench.benchmark.task.Task", repr(task), advice)
+    require(isinstance(task, Task), "a mocapbench.benchmark.tasks.base.Task", repr(task), advice)
     with raised_by(f"task {task.name}", "it is consistent"):
         _check_names(task)
         _check_profiles(task)

@@ -18,9 +18,9 @@ import pandas as pd
 
 from mocapbench.baselines.lmc_independent import LMCIndependent
 from mocapbench.baselines.moa import MOA
-from mocapbench.benchmark.imputation import ImputeProblem, Unit
+from mocapbench.benchmark.problems.impute import ImputeProblem, Unit
 from mocapbench.benchmark.registry import METRICS, TASKS
-from mocapbench.benchmark.seeds import Seeds
+from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Recording, open_archive
 
 MODELS = {"pooled": MOA, "independent": LMCIndependent}

@@ -25,8 +25,8 @@ from mocapbench.baselines.gp.trended import TrendedProcess
 from mocapbench.baselines.moa import MOA
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.benchmark.registry import METRICS
-from mocapbench.benchmark.tasks.excerpts import EVALUATION, TRAINING, Window, read_excerpt
 from mocapbench.benchmark.tasks.mocap_synthesis import KICKS, N_SAMPLES, WALKS
+from mocapbench.benchmark.tasks.thesis_recordings import EVALUATION, TRAINING, Window, read_excerpt
 from mocapbench.datasets import Recording, open_archive
 from mocapbench.metrics import Synthesis
 

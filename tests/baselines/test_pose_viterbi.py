@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.pose_viterbi import PoseViterbi
-from mocapbench.baselines.shortest_path import cheapest_path
 from mocapbench.datasets import Recording
 
 

@@ -11,8 +11,8 @@ from sklearn.base import clone
 from mocapbench.baselines.alignment import ring
 from mocapbench.baselines.control import Control
 from mocapbench.baselines.cyclic_alignment import CyclicAlignment
-from mocapbench.baselines.gp.dense import Dense
-from mocapbench.baselines.gp.pivoted import PivotedRoot
+from mocapbench.baselines.gp.prior.pivoted import PivotedRoot
+from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp_independent import GPIndependent
 from mocapbench.baselines.lmc_independent import LMCIndependent
 from mocapbench.baselines.moa import MOA

@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from mocapbench.benchmark.cli import main
+from mocapbench.benchmark.cli.main import main
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 
 

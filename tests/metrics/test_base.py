@@ -1,9 +1,12 @@
 import pickle
+from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
 
-from mocapbench.metrics import BUILTIN, Clustering, Direction, Imputation, Recovery, Synthesis
+from mocapbench.metrics import Clustering, Direction, Imputation, Recovery, Synthesis
+
+BUILTIN = [point.load() for point in entry_points(group="mocapbench.metrics")]
 
 
 @pytest.fixture

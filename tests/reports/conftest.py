@@ -10,8 +10,8 @@ import pytest
 
 from mocapbench.metrics.base import Direction
 from mocapbench.reports import render
-from mocapbench.reports.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
-from mocapbench.reports.illustration import Curve, Illustration, Panel
+from mocapbench.reports.bundle.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.bundle.pictures import Curve, Illustration, Panel
 
 METRICS = {
     info.name: info

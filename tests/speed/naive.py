@@ -10,7 +10,7 @@ import numpy as np
 from problems import Problem
 from scipy.linalg import blas, lapack
 
-from mocapbench.baselines.gp.parameters import CHILD, PARENT
+from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT
 
 __all__ = ["naive"]
 

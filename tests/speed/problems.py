@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines.gp.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.hierarchy import hierarchical
-from mocapbench.baselines.gp.kernels import KERNELS, Kernel
-from mocapbench.baselines.gp.parameters import CHILD, PARENT, Layer, Parameters
-from mocapbench.baselines.gp.reduction import Reduction, independent
-from mocapbench.baselines.gp.replicates import Replicates
-from mocapbench.baselines.gp.sampling import draw_layer
+from mocapbench.baselines.gp.posterior.sampling import draw_layer
+from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
+from mocapbench.baselines.gp.prior.kernels import KERNELS, Kernel
+from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, Layer, Parameters
+from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
+from mocapbench.baselines.gp.reduction.reduction import Reduction, independent
+from mocapbench.baselines.gp.reduction.replicates import Replicates
 
 __all__ = ["SIZES", "Problem", "Size", "pose"]
 

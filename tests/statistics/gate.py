@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from scipy import stats
 
-from mocapbench.benchmark.regression import Environment, Tolerance, Verdict, judge
+from mocapbench.benchmark.gate.rule import Environment, Tolerance, Verdict, judge
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "speed"))
 from page import place, table

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.dense import Dense
-from mocapbench.baselines.gp.hierarchy import hierarchical
-from mocapbench.baselines.gp.kernels import KERNELS, Kernel
-from mocapbench.baselines.gp.parameters import CHILD, PARENT, Layer, Parameters
-from mocapbench.baselines.gp.reduction import Reduction, independent, pooled
-from mocapbench.baselines.gp.replicates import Replicates
-from mocapbench.baselines.gp.solver import Solver
-from mocapbench.baselines.gp.tree import Path, Tree, grow
+from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
+from mocapbench.baselines.gp.prior.kernels import KERNELS, Kernel
+from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, Layer, Parameters
+from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
+from mocapbench.baselines.gp.reduction.reduction import Reduction, independent, pooled
+from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow
+from mocapbench.baselines.gp.solvers.dense import Dense
+from mocapbench.baselines.gp.solvers.solver import Solver
 
 
 @dataclass(frozen=True)

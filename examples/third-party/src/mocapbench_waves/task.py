@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines import FrameImputer
-from mocapbench.benchmark.imputation import ImputeProblem, Unit
-from mocapbench.benchmark.masks import hide_frames
-from mocapbench.benchmark.seeds import Seeds
-from mocapbench.benchmark.task import Case, Selection, Task
+from mocapbench.benchmark.problems.impute import ImputeProblem, Unit
+from mocapbench.benchmark.problems.masks import hide_frames
+from mocapbench.benchmark.tasks.base import Case, Selection, Task
+from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive, Recording
 
 __all__ = ["Waves", "waves"]

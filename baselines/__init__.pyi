@@ -1,0 +1,85 @@
+from .aligned_window import AlignedWindow
+from .control import Control
+from .cpm import CPM
+from .cubic_spline import CubicSplineImputer
+from .cyclic_alignment import CyclicAlignment
+from .gp_independent import GPIndependent
+from .gpdm.model import GPDM
+from .gplvm import GPLVM
+from .hgp import HGP
+from .k_cpm import KCPM
+from .k_means import KMeans
+from .knn import KNN
+from .lmc_independent import LMCIndependent
+from .moa import MOA
+from .mohgp import MOHGP
+from .nn import NN
+from .oracle import Oracle
+from .pose_kriging import PoseKriging
+from .pose_viterbi import PoseViterbi
+from .protocols import (
+    Aligner,
+    Blender,
+    Clusterer,
+    Coregionalised,
+    Dynamical,
+    Embedded,
+    FrameByStyle,
+    FrameImputer,
+    Imputer,
+    Inductive,
+    Informed,
+    Layered,
+    Misinformed,
+    Model,
+    Prediction,
+    SampleByFrameByChannel,
+    StatePath,
+    Synthesiser,
+    Trended,
+)
+from .replay import Replay
+from .trivial import Trivial
+
+__all__ = [
+    "CPM",
+    "GPDM",
+    "GPLVM",
+    "HGP",
+    "KCPM",
+    "KNN",
+    "MOA",
+    "MOHGP",
+    "NN",
+    "AlignedWindow",
+    "Aligner",
+    "Blender",
+    "Clusterer",
+    "Control",
+    "Coregionalised",
+    "CubicSplineImputer",
+    "CyclicAlignment",
+    "Dynamical",
+    "Embedded",
+    "FrameByStyle",
+    "FrameImputer",
+    "GPIndependent",
+    "Imputer",
+    "Inductive",
+    "Informed",
+    "KMeans",
+    "LMCIndependent",
+    "Layered",
+    "Misinformed",
+    "Model",
+    "Oracle",
+    "PoseKriging",
+    "PoseViterbi",
+    "Prediction",
+    "Replay",
+    "SampleByFrameByChannel",
+    "StatePath",
+    "Synthesiser",
+    "Trended",
+    "Trivial",
+]

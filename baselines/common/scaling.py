@@ -1,0 +1,69 @@
+"""Outputs in a common unit: zero mean and unit variance over all visible entries."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.common.recordings import visible_moments
+from mocapbench.datasets import FrameByChannel, Recording
+
+__all__ = ["Standardisation"]
+
+Array = NDArray[np.float64]
+
+CONSTANT = 1e-12
+"""Relative standard deviation below which an output is constant but for rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Standardisation:
+    """The map z = (y − mean) / scale of each output.
+
+    Parameters
+    ----------
+    mean, scale : ndarray of shape (D,)
+        Mean and standard deviation (ddof 0) of the visible entries; a constant output has scale 1.
+    counts : ndarray of shape (D,)
+        Number of visible entries.
+    """
+
+    mean: Array
+    scale: Array
+    counts: Array
+
+    @classmethod
+    def of(cls, recordings: Sequence[Recording]) -> Standardisation:
+        """Learn the map from recordings with the same channels.
+
+        Raises
+        ------
+        ValueError
+            If an output is nowhere visible.
+        """
+        mean, variance = visible_moments(recordings)
+        if np.isnan(mean).any():
+            unseen = [recordings[0].channels[d] for d in np.flatnonzero(np.isnan(mean))]
+            raise ValueError(
+                f"expected every channel to have a visible entry in some recording, got none for "
+                f"{unseen}: leave these channels out with Recording.select"
+            )
+        counts = np.sum([recording.visible.sum(axis=0) for recording in recordings], axis=0)
+        constant = np.sqrt(variance) <= CONSTANT * np.maximum(np.abs(mean), 1.0)
+        return cls(mean, np.where(constant, 1.0, np.sqrt(variance)), counts)
+
+    def apply(self, recording: Recording) -> Recording:
+        """Return the recording in standard units."""
+        return recording.with_values((recording.values - self.mean) / self.scale)
+
+    def restore(self, values: FrameByChannel) -> FrameByChannel:
+        """Return values (…, N, D) in the outputs' own units."""
+        return values * self.scale + self.mean
+
+    @property
+    def log_jacobian(self) -> float:
+        """What the log-density of the data gains by the change of units: −Σ_d n_d log scale_d."""
+        return -float(self.counts @ np.log(self.scale))

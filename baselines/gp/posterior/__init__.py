@@ -1,0 +1,1 @@
+"""What a trained model says: predictions, joint covariances, draws and trends."""

@@ -1,0 +1,1 @@
+"""The prior: kernels, coregionalisation, and the parameters of both."""

@@ -1,0 +1,133 @@
+"""The parameters of a model as a point in the space of its free coordinates.
+
+A layer ('parent' g, 'child' f) is a linear model of coregionalisation, Σ_q B_q ⊗ k_q (thesis
+eq. 17); every output has a noise variance. The optimiser sees one flat vector of log ℓ, W, √κ and
+log β; everybody else sees names. A gradient is a `Parameters` as well: a vector of the same space.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
+from mocapbench.baselines.gp.prior.kernels import Kernel
+
+__all__ = ["CHILD", "PARENT", "Layer", "Parameters"]
+
+Array = NDArray[np.float64]
+
+PARENT = "parent"
+"""Name of the layer g, which replicates share."""
+CHILD = "child"
+"""Name of the layer f − g, of which every replicate has its own draw."""
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """One linear model of coregionalisation, Σ_q B_q ⊗ k_q.
+
+    Parameters
+    ----------
+    log_lengthscales : ndarray of shape (Q,)
+        One per component.
+    coregionalisation : Coregionalisation
+        The matrices B_q.
+    """
+
+    log_lengthscales: Array
+    coregionalisation: Coregionalisation
+
+    @property
+    def lengthscales(self) -> Array:
+        """(Q,) lengthscales in the unit of the times."""
+        return np.exp(self.log_lengthscales)
+
+    @property
+    def leaves(self) -> tuple[Array, Array, Array]:
+        """The free coordinates: log ℓ, W, √κ."""
+        b = self.coregionalisation
+        return self.log_lengthscales, b.weights, b.kappa_roots
+
+    def __add__(self, other: Layer) -> Layer:
+        """Return the sum, coordinate by coordinate."""
+        a, b = self.coregionalisation, other.coregionalisation
+        return Layer(
+            self.log_lengthscales + other.log_lengthscales,
+            Coregionalisation(a.weights + b.weights, a.kappa_roots + b.kappa_roots),
+        )
+
+    def covariance(self, kernel: Kernel, lags: Array) -> Array:
+        """Return Σ_q B_q ⊗ k_q for ``lags`` (M, N), (D, M, D, N)."""
+        matrices = self.coregionalisation.matrices
+        n_components, n_outputs, _ = matrices.shape
+        kernels = kernel.value(lags, self.lengthscales[:, None, None])
+        by_pair = matrices.reshape(n_components, -1).T @ kernels.reshape(n_components, -1)
+        return by_pair.reshape(n_outputs, n_outputs, *lags.shape).transpose(0, 2, 1, 3)
+
+    def zeros(self) -> Layer:
+        """Return the origin of the same space."""
+        lengthscales, weights, roots = (np.zeros_like(leaf) for leaf in self.leaves)
+        return Layer(lengthscales, Coregionalisation(weights, roots))
+
+
+@dataclass(frozen=True, eq=False)
+class Parameters:
+    """All parameters of a model, or a gradient with respect to them.
+
+    Parameters
+    ----------
+    layers : mapping of str to Layer
+        `PARENT`, `CHILD` or both.
+    log_noise : ndarray of shape (D,)
+        log β_d, the noise variance of each output.
+    """
+
+    layers: Mapping[str, Layer]
+    log_noise: Array
+
+    @property
+    def noise(self) -> Array:
+        """(D,) noise variances β_d."""
+        return np.exp(self.log_noise)
+
+    @property
+    def leaves(self) -> tuple[Array, ...]:
+        """The free coordinates in the order of `flat`."""
+        return (*(leaf for layer in self.layers.values() for leaf in layer.leaves), self.log_noise)
+
+    @property
+    def flat(self) -> Array:
+        """(n_parameters,) all free coordinates as one vector."""
+        return np.concatenate([leaf.ravel() for leaf in self.leaves])
+
+    @property
+    def shapes(self) -> Mapping[str, tuple[int, int, int]]:
+        """(Q, D, rank) of each layer: what two points of one space have in common."""
+        return {name: layer.coregionalisation.weights.shape for name, layer in self.layers.items()}
+
+    def at(self, flat: Array) -> Parameters:
+        """Return the point of the same space whose coordinates are ``flat``: the inverse."""
+        ends = np.cumsum([leaf.size for leaf in self.leaves])[:-1]
+        pieces = np.split(np.asarray(flat, dtype=np.float64), ends)
+        *layers, log_noise = (
+            piece.reshape(leaf.shape) for piece, leaf in zip(pieces, self.leaves, strict=True)
+        )
+        triples = zip(layers[::3], layers[1::3], layers[2::3], strict=True)
+        return Parameters(
+            {
+                name: Layer(lengthscales, Coregionalisation(weights, roots))
+                for name, (lengthscales, weights, roots) in zip(self.layers, triples, strict=True)
+            },
+            log_noise,
+        )
+
+    def __str__(self) -> str:
+        scales = ", ".join(
+            f"{name} lengthscales {np.array2string(layer.lengthscales, precision=3)}"
+            for name, layer in self.layers.items()
+        )
+        return f"{scales}, noise variances {self.noise.min():.3g} to {self.noise.max():.3g}"

@@ -1,0 +1,79 @@
+r"""Kernel matrices as :math:`\Lambda\Lambda^\top`, smooth ones included.
+
+The plain Cholesky factorisation fails on the Gram matrix of a smooth kernel, whose eigenvalues
+fall below rounding error. With complete pivoting it stops when the largest remaining variance is
+below 1e-12, so that the trace of what is left out is below 1e-12 of the matrix's; the number of
+columns is then the numerical rank (Higham 2002, *Accuracy and Stability of Numerical Algorithms*,
+§10.3).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lapack, solve_triangular
+
+from mocapbench.baselines.gp.prior.kernels import Kernel
+
+__all__ = ["PivotedRoot"]
+
+Array = NDArray[np.float64]
+
+TOLERANCE = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class PivotedRoot:
+    """A draw of the kernel's process as Λ u with white u, at its own times and at others.
+
+    Parameters
+    ----------
+    kernel : Kernel
+        The kernel.
+    lengthscale : float
+        Its lengthscale.
+    pivots : ndarray of shape (rank,)
+        The times that the factorisation picked.
+    triangle : ndarray of shape (rank, rank)
+        Lower Cholesky factor of the kernel matrix at the pivots.
+    values : ndarray of shape (N, rank)
+        Λ at the times of the factorisation.
+    """
+
+    kernel: Kernel
+    lengthscale: float
+    pivots: Array
+    triangle: Array
+    values: Array
+
+    @classmethod
+    def of(cls, kernel: Kernel, lengthscale: float, times: Array) -> PivotedRoot:
+        """Factorise the kernel matrix at ``times`` (N,)."""
+        gram = kernel.value(np.subtract.outer(times, times), lengthscale)
+        factor, order, rank, _ = lapack.dpstrf(gram, tol=TOLERANCE, lower=1)
+        lower = np.tril(factor[:, :rank])
+        values = np.empty_like(lower)
+        values[order - 1] = lower
+        return cls(kernel, lengthscale, times[order[:rank] - 1], lower[:rank], values)
+
+    def slope(self, times: Array) -> tuple[Array, Array]:
+        r"""Return V (N, rank) and T (rank, rank) with ∂(Λ Λᵀ) = V Λᵀ + Λ Vᵀ − Λ T Λᵀ.
+
+        ``times`` are those of the factorisation, and ∂ is the derivative in log ℓ at fixed pivots
+        p: :math:`\Lambda\Lambda^\top = k_{\cdot p} k_{pp}^{-1} k_{p \cdot}`, so that
+        :math:`V = \partial k_{\cdot p} L^{-\top}` and
+        :math:`T = L^{-1} \partial k_{pp} L^{-\top}`.
+        """
+        by_pivot = np.hstack([times, self.pivots])
+        slopes = self.kernel.gradient(np.subtract.outer(self.pivots, by_pivot), self.lengthscale)
+        solved = solve_triangular(self.triangle, slopes, lower=True, check_finite=False)
+        at_times, at_pivots = np.split(solved, [len(times)], axis=1)
+        inner = solve_triangular(self.triangle, at_pivots.T, lower=True, check_finite=False)
+        return at_times.T, inner
+
+    def at(self, times: Array) -> Array:
+        """Return Λ at other times, (M, rank): the regression of the process there on u."""
+        cross = self.kernel.value(np.subtract.outer(self.pivots, times), self.lengthscale)
+        return np.asarray(solve_triangular(self.triangle, cross, lower=True).T)

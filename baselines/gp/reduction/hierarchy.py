@@ -1,0 +1,109 @@
+r"""From a tree of replicates to block problems, exactly.
+
+A replicate is :math:`y_r = g + e_i + \dots + f_r + \varepsilon_r`, with one independent draw for
+each node on the way from the root (thesis eq. 5 and 8). *Siblings* whose subtrees have one shape,
+that is, the same numbers of nodes and the same visible entries, are exchangeable. So the contrasts
+between them are independent of their mean and know nothing of the draws above, and the mean of R
+siblings has their covariance, divided by R, around the draws above. Taken level by level, nothing
+is left but the means at the root and, for each shape, one block of deviations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from mocapbench.baselines.gp.prior.parameters import CHILD
+from mocapbench.baselines.gp.reduction.reduction import Reduction, Share
+from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.reduction.subtrees import (
+    Curve,
+    Deviations,
+    Shape,
+    Subtree,
+    mean_of,
+    parent_of,
+    shape_above,
+)
+from mocapbench.baselines.gp.reduction.tree import Node, Tree, grow
+from mocapbench.baselines.gp.solvers.block import Target
+
+__all__ = ["hierarchical"]
+
+
+def hierarchical(replicates: Replicates, tree: Tree | None = None) -> Reduction:
+    r"""Reduce replicates whose curves are draws around those of the nodes above them.
+
+    In two layers, f_r ~ GP(g, K_f): with :math:`C = K_f + \Gamma` the mean curves of the patterns
+    have covariance :math:`K_g + \delta_{pq} C / R_p`, and are independent of the deviations from
+    them, which have covariance :math:`(\delta_{rs} - 1 / R_p)\, C` and rank :math:`R_p - 1`. The
+    Jacobian of taking means is :math:`R_p^{-n_p/2}`.
+
+    Parameters
+    ----------
+    replicates : Replicates
+        The data.
+    tree : Tree, optional
+        From the root to the replicates; without it all of them are children of the root.
+    """
+    tree = tree or grow([str(r) for r in range(len(replicates.data))])
+    deviations = Deviations()
+    level = _leaves(replicates, tree[CHILD])
+    for layer in reversed([*tree][:-1]):
+        level = _level_above(layer, level, deviations)
+    means = level[()]
+    nodes = {
+        node: _shares(means, tuple(tree), node) for of_layer in tree.values() for node in of_layer
+    }
+    nothing = np.zeros(replicates.data.shape[1])
+    return Reduction(
+        blocks=(
+            means.shape.block(replicates.times, means.data[None], multiplicity=1),
+            *deviations.blocks(replicates.times),
+        ),
+        replicates=tuple(nodes[leaf] for leaf in tree[CHILD]),
+        trend=nodes[()],
+        constant=deviations.log_jacobian,
+        within_dof=nothing,
+        within_scatter=nothing,
+        nodes=nodes,
+    )
+
+
+def _leaves(replicates: Replicates, nodes: Sequence[Node]) -> Mapping[Node, Subtree]:
+    """Return the replicates that show something."""
+    shapes: dict[bytes, Shape] = {}
+    leaves = {}
+    for node, data, observed in zip(nodes, replicates.data, replicates.observed, strict=True):
+        if observed.any():
+            fresh = Shape(len(shapes), {CHILD: np.ones((1, 1))}, observed[None], np.ones(1))
+            shape = shapes.setdefault(observed.tobytes(), fresh)
+            leaves[node] = Subtree(shape, data[None], {node: Curve({CHILD: np.ones(1)}, ())})
+    return leaves
+
+
+def _level_above(
+    layer: str, level: Mapping[Node, Subtree], deviations: Deviations
+) -> Mapping[Node, Subtree]:
+    """Return the nodes above those of a level, each with a draw of ``layer``."""
+    families: dict[Node, dict[Shape, list[Subtree]]] = {}
+    for node, subtree in level.items():
+        families.setdefault(node[:-1], {}).setdefault(subtree.shape, []).append(subtree)
+    shapes: dict[tuple[tuple[int, int], ...], Shape] = {}
+    above = {}
+    for node, by_shape in families.items():
+        alike = [by_shape[shape] for shape in sorted(by_shape, key=lambda shape: shape.number)]
+        parts = [mean_of(siblings, deviations) for siblings in alike]
+        kind = tuple((siblings[0].shape.number, len(siblings)) for siblings in alike)
+        fresh = shape_above(layer, [part.shape for part in parts], len(shapes))
+        above[node] = parent_of(parts, node, layer, shapes.setdefault(kind, fresh))
+    return above
+
+
+def _shares(means: Subtree, layers: Sequence[str], node: Node) -> tuple[Share, ...]:
+    """Return the shares of a node's curve; where nothing shows of it, its draws are fresh."""
+    seen = next(node[:n] for n in range(len(node), -1, -1) if node[:n] in means.curves)
+    fresh = dict.fromkeys(layers[len(seen) + 1 : len(node) + 1], 1.0)
+    curve = means.curves[seen]
+    return (Share(0, 0, Target(curve.weights, fresh)), *curve.shares)

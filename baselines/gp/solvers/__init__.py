@@ -1,0 +1,1 @@
+"""Exact inference in one block, by interchangeable solvers of one contract (`solver`)."""

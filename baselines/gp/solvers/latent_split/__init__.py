@@ -1,0 +1,1 @@
+"""Inference by splitting outputs into what they share and their independent parts."""

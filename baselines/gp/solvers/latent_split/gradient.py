@@ -1,0 +1,110 @@
+r"""The gradient of the latent split.
+
+With :math:`M = \Lambda S^{-1} \Lambda^\top` the posterior covariance of the latent functions, let
+:math:`Z_{ab} = \sum_{i \in a, j \in b} c_i c_j^\top \otimes M_{ij}` collect it by columns of
+weights, and :math:`X_d = \sum_{ab} w_{ad} w_{bd} Z_{ab}` be its image in output d. Then
+
+.. math:: (K^{-1})_{dd} = F_d - F_d X_d F_d, \qquad
+          \bar E_d = \tfrac12 \big(\alpha_d \alpha_d^\top - \rho (K^{-1})_{dd}\big)
+
+is all that κ, β and a lengthscale's effect on the outputs' own parts need. The shared parts give,
+with :math:`\partial(\Lambda_i \Lambda_i^\top) = V_i \Lambda_i^\top + \Lambda_i V_i^\top -
+\Lambda_i T_i \Lambda_i^\top`,
+
+.. math::
+   \partial w_{ad} &= \alpha_d^\top \sum_{i \in a} (c_i \otimes \Lambda_i u_i)
+       - \rho \sum_b w_{bd} \langle F_d, Z_{ab} \rangle, \\
+   \partial \log \ell &\ni \sum_i \big\langle V_i,\;
+       (A^\top \alpha)_i u_i^\top - \rho\, (G \Lambda S^{-1})_{ii} \big\rangle
+       - \tfrac12 \big\langle T_i,\; u_i u_i^\top - \rho\, (I - S^{-1})_{ii} \big\rangle,
+
+the sum being over the latent functions of the component. The last line uses
+:math:`\Lambda^\top A^\top \alpha = u`, :math:`A^\top K^{-1} A \Lambda = G \Lambda S^{-1}` and
+:math:`\Lambda^\top A^\top K^{-1} A \Lambda = I - S^{-1}`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.common.threads import Mapper
+from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.baselines.gp.solvers.latent_split.factorisation import Split, project
+
+__all__ = ["split_gradient"]
+
+Array = NDArray[np.float64]
+
+
+def split_gradient(split: Split, mapper: Mapper) -> Parameters:
+    """Return the gradient of the log-density of the split's block."""
+    covariance = _by_pairs(split)
+    weights = _weight_gradient(split, covariance)
+    gradient = split.own.gradient(lambda outputs: _own_adjoint(split, covariance, outputs), mapper)
+    for (name, q, number), by_weight in zip(split.latents.columns, weights, strict=True):
+        gradient.layers[name].coregionalisation.weights[q, :, number] += by_weight
+    _add_scale_gradient(split, gradient)
+    return gradient
+
+
+def _by_pairs(split: Split) -> Array:
+    """Return Z_aa and Z_ab + Z_abᵀ for the pairs a ≤ b of columns, (n_pairs, m²)."""
+    latents, entries = split.latents, split.block.entries
+    n_sites = len(entries.unit)
+    rows = [latent.values @ split.inverse[latent.white] for latent in latents.functions]
+    total = np.zeros((len(latents.pairs), n_sites, n_sites))
+    for (a, b), matrix in zip(latents.pairs, total, strict=True):
+        for i in latents.by_column[a]:
+            for j in latents.by_column[b]:
+                other = latents.functions[j]
+                block = rows[i][:, other.white] @ other.values.T
+                entries.add_unfolded(latents.functions[i].units, other.units, block, matrix)
+        if a != b:
+            matrix[...] = matrix + matrix.T
+    return total.reshape(len(total), n_sites**2)
+
+
+def _weight_gradient(split: Split, covariance: Array) -> Array:
+    """Return ∂w, (n, D)."""
+    weights = split.latents.weights
+    gradient = np.tensordot(split.shared, split.alpha, axes=((1, 2), (1, 2)))
+    overlaps = covariance @ split.own.precision.reshape(weights.shape[1], -1).T
+    for (a, b), overlap in zip(split.latents.pairs, overlaps, strict=True):
+        # Each pair stands for Z_ab and Z_ba, whose inner products with F_d are equal.
+        gradient[a] -= 0.5 * split.block.multiplicity * weights[b] * overlap
+        gradient[b] -= 0.5 * split.block.multiplicity * weights[a] * overlap
+    return np.asarray(gradient)
+
+
+def _own_adjoint(split: Split, covariance: Array, outputs: slice) -> Array:
+    """Return Ē of a run of outputs, (·, m, m)."""
+    entries, rho = split.block.entries, split.block.multiplicity
+    images = split.latents.products[:, outputs].T @ covariance
+    adjoint = images.reshape(-1, *entries.shape[1:])
+    for d, matrix in zip(range(*outputs.indices(entries.shape[0])), adjoint, strict=True):
+        shown = entries.shown[d]
+        precision, alpha = shown.pick(split.own.precision[d]), split.alpha[d, shown.positions]
+        own = precision @ shown.pick(matrix) @ precision
+        own -= precision
+        own *= rho
+        own += alpha @ alpha.T
+        own *= 0.5
+        shown.place(own, matrix)
+    return adjoint
+
+
+def _add_scale_gradient(split: Split, gradient: Parameters) -> None:
+    """Add what the lengthscales do to the latent functions."""
+    rho = split.block.multiplicity
+    projected = project(split.latents, split.block.entries, split.alpha)
+    for latent, row, curve in zip(
+        split.latents.functions, split.rooted_gram, projected, strict=True
+    ):
+        name, q, _ = split.latents.columns[latent.column]
+        slope, inner = latent.root.slope(split.block.times[latent.seen])
+        white, own = split.white[latent.white], split.inverse[latent.white, latent.white]
+        outer = curve @ white.T - rho * row @ split.inverse[:, latent.white]
+        square = white @ white.T - rho * (np.eye(len(own)) - own)
+        gradient.layers[name].log_lengthscales[q] += np.vdot(slope, outer[latent.seen])
+        gradient.layers[name].log_lengthscales[q] -= 0.5 * np.vdot(inner, square)

@@ -1,0 +1,136 @@
+r"""The outputs' own parts: :math:`E_d = \sum_\tau \kappa_{\tau d}\, U_\tau \otimes k_\tau + \nu_d`.
+
+:math:`\tau` runs over the components of all layers, :math:`U_\tau` is the layer's Gram matrix over
+units and :math:`\nu_d` the noise. Matrices are over the m sites of the block, one for each output.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.common.threads import Mapper
+from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
+from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.parameters import Layer, Parameters
+from mocapbench.baselines.gp.solvers.block import Block
+from mocapbench.baselines.gp.solvers.cholesky import invert
+
+__all__ = ["OwnParts"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class OwnParts:
+    """The covariances of the outputs' own parts, inverted.
+
+    Parameters
+    ----------
+    kernel, block, parameters : Kernel, Block, Parameters
+        What they are made of.
+    kernels : ndarray of shape (n_components, m²)
+        U_τ ⊗ k_τ, for the components of all layers of the block.
+    precision : ndarray of shape (D, m, m)
+        F_d = E_d⁻¹, 0 where hidden.
+    log_determinant : float
+        Σ_d log|E_d|.
+    """
+
+    kernel: Kernel
+    block: Block
+    parameters: Parameters
+    kernels: Array
+    precision: Array
+    log_determinant: float
+
+    @classmethod
+    def of(cls, kernel: Kernel, block: Block, parameters: Parameters, mapper: Mapper) -> OwnParts:
+        """Invert the own part of every output.
+
+        Raises
+        ------
+        SingularCovarianceError
+            If one is not numerically positive definite.
+        """
+        entries = block.entries
+        kernels, kappa = _kernels(kernel.value, block, parameters), _kappa(block, parameters)
+        noise = parameters.noise[:, None] * _noise_scale(block)
+        precision = np.empty(entries.shape)
+
+        def invert_chunk(outputs: slice) -> float:
+            matrices = (kappa[:, outputs].T @ kernels).reshape(-1, *entries.shape[1:])
+            total = 0.0
+            for d, matrix in zip(range(*outputs.indices(len(noise))), matrices, strict=True):
+                shown = entries.shown[d]
+                own = shown.pick(matrix)
+                own.reshape(-1)[:: len(own) + 1] += noise[d, shown.positions]
+                total += invert(own, parameters)
+                shown.place(own, precision[d])
+            return total
+
+        log_determinant = sum(mapper(invert_chunk, entries.chunks))
+        return cls(kernel, block, parameters, kernels, precision, log_determinant)
+
+    def gradient(self, adjoint: Callable[[slice], Array], mapper: Mapper) -> Parameters:
+        """Return the gradient of a function whose gradient in E is Ē.
+
+        ``adjoint`` gives Ē of a run of outputs, (·, m, m).
+        """
+        scale = _noise_scale(self.block)
+        functions = np.vstack(
+            [self.kernels, _kernels(self.kernel.gradient, self.block, self.parameters)]
+        )
+
+        def contract(outputs: slice) -> tuple[Array, Array]:
+            own = adjoint(outputs)
+            by_noise = np.einsum("dmm,dm->d", own, scale[outputs])
+            return functions @ own.reshape(len(own), -1).T, by_noise
+
+        products, by_noise = zip(*mapper(contract, self.block.entries.chunks), strict=True)
+        by_kappa, by_scale = np.split(np.hstack(products), 2)
+        return self._collect(by_kappa, by_scale, self.parameters.noise * np.hstack(by_noise))
+
+    def _collect(self, by_kappa: Array, by_scale: Array, by_noise: Array) -> Parameters:
+        """Return the gradient from ⟨Ē_d, U_τ ⊗ k_τ⟩ and ⟨Ē_d, U_τ ⊗ ∂k_τ⟩, (n_components, D)."""
+        layers, start = {}, 0
+        for name, layer in self.parameters.layers.items():
+            layers[name] = layer.zeros()
+            if name in self.block.units:
+                own = slice(start, start + len(layer.lengthscales))
+                start = own.stop
+                b = layer.coregionalisation
+                by_root = 2.0 * b.kappa_roots * by_kappa[own]
+                layers[name] = Layer(
+                    (b.kappa * by_scale[own]).sum(axis=1),
+                    Coregionalisation(np.zeros_like(b.weights), by_root),
+                )
+        return Parameters(layers, by_noise)
+
+
+def _noise_scale(block: Block) -> Array:
+    """Return the factors of the noise at the sites, (D, m)."""
+    return np.asarray(block.noise_scale[block.entries.unit, :, block.entries.time].T)
+
+
+def _kappa(block: Block, parameters: Parameters) -> Array:
+    """Return κ of the components of all layers of the block, (n_components, D)."""
+    layers = [layer for name, layer in parameters.layers.items() if name in block.units]
+    return np.concatenate([layer.coregionalisation.kappa for layer in layers])
+
+
+def _kernels(
+    function: Callable[[Array, Array], Array], block: Block, parameters: Parameters
+) -> Array:
+    """Return U_τ ⊗ k_τ, or with ∂k_τ, between all sites: (n_components, m²)."""
+    unit, time = block.entries.unit, block.entries.time
+    kernels = []
+    for name, layer in parameters.layers.items():
+        if name in block.units:
+            by_lag = function(block.lags, layer.lengthscales[:, None, None])
+            gram = block.grams[name][unit][:, unit]
+            kernels.append(gram * by_lag[:, time][:, :, time])
+    return np.concatenate(kernels).reshape(-1, len(unit) ** 2)

@@ -1,0 +1,156 @@
+"""The latent functions behind the shared part of a block's covariance.
+
+Every column of a W_q mixes one latent function for each independent draw of its layer. A column
+says how the outputs load on its functions, a draw how the units do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.baselines.gp.prior.pivoted import PivotedRoot
+from mocapbench.baselines.gp.solvers.block import Block, Target
+
+__all__ = ["Column", "Latent", "Latents"]
+
+Array = NDArray[np.float64]
+
+
+class Column(NamedTuple):
+    """A column of a coregionalisation factor: layer, component q, number within W_q."""
+
+    layer: str
+    component: int
+    number: int
+
+
+@dataclass(frozen=True, eq=False)
+class Latent:
+    """One latent function v = Λ u, with white u.
+
+    Parameters
+    ----------
+    column : int
+        Index of its column.
+    draw : int
+        Index of its draw of the layer.
+    units : ndarray of shape (P,)
+        c, how the units load on it.
+    seen : ndarray of int
+        The times at which a unit that loads on it has a visible entry.
+    root : PivotedRoot
+        Λ as a function of time, factorised at the times seen.
+    white : slice
+        Its coordinates u among those of all latent functions.
+    values : ndarray of shape (N, rank)
+        Λ at the block's times, 0 at those not seen.
+    """
+
+    column: int
+    draw: int
+    units: Array
+    seen: NDArray[np.intp]
+    root: PivotedRoot
+    white: slice
+    values: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Latents:
+    """All latent functions of a block.
+
+    Parameters
+    ----------
+    columns : tuple of Column
+        Names of the n columns.
+    weights : ndarray of shape (n, D)
+        w, how the outputs load on the functions of each column.
+    functions : tuple of Latent
+        The latent functions, by column.
+    """
+
+    columns: tuple[Column, ...]
+    weights: Array
+    functions: tuple[Latent, ...]
+
+    @classmethod
+    def of(cls, kernel: Kernel, block: Block, parameters: Parameters) -> Latents:
+        """List the latent functions of ``block``."""
+        columns = tuple(_columns(block, parameters))
+        weights = np.zeros((len(columns), block.observed.shape[1]))
+        for row, (name, q, number) in zip(weights, columns, strict=True):
+            row[:] = parameters.layers[name].coregionalisation.weights[q, :, number]
+        return cls(columns, weights, tuple(_functions(kernel, block, parameters, columns)))
+
+    @property
+    def n_white(self) -> int:
+        """K, the number of white coordinates."""
+        return self.functions[-1].white.stop if self.functions else 0
+
+    @cached_property
+    def by_column(self) -> tuple[tuple[int, ...], ...]:
+        """The indices of the functions of each column."""
+        return tuple(
+            tuple(i for i, latent in enumerate(self.functions) if latent.column == a)
+            for a in range(len(self.columns))
+        )
+
+    @cached_property
+    def pairs(self) -> tuple[tuple[int, int], ...]:
+        """The pairs a ≤ b of columns."""
+        n = len(self.columns)
+        return tuple((a, b) for a in range(n) for b in range(a, n))
+
+    @cached_property
+    def products(self) -> Array:
+        """(n_pairs, D), the products w_a w_b."""
+        products = [self.weights[a] * self.weights[b] for a, b in self.pairs]
+        return np.reshape(products, (-1, self.weights.shape[1]))
+
+    def at(self, times: Array) -> Array:
+        """Return (M, K), all Λ at other times, side by side."""
+        roots = [latent.root.at(times) for latent in self.functions]
+        return np.hstack([np.empty((len(times), 0)), *roots])
+
+    def coefficients(self, target: Target) -> Array:
+        """Return (K, D), how the outputs of ``target`` load on each white coordinate's function."""
+        spread = np.empty((self.n_white, self.weights.shape[1]))
+        for latent in self.functions:
+            of_draw = target.weights[self.columns[latent.column].layer][latent.draw]
+            spread[latent.white] = of_draw * self.weights[latent.column]
+        return spread
+
+
+def _columns(block: Block, parameters: Parameters) -> Iterator[Column]:
+    for name in block.units:
+        n_components, _, rank = parameters.layers[name].coregionalisation.weights.shape
+        for q, number in np.ndindex(n_components, rank):
+            yield Column(name, q, number)
+
+
+def _functions(
+    kernel: Kernel, block: Block, parameters: Parameters, columns: tuple[Column, ...]
+) -> Iterator[Latent]:
+    roots: dict[tuple[float, bytes], PivotedRoot] = {}
+    start = 0
+    for a, (name, q, _) in enumerate(columns):
+        scale = float(parameters.layers[name].lengthscales[q])
+        for draw, units in enumerate(block.units[name].T):
+            seen = np.flatnonzero(block.observed[units != 0.0].any(axis=(0, 1)))
+            key = (scale, seen.tobytes())
+            if key not in roots:
+                roots[key] = PivotedRoot.of(kernel, scale, block.times[seen])
+            root = roots[key]
+            values = np.zeros((len(block.times), root.values.shape[1]))
+            values[seen] = root.values
+            white = slice(start, start + values.shape[1])
+            start = white.stop
+            yield Latent(a, draw, units, seen, root, white, values)

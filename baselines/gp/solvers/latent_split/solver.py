@@ -1,0 +1,130 @@
+r"""Inference by splitting every output into what it shares and what is its own.
+
+A coregionalisation matrix is :math:`W W^\top + \operatorname{diag}(\kappa)`: given the latent
+functions behind :math:`W`, the *outputs are independent*. The covariance of a block is therefore
+
+.. math:: K = A K_v A^\top + \operatorname{blockdiag}_d E_d,
+
+with one latent function for every component, column of :math:`W` and independent draw of the
+layer, :math:`K_v = \Lambda\Lambda^\top` their block-diagonal prior, :math:`A_d` the rows
+:math:`w_{id}\, c_i \otimes I`, and :math:`E_d` the covariance of output d's own part and noise.
+With :math:`F_d = E_d^{-1}`, zero at hidden entries so that masks vanish from the formulae,
+
+.. math:: G = A^\top F A, \quad S = I + \Lambda^\top G \Lambda, \quad
+          \log|K| = \sum_d \log|E_d| + \log|S|, \quad u = S^{-1}\Lambda^\top A^\top F z,
+
+and with the residual :math:`r = z - A \Lambda u`, :math:`\alpha = K^{-1}z = F r`, and the quadratic
+form is :math:`r^\top F r + u^\top u`: a sum of squares, where the textbook difference
+:math:`z^\top F z - b^\top \Lambda u` cancels.
+
+The cost is that of D matrices of side P N and one of side (number of latents) × N.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.baselines.gp.solvers.block import Block, Target
+from mocapbench.baselines.gp.solvers.latent_split.factorisation import Split
+from mocapbench.baselines.gp.solvers.latent_split.gradient import split_gradient
+from mocapbench.baselines.gp.solvers.solver import Posterior, Solver
+
+__all__ = ["LatentSplit"]
+
+Array = NDArray[np.float64]
+
+OVERHEAD = 6e7
+"""What a block costs besides its factorisations, as operations (about four milliseconds)."""
+OUTPUT_OVERHEAD = 2e6
+"""The same for each output (about a tenth of a millisecond)."""
+
+
+class LatentSplit(Solver):
+    """O(Σ_d n_d³ + (latents × N)³): for many outputs, few latents and few patterns."""
+
+    name: ClassVar[str] = "latent-split"
+
+    def evaluate(self, block: Block, parameters: Parameters) -> tuple[float, Parameters]:
+        """Return the log-density of the block's data and its gradient."""
+        split = Split.of(self.kernel, block, parameters, self.mapper)
+        return split.log_density, split_gradient(split, self.mapper)
+
+    def condition(self, block: Block, parameters: Parameters) -> Posterior:
+        """Return the posterior given the block's data."""
+        return _SplitPosterior(Split.of(self.kernel, block, parameters, self.mapper))
+
+    def work(self, block: Block, parameters: Parameters) -> float:
+        """Return 3 Σ_d n_d³ + 1.5 K³ and overheads, K counting the frames that latents see."""
+        own = block.observed.sum(axis=(0, 2)).astype(np.float64)
+        shared = 0.0
+        for name, factor in block.units.items():
+            seen = (factor != 0.0).T @ block.observed.any(axis=1) > 0
+            n_columns = parameters.layers[name].coregionalisation.weights[:, 0].size
+            shared += float(n_columns * seen.sum())
+        overhead = OVERHEAD + OUTPUT_OVERHEAD * len(own)
+        return 3.0 * float((own**3).sum()) + 1.5 * shared**3 + overhead
+
+
+class _SplitPosterior(Posterior):
+    r"""The posterior of white coordinates and own parts.
+
+    The target in output d is :math:`T_d u + e_d`, with :math:`T_d` the regression on the white
+    coordinates and :math:`e_d` its own part, whose covariance with the visible entries is
+    :math:`c_d`. With :math:`J_d = T_d - c_d F_d A_d \Lambda` the mean is
+    :math:`T_d u + c_d \alpha_d` and the variance
+    :math:`\operatorname{diag}(J_d S^{-1} J_d^\top - c_d F_d c_d^\top)` plus the prior variance
+    that :math:`u` does not explain.
+    """
+
+    def __init__(self, split: Split) -> None:
+        self.split = split
+
+    def predict(self, target: Target, times: Array) -> tuple[Array, Array]:
+        split, latents = self.split, self.split.latents
+        shared, coefficients = latents.at(times), latents.coefficients(target)
+        loadings = self._white_loadings()
+        variance = np.repeat(self._prior(target)[:, None], len(times), axis=1)
+        mean = np.empty((len(split.block.data), *variance.shape))
+        for d, cross in enumerate(self._own_cross(target, times)):
+            regression = shared * coefficients[:, d]
+            weighted = cross @ split.own.precision[d]
+            variance[d] -= np.square(regression).sum(axis=1)
+            mean[:, d] = (regression @ split.white + cross @ split.alpha[d]).T
+            for weight, of_column in zip(latents.weights[:, d], loadings, strict=True):
+                regression -= weight * (weighted @ of_column)
+            variance[d] += np.einsum("mi,mi->m", regression @ split.inverse, regression)
+            variance[d] -= np.einsum("mi,mi->m", weighted, cross)
+        return mean, split.block.share_of_variance * np.maximum(variance, 0.0)
+
+    def _prior(self, target: Target) -> Array:
+        layers = self.split.parameters.layers
+        return np.asarray(
+            sum(
+                target.prior_scale(name) * layers[name].coregionalisation.variances
+                for name in self.split.block.units
+            )
+        )
+
+    def _white_loadings(self) -> Array:
+        """Return (n, m, K), what each column of weights multiplies in terms of u."""
+        latents, entries = self.split.latents, self.split.block.entries
+        loadings = np.zeros((len(latents.columns), len(entries.unit), latents.n_white))
+        for latent in latents.functions:
+            loadings[latent.column, :, latent.white] = entries.unfold(latent.units, latent.values)
+        return loadings
+
+    def _own_cross(self, target: Target, times: Array) -> Array:
+        """Return c, (D, M, m), the covariance of the own parts with the sites."""
+        split, entries = self.split, self.split.block.entries
+        cross = np.zeros((split.own.precision.shape[0], len(times), len(entries.unit)))
+        lags = np.subtract.outer(times, split.block.times[entries.time])
+        for name, factor in split.block.units.items():
+            layer = split.parameters.layers[name]
+            kernels = split.own.kernel.value(lags, layer.lengthscales[:, None, None])
+            curves = np.tensordot(layer.coregionalisation.kappa.T, kernels, axes=1)
+            cross += (factor @ target.weights[name])[entries.unit] * curves
+        return cross

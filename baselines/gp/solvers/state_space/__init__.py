@@ -1,0 +1,1 @@
+"""Inference by a Kalman filter and smoother over the frames."""

@@ -1,0 +1,1 @@
+"""Training by type-II maximum likelihood: start, coordinates, search."""

@@ -1,0 +1,241 @@
+"""Two sides of paired records, contrasted per task, case and metric, and over a task's cases.
+
+A side is a run, or a model within a run. What is paired is the same problem: task and version,
+case, fold, seed and recordings. Anything else is refused, because a difference between problems
+would pass for one between the sides.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+
+import pandas as pd
+
+from mocapbench.benchmark.errors import UnknownNameError, UsageError
+from mocapbench.benchmark.registry import METRICS, TASKS
+from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.tasks.base import Task
+from mocapbench.metrics.statistics import (
+    Contrast,
+    case_units,
+    contrast,
+    holm,
+    pair,
+    pooled_units,
+)
+
+__all__ = ["POOLED", "Row", "between_models", "between_runs", "compare", "tidy"]
+
+POOLED = "all cases"
+
+Side = Sequence[Record]
+Address = tuple[str, str, int, str]
+
+
+@dataclass(frozen=True)
+class Row:
+    """One contrast: of one case, or of all cases of a task (`POOLED`).
+
+    ``t_p_holm`` and ``signed_rank_p_holm`` are corrected over the rows of one task and metric,
+    the pooled ones apart from those of single cases.
+    """
+
+    task: str
+    metric: str
+    entrant: str
+    case: str
+    contrast: Contrast
+    t_p_holm: float = math.nan
+    signed_rank_p_holm: float = math.nan
+
+
+def between_runs(first: Side, second: Side, models: Sequence[str] = ()) -> tuple[Side, Side]:
+    """Return the records of both runs, of the entrants that ``models`` names, or of all.
+
+    Raises
+    ------
+    UnknownNameError
+        If neither run has an entrant of that label or model.
+    """
+    one, other = (_of_models(side, models or _labels(side)) for side in (first, second))
+    _require_models(models, [*first, *second])
+    return one, other
+
+
+def between_models(run: Side, models: Sequence[str]) -> tuple[Side, Side]:
+    """Return the records of two entrants of one run, without their labels.
+
+    Raises
+    ------
+    UsageError
+        If ``models`` are not two different labels of the run.
+    """
+    if len(set(models)) != 2:
+        raise UsageError(
+            "compare: expected a second run, or --models with two labels of the one run, got "
+            f"{', '.join(models) or 'neither'}"
+        )
+    _require_models(models, run)
+    one, other = ([replace(r, label="") for r in run if r.label == name] for name in models)
+    return one, other
+
+
+def _labels(side: Side) -> set[str]:
+    return {record.label for record in side}
+
+
+def _of_models(side: Side, models: Iterable[str]) -> list[Record]:
+    return [record for record in side if record.label in set(models)]
+
+
+def _require_models(models: Iterable[str], side: Side) -> None:
+    known = sorted(_labels(side))
+    for name in models:
+        if name not in known:
+            raise UnknownNameError("entrant of the run", name, known)
+
+
+def compare(
+    first: Side,
+    second: Side,
+    *,
+    tasks: Sequence[str] = (),
+    metrics: Sequence[str] = (),
+    rope: float,
+) -> list[Row]:
+    """Return every contrast of two sides, by task, metric, entrant and case, in table order.
+
+    Parameters
+    ----------
+    first, second : sequence of Record
+    tasks, metrics : sequence of str
+        Names; by default every task, and the metrics that its tables show.
+    rope : float
+        Half the region of practical equivalence, as a share of the mean value.
+
+    Raises
+    ------
+    UsageError
+        If nothing is in common, or what has one address is not the same problem.
+    """
+    one, other = (_scored(side, tasks) for side in (first, second))
+    common = [address for address in one if address in other]
+    if not common:
+        raise UsageError("compare: the two have no scored (task, case, fold, entrant) in common")
+    _require_same_problems([(one[address], other[address]) for address in common])
+    names = list(dict.fromkeys(task for task, *_ in common))
+    rows = [
+        row
+        for task in map(TASKS.get, names)
+        for metric in metrics or task.metrics
+        for row in _rows(task, metric, _pairs(task, metric, one, other), rope)
+    ]
+    if not rows:
+        raise UsageError(f"compare: the two have no value of {', '.join(metrics)} in common")
+    return rows
+
+
+def _scored(side: Side, tasks: Sequence[str]) -> dict[Address, Record]:
+    return {
+        (record.task, record.case, record.fold, record.label): record
+        for record in side
+        if record.status is Status.OK and (not tasks or record.task in tasks)
+    }
+
+
+def _require_same_problems(pairs: Sequence[tuple[Record, Record]]) -> None:
+    reasons = Counter(reason for pair in pairs for reason in _differences(*pair))
+    if reasons:
+        told = "; ".join(f"{reason} ({count} jobs)" for reason, count in reasons.most_common(3))
+        raise UsageError(
+            f"compare: the two do not solve the same problems, so nothing is paired: {told}; "
+            "compare runs of one seed, one version of the tasks and the same recordings"
+        )
+
+
+def _differences(one: Record, other: Record) -> list[str]:
+    ours, theirs = (_problem(record) for record in (one, other))
+    return [
+        f"{name} {ours.get(name, 'absent')} against {theirs.get(name, 'absent')}"
+        for name in dict.fromkeys([*ours, *theirs])
+        if ours.get(name) != theirs.get(name)
+    ]
+
+
+def _problem(record: Record) -> Mapping[str, str]:
+    digests = {k: v for k, v in record.provenance.items() if k.startswith("digest of ")}
+    return {"seed": str(record.seed), f"version of {record.task}": str(record.version), **digests}
+
+
+def _pairs(
+    task: Task, metric: str, one: Mapping[Address, Record], other: Mapping[Address, Record]
+) -> dict[str, pd.DataFrame]:
+    """Return the paired values of each entrant of a task."""
+    common = (address for address in one if address in other)
+    labels = dict.fromkeys(label for name, *_, label in common if name == task.name)
+    return {
+        label: pair(*(_values(side, task, label, metric) for side in (one, other)))
+        for label in labels
+    }
+
+
+def _values(
+    side: Mapping[Address, Record], task: Task, label: str, metric: str
+) -> pd.Series[float]:
+    found = {
+        (case, fold): record.scores.get(metric, math.nan)
+        for (name, case, fold, entrant), record in side.items()
+        if (name, entrant) == (task.name, label)
+    }
+    addresses = pd.MultiIndex.from_tuples(list(found), names=["case", "fold"])
+    return pd.Series(list(found.values()), addresses, dtype=float)
+
+
+def _rows(task: Task, metric: str, pairs: Mapping[str, pd.DataFrame], rope: float) -> list[Row]:
+    loss, independent = METRICS.get(metric).loss, task.independent_folds
+    single = [
+        Row(task.name, metric, label, case, contrast(units, loss, rope))
+        for label, own in pairs.items()
+        for case in own.index.unique("case")
+        for units in [case_units(own, case, independent=independent)]
+    ]
+    pooled = [
+        Row(task.name, metric, label, POOLED, contrast(units, loss, rope))
+        for label, own in pairs.items()
+        for judged in [_judged(task, own)]
+        if judged.index.unique("case").size > 1
+        for units in [pooled_units(judged, independent=independent)]
+    ]
+    return [*_corrected(single), *_corrected(pooled)]
+
+
+def _judged(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
+    """Return the pairs that count over cases, by the rule of `TaskResults.judged`."""
+    made = [case.name for case in task.cases if case.synthetic]
+    pooling = [case.name for case in task.cases if task.pools(case)]
+    for apart in (made, pooling):
+        others = pairs[~pairs.index.get_level_values("case").isin(apart)]
+        pairs = pairs if others.empty else others
+    return pairs
+
+
+def _corrected(rows: Sequence[Row]) -> list[Row]:
+    t, signed = (
+        holm([getattr(row.contrast, test) for row in rows]) for test in ("t_p", "signed_rank_p")
+    )
+    return [
+        replace(row, t_p_holm=float(one), signed_rank_p_holm=float(other))
+        for row, one, other in zip(rows, t, signed, strict=True)
+    ]
+
+
+def tidy(rows: Iterable[Row]) -> pd.DataFrame:
+    """Return one line per contrast, unrounded."""
+    lines = []
+    for row in rows:
+        line = asdict(row)
+        lines.append({**{k: v for k, v in line.items() if k != "contrast"}, **line["contrast"]})
+    return pd.DataFrame(lines)

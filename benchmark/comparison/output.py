@@ -1,0 +1,116 @@
+"""A comparison for people: the terminal and Markdown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+
+from rich.box import SIMPLE
+from rich.markup import escape
+from rich.table import Table
+
+from mocapbench.benchmark.comparison.compare import Row
+from mocapbench.benchmark.registry import METRICS
+from mocapbench.metrics.statistics import ALPHA, Contrast, least_signed_rank_p
+
+__all__ = ["markdown", "notes", "outcome", "terminal"]
+
+
+def outcome(row: Row, sides: tuple[str, str]) -> str:
+    """Return who is better by the corrected t-test, or why that cannot be said."""
+    found = row.contrast
+    if found.first == found.second and found.low == found.high:
+        return "identical"
+    if math.isnan(row.t_p_holm):
+        return "one unit: no test"
+    if row.t_p_holm > ALPHA:
+        return "not separable"
+    return f"{sides[found.advantage < 0.0]} better"
+
+
+def terminal(rows: Sequence[Row], sides: tuple[str, str]) -> Iterator[Table]:
+    """Yield one table per task and metric; rows that are identical are left out."""
+    for title, group in _by_metric(rows):
+        shown = [row for row in group if outcome(row, sides) != "identical"]
+        table = Table(box=SIMPLE, padding=0, title=escape(title), title_justify="left")
+        for head in _columns(sides):
+            table.add_column(escape(head), overflow="fold")
+        for row in shown:
+            style = "bold" if outcome(row, sides).endswith("better") else ""
+            table.add_row(*map(escape, _cells(row, sides)), style=style)
+        if shown:
+            yield table
+
+
+def markdown(rows: Sequence[Row], sides: tuple[str, str]) -> str:
+    """Return every row, and the notes."""
+    lines = [f"# {sides[0]} against {sides[1]}", ""]
+    for title, group in _by_metric(rows):
+        columns = _columns(sides)
+        lines += [f"## {title}", "", _line(columns), _line(["---"] * len(columns))]
+        lines += [*(_line(_cells(row, sides)) for row in group), ""]
+    return "\n".join([*lines, *(f"- {note}" for note in notes(rows, sides)), ""])
+
+
+def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
+    """Return what a reader of ``rows`` must know."""
+    identical = sum(outcome(row, sides) == "identical" for row in rows)
+    powerless = sorted({row.contrast.n for row in rows} - {0})
+    powerless = [n for n in powerless if n == 1 or least_signed_rank_p(n) > ALPHA]
+    return [
+        "“Better by” comes with its 95 % interval by Student’s t. Each p is corrected after Holm, "
+        "single cases and all cases apart. P is by the Bayesian correlated t-test.",
+        *([f"{identical} of {len(rows)} comparisons are identical."] if identical else []),
+        *(_powerless(n) for n in powerless[-1:]),
+    ]
+
+
+def _powerless(n: int) -> str:
+    if n == 1:
+        return "Where n is 1 no test is possible: more folds, or more cases, are needed."
+    return (
+        f"Where n is at most {n}, Wilcoxon’s signed-rank test cannot go below p = "
+        f"{least_signed_rank_p(n):.4g}, however large the difference: go by the paired t-test."
+    )
+
+
+def _by_metric(rows: Sequence[Row]) -> Iterator[tuple[str, list[Row]]]:
+    for (task, name), group in groupby(rows, key=lambda row: (row.task, row.metric)):
+        metric = METRICS.get(name)
+        goal = metric.direction.value if metric.target is None else f"near {metric.target:g}"
+        yield f"{task}: {metric.title} ({goal} is better)", list(group)
+
+
+def _columns(sides: tuple[str, str]) -> list[str]:
+    tests = ["p (t)", "p (Wilcoxon)", "P better / equal / worse", "outcome"]
+    return ["case", "n", *sides, f"{sides[0]} better by", *tests]
+
+
+def _cells(row: Row, sides: tuple[str, str]) -> list[str]:
+    found = row.contrast
+    return [
+        f"{row.entrant}: {row.case}" if row.entrant else row.case,
+        *(str(found.n), _digits(found.first), _digits(found.second)),
+        f"{_digits(found.advantage)} {_interval(found)}".strip(),
+        *map(_digits, (row.t_p_holm, row.signed_rank_p_holm)),
+        _probabilities(found),
+        outcome(row, sides),
+    ]
+
+
+def _interval(found: Contrast) -> str:
+    return "" if math.isnan(found.low) else f"[{_digits(found.low)}, {_digits(found.high)}]"
+
+
+def _probabilities(found: Contrast) -> str:
+    shares = (found.better, found.equivalent, found.worse)
+    return "–" if math.isnan(found.better) else " / ".join(f"{share:.2f}" for share in shares)
+
+
+def _digits(value: float) -> str:
+    return "–" if math.isnan(value) else f"{value:.3g}"
+
+
+def _line(cells: Sequence[str]) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

@@ -1,0 +1,1 @@
+"""Records as tables, and as the bundle that a report is made of."""

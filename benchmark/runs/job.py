@@ -1,0 +1,96 @@
+"""Jobs: one (task, case, fold, entrant) each, with the keys of what it computes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.tasks.seeds import Seeds
+
+__all__ = ["Job", "Settings"]
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the jobs of a run have in common; travels to the workers.
+
+    Parameters
+    ----------
+    out : Path
+        The run directory.
+    data_dir : Path or None
+        A folder of recordings that the user names.
+    model_files : tuple of Path
+        Files of the user's own models.
+    timeout : float
+        Seconds after which a job is killed.
+    memory : int
+        Bytes of address space that a job may take.
+    threads : int
+        Threads that a job may share its work out to; results do not depend on it.
+    provenance : mapping of str to str
+        Copied into every record.
+    """
+
+    out: Path
+    data_dir: Path | None
+    model_files: tuple[Path, ...]
+    timeout: float
+    memory: int
+    threads: int
+    provenance: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Job:
+    """A unit of work, as plain values that travel to a worker.
+
+    Parameters
+    ----------
+    seeds : Seeds
+        Address of what is asked: task, version, question, fold, root seed.
+    case : str
+        The row that it is asked for.
+    label, model, parameters : str, str, mapping
+        The entrant.
+    metrics : tuple of str
+        What to score.
+    key, fit_key : str
+        Names of the record and of the predictions.
+    digests : mapping of str to str
+        Digests of the recordings it reads.
+    missing : tuple of str
+        Addresses of the recordings that it needs and that are not at hand.
+    """
+
+    seeds: Seeds
+    case: str
+    label: str
+    model: str
+    parameters: Mapping[str, Any]
+    metrics: tuple[str, ...]
+    key: str
+    fit_key: str
+    digests: Mapping[str, str]
+    missing: tuple[str, ...] = ()
+
+    def record(self, status: Status, message: str = "", **found: Any) -> Record:
+        """Return a record of this job that ended with ``status``."""
+        return Record(
+            key=self.key,
+            fit_key=self.fit_key,
+            task=self.seeds.task,
+            version=self.seeds.version,
+            case=self.case,
+            fold=self.seeds.fold,
+            seed=self.seeds.root,
+            label=self.label,
+            model=self.model,
+            parameters=self.parameters,
+            status=status,
+            message=message,
+            **found,
+        )

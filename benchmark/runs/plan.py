@@ -1,0 +1,186 @@
+"""Planning: from what the user asks for to the jobs that answer it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from typing import Any
+
+from mocapbench.benchmark.errors import UnknownNameError, UsageError
+from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.runs.job import Job
+from mocapbench.benchmark.runs.keys import fit_key, score_key
+from mocapbench.benchmark.tasks.base import Case, Entrant, Selection, Task
+from mocapbench.benchmark.tasks.seeds import Seeds
+from mocapbench.datasets import Archive
+
+__all__ = ["PROFILES", "Request", "entrants", "plan", "required_sources"]
+
+PROFILES = ("smoke", "quick", "paper")
+_MISSING = "missing"
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to run; an empty tuple or None leaves the choice to the profile.
+
+    Parameters
+    ----------
+    profile : str
+        ``smoke``, ``quick`` or ``paper``.
+    tasks, models, cases, metrics : tuple of str
+        Names; a model may be named by its label too, a case by a pattern such as ``observed*``.
+    folds : int or None
+        How many folds of each case.
+    seed : int
+        The root seed.
+    """
+
+    profile: str = "quick"
+    tasks: tuple[str, ...] = ()
+    models: tuple[str, ...] = ()
+    cases: tuple[str, ...] = ()
+    metrics: tuple[str, ...] = ()
+    folds: int | None = None
+    seed: int = 0
+
+
+def plan(request: Request, archive: Archive) -> tuple[Job, ...]:
+    """Return the jobs of ``request`` in table order: task, case, entrant, fold.
+
+    Raises
+    ------
+    UnknownNameError
+        If a task, model, case, metric or profile does not exist.
+    UsageError
+        If a task does not have so many folds.
+    DigestMismatch
+        If a recording is here but is not the registered one.
+    """
+    _check_names(request)
+    return tuple(
+        job
+        for task in _tasks(request)
+        for case in _cases(request, task)
+        for job in _case_jobs(request, task, case, archive)
+    )
+
+
+def required_sources(request: Request) -> tuple[str, ...]:
+    """Return the addresses of every recording that ``request`` needs, each once."""
+    _check_names(request)
+    tasks = [task for task in _tasks(request) if _chosen_entrants(request, task)]
+    sources = [uri for task in tasks for case in _cases(request, task) for uri in case.needs]
+    return tuple(dict.fromkeys(sources))
+
+
+def entrants(task: Task) -> tuple[Entrant, ...]:
+    """Return the task's entrants and, with defaults, every other registered model it accepts."""
+    configured = {entrant.model for entrant in task.entrants}
+    others = (Entrant(name, name) for name in MODELS.names() if name not in configured)
+    return tuple(e for e in (*task.entrants, *others) if task.accepts(MODELS.get(e.model)))
+
+
+def _check_names(request: Request) -> None:
+    if request.profile not in PROFILES:
+        raise UnknownNameError("profile", request.profile, PROFILES)
+    for name in request.tasks:
+        TASKS.get(name)
+    for name in request.metrics:
+        METRICS.get(name)
+    tasks = _tasks(request)
+    labels = {entrant.label for task in tasks for entrant in task.entrants}
+    _check_known("model", request.models, {*MODELS.names(), *labels})
+    cases = [case.name for task in tasks for case in task.cases]
+    for pattern in request.cases:
+        if not any(fnmatchcase(case, pattern) for case in cases):
+            raise UnknownNameError("case", pattern, cases)
+
+
+def _check_known(kind: str, names: Sequence[str], known: set[str]) -> None:
+    for name in names:
+        if name not in known:
+            raise UnknownNameError(kind, name, sorted(known))
+
+
+def _tasks(request: Request) -> list[Task]:
+    if request.tasks:
+        return [TASKS.get(name) for name in dict.fromkeys(request.tasks)]
+    every = (TASKS.get(name) for name in TASKS.names())
+    return [task for task in every if request.profile in task.profiles]
+
+
+def _cases(request: Request, task: Task) -> Iterator[Case]:
+    """Yield the profile's cases, or among all those of the task the ones asked for."""
+    if not request.cases:
+        yield from map(task.case, task.selection(request.profile).cases)
+    for case in task.cases:
+        if any(fnmatchcase(case.name, pattern) for pattern in request.cases):
+            yield case
+
+
+def _chosen_entrants(request: Request, task: Task) -> list[Entrant]:
+    wanted = set(request.models)
+    if wanted:
+        return [e for e in entrants(task) if wanted & {e.label, e.model}]
+    left_out = task.selection(request.profile).without
+    return [e for e in entrants(task) if e.label not in left_out]
+
+
+def _folds(request: Request, task: Task) -> int:
+    folds = task.selection(request.profile).folds if request.folds is None else request.folds
+    if task.max_folds is not None and folds > task.max_folds:
+        raise UsageError(
+            f"--folds: {task.name} has {task.max_folds} folds, got {folds}; ask for fewer, or "
+            "leave it out with --tasks"
+        )
+    return folds
+
+
+def _parameters(entrant: Entrant, case: Case, selection: Selection) -> dict[str, Any]:
+    """Return the model's full parameters, its seed apart, which the label decides."""
+    model = MODELS.get(entrant.model)(**entrant.parameters)
+    names = model.get_params()
+    asked = {**selection.budget, **case.parameters}
+    model.set_params(**{name: v for name, v in asked.items() if name in names})
+    parameters = {name: v for name, v in model.get_params().items() if name != "random_state"}
+    for name, value in parameters.items():
+        _check_plain(entrant, name, value)
+    return parameters
+
+
+def _check_plain(entrant: Entrant, name: str, value: object) -> None:
+    """Refuse what has no stable text, and so could be in no key or record."""
+    try:
+        json.dumps(value)
+    except (TypeError, ValueError) as error:
+        raise UsageError(
+            f"model {entrant.model!r}: expected parameters that JSON can hold (numbers, text, "
+            f"lists of them), got {name}={value!r}; build objects from them in fit"
+        ) from error
+
+
+def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> Iterator[Job]:
+    missing = tuple(uri for uri in case.needs if not archive.available(uri))
+    digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.needs}
+    seen, judging = ({uri: digests[uri] for uri in of} for of in (case.sources, case.references))
+    names = tuple(sorted(request.metrics or METRICS.names()))
+    metrics = [METRICS.get(name) for name in names]
+    for entrant in _chosen_entrants(request, task):
+        parameters = _parameters(entrant, case, task.selection(request.profile))
+        for fold in range(_folds(request, task)):
+            seeds = Seeds(request.seed, task.name, task.version, case.asked, fold)
+            fit = fit_key(
+                task,
+                case,
+                seeds,
+                label=entrant.label,
+                model=MODELS.get(entrant.model),
+                parameters=parameters,
+                digests=seen,
+            )
+            key = score_key(fit, metrics, case.name, judging)
+            label, model = entrant.label, entrant.model
+            yield Job(seeds, case.name, label, model, parameters, names, key, fit, digests, missing)

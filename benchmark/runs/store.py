@@ -1,0 +1,244 @@
+"""The store: one file per record and one per fit, each written whole or not at all.
+
+::
+
+    run-directory/
+        mocapbench.json             says that the folder is ours
+        plan.json                   the keys of the last run, in table order
+        check.json                  what the last regression check of that run found
+        records/<score key>.json
+        predictions/<fit key>.npz
+
+Resuming skips what exists; merging two machines' work is copying files. A truncated or foreign
+file is reported in `Store.damaged` and treated as absent.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import zipfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.problems.base import Solution
+from mocapbench.benchmark.runs.record import Record, RecordError
+
+__all__ = ["Fit", "Store"]
+
+_MARKER = "mocapbench.json"
+_CHECK = "check.json"
+_FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A solution and what it cost; everything that rescoring needs."""
+
+    solution: Solution
+    fit_seconds: float
+    predict_seconds: float
+    peak_memory_mb: float
+    iterations: int | None
+    converged: bool | None
+    engine: str = ""
+    warnings: tuple[str, ...] = ()
+
+
+class Store:
+    """A run directory.
+
+    Parameters
+    ----------
+    path : Path
+        An existing run directory; see `create` and `open`.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.damaged: list[str] = []
+
+    @classmethod
+    def create(cls, path: Path) -> Store:
+        """Return the store at ``path``, which is made if it is new or empty.
+
+        Raises
+        ------
+        UsageError
+            If the folder holds other things, or cannot be written.
+        """
+        if path.exists() and not path.is_dir():
+            raise UsageError(f"--out: expected a folder, got the file {path}; name another folder")
+        if path.is_dir() and any(path.iterdir()) and not (path / _MARKER).is_file():
+            raise UsageError(
+                f"--out: {path} holds files that are not a mocapbench run (there is no {_MARKER} "
+                "in it); name a new or empty folder"
+            )
+        try:
+            for folder in ("records", "predictions"):
+                (path / folder).mkdir(parents=True, exist_ok=True)
+            if not (path / _MARKER).is_file():
+                with atomic_write(path / _MARKER) as file:
+                    file.write(json.dumps({"format": _FORMAT}).encode())
+        except OSError as error:
+            raise UsageError(f"--out: {path} cannot be written: {error}") from error
+        return cls(path)
+
+    @classmethod
+    def open(cls, path: Path) -> Store:
+        """Return the store at ``path``, which must exist.
+
+        Raises
+        ------
+        UsageError
+            If it is not a run directory.
+        """
+        if not cls.is_run(path):
+            raise UsageError(
+                f"{path} is not a mocapbench run (there is no {_MARKER} in it); "
+                "name the folder that `mocapbench run --out` wrote"
+            )
+        return cls(path)
+
+    @staticmethod
+    def is_run(path: Path) -> bool:
+        """Return whether ``path`` is a run directory."""
+        return (path / _MARKER).is_file()
+
+    @contextmanager
+    def locked(self) -> Iterator[None]:
+        """Keep other runs out of the folder.
+
+        Raises
+        ------
+        UsageError
+            If another run is in it.
+        """
+        with (self.path / _MARKER).open("rb") as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError as error:
+                raise UsageError(
+                    f"--out: another run is writing to {self.path}; wait for it or name another "
+                    "folder (copying records together later merges the two)"
+                ) from error
+            yield
+
+    def load(self, key: str) -> Record | None:
+        """Return the record called ``key``, or None if it is absent or damaged."""
+        path = self._record_path(key)
+        if not path.is_file():
+            return None
+        try:
+            record = Record.from_json(path.read_text(encoding="utf-8"))
+            if record.key != key:
+                raise RecordError(f"it holds the record {record.key}")
+        except (OSError, UnicodeDecodeError, RecordError) as error:
+            self.damaged.append(f"{path}: {error}")
+            return None
+        return record
+
+    def save(self, record: Record) -> None:
+        """Write ``record`` whole or not at all."""
+        with atomic_write(self._record_path(record.key)) as file:
+            file.write(record.to_json().encode())
+
+    def records(self) -> list[Record]:
+        """Return every whole record, by name of file."""
+        keys = sorted(path.stem for path in (self.path / "records").glob("*.json"))
+        return [record for key in keys if (record := self.load(key)) is not None]
+
+    def planned(self) -> list[Record]:
+        """Return the whole records of the last run, in table order.
+
+        Raises
+        ------
+        UsageError
+            If no run got so far, or its plan is damaged.
+        """
+        keys = self.load_plan()["keys"]
+        return [record for key in keys if (record := self.load(key)) is not None]
+
+    def load_fit(self, key: str) -> Fit | None:
+        """Return the fit called ``key``, or None if it is absent or damaged."""
+        path = self._fit_path(key)
+        if not path.is_file():
+            return None
+        try:
+            with np.load(path, allow_pickle=False) as arrays:
+                about = json.loads(str(arrays["about"]))
+                if about.pop("key") != key:
+                    raise ValueError("it holds those of another job")
+                solution = {name: arrays[name] for name in arrays.files if name != "about"}
+            return Fit(solution, **{**about, "warnings": tuple(about["warnings"])})
+        except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+            self.damaged.append(f"{path}: not a whole set of predictions: {error}")
+            return None
+
+    def save_fit(self, key: str, fit: Fit) -> None:
+        """Write ``fit`` whole or not at all."""
+        about = {name: value for name, value in asdict(fit).items() if name != "solution"}
+        about["key"] = key
+        with atomic_write(self._fit_path(key)) as file:
+            arrays: dict[str, Any] = {**fit.solution, "about": np.array(json.dumps(about))}
+            np.savez_compressed(file, **arrays)
+
+    def save_plan(self, plan: Mapping[str, Any]) -> None:
+        """Write what the last run was asked to do; a check of an earlier one is dropped."""
+        (self.path / _CHECK).unlink(missing_ok=True)
+        with atomic_write(self.path / "plan.json") as file:
+            file.write(json.dumps(plan, indent=1).encode())
+
+    def load_plan(self) -> Mapping[str, Any]:
+        """Return what the last run was asked to do.
+
+        Raises
+        ------
+        UsageError
+            If no run got so far, or the file is damaged.
+        """
+        path = self.path / "plan.json"
+        try:
+            plan = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise UsageError(
+                f"{path} cannot be read ({error}); run `mocapbench run` again"
+            ) from error
+        kinds = {"keys": list, "provenance": dict}
+        if not isinstance(plan, dict) or any(
+            not isinstance(plan.get(name), kind) for name, kind in kinds.items()
+        ):
+            raise UsageError(f"{path} is not a plan; run `mocapbench run` again")
+        return plan
+
+    def save_check(self, check: Mapping[str, Any]) -> None:
+        """Write what a regression check of the last run found."""
+        with atomic_write(self.path / _CHECK) as file:
+            file.write(json.dumps(check, indent=1).encode())
+
+    def load_check(self) -> Mapping[str, Any] | None:
+        """Return what the last run's check found; None if it was not checked, or is damaged."""
+        path = self.path / _CHECK
+        if not path.is_file():
+            return None
+        try:
+            check = dict(json.loads(path.read_text(encoding="utf-8")))
+            if check.keys() != {"baseline", "summary", "passed", "findings"}:
+                raise ValueError(f"it holds {sorted(check)}")
+            return check
+        except (OSError, ValueError, TypeError) as error:
+            self.damaged.append(f"{path}: not a whole check: {error}")
+            return None
+
+    def _record_path(self, key: str) -> Path:
+        return self.path / "records" / f"{key}.json"
+
+    def _fit_path(self, key: str) -> Path:
+        return self.path / "predictions" / f"{key}.npz"

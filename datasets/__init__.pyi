@@ -1,0 +1,64 @@
+from .acclaim.errors import AcclaimError, TruncatedFrameWarning
+from .acclaim.motion import FRAME_RATE, Motion, format_motion
+from .acclaim.motion_reader import parse_motion, read_motion
+from .acclaim.skeleton import Segment, Skeleton, format_skeleton
+from .acclaim.skeleton_reader import parse_skeleton, read_skeleton
+from .archive import Archive, open_archive
+from .cmu import CMU_ACKNOWLEDGEMENT, CMU_URL, CMULibrary, registered_digests
+from .digests import DigestMismatch, UnregisteredDigestWarning
+from .download import FetchError, ServerUnreachable
+from .features import THESIS_CHANNELS, gpdm_features, hlm_features
+from .gait import GAIT_VERSION, GaitLibrary, gait_style
+from .kinematics import FrameByJointBy3, joint_positions
+from .library import Library, RecordingStatus, RecordingUnavailable
+from .preprocessing import clip, excerpt, integrate_root, resample, restart, root_differences
+from .process import Layer, ToyProcess
+from .recording import FrameByChannel, Frames, Mask, Recording
+
+__all__ = [
+    "CMU_ACKNOWLEDGEMENT",
+    "CMU_URL",
+    "FRAME_RATE",
+    "GAIT_VERSION",
+    "THESIS_CHANNELS",
+    "AcclaimError",
+    "Archive",
+    "CMULibrary",
+    "DigestMismatch",
+    "FetchError",
+    "FrameByChannel",
+    "FrameByJointBy3",
+    "Frames",
+    "GaitLibrary",
+    "Layer",
+    "Library",
+    "Mask",
+    "Motion",
+    "Recording",
+    "RecordingStatus",
+    "RecordingUnavailable",
+    "Segment",
+    "ServerUnreachable",
+    "Skeleton",
+    "ToyProcess",
+    "TruncatedFrameWarning",
+    "UnregisteredDigestWarning",
+    "clip",
+    "excerpt",
+    "format_motion",
+    "format_skeleton",
+    "gait_style",
+    "gpdm_features",
+    "hlm_features",
+    "integrate_root",
+    "joint_positions",
+    "open_archive",
+    "parse_motion",
+    "parse_skeleton",
+    "read_motion",
+    "read_skeleton",
+    "registered_digests",
+    "resample",
+    "restart",
+    "root_differences",
+]

@@ -1,0 +1,1 @@
+"""The Acclaim format: skeletons (.asf) and motions (.amc), read strictly and written."""

@@ -1,0 +1,1 @@
+"""What results mean: estimates, ranks, verdicts beside published values, the negative control."""

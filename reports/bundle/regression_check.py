@@ -1,0 +1,32 @@
+"""The result of a regression check, as the report shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+__all__ = ["RegressionCheck"]
+
+
+@dataclass(frozen=True, eq=False)
+class RegressionCheck:
+    """What a check of the run against a baseline found.
+
+    Parameters
+    ----------
+    baseline : str
+        What the run was held against.
+    summary : str
+        Counts and environment in one line.
+    passed : bool
+    findings : sequence of mapping
+        One per (task, case, label, metric): these names, ``verdict``, ``fails``, ``reason``, and
+        where values were paired ``n``, ``baseline``, ``run``, ``change``, ``worst`` and
+        ``allowance``.
+    """
+
+    baseline: str
+    summary: str
+    passed: bool
+    findings: Sequence[Mapping[str, Any]]

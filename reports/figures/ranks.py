@@ -1,0 +1,76 @@
+"""The critical-difference diagram: mean ranks, and who cannot be told apart.
+
+One row per entrant, best on top, so that names never collide and a phone can show it. A vertical
+bar on the right joins a group that is not separable; the caption names the groups, so that nothing
+depends on seeing them.
+"""
+
+from __future__ import annotations
+
+from markupsafe import Markup
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+
+from mocapbench.reports.analysis.ranks import Ranks
+from mocapbench.reports.figures.error_bars import SMALLEST_SCALE
+from mocapbench.reports.figures.panels import Drawing
+from mocapbench.reports.figures.svg import INK, PALETTE, RULE, STYLE, element
+from mocapbench.reports.tables.base import counted, slug
+
+__all__ = ["rank_figure"]
+
+WIDTH, ROW_HEIGHT, FRAME_HEIGHT = 5.2, 0.24, 0.85
+GROUP_GAP = 0.18
+LABEL_SHARE = 0.14  # of the axis, what the number beside the last dot needs
+
+
+def rank_figure(ranks: Ranks, title: str, name: str) -> Drawing:
+    """Return the diagram of ``ranks``; ``name`` leads the ids of its parts."""
+    with rc_context(STYLE):
+        return Drawing(title, _diagram(ranks, title, slug(name, "ranks")), (), _caption(ranks))
+
+
+def _diagram(ranks: Ranks, title: str, prefix: str) -> Markup:
+    comparison = ranks.comparison
+    order = sorted(range(len(ranks.labels)), key=comparison.mean_ranks.__getitem__)
+    rows = {entrant: row for row, entrant in enumerate(order)}
+    last = len(order)
+    figure = Figure(figsize=(WIDTH, FRAME_HEIGHT + ROW_HEIGHT * last), layout="constrained")
+    axes = figure.subplots()
+    means = [comparison.mean_ranks[entrant] for entrant in order]
+    axes.hlines(range(last), 1.0, means, color=RULE, linewidth=1.0, zorder=1)
+    axes.plot(means, range(last), "o", color=PALETTE[0], markersize=6.0, zorder=2)
+    for mean, row in zip(means, range(last), strict=True):
+        axes.annotate(f"{mean:.1f}", (mean, row), (6, 0), textcoords="offset points", va="center")
+    for place, group in enumerate(comparison.groups, start=1):
+        ends = [rows[group[0]] - 0.25, rows[group[-1]] + 0.25]
+        across = last * (1.0 + LABEL_SHARE + GROUP_GAP * place / 4)
+        axes.plot([across] * 2, ends, color=INK, linewidth=3.0, solid_capstyle="butt")
+    axes.set_yticks(range(last), [ranks.labels[entrant] for entrant in order])
+    axes.set_xticks(range(1, last + 1))
+    axes.set(xlabel="mean rank (1 is best)", xlim=(0.7, None), ylim=(last - 0.4, -0.6))
+    axes.tick_params(axis="y", length=0)
+    axes.spines["bottom"].set_bounds(1, last)
+    n = counted(comparison.n, ranks.blocks.removesuffix("s"))
+    return element(
+        figure,
+        prefix,
+        role="img",
+        aria_label=f"{title}: mean ranks of {counted(last, 'entrant')} over {n}",
+        style=f"min-width: {SMALLEST_SCALE * WIDTH:.2f}in",
+    )
+
+
+def _caption(ranks: Ranks) -> str:
+    found = ranks.comparison
+    n = counted(found.n, ranks.blocks.removesuffix("s"))
+    listed = "; ".join(", ".join(ranks.labels[entrant] for entrant in g) for g in found.groups)
+    together = f"Not separable, joined by a bar: {listed}." if listed else "All are separable."
+    left_out = ", ".join(ranks.left_out)
+    return " ".join(
+        [
+            f"mean ranks over {n}. Friedman’s test of no difference: p = {found.p_value:.2g};",
+            f"Nemenyi’s critical difference at 5 %: {found.difference:.2f} ranks. {together}",
+            *([f"Left out for want of a score in every case: {left_out}."] if left_out else []),
+        ]
+    )

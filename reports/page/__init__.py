@@ -1,0 +1,1 @@
+"""The page: its sections, its headlines, and the template that they fill."""

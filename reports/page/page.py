@@ -1,0 +1,79 @@
+"""The page: one HTML file that holds everything and asks the network for nothing."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from importlib.resources import files
+
+from jinja2 import Environment, StrictUndefined, Template
+from markupsafe import Markup
+
+from mocapbench.reports.analysis.results import DATA_MISSING, task_results, troubles
+from mocapbench.reports.bundle.bundle import STATUSES, Bundle
+from mocapbench.reports.page.sections import missing_data, overall_ranks, task_view
+from mocapbench.reports.tables.base import Table, counted, slug
+from mocapbench.reports.tables.check import check_table
+from mocapbench.reports.tables.downloads import to_csv, to_latex
+from mocapbench.reports.tables.papers import scorecard
+from mocapbench.reports.tables.scores import MISSING_ID
+
+__all__ = ["render"]
+
+
+def render(bundle: Bundle) -> str:
+    """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
+    results = [task_results(bundle, layout) for layout in bundle.layouts]
+    tasks = [task_view(each, bundle.illustrations) for each in results]
+    every = troubles(bundle)
+    checked = check_table(bundle.check) if bundle.check else None
+    scored = scorecard(results)
+    tables = [*(table for task in tasks for table in task.tables), checked, scored]
+    return _template().render(
+        bundle=bundle,
+        provenance=bundle.provenance,
+        tasks=tasks,
+        overall=overall_ranks(results),
+        statuses=_statuses(bundle),
+        entrants=bundle.records["label"].nunique(),
+        folds=bundle.records["fold"].nunique(),
+        fold_counts=_fold_counts(bundle),
+        failures=[trouble for trouble in every if trouble.status != DATA_MISSING],
+        missing=missing_data(trouble for trouble in every if trouble.status == DATA_MISSING),
+        missing_id=MISSING_ID,
+        checked=checked,
+        scored=scored,
+        downloads=_downloads(table for table in tables if table is not None),
+        css=Markup(_resource("report.css")),
+        js=Markup(_resource("report.js")),
+    )
+
+
+def _template() -> Template:
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.globals["slug"] = slug
+    environment.filters["counted"] = counted
+    return environment.from_string(_resource("report.html.j2"))
+
+
+def _resource(name: str) -> str:
+    return (files(__package__) / name).read_text(encoding="utf-8")
+
+
+def _statuses(bundle: Bundle) -> dict[str, int]:
+    counts = Counter(bundle.records["status"])
+    return {status: counts[status] for status in STATUSES if counts[status]}
+
+
+def _fold_counts(bundle: Bundle) -> str:
+    """Return how many folds the cases with scores have, for example "1, 3 or 12 folds"."""
+    done = bundle.records[bundle.records["status"] == "ok"]
+    *most, last = sorted(set(done.groupby(["task", "case"])["fold"].nunique())) or [0]
+    others = ", ".join(map(str, most))
+    return f"{others} or {counted(last, 'fold')}" if most else counted(last, "fold")
+
+
+def _downloads(tables: Iterable[Table]) -> dict[str, dict[str, str]]:
+    return {table.id: {"csv": to_csv(table), "tex": to_latex(table)} for table in tables}

@@ -1,0 +1,1 @@
+"""The papers: their published values, and footnotes to them."""

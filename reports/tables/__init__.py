@@ -1,0 +1,1 @@
+"""Tables as values, one module per kind of table."""

@@ -1,0 +1,59 @@
+"""The regression check: what moved against a baseline, as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from mocapbench.reports.bundle.regression_check import RegressionCheck
+from mocapbench.reports.tables.base import MINUS, Cell, Table, headings
+
+__all__ = ["check_table"]
+
+QUIET = ("same", "data missing")
+LIMIT = 100
+COLUMNS = ("baseline", "run", "change", "allowance", "worst")
+RULE = (
+    "A metric is worse if its mean paired difference over folds, turned so that positive is worse, "
+    "is more than what is allowed: the largest of an absolute floor, a share of the baseline, and "
+    "k standard errors of the differences."
+)
+
+
+def check_table(check: RegressionCheck) -> Table | None:
+    """Return what failed or moved, failures first; None if nothing did."""
+    notable = [finding for finding in check.findings if finding["verdict"] not in QUIET]
+    notable.sort(key=lambda finding: not finding["fails"])
+    if not notable:
+        return None
+    hidden = len(notable) - LIMIT
+    more = (f"{hidden} more rows are in the CSV download.",) if hidden > 0 else ()
+    return Table(
+        id="regression-check",
+        caption=f"What is not as in {check.baseline}",
+        columns=(
+            *headings(["verdict"]),
+            *headings(["task", "case", "entrant", "metric"], "text"),
+            *headings(["folds", "baseline", "run", "worse by", "allowed", "worst fold by"]),
+            *headings(["why"], "text"),
+        ),
+        rows=tuple(_row(finding) for finding in notable[:LIMIT]),
+        data=pd.DataFrame(list(check.findings)),
+        notes=(RULE, *more),
+    )
+
+
+def _row(finding: Mapping[str, Any]) -> tuple[Cell, ...]:
+    return (
+        Cell(finding["verdict"], note="fails" if finding["fails"] else ""),
+        *(Cell(finding[name], kind="text") for name in ("task", "case", "label", "metric")),
+        Cell(str(finding.get("n", 0))),
+        *(_number(finding.get(name)) for name in COLUMNS),
+        Cell(finding["reason"], kind="text"),
+    )
+
+
+def _number(value: float | None) -> Cell:
+    return Cell("" if value is None else f"{value:.5g}".replace("-", MINUS))

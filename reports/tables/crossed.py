@@ -1,0 +1,69 @@
+"""The table of a task of pairs, such as every recording with every other: rows by columns."""
+
+from __future__ import annotations
+
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.bundle.bundle import CaseLayout
+from mocapbench.reports.paper.published import PublishedValue
+from mocapbench.reports.paper.remarks import footnotes, marks
+from mocapbench.reports.tables.base import ABSENT, Cell, Table, decimals, headings, number
+from mocapbench.reports.tables.scores import MISSING_ID, score_table
+
+__all__ = ["cross_table"]
+
+Lettered = dict[str, str]
+
+
+def cross_table(results: TaskResults, metric: str, crossed: tuple[str, str]) -> Table:
+    """Return the table of ``metric`` with one setting of ``crossed`` along rows, one along columns.
+
+    The published value stands below ours. The tidy data are those of `score_table`.
+    """
+    plain = score_table(results, metric)
+    along_rows, along_columns = crossed
+    pairs = {
+        (str(case.settings[along_rows]), str(case.settings[along_columns])): case
+        for case in results.cases
+    }
+    rows, columns = (list(dict.fromkeys(names)) for names in zip(*pairs, strict=True))
+    lettered = marks(_erratum(results, case, metric) for case in results.cases)
+    return Table(
+        id=plain.id,
+        caption=f"{results.metrics[metric].title} of each {along_rows} with each {along_columns}, "
+        "and the published value below it",
+        columns=headings([along_rows, *columns]),
+        rows=tuple(
+            (Cell(row), *(_cell(results, pairs.get((row, at)), metric, lettered) for at in columns))
+            for row in rows
+        ),
+        data=plain.data,
+        notes=(*plain.notes, *footnotes(lettered)),
+    )
+
+
+def _erratum(results: TaskResults, case: CaseLayout, metric: str) -> str:
+    published = results.printed(case, results.layout.labels[0], metric)
+    return published.erratum if published else ""
+
+
+def _cell(results: TaskResults, case: CaseLayout | None, metric: str, lettered: Lettered) -> Cell:
+    if case is None:
+        return ABSENT
+    (label,) = results.layout.labels
+    estimate = results.estimate(case.name, label, metric)
+    if estimate is None:
+        return Cell("missing", kind="trouble", link=MISSING_ID)
+    places = _places(results, metric)
+    note = _note(results.printed(case, label, metric), places, lettered)
+    return Cell(number(estimate.mean, places), note=note)
+
+
+def _note(published: PublishedValue | None, places: int, lettered: Lettered) -> str:
+    if published is None:
+        return ""
+    letter = lettered[published.erratum]
+    return number(published.value, places) + (f" ({letter})" if letter else "")
+
+
+def _places(results: TaskResults, metric: str) -> int:
+    return decimals(e.mean for (_, _, name), e in results.estimates.items() if name == metric)

@@ -1,0 +1,49 @@
+"""Every table as CSV, for machines, and as LaTeX, for papers."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from mocapbench.reports.tables.base import MINUS, Cell, Table
+
+__all__ = ["to_csv", "to_latex"]
+
+LATEX = str.maketrans(
+    {
+        **{character: f"\\{character}" for character in "&%$#_{}"},
+        "\\": r"\textbackslash{}",
+        "~": r"\textasciitilde{}",
+        "^": r"\textasciicircum{}",
+        "<": "$<$",
+        "±": r"$\pm$",
+        "×": r"$\times$",
+        MINUS: "$-$",
+        "–": "--",
+        "’": "'",
+    }
+)
+
+
+def to_csv(table: Table) -> str:
+    """Return the tidy, unrounded data of ``table``."""
+    return str(table.data.to_csv(index=False, lineterminator="\n"))
+
+
+def to_latex(table: Table) -> str:
+    """Return ``table`` as it is shown, without the notes of its cells, for booktabs."""
+    frame = pd.DataFrame(
+        [[text for cell in row for text in _columns(cell)] for row in table.rows],
+        columns=[_latex(cell) for cell in table.columns],
+    )
+    alignment = "l" + "r" * (len(table.columns) - 1)
+    return str(frame.to_latex(index=False, escape=False, column_format=alignment))
+
+
+def _columns(cell: Cell) -> list[str]:
+    return [_latex(cell), *[""] * (cell.span - 1)]
+
+
+def _latex(cell: Cell) -> str:
+    text = (f"{cell.text} ± {cell.spread}" if cell.spread else cell.text).translate(LATEX)
+    text += rf"\textsuperscript{{{cell.mark}}}" if cell.mark else ""
+    return rf"\textbf{{{text}}}" if cell.kind == "best" else text

@@ -1,0 +1,58 @@
+"""What a shared rank rests on, in words: the test, its units, and where none could be made."""
+
+from __future__ import annotations
+
+from mocapbench.metrics.statistics import SharedRank
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.tables.base import counted
+
+__all__ = ["lead_note", "rank_notes", "untested_reason"]
+
+FOLD = "one fold"
+WINDOWS = "overlapping windows of one recording count as one unit"
+
+
+def rank_notes(results: TaskResults, metric: str) -> tuple[str, ...]:
+    """Return the notes under a table whose first ranks are in bold."""
+    ranks = _ranks(results, metric)
+    sizes = sorted({rank.n for rank in ranks if rank.tested})
+    tested = (
+        "Bold: the best mean of a row, and every mean that the paired t-test with Holm’s "
+        f"correction cannot tell from it (5 %, {_counted(sizes)})."
+    )
+    untested = f"No test: {untested_reason(results)}; there the best mean alone is in bold."
+    return (
+        *([tested] if sizes else []),
+        *([untested] if not all(rank.tested for rank in ranks) else []),
+    )
+
+
+def _ranks(results: TaskResults, metric: str) -> list[SharedRank]:
+    ranks = (results.first_rank(case.name, metric) for case in results.cases)
+    return [rank for rank in ranks if rank is not None]
+
+
+def _counted(sizes: list[int]) -> str:
+    *fewer, most = [str(size) for size in sizes] or ["0"]
+    return f"n = {' or '.join([*fewer, most])} folds"
+
+
+def untested_reason(results: TaskResults) -> str:
+    """Return why no test could be made where a row has one unit only."""
+    return FOLD if results.layout.independent_folds else WINDOWS
+
+
+def lead_note(results: TaskResults, metric: str, label: str, cases: list[str]) -> str:
+    """Return in how many of ``cases``, which ``label`` leads, the lead is more than chance."""
+    ranks = [rank for case in cases if (rank := results.first_rank(case, metric)) is not None]
+    tested = [rank for rank in ranks if rank.tested]
+    if not tested:
+        return f"Not tested: {untested_reason(results)}."
+    alone = [rank for rank in tested if rank.labels == (label,)]
+    others = dict.fromkeys(other for rank in tested for other in rank.labels if other != label)
+    shared = f"{', '.join(others)} cannot be told from it"
+    if not alone:
+        return f"Case by case the lead may be chance: {shared}."
+    if not others:
+        return "The lead is more than chance."
+    return f"More than chance in {counted(len(alone), 'case')}; elsewhere {shared}."

@@ -1,0 +1,39 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocapbench.baselines.common.recordings import check_visible, pool, visible_moments
+from mocapbench.datasets import Recording
+
+
+def recording(name, values):
+    values = np.asarray(values, dtype=float)
+    channels = tuple(f"c{d}" for d in range(values.shape[1]))
+    return Recording(name, np.arange(len(values)), values, channels, ("",) * len(channels))
+
+
+@given(seed=st.integers(0, 2**32 - 1))
+def test_moments_are_numpys_over_visible_entries(seed):
+    rng = np.random.default_rng(seed)
+    values = rng.normal(5.0, 2.0, (12, 3))
+    values[1:][rng.random((11, 3)) < 0.5] = np.nan
+    mean, variance = visible_moments([recording("a", values[:5]), recording("b", values[5:])])
+    np.testing.assert_allclose(mean, np.nanmean(values, axis=0))
+    np.testing.assert_allclose(variance, np.nanvar(values, axis=0), atol=1e-15)
+
+
+def test_moments_of_nothing_are_not_numbers():
+    mean, variance = visible_moments([recording("a", [[np.nan, 1.0]])])
+    np.testing.assert_array_equal([mean, variance], [[np.nan, 1.0], [np.nan, 0.0]])
+
+
+def test_a_pool_takes_each_name_once_as_given_last():
+    fitted = [recording("a", [[1.0]]), recording("b", [[2.0]])]
+    given = [recording("b", [[3.0]]), recording("c", [[4.0]])]
+    assert [one.values.item() for one in pool(fitted, given)] == [1.0, 3.0, 4.0]
+
+
+def test_a_channel_visible_nowhere_is_named():
+    with pytest.raises(ValueError, match=r"got none of \['c1'\]"):
+        check_visible([recording("a", [[1.0, np.nan]]), recording("b", [[1.0, np.nan]])])

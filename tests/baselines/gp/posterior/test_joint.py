@@ -1,0 +1,236 @@
+"""Joint posteriors against conditioning the joint Gaussian of all that is visible."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocapbench.baselines.gp.posterior.joint import draw_curves, joint_covariance
+from mocapbench.baselines.gp.posterior.prediction import infer
+from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.solvers.dense import Dense
+from mocapbench.baselines.gp.solvers.kronecker import Kronecker
+from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
+from mocapbench.baselines.gp.solvers.state_space.solver import StateSpace
+
+SOLVERS = (Dense, LatentSplit, StateSpace, Kronecker)
+AT = np.array([1.3, -0.4, 0.7, 5.0, 0.7])
+"""Off the grid, not in order, and one of them twice."""
+
+
+class CountedNoise(np.random.Generator):
+    """White noise that is counted."""
+
+    def __init__(self):
+        super().__init__(np.random.PCG64(0))
+        self.count = 0
+
+    def standard_normal(self, shape):
+        self.count += int(np.prod(shape))
+        return super().standard_normal(shape)
+
+
+class UnitNoise:
+    """White noise whose i-th sample is the i-th unit vector, and whose last sample is zero."""
+
+    def __init__(self, count):
+        self.left = np.eye(count + 1, count)
+
+    def standard_normal(self, shape):
+        size = int(np.prod(shape)) // len(self.left)
+        taken, self.left = np.split(self.left, [size], axis=1)
+        return taken.reshape(shape)
+
+
+def moments_of_draws(*problem):
+    """Return mean (D M,) and covariance of `draw_curves`, an affine map of white noise, exactly."""
+    noise = CountedNoise()
+    draw_curves(*problem, n_samples=1, rng=noise)
+    unit = UnitNoise(noise.count)
+    draws = draw_curves(*problem, n_samples=noise.count + 1, rng=unit)
+    assert unit.left.shape[1] == 0
+    flat = draws.transpose(0, 2, 1).reshape(len(draws), -1)
+    return flat[-1], (flat[:-1] - flat[-1]).T @ (flat[:-1] - flat[-1])
+
+
+def conditioned(brute_force, case, times):
+    """Return mean (R, D M) and covariance (R, D M, R, D M) of all curves at ``times``."""
+    data, observed = case.replicates.data, case.replicates.observed
+    grid = np.concatenate([case.replicates.times, times])
+    shape = (*data.shape[:2], len(grid))
+    entire = Replicates(grid, np.zeros(shape), np.ones(shape, dtype=bool))
+    noiseless = replace(case.parameters, log_noise=np.full(data.shape[1], -np.inf))
+    signal = brute_force(replace(case, replicates=entire)).covariance(noiseless)
+    at_times = np.zeros((*data.shape[:2], len(times)), dtype=bool)
+    seen = np.concatenate([observed, at_times], axis=2).ravel()
+    wanted = np.concatenate([np.zeros_like(observed), ~at_times], axis=2).ravel()
+    cross = signal[np.ix_(wanted, seen)]
+    gain = np.linalg.solve(brute_force(case).covariance(case.parameters), cross.T).T
+    covariance = signal[np.ix_(wanted, wanted)] - gain @ cross.T
+    shape = (len(data), data.shape[1] * len(times))
+    return (gain @ data[observed]).reshape(shape), covariance.reshape(*shape, *shape)
+
+
+def curve(case, by, solver, which, times):
+    """Return the arguments that say which curve, and the index of its replicate."""
+    reduction, r = case.reduction, which % len(case.replicates.data)
+    return (reduction, by(solver, case), case.parameters, reduction.replicates[r], times), r
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_the_covariance_conditions_the_joint_gaussian(solver, by, served, brute_force):
+    @settings(deadline=None)
+    @given(served(solver), st.integers(0, 3))
+    def law(case, which):
+        times = np.concatenate([AT, case.replicates.times])
+        problem, r = curve(case, by, solver, which, times)
+        covariance = joint_covariance(*problem)
+        _, expected = conditioned(brute_force, case, times)
+        np.testing.assert_allclose(covariance, expected[r, :, r], atol=1e-8)
+
+    law()
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_the_covariance_is_one_and_has_the_predicted_variances(solver, by, served):
+    @settings(deadline=None)
+    @given(served(solver), st.integers(0, 3))
+    def law(case, which):
+        times = np.concatenate([AT, case.replicates.times])
+        problem, _ = curve(case, by, solver, which, times)
+        covariance = joint_covariance(*problem)
+        np.testing.assert_array_equal(covariance, covariance.T)
+        assert np.linalg.eigvalsh(covariance).min() > -1e-10 * max(1.0, np.trace(covariance))
+        reduction, solvers, parameters, shares, _ = problem
+        ((_, variance),) = infer(reduction, solvers, parameters, [shares], [times])
+        diagonal = np.diagonal(covariance).reshape(-1, len(times)).T
+        np.testing.assert_allclose(diagonal, variance, atol=1e-8)
+
+    law()
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_draws_have_exactly_the_moments_of_the_conditioned_gaussian(
+    solver, by, served, brute_force
+):
+    @settings(deadline=None, max_examples=50)
+    @given(served(solver), st.integers(0, 3))
+    def law(case, which):
+        problem, r = curve(case, by, solver, which, AT)
+        mean, covariance = moments_of_draws(*problem)
+        expected = conditioned(brute_force, case, AT)
+        np.testing.assert_allclose(mean, expected[0][r], atol=1e-8)
+        np.testing.assert_allclose(covariance, expected[1][r, :, r], atol=1e-8)
+
+    law()
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_unseen_replicates_covary_as_their_trend_does(solver, by, case, brute_force):
+    example = case(np.random.default_rng(3), n_components=2, n_replicates=5, masks="complete")
+    example.replicates.observed[3:] = False
+    example.replicates.data[3:] = 0.0
+    reduction, solvers = example.reduction, by(solver, example)
+    problem = (reduction, solvers, example.parameters)
+    _, expected = conditioned(brute_force, example, AT)
+    trend = joint_covariance(*problem, reduction.trend, AT)
+    np.testing.assert_allclose(trend, expected[3, :, 4], atol=1e-9)
+    _, drawn = moments_of_draws(*problem, reduction.trend, AT)
+    np.testing.assert_allclose(drawn, trend, atol=1e-9)
+    unseen = joint_covariance(*problem, reduction.replicates[3], AT)
+    np.testing.assert_allclose(unseen, expected[3, :, 3], atol=1e-9)
+    _, drawn = moments_of_draws(*problem, reduction.replicates[3], AT)
+    np.testing.assert_allclose(drawn, unseen, atol=1e-9)
+
+
+def test_the_order_of_replicates_does_not_matter(by, cases):
+    @settings(deadline=None, max_examples=30)
+    @given(cases, st.integers(0, 3), st.integers(0, 2**32 - 1))
+    def law(case, which, seed):
+        problem, r = curve(case, by, Dense, which, AT)
+        order = np.random.default_rng(seed).permutation(len(case.replicates.data))
+        old = case.replicates
+        shuffled = replace(
+            case,
+            replicates=Replicates(old.times, old.data[order], old.observed[order]),
+            paths=case.paths and tuple(case.paths[r] for r in order),
+        )
+        other, _ = curve(shuffled, by, Dense, int(np.flatnonzero(order == r)[0]), AT)
+        np.testing.assert_allclose(joint_covariance(*problem), joint_covariance(*other), atol=1e-10)
+
+    law()
+
+
+def test_draws_depend_on_the_seed_and_the_times_alone(by, cases):
+    @settings(deadline=None, max_examples=30)
+    @given(cases, st.integers(0, 3), st.integers(0, 2**32 - 1))
+    def law(case, which, seed):
+        def draws(solver, times):
+            problem, _ = curve(case, by, solver, which, times)
+            return draw_curves(*problem, n_samples=3, rng=np.random.default_rng(seed))
+
+        first = draws(Dense, AT)
+        np.testing.assert_array_equal(first, draws(Dense, AT))
+        np.testing.assert_allclose(first[:, 2], first[:, 4], atol=1e-12)
+        np.testing.assert_allclose(draws(Dense, AT[::-1]), first[:, ::-1], atol=1e-10)
+        for solver in SOLVERS[1:]:
+            np.testing.assert_allclose(draws(solver, AT), first, atol=1e-7)
+
+    law()
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_draws_of_two_shares_have_their_moments(solver, by, case, brute_force):
+    example = case(np.random.default_rng(5), n_components=1, n_times=5, masks="complete")
+    problem, r = curve(example, by, solver, 1, AT[:3])
+    assert len(problem[3]) == 2
+    n_samples = 20_000
+    draws = draw_curves(*problem, n_samples=n_samples, rng=np.random.default_rng(1))
+    flat = draws.transpose(0, 2, 1).reshape(n_samples, -1)
+    mean, covariance = (moment[r] for moment in conditioned(brute_force, example, AT[:3]))
+    covariance = covariance[:, r]
+    # Five standard errors: √(v / n) of a mean, at most √(2 v w / n) of a covariance.
+    variances = np.diagonal(covariance)
+    assert (np.abs(flat.mean(axis=0) - mean) < 5 * np.sqrt(variances / n_samples)).all()
+    scatter = (flat - mean).T @ (flat - mean) / n_samples
+    bound = 5 * np.sqrt(2.0 * np.outer(variances, variances) / n_samples)
+    assert (np.abs(scatter - covariance) < bound).all()
+
+
+class Watching(Dense):
+    """Counts how often it conditions, on data vectors that respect the mask."""
+
+    def __init__(self, kernel):
+        super().__init__(kernel)
+        self.calls = 0
+
+    def condition(self, block, parameters):
+        assert not block.observed.all()
+        assert not block.data[:, ~block.observed].any()
+        self.calls += 1
+        return super().condition(block, parameters)
+
+
+@pytest.mark.parametrize("structure", ["hierarchical", "pooled", "independent"])
+@pytest.mark.parametrize(
+    "use",
+    [joint_covariance, partial(draw_curves, n_samples=25, rng=np.random.default_rng(0))],
+)
+def test_each_block_of_a_curve_is_conditioned_once(structure, use, case):
+    example = case(np.random.default_rng(0), structure=structure, masks="shared")
+    reduction = example.reduction
+    solvers = tuple(Watching(example.kernel) for _ in reduction.blocks)
+    use(reduction, solvers, example.parameters, reduction.replicates[0], AT)
+    assert [solver.calls for solver in solvers] == [1] * len(reduction.blocks)
+
+
+def test_solvers_may_differ_from_block_to_block(case):
+    example = case(np.random.default_rng(2), n_replicates=4, masks="complete")
+    kernel, reduction = example.kernel, example.reduction
+    rest = (example.parameters, reduction.replicates[2], AT)
+    mixed = joint_covariance(reduction, (LatentSplit(kernel), Kronecker(kernel)), *rest)
+    dense = joint_covariance(reduction, (Dense(kernel), Dense(kernel)), *rest)
+    np.testing.assert_allclose(mixed, dense, atol=1e-10)

@@ -1,0 +1,155 @@
+from itertools import count, pairwise
+
+import numpy as np
+import pytest
+
+from mocapbench.baselines.gp.solvers.dense import Dense
+from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
+from mocapbench.baselines.gp.training import maximum_likelihood as module
+from mocapbench.baselines.gp.training.coordinates import Coordinates
+from mocapbench.baselines.gp.training.maximum_likelihood import Budget, Space, maximise
+from mocapbench.baselines.gp.training.start import bounds, data_driven, perturbed
+
+
+@pytest.fixture
+def example(case):
+    return case(np.random.default_rng(0), n_times=12, n_outputs=3, masks="mixed")
+
+
+def _start(example):
+    return data_driven(
+        example.replicates,
+        example.tree,
+        dict.fromkeys(example.structure.layers, 2),
+        1,
+        example.reduction.within_variance,
+    )
+
+
+def _likelihood(example):
+    solver, reduction = Dense(example.kernel), example.reduction
+    return lambda parameters: reduction.evaluate([solver] * len(reduction.blocks), parameters)
+
+
+def _train(example, likelihood, starts, *, report=None, **budget):
+    draws = {name: 1 + (name == "child") for name in example.structure.layers}
+    space = Space(
+        Coordinates.around(starts[0], draws), *bounds(starts[0], example.replicates.times)
+    )
+    spent = Budget(**({"tol": 1e-7, "max_iter": 200, "max_seconds": None} | budget))
+    return maximise(likelihood, starts, space, spent, report or (lambda index, step: None))
+
+
+def test_training_improves_on_every_start_and_keeps_the_best(example):
+    start = _start(example)
+    starts = [start, perturbed(start, np.random.default_rng(1))]
+    likelihood = _likelihood(example)
+    lower, upper = bounds(start, example.replicates.times)
+    training = _train(example, likelihood, starts)
+    for search, begun in zip(training.searches, starts, strict=True):
+        assert search.log_likelihood > likelihood(begun)[0]
+        assert likelihood(search.parameters)[0] == pytest.approx(search.log_likelihood, rel=1e-12)
+        assert (search.parameters.flat >= lower.flat - 1e-12).all()
+        assert (search.parameters.flat <= upper.flat + 1e-12).all()
+    assert training.best.log_likelihood == max(s.log_likelihood for s in training.searches)
+
+
+def test_the_trace_climbs_to_the_outcome_and_is_what_was_reported(example):
+    start, reported = _start(example), []
+    (search,) = _train(
+        example, _likelihood(example), [start], report=lambda *line: reported.append(line)
+    ).searches
+    assert reported == [(0, step) for step in search.trace]
+    assert [step.iteration for step in search.trace] == list(range(1, search.n_iterations + 1))
+    assert search.trace[-1].log_likelihood == search.log_likelihood
+    assert search.trace[-1].n_evaluations <= search.n_evaluations
+    for one, two in pairwise(search.trace):
+        assert one.log_likelihood <= two.log_likelihood
+        assert one.n_evaluations < two.n_evaluations
+        assert one.seconds <= two.seconds
+
+
+def test_a_search_that_is_cut_short_says_so(example):
+    (search,) = _train(example, _likelihood(example), [_start(example)], max_iter=2).searches
+    assert not search.converged
+    assert search.n_iterations == 2
+
+
+def test_a_looser_tolerance_ends_sooner_and_lower(example):
+    likelihood, start = _likelihood(example), _start(example)
+    loose, tight = (_train(example, likelihood, [start], tol=tol).best for tol in (1e-3, 1e-9))
+    assert loose.converged
+    assert tight.converged
+    assert loose.n_evaluations < tight.n_evaluations
+    assert loose.log_likelihood < tight.log_likelihood
+
+
+def test_spent_time_ends_a_search_at_its_best_point_and_begins_no_other(example, monkeypatch):
+    clock = count()
+    monkeypatch.setattr(module, "perf_counter", lambda: float(next(clock)))
+    likelihood, start = _likelihood(example), _start(example)
+    training = _train(example, likelihood, [start, start], max_seconds=20.0)
+    (search,) = training.searches
+    assert "max_seconds" in search.message
+    assert not search.converged
+    assert 1 < search.n_evaluations <= 20
+    assert likelihood(search.parameters)[0] == pytest.approx(search.log_likelihood, rel=1e-12)
+    assert search.log_likelihood > likelihood(start)[0]
+
+
+def test_no_time_at_all_is_one_evaluation(example, monkeypatch):
+    clock = count()
+    monkeypatch.setattr(module, "perf_counter", lambda: float(next(clock)))
+    likelihood, start = _likelihood(example), _start(example)
+    (search,) = _train(example, likelihood, [start, start], max_seconds=0.5).searches
+    assert search.n_evaluations == 1
+    np.testing.assert_allclose(search.parameters.flat, start.flat, rtol=1e-12)
+
+
+def _walled(example, start):
+    """Return a likelihood that is singular from half way to its maximum on."""
+    likelihood = _likelihood(example)
+    free = _train(example, likelihood, [start]).best
+    halfway = 0.5 * (start.log_noise + free.parameters.log_noise)
+    crossed = np.sign(free.parameters.log_noise - start.log_noise)
+
+    def walled(parameters):
+        if (crossed * (parameters.log_noise - halfway) > 0).any():
+            raise SingularCovarianceError(parameters)
+        return likelihood(parameters)
+
+    return walled, free
+
+
+def test_a_search_survives_singular_covariances(example):
+    start = _start(example)
+    walled, free = _walled(example, start)
+    (search,) = _train(example, walled, [start]).searches
+    assert walled(start)[0] < search.log_likelihood < free.log_likelihood
+    assert not search.converged
+    assert "lengthscales" in search.message
+
+
+def test_going_on_after_a_singular_covariance_spends_one_budget(example):
+    likelihood, start = _likelihood(example), _start(example)
+    reported, evaluations = [], count(1)
+
+    def fails_once(parameters):
+        if next(evaluations) == 12:
+            raise SingularCovarianceError(parameters)
+        return likelihood(parameters)
+
+    search = _train(
+        example, fails_once, [start], max_iter=10, report=lambda *line: reported.append(line)
+    ).best
+    assert search.n_evaluations > 12
+    assert search.n_iterations == len(reported) == 10
+    assert [step.iteration for _, step in reported] == list(range(1, 11))
+
+
+def test_a_start_that_is_singular_is_an_error(example):
+    def singular(parameters):
+        raise SingularCovarianceError(parameters)
+
+    with pytest.raises(SingularCovarianceError, match="lengthscales"):
+        _train(example, singular, [_start(example)])

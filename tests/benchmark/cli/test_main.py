@@ -1,0 +1,260 @@
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pandas as pd
+import pytest
+
+from mocapbench.benchmark.cli import check as cli_check
+from mocapbench.benchmark.cli.main import main
+from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.runs.store import Store
+
+TOY = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
+FAST = (*TOY, "--models", "trivial,cubic-spline")
+
+
+def _scores(records):
+    return {address: record["scores"] for address, record in records.items()}
+
+
+def test_a_run_ends_in_a_report(cli, records, tmp_path):
+    assert cli(*FAST, "--out", tmp_path / "run") == 0
+    assert str(tmp_path / "run" / "report.html") in cli.printed.replace(" ", "")
+    assert (
+        (tmp_path / "run" / "report.html")
+        .read_text()
+        .lower()
+        .lstrip()
+        .startswith("<!doctype html>")
+    )
+    found = records(tmp_path / "run")
+    assert {(label, fold) for _, _, label, fold in found} == {
+        (label, fold) for label in ("trivial", "cubic-spline") for fold in (0, 1)
+    }
+    assert all(record["scores"]["mse"] > 0 for record in found.values())
+    assert all(
+        "msll" not in r["scores"] for (_, _, label, _), r in found.items() if label != "trivial"
+    )
+
+
+def test_scores_do_not_depend_on_workers_or_on_which_models_run(cli, records, tmp_path):
+    assert cli(*FAST, "--out", tmp_path / "one", "--jobs", 1) == 0
+    assert cli(*FAST, "--out", tmp_path / "two", "--jobs", 2) == 0
+    assert cli(*TOY, "--models", "trivial", "--out", tmp_path / "alone") == 0
+    one, two, alone = (_scores(records(tmp_path / name)) for name in ("one", "two", "alone"))
+    assert one == two
+    assert alone == {address: one[address] for address in alone}
+
+
+@pytest.mark.slow
+def test_threads_change_no_score_and_the_engine_is_on_record(cli, records, tmp_path):
+    chosen = (*TOY, "--models", "mohgp-3", "--jobs", 1, "--folds", 1)
+    assert cli(*chosen, "--out", tmp_path / "one") == 0
+    assert cli(*chosen, "--out", tmp_path / "two", "--threads", 2) == 0
+    one, two = (records(tmp_path / name) for name in ("one", "two"))
+    for address, record in one.items():
+        assert two[address]["scores"] == pytest.approx(record["scores"], rel=1e-8)
+        assert "billion operations" in two[address]["engine"]
+        assert (record["provenance"]["threads"], two[address]["provenance"]["threads"]) == (
+            "1 per job",
+            "2 per job",
+        )
+
+
+@pytest.mark.slow
+def test_scores_do_not_depend_on_the_order_of_registration(cli, records, tmp_path, broken_models):
+    """The same models from a file, in either order, seeds and fits included."""
+    source = (
+        "from mocapbench.baselines.mohgp import MOHGP\nfrom mocapbench.baselines.moa import MOA\n"
+    )
+    pairs = ["'my-a': MOHGP", "'my-b': MOA"]
+    found = []
+    for name, order in (("forth", pairs), ("back", pairs[::-1])):
+        path = tmp_path / f"{name}.py"
+        path.write_text(f"{source}MODELS = {{{', '.join(order)}}}\n")
+        out = tmp_path / name
+        arguments = ("--models", "my-a,my-b", "--folds", 1, "--model-file", path, "--out", out)
+        assert cli(*TOY, *arguments) == 0
+        found.append(_scores(records(out)))
+    assert found[0] == found[1]
+    assert len(found[0]) == 2
+
+
+def test_a_second_run_computes_nothing(cli, tmp_path):
+    assert cli(*FAST, "--out", tmp_path / "run") == 0
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/records").iterdir()}
+    assert cli(*FAST, "--out", tmp_path / "run") == 0
+    assert "4 of 4 jobs are in" in cli.printed
+    assert before == {
+        path: path.stat().st_mtime_ns for path in (tmp_path / "run/records").iterdir()
+    }
+
+
+def test_new_metrics_are_scored_without_refitting(cli, tmp_path):
+    assert cli(*FAST, "--metrics", "mse", "--out", tmp_path / "run") == 0
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/predictions").iterdir()}
+    assert cli(*FAST, "--metrics", "mse,smse", "--out", tmp_path / "run") == 0
+    after = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/predictions").iterdir()}
+    assert before == after
+    rescored = [p for p in (tmp_path / "run/records").iterdir() if '"smse"' in p.read_text()]
+    assert len(rescored) == 4
+
+
+def test_a_damaged_record_is_reported_and_computed_again(cli, records, tmp_path):
+    assert cli(*FAST, "--out", tmp_path / "run") == 0
+    whole = _scores(records(tmp_path / "run"))
+    victim = next((tmp_path / "run" / "records").iterdir())
+    victim.write_text(victim.read_text()[:100])
+    assert cli(*FAST, "--out", tmp_path / "run") == 0
+    assert "damaged, so not trusted" in cli.printed
+    assert _scores(records(tmp_path / "run")) == whole
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (("--tasks", "toy-interpolaton-1"), "did you mean toy-interpolation-1"),
+        (("--models", "cubic-splin"), "did you mean cubic-spline"),
+        (("--metrics", "msl"), "did you mean msll"),
+        (("--profile", "quik"), "did you mean quick"),
+        (("--tasks", "toy-interpolation-1", "--cases", "test 11"), "did you mean test 1"),
+        (("--tasks", "missing-frames", "--models", "mohgp"), "nothing to run"),
+        (("--model-file", "absent.py"), "expected a Python file"),
+        (("--data-dir", "absent"), "absent"),
+        (("--folds", "0"), "folds"),
+        (("--tasks", "toy-interpolation-1", "--metrics", "mccc"), "did you mean mcc"),
+        (("--tasks", "missing-frames", "--folds", "13"), "has 12 folds, got 13"),
+    ],
+)
+def test_bad_requests_exit_with_2_and_write_nothing(cli, tmp_path, arguments, complaint):
+    assert cli("run", "--offline", *arguments, "--out", tmp_path / "run") == 2
+    assert complaint in cli.printed
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_folder_that_is_not_ours_is_left_alone(cli, tmp_path):
+    (tmp_path / "thesis.txt").write_text("years of work")
+    assert cli(*FAST, "--out", tmp_path) == 2
+    assert "name a new or empty folder" in cli.printed
+    assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
+
+
+def test_missing_recordings_are_not_a_failure(cli, records, tmp_path, monkeypatch):
+    monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
+    monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path / "cache"))
+    arguments = (
+        "--tasks",
+        "missing-frames",
+        "--cases",
+        "35-03*,synthetic*",
+        "--models",
+        "cubic-spline",
+    )
+    assert cli("run", "--offline", *arguments, "--folds", 1, "--out", tmp_path / "run") == 0
+    found = {case: record for (_, case, _, _), record in records(tmp_path / "run").items()}
+    assert found["35-03 three-walkers"]["status"] == "data-missing"
+    assert "mocapbench data fetch 35_03" in found["35-03 three-walkers"]["message"]
+    assert any(r["status"] == "ok" for case, r in found.items() if case.startswith("synthetic"))
+
+
+def test_a_run_without_any_recording_ran_nothing(cli, tmp_path, monkeypatch):
+    monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
+    monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path / "cache"))
+    arguments = ("--tasks", "missing-frames", "--cases", "35-03*", "--models", "cubic-spline")
+    assert cli("run", "--offline", *arguments, "--folds", 1, "--out", tmp_path / "run") == 4
+
+
+def test_a_dry_run_writes_nothing(cli, tmp_path):
+    assert cli(*FAST, "--dry-run", "--out", tmp_path / "run") == 0
+    assert "4 jobs" in cli.printed
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize(
+    ("kind", "registry"), [("tasks", TASKS), ("models", MODELS), ("metrics", METRICS)]
+)
+def test_list_names_everything(cli, kind, registry):
+    assert cli("list", kind) == 0
+    assert all(name in cli.printed for name in registry.names())
+
+
+def test_info_says_how_to_cite(cli):
+    assert cli("info") == 0
+    assert "@software{mocapbench" in cli.printed
+    assert "numpy version" in cli.printed
+
+
+def test_export_holds_one_row_per_score(cli, records, tmp_path):
+    assert cli(*FAST, "--out", tmp_path / "run") == 0
+    assert cli("export", "--out", tmp_path / "run", "--to", tmp_path / "tables") == 0
+    table = pd.read_parquet(tmp_path / "tables" / "scores.parquet")
+    found = records(tmp_path / "run").values()
+    assert len(table) == sum(len(record["scores"]) for record in found)
+    missing = {"keep_default_na": False, "na_values": {"sample_two_sd": [""]}}
+    text = pd.read_csv(tmp_path / "tables" / "scores.csv", **missing)
+    pd.testing.assert_frame_equal(table, text, check_dtype=False)
+
+
+@pytest.mark.parametrize("command", ["report", "export"])
+def test_commands_on_a_folder_that_is_no_run_exit_with_2(cli, tmp_path, command):
+    assert cli(command, "--out", tmp_path) == 2
+    assert "is not a mocapbench run" in cli.printed
+
+
+def test_a_report_can_be_written_elsewhere(cli, tmp_path):
+    assert cli(*FAST, "--out", tmp_path / "run") == 0
+    assert cli("report", "--out", tmp_path / "run", "--to", tmp_path / "page.html") == 0
+    assert (tmp_path / "page.html").read_text() == (tmp_path / "run" / "report.html").read_text()
+
+
+def test_a_report_into_a_folder_that_is_not_there_exits_with_2(cli, tmp_path):
+    assert cli(*FAST, "--out", tmp_path / "run") == 0
+    assert cli("report", "--out", tmp_path / "run", "--to", tmp_path / "no" / "page.html") == 2
+    assert "cannot read or write" in cli.printed
+
+
+def test_a_defect_is_told_from_a_worse_metric(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(cli_check, "read_baseline", lambda path: 1 / 0)
+    Store.create(tmp_path).save_plan({"keys": [], "provenance": {}})
+    with pytest.raises(SystemExit) as ended:
+        main(["check", str(tmp_path), "--baseline", "b.csv"])
+    assert ended.value.code == 70
+    printed = capsys.readouterr().err
+    assert "ZeroDivisionError" in printed
+    assert "a defect of mocapbench or an added package" in printed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT], ids=["killed", "interrupted"])
+def test_an_interrupted_run_resumes_to_the_same_scores(cli, records, tmp_path, how):
+    arguments = [str(a) for a in (*TOY, "--models", "trivial,cubic-spline", "--folds", 12)]
+    script = "from mocapbench.benchmark.cli.main import main; main()"
+    out = tmp_path / "broken"
+    process = subprocess.Popen(
+        [sys.executable, "-c", script, *arguments, "--jobs", "1", "--out", str(out)],
+        start_new_session=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    while len(list(out.glob("records/*.json"))) < 3:
+        assert process.poll() is None
+        time.sleep(0.01)
+    os.killpg(process.pid, how)
+    stdout, stderr = process.communicate(timeout=60)
+    kept = len(records(out))
+    assert 3 <= kept < 24
+    assert process.returncode == (130 if how is signal.SIGINT else -how)
+    assert "Traceback" not in stderr
+    assert ("the same command resumes" in stdout) is (how is signal.SIGINT)
+    assert cli(*arguments, "--out", out) == 0
+    assert f"{kept} of 24 jobs are in" in cli.printed
+    assert cli(*arguments, "--out", tmp_path / "whole") == 0
+    assert _scores(records(out)) == _scores(records(tmp_path / "whole"))
+    names = [
+        sorted(p.name for p in (d / "predictions").iterdir()) for d in (out, tmp_path / "whole")
+    ]
+    assert names[0] == names[1]

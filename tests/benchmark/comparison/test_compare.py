@@ -1,0 +1,191 @@
+from dataclasses import replace
+
+import pandas as pd
+import pytest
+
+from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.runs.store import Store
+
+TOY, FRAMES = "toy-interpolation-1", "missing-frames"
+GOOD = {"test 1": [1.0, 1.2, 0.9, 1.1, 1.0], "test 2": [2.0, 2.2, 1.9, 2.1, 2.0]}
+BAD = {case: [1.5 * value for value in values] for case, values in GOOD.items()}
+
+
+def records(label, cases, task=TOY, metric="mse", **fields):
+    return [
+        Record(
+            key=f"{task}{case}{label}{fold}".encode().hex(),
+            fit_key="",
+            task=task,
+            version=1,
+            case=case,
+            fold=fold,
+            seed=0,
+            label=label,
+            model=label,
+            parameters={},
+            status=Status.OK,
+            scores={metric: value},
+            provenance={"digest of cmu:07_01": "abc"},
+        )
+        for case, values in cases.items()
+        for fold, value in enumerate(values)
+    ]
+
+
+@pytest.fixture
+def run(tmp_path):
+    """Return a writer of run directories."""
+
+    def write(name, *groups):
+        store, found = Store.create(tmp_path / name), [r for group in groups for r in group]
+        for record in found:
+            store.save(record)
+        store.save_plan({"keys": [record.key for record in found], "provenance": {}})
+        return store.path
+
+    return write
+
+
+def compared(cli, tmp_path, *arguments):
+    assert cli("compare", *arguments, "--csv", tmp_path / "rows.csv") == 0
+    return pd.read_csv(tmp_path / "rows.csv", keep_default_na=True).set_index("case")
+
+
+def test_a_narrow_terminal_cuts_no_word(cli, run, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    path = run("run", records("lmc-independent-1", GOOD), records("gp-independent", BAD))
+    models = "lmc-independent-1,gp-independent"
+    assert cli("compare", path, "--models", models, "--metrics", "mse") == 0
+    assert "test 1" in cli.printed
+    assert "…" not in cli.printed
+
+
+def test_two_runs_are_contrasted_case_by_case_and_over_all(cli, run, tmp_path):
+    one, other = run("good", records("knn", GOOD)), run("bad", records("knn", BAD))
+    rows = compared(cli, tmp_path, one, other, "--metrics", "mse")
+    assert list(rows.index) == ["test 1", "test 2", "all cases"]
+    assert list(rows["n"]) == [5, 5, 2]
+    assert rows.loc["test 1", "advantage"] == pytest.approx(0.52)
+    assert rows.loc["all cases", "advantage"] == pytest.approx(0.77)
+    assert (rows["t_p_holm"] >= rows["t_p"]).all()
+    assert rows.loc["test 1", "signed_rank_p"] == 0.0625
+    assert "good better" in cli.printed
+    assert "cannot go below p = 0.0625" in cli.printed
+
+
+def test_exchanging_the_runs_turns_every_row_round(cli, run, tmp_path):
+    one, other = run("good", records("knn", GOOD)), run("bad", records("knn", BAD))
+    there = compared(cli, tmp_path, one, other)
+    back = compared(cli, tmp_path, other, one)
+    pd.testing.assert_series_equal(back["advantage"], -there["advantage"])
+    pd.testing.assert_series_equal(back["better"], there["worse"], check_names=False)
+    pd.testing.assert_series_equal(back["t_p_holm"], there["t_p_holm"])
+
+
+def test_two_models_of_one_run_are_contrasted(cli, run, tmp_path):
+    both = run("run", records("nn", BAD), records("knn", GOOD))
+    rows = compared(cli, tmp_path, both, "--models", "knn,nn")
+    assert rows.loc["test 1", "advantage"] == pytest.approx(0.52)
+    assert "knn better" in cli.printed
+
+
+def test_two_runs_are_contrasted_for_the_entrants_asked_for(cli, run, tmp_path):
+    one = run("good", records("knn", GOOD), records("nn", GOOD), records("trivial", GOOD))
+    other = run("bad", records("knn", BAD), records("nn", BAD))
+    rows = compared(cli, tmp_path, one, other, "--models", "nn,trivial")
+    assert set(rows["entrant"]) == {"nn"}
+    assert set(compared(cli, tmp_path, one, other)["entrant"]) == {"knn", "nn"}
+
+
+def test_a_run_against_itself_is_identical(cli, run):
+    path = run("run", records("knn", GOOD))
+    assert cli("compare", path, path) == 0
+    assert "3 of 3 comparisons are identical" in cli.printed
+
+
+def test_overlapping_windows_count_as_one(cli, run, tmp_path):
+    windows = {"35-03 three-walkers": [1.0, 2.0, 3.0], "07-01 three-walkers": [2.0, 3.0, 5.0]}
+    groups = [
+        records(label, cases, task=FRAMES, metric="rms_per_frame")
+        for label, cases in (("knn", windows), ("nn", {c: [9.0] * 3 for c in windows}))
+    ]
+    rows = compared(cli, tmp_path, run("run", *groups), "--models", "knn,nn")
+    assert list(rows["n"]) == [1, 1, 2]
+    assert rows["t_p"].isna().tolist() == [True, True, False]
+    assert "one unit: no test" in cli.printed
+
+
+def test_rows_that_are_means_of_others_do_not_count_beside_them(cli, run, tmp_path):
+    cases = {"12(1)": [20.0], "35(1)": [22.0], "without 38(2)": [21.0]}
+    given = {"task": "walking-synthesis", "metric": "mcc"}
+    one = run("one", records("moa-3", cases, **given))
+    other = run("other", records("moa-3", {case: [19.0] for case in cases}, **given))
+    rows = compared(cli, tmp_path, one, other, "--metrics", "mcc")
+    assert rows.loc["all cases", "n"] == 2
+
+
+def test_generated_motion_is_not_pooled_with_recordings(cli, run, tmp_path):
+    cases = {"observed 40": [1.0, 1.0], "observed 10": [2.0, 2.1], "synthetic observed 40": [9.0]}
+    doubled = {case: [2.0 * value for value in values] for case, values in cases.items()}
+    groups = [
+        records(label, values, task="walking-interpolation")
+        for label, values in (("knn", cases), ("nn", doubled))
+    ]
+    rows = compared(cli, tmp_path, run("run", *groups), "--models", "knn,nn", "--metrics", "mse")
+    assert rows.loc["all cases", "n"] == 2
+    assert rows.loc["all cases", "first"] == pytest.approx(1.525)
+
+
+def test_folds_that_only_one_side_has_and_undefined_scores_are_left_out(cli, run, tmp_path):
+    fewer = records("nn", {"test 1": [2.0, float("nan"), 2.5]})
+    fewer[2] = fewer[2].ended(Status.FAILED, "it broke")
+    rows = compared(cli, tmp_path, run("run", records("knn", GOOD), fewer), "--models", "knn,nn")
+    assert rows["n"].to_dict() == {"test 1": 1}
+
+
+def test_markdown_holds_every_row_and_the_notes(cli, run, tmp_path):
+    one, other = run("a|b", records("knn", GOOD)), run("bad", records("knn", BAD))
+    assert cli("compare", one, other, "--markdown", tmp_path / "out.md") == 0
+    text = (tmp_path / "out.md").read_text()
+    assert text.count("| knn: ") == 3
+    assert "a\\|b better" in text
+    assert "cannot go below p = 0.0625" in text
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"seed": 7}, "seed 0 against 7 (10 jobs)"),
+        ({"version": 2}, "version of toy-interpolation-1 1 against 2"),
+        ({"provenance": {"digest of cmu:07_01": "other"}}, "digest of cmu:07_01 abc against other"),
+        ({"provenance": {}}, "digest of cmu:07_01 abc against absent"),
+    ],
+)
+def test_what_is_not_paired_is_refused_with_the_reason(cli, run, change, reason):
+    changed = [replace(record, **change) for record in records("knn", GOOD)]
+    assert cli("compare", run("one", records("knn", GOOD)), run("other", changed)) == 2
+    assert "do not solve the same problems" in cli.printed
+    assert reason in cli.printed
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["{run}"], "expected a second run, or --models with two labels"),
+        (["{run}", "--models", "knn"], "expected a second run"),
+        (["{run}", "--models", "knn,kn"], "did you mean knn"),
+        (["{run}", "{run}", "--models", "kn"], "did you mean knn"),
+        (["{run}", "{empty}"], "nothing|no scored (task, case, fold, entrant) in common"),
+        (["{run}", "{tmp}"], "is not a mocapbench run"),
+        (["{run}", "{run}", "{run}"], "expected one or two run directories, got 3"),
+        (["{run}", "{run}", "--tasks", "toy"], "unknown task 'toy'"),
+        (["{run}", "{run}", "--metrics", "mlc"], "no value of mlc in common"),
+        (["{run}", "{run}", "--rope", "-1"], "rope"),
+        (["{run}", "{run}", "--csv", "{tmp}/no/rows.csv"], "a folder that exists"),
+    ],
+)
+def test_wrong_requests_end_in_one_clear_line(cli, run, tmp_path, arguments, message):
+    names = {"run": run("run", records("knn", GOOD)), "empty": run("empty"), "tmp": tmp_path}
+    assert cli("compare", *(argument.format(**names) for argument in arguments)) == 2
+    assert message.split("|")[-1] in cli.printed

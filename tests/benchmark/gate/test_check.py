@@ -1,0 +1,277 @@
+"""`mocapbench check` on run directories that are written by hand."""
+
+import json
+from xml.etree import ElementTree
+
+import pytest
+
+from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.runs.store import Store
+
+ABOUT = {
+    **{"profile": "smoke", "seed": "0", "machine": "m", "libc": "l", "BLAS": "b"},
+    **dict.fromkeys(("numpy version", "scipy version", "scikit-learn version"), "1"),
+}
+TASK, CASE = "toy-interpolation-1", "test 1"
+
+
+def _record(label, fold, found, about, version):
+    key = f"{label}-{fold}-{version}"
+    fields = {"status": found, "message": "no | luck\x1b"}
+    if isinstance(found, dict):
+        fields = {"status": Status.OK, "scores": found}
+    return Record(
+        *(key, key, TASK, version, CASE, fold, 0, label, label, {}), **fields, provenance=about
+    )
+
+
+@pytest.fixture
+def run(tmp_path):
+    """Return a maker of runs from {label: [scores or status per fold]}."""
+
+    def make(name, entrants, about=ABOUT, version=1):
+        store = Store.create(tmp_path / name)
+        records = [
+            _record(label, fold, found, about, version)
+            for label, folds in entrants.items()
+            for fold, found in enumerate(folds)
+        ]
+        for record in records:
+            store.save(record)
+        store.save_plan({"keys": [record.key for record in records], "provenance": about})
+        return store.path
+
+    return make
+
+
+def _mse(*values):
+    return [{"mse": value} for value in values]
+
+
+@pytest.fixture
+def check(cli, run, tmp_path):
+    """Return a function that holds one run against another, recorded as a baseline."""
+
+    def hold(before, after, *options):
+        baseline = tmp_path / "baseline.csv"
+        assert cli("check", run("before", before), "--baseline", baseline, "--update") == 0
+        return cli("check", run("after", after), "--baseline", baseline, *options)
+
+    return hold
+
+
+def test_the_same_values_are_fine(check, cli):
+    assert check({"knn": _mse(1.0, 2.0)}, {"knn": _mse(1.0, 2.0)}) == 0
+    assert "check: 1 same; same environment" in cli.printed
+
+
+def test_worse_is_1_and_named(check, cli):
+    before = {"knn": _mse(1.0, 2.0), "nn": _mse(1.0, 2.0)}
+    assert check(before, {**before, "knn": _mse(1.1, 2.1)}) == 1
+    assert "worse" in cli.printed
+    assert "knn" in cli.printed
+    assert "check: 1 worse, 1 same" in cli.printed
+
+
+def test_better_is_told_and_strict_wants_it_recorded(check, cli, run, tmp_path):
+    before, after = {"knn": _mse(1.0, 2.0)}, {"knn": _mse(0.9, 1.9)}
+    assert check(before, after) == 0
+    assert "1 better" in cli.printed
+    assert check(before, after, "--strict") == 1
+    arguments = ("check", tmp_path / "after", "--baseline", tmp_path / "baseline.csv")
+    assert cli(*arguments, "--update") == 0
+    assert "1 better" in cli.printed
+    assert cli(*arguments, "--strict") == 0
+
+
+@pytest.mark.parametrize("strict", [(), ("--strict",)])
+def test_new_values_are_told_and_strict_wants_them_recorded(check, cli, strict):
+    before = {"knn": _mse(1.0)}
+    assert check(before, {**before, "nn": _mse(1.0)}, *strict) == len(strict)
+    assert "1 new, 1 same" in cli.printed
+
+
+@pytest.mark.parametrize(
+    "after",
+    [
+        {"knn": _mse(1.0, 2.0)},
+        {"knn": _mse(1.0, 2.0), "nn": _mse(1.0)},
+        {"knn": _mse(1.0, 2.0), "nn": _mse(1.0, float("nan"))},
+        {"knn": _mse(1.0, 2.0), "nn": [{"smse": 1.0}, {"smse": 1.0}]},
+    ],
+    ids=["entrant", "fold", "not a number", "metric"],
+)
+def test_what_is_lost_is_no_silence(check, cli, tmp_path, after):
+    assert check({"knn": _mse(1.0, 2.0), "nn": _mse(1.0, 2.0)}, after) == 1
+    assert "lost" in cli.printed
+    assert "no finite value of task version 1" in cli.printed
+    document = json.loads((tmp_path / "after" / "check.json").read_text())
+    told = {(each["verdict"], each["fails"]) for each in document["findings"]}
+    assert ("lost", True) in told
+
+
+def test_another_version_of_a_task_is_another_problem(check, cli, run, tmp_path):
+    assert check({"knn": _mse(1.0)}, {"knn": _mse(1.0)}) == 0
+    newer = run("newer", {"knn": _mse(1.0)}, version=2)
+    assert cli("check", newer, "--baseline", tmp_path / "baseline.csv") == 1
+    assert "1 lost, 1 new" in cli.printed
+
+
+@pytest.mark.parametrize("status", [Status.FAILED, Status.TIMEOUT, Status.OUT_OF_MEMORY])
+@pytest.mark.parametrize("known", [True, False])
+def test_a_failed_job_is_3(check, cli, status, known):
+    before = {"knn": _mse(1.0), **({"nn": _mse(1.0)} if known else {})}
+    assert check(before, {"knn": _mse(1.0), "nn": [status]}) == 3
+    assert f"{status}: no | luck" in cli.printed
+
+
+def test_a_failed_fold_that_the_baseline_lacks_is_3_too(check):
+    assert check({"knn": _mse(1.0)}, {"knn": [{"mse": 1.0}, Status.FAILED]}) == 3
+
+
+def test_worse_comes_before_broken(check):
+    before = {"knn": _mse(1.0), "nn": _mse(1.0)}
+    assert check(before, {"knn": _mse(1.1), "nn": [Status.FAILED]}) == 1
+
+
+def test_missing_data_are_skipped_and_stay_in_the_baseline(check, cli, tmp_path):
+    before = {"knn": _mse(1.0), "nn": _mse(1.0)}
+    assert check(before, {"knn": _mse(1.0), "nn": [Status.DATA_MISSING]}) == 0
+    assert "1 data missing, 1 same" in cli.printed
+    baseline = tmp_path / "baseline.csv"
+    kept = baseline.read_text()
+    assert cli("check", tmp_path / "after", "--baseline", baseline, "--update") == 0
+    assert baseline.read_text() == kept
+
+
+def test_a_run_that_was_compared_to_nothing_is_4(check, cli):
+    assert check({"knn": _mse(1.0)}, {"knn": [Status.DATA_MISSING]}) == 4
+    assert "nothing was compared: expected values that both" in cli.printed
+
+
+def test_a_baseline_that_is_not_there_is_4(cli, run, tmp_path):
+    path = run("run", {"knn": _mse(1.0)})
+    assert cli("check", path, "--baseline", tmp_path / "absent") == 4
+    assert "write one with --update" in cli.printed
+
+
+def test_another_environment_is_seen_and_held_less_tightly(check, cli, run, tmp_path):
+    assert check({"knn": _mse(1.0)}, {"knn": _mse(1.0)}) == 0
+    arguments = ("--baseline", tmp_path / "baseline.csv")
+    other = ABOUT | {"BLAS": "another"}
+    assert cli("check", run("near", {"knn": _mse(1.01)}, other), *arguments) == 0
+    assert "cross environment (BLAS differ)" in cli.printed
+    assert cli("check", run("far", {"knn": _mse(1.03)}, other), *arguments) == 1
+    assert cli("check", tmp_path / "near", *arguments, "--environment", "same") == 1
+
+
+def test_a_file_of_tolerances_decides(check, tmp_path):
+    before, after = {"knn": _mse(1.0)}, {"knn": _mse(1.05)}
+    (tmp_path / "t.toml").write_text("[same.metrics.mse]\nrelative = 0.1\n")
+    assert check(before, after) == 1
+    assert check(before, after, "--tolerances", tmp_path / "t.toml") == 0
+
+
+def test_a_run_directory_is_a_baseline_but_not_one_to_write(cli, run):
+    before, after = run("before", {"knn": _mse(1.0)}), run("after", {"knn": _mse(1.1)})
+    assert cli("check", after, "--baseline", before) == 1
+    assert cli("check", after, "--baseline", before, "--update") == 2
+    assert "is a run directory" in cli.printed
+
+
+def test_a_file_that_is_read_whatever_its_name_is_not_written(cli, run, tmp_path):
+    path, csv, text = (tmp_path / name for name in ("run", "b.csv", "b.txt"))
+    assert cli("check", run("run", {"knn": _mse(1.0)}), "--baseline", csv, "--update") == 0
+    csv.rename(text)
+    assert cli("check", path, "--baseline", text) == 0
+    assert cli("check", path, "--baseline", text, "--update") == 2
+    assert "expected a .csv file or a folder" in cli.printed
+
+
+def test_half_a_run_is_no_baseline(cli, run, tmp_path):
+    whole, cut = (run(name, {"knn": _mse(1.0), "nn": _mse(1.0)}) for name in ("whole", "cut"))
+    record = cut / "records" / "nn-0-1.json"
+    record.write_text(record.read_text()[:50])
+    assert cli("check", whole, "--baseline", cut) == 2
+    assert "cut holds a damaged record" in cli.printed
+    record.unlink()
+    assert cli("check", cut, "--baseline", tmp_path / "b.csv", "--update") == 2
+    assert "1 jobs of the run have no whole record" in cli.printed
+    assert not (tmp_path / "b.csv").exists()
+
+
+def test_failed_jobs_are_no_baseline_unless_asked(cli, run, tmp_path):
+    baseline = tmp_path / "baseline"
+    good = run("good", {"knn": _mse(1.0), "nn": _mse(1.0)})
+    assert cli("check", good, "--baseline", baseline, "--update") == 0
+    bad = run("bad", {"knn": _mse(2.0), "nn": [Status.FAILED]})
+    kept = (baseline / f"{TASK}.csv").read_text()
+    assert cli("check", bad, "--baseline", baseline, "--update") == 2
+    assert "--allow-failures" in cli.printed
+    assert (baseline / f"{TASK}.csv").read_text() == kept
+    assert cli("check", bad, "--baseline", baseline, "--update", "--allow-failures") == 0
+    text = (baseline / f"{TASK}.csv").read_text()
+    assert "knn,mse,2.0" in text
+    assert "nn,mse,1.0" in text
+
+
+@pytest.mark.parametrize("name", ["profile", "seed"])
+def test_runs_that_cannot_be_paired_are_refused(check, cli, run, tmp_path, name):
+    assert check({"knn": _mse(1.0)}, {"knn": _mse(1.0)}) == 0
+    other = run("other", {"knn": _mse(1.0)}, ABOUT | {name: "7"})
+    for options in ((), ("--update",)):
+        assert cli("check", other, "--baseline", tmp_path / "baseline.csv", *options) == 2
+        assert f"expected a run of the {name}" in cli.printed
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ((), "choose --baseline"),
+        (("--baseline", "b.csv", "--junit", "no/such/folder.xml"), "in a folder that exists"),
+        (("--baseline", "b.csv", "--markdown", "/"), "in a folder that exists"),
+        (("--baseline", "b.csv", "--environment", "near"), "near"),
+        (("--controls", "--junit", "j.xml"), "--controls: expected no other option"),
+        (("--controls", "--strict"), "--controls: expected no other option"),
+    ],
+)
+def test_bad_requests_are_2(cli, run, arguments, complaint):
+    assert cli("check", run("run", {"knn": _mse(1.0)}), *arguments) == 2
+    assert complaint in cli.printed
+
+
+def test_a_folder_that_is_no_run_is_2(cli, tmp_path):
+    assert cli("check", tmp_path, "--baseline", tmp_path / "b.csv") == 2
+    assert "is not a mocapbench run" in cli.printed
+
+
+def test_junit_and_markdown_tell_the_same(check, tmp_path):
+    before = {name: _mse(1.0, 2.0) for name in ("knn", "nn", "moa", "trivial")}
+    after = {
+        **{"knn": _mse(1.1, 2.1), "nn": _mse(0.9, 1.9)},
+        **{"moa": [Status.FAILED] * 2, "trivial": [Status.DATA_MISSING] * 2},
+    }
+    options = ("--junit", tmp_path / "j.xml", "--markdown", tmp_path / "m.md")
+    assert check(before, after, *options) == 1
+    (suite,) = ElementTree.parse(tmp_path / "j.xml").getroot()
+    counts = {name: suite.get(name) for name in ("tests", "failures", "errors", "skipped")}
+    assert counts == {"tests": "4", "failures": "1", "errors": "1", "skipped": "1"}
+    (failed,) = suite.findall("testcase/failure/..")
+    assert (failed.get("classname"), failed.get("name")) == (f"{TASK}.{CASE}", "knn: mse")
+    text = (tmp_path / "m.md").read_text()
+    assert text.startswith("### Metrics: failed, exit code 1")
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    assert [row.split(" | ")[0][2:] for row in rows[2:]] == ["worse", "job failed", "better"]
+    assert "no \\| luck" in text
+
+
+def test_the_report_tells_the_check_of_the_last_run_only(check, cli, tmp_path):
+    assert check({"knn": _mse(1.0)}, {"knn": _mse(1.1)}) == 1
+    found = json.loads((tmp_path / "after" / "check.json").read_text())
+    assert not found["passed"]
+    assert cli("report", "--out", tmp_path / "after") == 0
+    assert "Regression check" in (tmp_path / "after" / "report.html").read_text()
+    store = Store.open(tmp_path / "after")
+    store.save_plan(store.load_plan())
+    assert cli("report", "--out", tmp_path / "after") == 0
+    assert "Regression check" not in (tmp_path / "after" / "report.html").read_text()

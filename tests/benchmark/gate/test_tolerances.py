@@ -1,0 +1,53 @@
+import pytest
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.gate.rule import Environment, Tolerance
+from mocapbench.benchmark.gate.tolerances import read_tolerances
+
+
+@pytest.fixture
+def written(tmp_path):
+    def write(text):
+        (tmp_path / "t.toml").write_text(text)
+        return tmp_path / "t.toml"
+
+    return write
+
+
+def test_defaults_are_tight_in_one_environment_and_two_percent_across():
+    same, cross = (read_tolerances(each, None).of("mse") for each in Environment)
+    assert same == Tolerance(k=3.0, relative=1e-9, absolute=0.0)
+    assert cross == Tolerance(k=3.0, relative=0.02, absolute=0.0)
+
+
+def test_a_metrics_own_table_goes_over_the_environments(written):
+    path = written("[cross]\nk = 2\n[cross.metrics.msll]\nabsolute = 0.01\n")
+    cross, same = (read_tolerances(each, path) for each in ("cross", "same"))
+    assert cross.of("mse") == Tolerance(2, 0.02, 0.0)
+    assert cross.of("msll") == Tolerance(2, 0.02, 0.01)
+    assert same.of("msll") == Tolerance()
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("[cros]", "unknown entry of --tolerances 'cros': did you mean cross"),
+        ("[cross]\nrelativ = 1", "did you mean relative"),
+        ("[cross]\nk = -1", "cross.k: expected a number from 0, got -1"),
+        ("[cross]\nk = nan", "expected a number from 0, got nan"),
+        ("[cross]\nk = true", "expected a number from 0, got True"),
+        ("[same]\nk = 'three'", "same.k: expected a number from 0, got 'three'"),
+        ("cross = 3", "cross: expected a table, got 3"),
+        ("[cross.metrics.msl]\nk = 1", "did you mean msll"),
+        ("[cross.metrics]\nmsll = 1", "cross.metrics.msll: expected a table, got 1"),
+        ("[cross", "cannot be read as TOML"),
+    ],
+)
+def test_a_file_that_is_no_good_says_why(written, text, complaint):
+    with pytest.raises(UsageError, match=complaint):
+        read_tolerances(Environment.SAME, written(text))
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(UsageError, match="cannot be read"):
+        read_tolerances(Environment.SAME, tmp_path / "absent.toml")

@@ -1,0 +1,46 @@
+"""Every number of the papers stands beside one of ours, or is said to have no counterpart."""
+
+from collections import Counter
+from itertools import groupby
+
+import pytest
+
+from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark.runs.plan import entrants
+from mocapbench.reports.paper.published import every_value
+
+VALUES = every_value()
+TABLES = {
+    address: tuple(values)
+    for address, values in groupby(VALUES, lambda value: (value.task, value.source))
+}
+
+
+def _has_counterpart(task, value):
+    """Whether a case, a metric and an entrant of ``task`` stand for the number's."""
+    labels = {entrant.label for entrant in entrants(task)}
+    models = {model for label, model in task.published_models.items() if label in labels}
+    cases = {case.published for case in task.cases}
+    metrics = set(task.published_metrics.values())
+    return value.case in cases and value.metric in metrics and value.model in models
+
+
+def test_every_number_has_one_address():
+    assert set(Counter(value.address for value in VALUES).values()) == {1}
+
+
+@pytest.mark.parametrize(("name", "source"), TABLES, ids=map(" ".join, TABLES))
+def test_every_number_stands_beside_ours_or_is_listed(name, source):
+    unlisted = [value for value in TABLES[name, source] if not value.not_comparable]
+    lost = [v.address for v in unlisted if not _has_counterpart(TASKS.get(name), v)]
+    assert not lost
+
+
+@pytest.mark.parametrize("name", TASKS.names())
+def test_every_counterpart_that_a_task_names_is_printed(name):
+    """A misspelt row, metric or model would silently stand beside nothing."""
+    task = TASKS.get(name)
+    printed = [value for value in VALUES if value.task == name]
+    assert {case.published for case in task.cases} - {None} <= {value.case for value in printed}
+    assert set(task.published_metrics.values()) <= {value.metric for value in printed}
+    assert set(task.published_models.values()) <= {value.model for value in printed}

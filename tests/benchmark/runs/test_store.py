@@ -1,0 +1,166 @@
+import json
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.runs.record import Record, RecordError, Status
+from mocapbench.benchmark.runs.store import Fit, Store
+
+TEXT = st.text(max_size=20)
+FLOATS = st.floats(allow_infinity=False)
+RECORDS = st.builds(
+    Record,
+    key=st.text("0123456789abcdef", min_size=64, max_size=64),
+    fit_key=TEXT,
+    task=TEXT,
+    version=st.integers(1, 9),
+    case=TEXT,
+    fold=st.integers(0, 9),
+    seed=st.integers(0, 9),
+    label=TEXT,
+    model=TEXT,
+    parameters=st.dictionaries(TEXT, st.integers() | TEXT),
+    status=st.sampled_from(Status),
+    message=TEXT,
+    traceback=TEXT,
+    scores=st.dictionaries(TEXT, FLOATS),
+    warnings=st.lists(TEXT).map(tuple),
+    fit_seconds=st.none() | st.floats(0, 1e6),
+    converged=st.none() | st.booleans(),
+    engine=TEXT,
+)
+
+
+@pytest.fixture
+def store(tmp_path):
+    return Store.create(tmp_path / "run")
+
+
+@pytest.fixture
+def record():
+    return Record("k" * 64, "f", "t", 1, "c", 0, 0, "label", "model", {}, Status.OK)
+
+
+@given(RECORDS)
+def test_a_record_survives_json(record):
+    back = Record.from_json(record.to_json())
+    assert back.to_json() == record.to_json()
+    assert back.status is record.status
+    assert all(math.isnan(back.scores[k]) == math.isnan(v) for k, v in record.scores.items())
+
+
+@given(RECORDS, st.data())
+def test_a_truncated_record_is_refused(record, data):
+    text = record.to_json()
+    cut = data.draw(st.integers(0, len(text) - 1))
+    with pytest.raises(RecordError, match="not a whole record"):
+        Record.from_json(text[:cut])
+
+
+@given(st.recursive(st.none() | st.booleans() | FLOATS | TEXT, st.lists))
+def test_foreign_json_is_refused(document):
+    with pytest.raises(RecordError):
+        Record.from_json(json.dumps(document))
+
+
+def test_what_is_saved_is_loaded(store, record):
+    store.save(record)
+    assert store.load(record.key) == record
+    assert store.records() == [record]
+    assert store.damaged == []
+
+
+def test_a_damaged_record_is_reported_and_not_trusted(store, record):
+    store.save(record)
+    path = store.path / "records" / f"{record.key}.json"
+    path.write_bytes(path.read_bytes()[:-20])
+    assert store.load(record.key) is None
+    assert str(path) in store.damaged[0]
+
+
+def test_a_record_under_another_name_is_not_trusted(store, record):
+    store.save(record)
+    folder = store.path / "records"
+    (folder / f"{record.key}.json").rename(folder / f"{'x' * 64}.json")
+    assert store.load("x" * 64) is None
+    assert "holds the record" in store.damaged[0]
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.data())
+def test_predictions_survive_and_truncated_ones_are_reported(store, data):
+    fit = Fit(
+        {"mean-0": np.arange(6.0).reshape(2, 3)}, 1.5, 0.5, 100.0, 7, True, "dense", ("careful",)
+    )
+    store.save_fit("key", fit)
+    back = store.load_fit("key")
+    np.testing.assert_array_equal(back.solution["mean-0"], fit.solution["mean-0"])
+    assert (back.fit_seconds, back.iterations, back.engine) == (1.5, 7, "dense")
+    assert back.warnings == ("careful",)
+    path = store.path / "predictions" / "key.npz"
+    path.write_bytes(path.read_bytes()[: data.draw(st.integers(0, path.stat().st_size - 1))])
+    store.damaged.clear()
+    assert store.load_fit("key") is None
+    assert len(store.damaged) == 1
+
+
+def test_predictions_under_another_name_are_not_trusted(store):
+    store.save_fit("key", Fit({"mean-0": np.zeros((2, 3))}, 1.0, 1.0, 1.0, None, None))
+    folder = store.path / "predictions"
+    (folder / "key.npz").rename(folder / "other.npz")
+    assert store.load_fit("other") is None
+    assert "another job" in store.damaged[0]
+
+
+def test_one_run_at_a_time(store):
+    with (
+        store.locked(),
+        pytest.raises(UsageError, match="another run is writing"),
+        Store.open(store.path).locked(),
+    ):
+        pass
+    with store.locked():
+        pass
+
+
+def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path):
+    path = tmp_path / "file"
+    path.write_text("old")
+    with pytest.raises(RuntimeError), atomic_write(path) as file:
+        file.write(b"new")
+        raise RuntimeError
+    assert [p.name for p in tmp_path.iterdir()] == ["file"]
+    assert path.read_text() == "old"
+
+
+def test_a_folder_that_is_not_ours_is_refused(tmp_path):
+    (tmp_path / "thesis.txt").write_text("years of work")
+    with pytest.raises(UsageError, match="name a new or empty folder"):
+        Store.create(tmp_path)
+    with pytest.raises(UsageError, match="is not a mocapbench run"):
+        Store.open(tmp_path)
+    assert [p.name for p in tmp_path.iterdir()] == ["thesis.txt"]
+
+
+def test_a_file_in_place_of_the_folder_is_refused(tmp_path):
+    path = tmp_path / "file"
+    path.touch()
+    with pytest.raises(UsageError, match="expected a folder"):
+        Store.create(path)
+
+
+def test_a_damaged_plan_says_what_to_do(store):
+    with pytest.raises(UsageError, match="run `mocapbench run` again"):
+        store.load_plan()
+    for foreign in ("{}", "5", "[]", '{"keys": 3, "provenance": {}}'):
+        (store.path / "plan.json").write_text(foreign)
+        with pytest.raises(UsageError, match="is not a plan"):
+            store.load_plan()
+    (store.path / "plan.json").write_text("{")
+    with pytest.raises(UsageError, match="run `mocapbench run` again"):
+        store.load_plan()

@@ -1,0 +1,66 @@
+"""Reading text: whole, bounded, or refused with the place."""
+
+import pytest
+
+from mocapbench.datasets import AcclaimError
+from mocapbench.datasets.acclaim.text import MAX_LINE, Line, finite_floats, read_text
+
+
+def test_text_is_returned_as_it_stands(tmp_path):
+    path = tmp_path / "a.asf"
+    path.write_bytes("one\r\ntwö\n\nthree".encode())
+    assert read_text(path) == "one\r\ntwö\n\nthree"
+
+
+@pytest.mark.parametrize("content", [b"", b" \n\r\n"])
+def test_an_empty_file_is_refused(tmp_path, content):
+    path = tmp_path / "a.asf"
+    path.write_bytes(content)
+    with pytest.raises(AcclaimError, match="empty file"):
+        read_text(path)
+
+
+def test_a_missing_file_and_a_folder_are_refused_by_name(tmp_path):
+    for path in (tmp_path / "nowhere.asf", tmp_path):
+        with pytest.raises(AcclaimError, match="readable file") as caught:
+            read_text(path)
+        assert (caught.value.file, caught.value.line) == (str(path), None)
+
+
+def test_bytes_that_are_not_utf8_are_refused_with_their_line(tmp_path):
+    path = tmp_path / "a.asf"
+    path.write_bytes(b"one\ntwo\nth\xffree\n")
+    with pytest.raises(AcclaimError, match="UTF-8") as caught:
+        read_text(path)
+    assert caught.value.line == 3
+
+
+def test_the_longest_line_is_read_and_one_byte_more_is_not(tmp_path):
+    path = tmp_path / "a.asf"
+    path.write_bytes(b"one\n" + b"x" * (MAX_LINE - 1) + b"\n")
+    assert len(read_text(path)) == MAX_LINE + 4
+    path.write_bytes(b"one\n" + b"x" * MAX_LINE + b"\n")
+    with pytest.raises(AcclaimError, match="at most") as caught:
+        read_text(path)
+    assert caught.value.line == 2
+
+
+def test_an_endless_line_is_refused_without_reading_it():
+    with pytest.raises(AcclaimError, match="at most"):
+        read_text("/dev/zero")
+
+
+def test_numbers_are_read_in_plain_notation():
+    assert finite_floats(["1", "-2.5", "+.5", "7.62852e-016"]) == [1.0, -2.5, 0.5, 7.62852e-16]
+
+
+@pytest.mark.parametrize("word", ["nan", "inf", "-Infinity", "1e999", "1_0", "１", "x", "0x1"])
+def test_what_is_not_a_plain_finite_number_is_refused(word):
+    with pytest.raises(ValueError, match=r"finite|convert"):
+        finite_floats(["1", word])
+
+
+def test_an_error_shows_the_beginning_of_a_long_line():
+    error = Line("a.amc", 7, "x" * 1000).error("a number")
+    assert str(error).startswith("a.amc, line 7: expected a number, got 'xxx")
+    assert len(str(error)) < 120

@@ -1,0 +1,108 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from scipy import stats
+
+from mocapbench.reports.analysis.results import Estimate, task_results, troubles
+from mocapbench.reports.bundle.bundle import CaseLayout
+
+values = st.lists(st.floats(-1e3, 1e3), min_size=2, max_size=12)
+
+
+def test_an_estimate_in_closed_form():
+    estimate = Estimate.of([1.0, 3.0])
+    assert estimate == Estimate(2.0, pytest.approx(2.0 * math.sqrt(2.0)), 2)
+
+
+@given(values, st.floats(-1e3, 1e3))
+def test_a_shift_moves_the_mean_and_leaves_the_spread(sample, shift):
+    plain, moved = Estimate.of(sample), Estimate.of([value + shift for value in sample])
+    assert moved.mean == pytest.approx(plain.mean + shift, abs=1e-8)
+    assert moved.two_sd == pytest.approx(plain.two_sd, abs=1e-8)
+
+
+def test_one_fold_has_no_spread_and_no_interval():
+    assert Estimate.of([0.3]) == Estimate(0.3, None, 1)
+    assert Estimate.of([0.3]).half_width is None
+
+
+@given(values)
+def test_the_interval_is_that_of_students_t(sample):
+    assume(np.std(sample) > 1e-6)
+    expected = stats.ttest_1samp(sample, 0.0).confidence_interval(0.95)
+    assert 2.0 * Estimate.of(sample).half_width == pytest.approx(expected.high - expected.low)
+
+
+def results_of(bundle):
+    return task_results(bundle, bundle.layouts[0])
+
+
+def test_the_ranking_follows_the_direction(small):
+    table = {"row": {"a": [1.0], "b": [0.5], "c": [2.0]}}
+    assert results_of(small(table)).ranking("row", "mse") == ["b", "a", "c"]
+    near = {"row": {"a": [0.2], "b": [0.55], "c": [0.9]}}
+    assert results_of(small(near, metric="coverage_50")).ranking("row", "coverage_50")[0] == "b"
+
+
+def test_who_failed_on_a_hard_fold_does_not_lead(small):
+    table = {"row": {"a": [1.0, 9.0, 2.0], "fails": [1.1, np.nan, 2.1], "b": [2.0, 9.5, 3.0]}}
+    results = results_of(small(table))
+    assert results.estimate("row", "fails", "mse").mean < results.estimate("row", "a", "mse").mean
+    assert results.ranking("row", "mse") == ["a", "b", "fails"]
+    assert "a" in results.best("row", "mse")
+
+
+def test_the_oracle_is_never_ranked(small):
+    results = results_of(small({"row": {"a": [1.0], "oracle": [0.1]}}))
+    assert results.ranking("row", "mse") == ["a"]
+    assert results.best("row", "mse") == {"a"}
+
+
+def test_equal_means_are_both_best(small):
+    assert results_of(small({"row": {"a": [1.0], "b": [1.0]}})).best("row", "mse") == {"a", "b"}
+
+
+def test_scores_that_are_not_finite_do_not_count(small):
+    bundle = small({"row": {"a": [1.0, 3.0]}})
+    bundle.scores["value"] = [1.0, np.inf]
+    assert results_of(bundle).estimate("row", "a", "mse") == Estimate(1.0, None, 1)
+
+
+def test_only_cases_with_records_are_shown(small):
+    bundle = small({"row": {"a": [1.0]}, "other": {"a": [1.0]}})
+    records = bundle.records[bundle.records["case"] == "other"]
+    assert [
+        case.name
+        for case in results_of(
+            type(bundle)(bundle.scores, records, bundle.layouts, bundle.metrics, {})
+        ).cases
+    ] == ["other"]
+
+
+def test_every_job_without_a_score_is_a_trouble(bundle):
+    found = troubles(bundle)
+    assert len(found) == (bundle.records["status"] != "ok").sum()
+    assert len({trouble.id for trouble in found}) == len(found)
+    assert all(trouble.message for trouble in found)
+
+
+@given(values, st.lists(st.floats(0.0, 1e3), min_size=1, max_size=12))
+def test_the_spread_over_samples_is_averaged_over_folds_and_comes_first(sample, within):
+    plain, sampled = Estimate.of(sample), Estimate.of(sample, within)
+    assert plain.spread == plain.two_sd == sampled.two_sd
+    assert sampled.spread == sampled.sample_two_sd == pytest.approx(np.mean(within))
+    assert sampled.half_width == plain.half_width
+
+
+def test_values_that_are_no_means_over_samples_spread_over_folds():
+    assert Estimate.of([1.0, 3.0], [math.nan, math.nan]) == Estimate.of([1.0, 3.0])
+
+
+@pytest.mark.parametrize("rows", [{"one", "two", "both"}, {"one", "both"}, {"both"}])
+def test_a_row_that_pools_others_counts_only_where_it_is_alone(small, rows):
+    cases = tuple(CaseLayout(name, {}, pooled=name == "both") for name in ("one", "two", "both"))
+    results = results_of(small({name: {"a": [1.0]} for name in rows}, cases=cases))
+    assert {case.name for case in results.judged("mse")} == (rows - {"both"} or rows)

@@ -1,0 +1,214 @@
+import dataclasses
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocapbench.metrics.base import Direction
+from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.verdicts import Verdict, allowance, comparisons, tally, verdict
+from mocapbench.reports.bundle.bundle import CaseLayout, MetricInfo
+from mocapbench.reports.paper.published import PublishedValue
+from mocapbench.reports.tables.verdicts import verdict_table
+
+LOWER = MetricInfo("m", "M", Direction.LOWER)
+HIGHER = MetricInfo("m", "M", Direction.HIGHER)
+sizes = st.floats(0.01, 1e3)
+spreads = st.none() | sizes
+
+
+def printed(value, two_sd=None):
+    return PublishedValue("table", "task", "case", "M", "model", value, two_sd)
+
+
+@given(sizes, spreads)
+def test_the_allowance_is_two_per_cent_or_the_printed_spread(value, two_sd):
+    assert allowance(printed(value, two_sd)) == max(0.02 * value, two_sd or 0.0)
+    assert allowance(printed(-value, two_sd)) == allowance(printed(value, two_sd))
+
+
+@given(sizes, st.floats(-0.99, 0.99), spreads, st.none() | st.floats(0.0, 0.99))
+def test_a_near_mean_that_is_sure_is_reproduced(value, share, two_sd, certainty):
+    published = printed(value, two_sd)
+    allowed = allowance(published)
+    half_width = None if certainty is None else certainty * allowed
+    assert verdict(value + share * allowed, published, LOWER, half_width) is Verdict.REPRODUCED
+
+
+@given(sizes, sizes, spreads, sizes, st.sampled_from([LOWER, HIGHER]))
+def test_noise_only_ever_leaves_a_verdict_undecided(ours, value, two_sd, half_width, info):
+    published = printed(value, two_sd)
+    bare = verdict(ours, published, info)
+    assert bare is not Verdict.UNDECIDED
+    assert verdict(ours, published, info, half_width) in {bare, Verdict.UNDECIDED}
+
+
+@given(sizes, sizes, spreads, sizes, st.floats(1.0, 100.0))
+def test_what_is_undecided_stays_so_under_more_noise(ours, value, two_sd, half_width, factor):
+    published = printed(value, two_sd)
+    if verdict(ours, published, LOWER, half_width) is Verdict.UNDECIDED:
+        assert verdict(ours, published, LOWER, factor * half_width) is Verdict.UNDECIDED
+
+
+@given(sizes, st.floats(1.01, 1e3))
+def test_a_mean_too_noisy_to_tell_is_undecided_however_well_it_agrees(value, factor):
+    published = printed(value)
+    assert verdict(value, published, LOWER, factor * allowance(published)) is Verdict.UNDECIDED
+
+
+@given(sizes, sizes, st.floats(0.0, 10.0))
+def test_the_direction_mirrors_the_verdict(ours, value, half_width):
+    mirror = {Verdict.BETTER: Verdict.WORSE, Verdict.WORSE: Verdict.BETTER}
+    lower, higher = (verdict(ours, printed(value), info, half_width) for info in (LOWER, HIGHER))
+    assert higher is mirror.get(lower, lower)
+
+
+@pytest.mark.parametrize(
+    ("ours", "half_width", "expected"),
+    [
+        (1.0, 0.85, Verdict.BETTER),  # 2.0 lies beyond 1.0 + 0.85 + 0.1
+        (1.0, 0.95, Verdict.UNDECIDED),
+        (3.0, 0.85, Verdict.WORSE),
+        (3.0, 0.95, Verdict.UNDECIDED),
+        (2.05, 0.05, Verdict.REPRODUCED),
+        (2.05, 0.15, Verdict.UNDECIDED),
+    ],
+)
+def test_verdicts_beside_two_plus_or_minus_a_tenth(ours, half_width, expected):
+    assert verdict(ours, printed(2.0, 0.1), LOWER, half_width) is expected
+
+
+def pairs_of(bundle, task, metric):
+    return comparisons(task_results(bundle, bundle.layouts[task]), metric)
+
+
+def test_every_value_with_a_counterpart_is_compared(bundle):
+    assert len(pairs_of(bundle, 0, "mse")) == 18
+    assert len(pairs_of(bundle, 1, "msll")) == 16
+    assert len(pairs_of(bundle, 2, "rms_per_frame")) == 24  # two of eight recordings are missing
+
+
+def test_a_reason_forbids_the_comparison(bundle):
+    pairs = [pair for pair in pairs_of(bundle, 2, "rms_per_frame") if pair.label == "knn"]
+    assert {pair.verdict for pair in pairs} == {Verdict.NOT_COMPARABLE}
+    assert {pair.reason for pair in pairs} == {"the paper does not print its KNN objective"}
+
+
+def spline_on_35_03(small, folds, *, synthetic=False, **fields):
+    """Return a bundle whose one published value is 62.98."""
+    return small(
+        {"row": {"cubic-spline": folds}},
+        metric="rms_per_frame",
+        task="missing-frames",
+        cases=(CaseLayout("row", {}, published="35-03", synthetic=synthetic),),
+        published_models={"cubic-spline": "cubic-spline"},
+        published_metrics={"rms_per_frame": "RMS per frame"},
+        **fields,
+    )
+
+
+def test_generated_motion_is_not_comparable(small):
+    (pair,) = pairs_of(spline_on_35_03(small, [62.98], synthetic=True), 0, "rms_per_frame")
+    assert (pair.verdict, pair.reason) == (Verdict.NOT_COMPARABLE, "generated motion")
+    assert tally([pair]).on_one_fold == 0
+
+
+WINDOWS = [62.99 + step for step in (-30.0, -20.0, -10.0, 10.0, 20.0, 30.0)]
+
+
+@pytest.mark.parametrize(
+    ("independent", "expected"), [(True, Verdict.UNDECIDED), (False, Verdict.REPRODUCED)]
+)
+def test_the_spread_of_windows_is_no_uncertainty(small, independent, expected):
+    bundle = spline_on_35_03(small, WINDOWS, independent_folds=independent)
+    (pair,) = pairs_of(bundle, 0, "rms_per_frame")
+    assert pair.verdict is expected
+    assert (pair.half_width is None) is not independent
+
+
+def test_noisy_folds_about_another_mean_are_not_reproduced(small):
+    (pair,) = pairs_of(spline_on_35_03(small, [40.0, 70.0, 100.0]), 0, "rms_per_frame")
+    assert abs(pair.ours.mean - 62.98) < pair.ours.two_sd
+    assert pair.verdict is Verdict.UNDECIDED
+
+
+def test_a_verdict_on_one_fold_says_so(small):
+    for folds, words in (([62.98], "one fold"), ([62.98, 62.98], "")):
+        bundle = spline_on_35_03(small, folds)
+        results = task_results(bundle, bundle.layouts[0])
+        (row,) = verdict_table(results, "rms_per_frame").rows
+        assert (row[-1].text, row[-1].note) == ("reproduced", words)
+        assert tally(comparisons(results, "rms_per_frame")).on_one_fold == (len(folds) == 1)
+
+
+@pytest.mark.parametrize(
+    ("independent", "words"), [(True, "95 % interval"), (False, "overlapping windows")]
+)
+def test_the_rule_stands_under_the_table(small, independent, words):
+    bundle = spline_on_35_03(small, WINDOWS, independent_folds=independent)
+    notes = " ".join(verdict_table(task_results(bundle, bundle.layouts[0]), "rms_per_frame").notes)
+    assert words in notes
+    assert "2 % of the published value" in notes
+
+
+def test_the_tally_counts_every_pair(bundle):
+    pairs = pairs_of(bundle, 0, "mse")
+    counts = tally(pairs).counts
+    assert list(counts) == ["reproduced", "better", "worse", "undecided", "not comparable"]
+    assert sum(counts.values()) == len(pairs)
+
+
+def test_the_table_holds_ours_theirs_and_the_difference(bundle):
+    table = verdict_table(task_results(bundle, bundle.layouts[0]), "mse")
+    data = table.data
+    assert (data["difference"] == data["mean"] - data["published"]).all()
+    undecided = data[data["verdict"] == "undecided"]
+    reproduced = data[data["verdict"] == "reproduced"]
+    assert (undecided["half_width"] + undecided["allowance"] >= undecided["difference"].abs()).all()
+    assert (reproduced["half_width"] <= reproduced["allowance"]).all()
+    first = data.iloc[0]
+    assert (first["case"], first["published"], first["source"]) == (
+        "test 1",
+        0.097,
+        "thesis-table-01",
+    )
+
+
+def test_no_table_where_the_paper_has_nothing(small):
+    bundle = small({"row": {"a": [1.0]}})
+    assert verdict_table(task_results(bundle, bundle.layouts[0]), "mse") is None
+
+
+def test_an_erratum_stands_on_the_number_and_under_the_table(bundle):
+    table = verdict_table(task_results(bundle, bundle.layouts[0]), "mse")
+    marked = [(row[0].text, row[2].text) for row in table.rows if row[5].mark]
+    assert marked == [("test 4", "MOHGP"), ("test 7", "MOHGP")]
+    assert table.notes[0].startswith("a: The thesis prints identical")
+    assert (table.data["erratum"] != "").sum() == 2
+
+
+def test_a_row_may_have_a_reason_of_its_own(small):
+    bundle = spline_on_35_03(small, [62.98])
+    (case,) = bundle.layouts[0].cases
+    reasoned = dataclasses.replace(case, not_comparable={"cubic-spline": "another training set"})
+    layout = dataclasses.replace(bundle.layouts[0], cases=(reasoned,))
+    (pair,) = comparisons(
+        task_results(dataclasses.replace(bundle, layouts=(layout,)), layout), "rms_per_frame"
+    )
+    assert (pair.verdict, pair.reason) == (Verdict.NOT_COMPARABLE, "another training set")
+
+
+def test_what_the_papers_number_lacks_is_a_reason(small):
+    bundle = small(
+        {"row": {"replay": [1.0]}},
+        task="control-similarity",
+        cases=(CaseLayout("row", {}, "12(1) vs 16(15)"),),
+        published_metrics={"mse": "MCC"},
+        published_models={"replay": "real"},
+    )
+    results = task_results(bundle, bundle.layouts[0])
+    (pair,) = comparisons(results, "mse")
+    assert pair.verdict is Verdict.NOT_COMPARABLE
+    assert "approached" in pair.reason
+    (difference,) = verdict_table(results, "mse").data["relative_difference"]
+    assert difference == pytest.approx((1.0 - 20.551) / 20.551)

@@ -1,0 +1,180 @@
+import numpy as np
+import pytest
+
+from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.bundle.bundle import CaseLayout
+from mocapbench.reports.page.headlines import (
+    lead_findings,
+    printed_findings,
+    win_findings,
+    wins,
+)
+
+PUBLISHED = {"mohgp-1": "MOHGP", "mohgp-3": "MOHGP"}
+VALUES = {
+    "observed 40": {"mohgp-1": [0.2], "mohgp-3": [0.1], "gp-independent": [0.15]},
+    "observed 20": {"mohgp-1": [0.4], "mohgp-3": [0.3], "gp-independent": [0.2]},
+}
+
+
+def results_of(bundle):
+    return task_results(bundle, bundle.layouts[0])
+
+
+def test_the_best_entrant_of_each_case_is_named(small):
+    found = lead_findings(results_of(small(VALUES, published_models=PUBLISHED)), "mse")
+    assert {finding.subject for finding in found} == {"mohgp-3", "gp-independent"}
+    texts = {finding.subject: finding.text for finding in found}
+    assert texts["mohgp-3"] == (
+        "has the best mean MSE in 1 of 2 cases (observed 40): "
+        "on average 0.10 there, next best 0.15. Not tested: one fold."
+    )
+
+
+def test_a_model_that_the_paper_lacks_is_seen_to_win(small):
+    found = wins(results_of(small(VALUES, published_models=PUBLISHED)), "mse")
+    assert [(w.winner, w.loser, len(w.cases), w.shared) for w in found] == [
+        ("gp-independent", "mohgp-1", 2, 2),
+        ("gp-independent", "mohgp-3", 1, 2),
+    ]
+
+
+def test_the_sentence_says_so_plainly(small):
+    found = win_findings(results_of(small(VALUES, published_models=PUBLISHED)), "mse")
+    assert found[0].subject == "gp-independent has a better mean than mohgp-1"
+    assert found[0].text.startswith("in both cases: on average ")
+    assert found[1].text == (
+        "in 1 of 2 cases (observed 20): on average 0.20 there against 0.30. "
+        "Over both cases, 95 % interval of the lead −0.93 to 0.98: may be chance."
+    )
+
+
+def test_other_winners_follow_in_the_same_sentence(small):
+    values = {"row": {"mohgp-1": [0.4], "spline": [0.3], "gp-independent": [0.2]}}
+    (found,) = win_findings(results_of(small(values, published_models=PUBLISHED)), "mse")
+    assert found.subject == "spline has a better mean than mohgp-1"
+    assert found.text.endswith("Not tested: one fold. Also, not tested: gp-independent.")
+
+
+def rows(*pairs):
+    """Return two cases of five folds with these leads of a over b."""
+    noise = np.array([0.01, -0.02, 0.0, 0.02, -0.01])
+    return {
+        f"row {number}": {"a": list(1.0 + noise), "b": list(1.0 + lead + 2.0 * noise)}
+        for number, lead in enumerate(pairs, 1)
+    }
+
+
+@pytest.mark.parametrize(
+    ("leads", "words"),
+    [
+        ((0.5, 0.5), "The lead is more than chance."),
+        ((0.005, 0.005), "Case by case the lead may be chance: b cannot be told from it."),
+        ((0.5, 0.005), "More than chance in 1 case; elsewhere b cannot be told from it."),
+    ],
+)
+def test_a_lead_is_told_with_the_test_of_it(small, leads, words):
+    (found,) = lead_findings(results_of(small(rows(*leads))), "mse")
+    assert found.text.endswith(words)
+
+
+def test_windows_of_one_recording_test_no_lead(small):
+    (found,) = lead_findings(results_of(small(rows(0.5, 0.5), independent_folds=False)), "mse")
+    assert found.text.endswith(
+        "Not tested: overlapping windows of one recording count as one unit."
+    )
+
+
+def test_a_win_is_tested_over_all_shared_cases(small):
+    values = rows(0.5, 0.5, 0.49, 0.51)
+    results = results_of(small(values, published_models={"b": "MOHGP"}))
+    (win,) = wins(results, "mse")
+    assert (win.overall.contrast.n, win.overall.separable) == (4, True)
+    (found,) = win_findings(results, "mse")
+    assert found.text.endswith("95 % interval of the lead 0.49 to 0.51: more than chance.")
+
+
+def test_the_papers_models_do_not_beat_each_other(small):
+    values = {"row": {"mohgp-1": [0.4], "mohgp-3": [0.2], "gp-independent": [0.9]}}
+    assert wins(results_of(small(values, published_models=PUBLISHED)), "mse") == []
+
+
+def test_the_oracle_neither_leads_nor_beats(small):
+    values = {"row": {"mohgp-1": [0.4], "oracle": [0.1], "gp-independent": [0.9]}}
+    results = results_of(small(values, published_models=PUBLISHED))
+    assert [finding.subject for finding in lead_findings(results, "mse")] == ["mohgp-1"]
+    assert wins(results, "mse") == []
+
+
+def test_a_lone_entrant_is_called_so(small):
+    (found,) = lead_findings(results_of(small({"row": {"a": [1.0]}})), "mse")
+    assert found.text == "is the only entrant with a score in the only case (MSE)."
+
+
+@pytest.mark.parametrize("real", [True, False])
+def test_generated_motion_counts_only_where_there_is_no_other(small, real):
+    cases = (
+        CaseLayout("observed 40", {}, synthetic=not real),
+        CaseLayout("observed 20", {}, synthetic=True),
+    )
+    results = results_of(small(VALUES, published_models=PUBLISHED, cases=cases))
+    texts = " ".join(
+        f.text for f in (*lead_findings(results, "mse"), *win_findings(results, "mse"))
+    )
+    assert ("observed 20" in texts) is not real
+    assert ("synthetic" in texts) is not real
+
+
+def test_without_scores_there_is_nothing_to_say(small):
+    results = results_of(small({"row": {"a": [float("nan")]}}))
+    assert lead_findings(results, "mse") == []
+    assert win_findings(results, "mse") == []
+
+
+def spline_on_35_03(small, value, **case):
+    return small(
+        {"row": {"cubic-spline": [value]}},
+        metric="rms_per_frame",
+        task="missing-frames",
+        cases=(CaseLayout("row", {}, published="35-03", **case),),
+        published_metrics={"rms_per_frame": "RMS per frame"},
+    )
+
+
+def test_a_printed_value_that_nobody_reaches_is_told(small):
+    (found,) = printed_findings(results_of(spline_on_35_03(small, 62.98)), "rms_per_frame")
+    assert found.text == "in 1 of 1 case (row: B-GPDM 12.15)."
+
+
+def test_nothing_is_told_where_an_entrant_is_better_or_the_motion_generated(small):
+    better = spline_on_35_03(small, 12.0)
+    generated = spline_on_35_03(small, 62.98, synthetic=True)
+    for bundle in (better, generated):
+        assert printed_findings(results_of(bundle), "rms_per_frame") == []
+
+
+def test_a_win_follows_the_metrics_direction(small):
+    values = {"row": {"mohgp-1": [0.2], "gp-independent": [0.45]}}
+    bundle = small(values, metric="coverage_50", published_models=PUBLISHED)
+    assert [w.winner for w in wins(results_of(bundle), "coverage_50")] == ["gp-independent"]
+    near = {"row": {"mohgp-1": [0.5], "gp-independent": [0.2]}}
+    bundle = small(near, metric="coverage_50", published_models=PUBLISHED)
+    assert wins(results_of(bundle), "coverage_50") == []
+
+
+@pytest.mark.parametrize(
+    ("not_comparable", "found"), [({}, 1), ({"mohgp-1": "trained on other walks"}, 0)]
+)
+def test_what_cannot_be_compared_is_no_better_value(small, not_comparable, found):
+    """The paper prints 22.546 for its ICM, and otherwise 23.082 or more (less is taken as better).
+
+    MOHGP-LMC, 25.248, is printed twice and counts once.
+    """
+    bundle = small(
+        {"row": {"mohgp-1": [23.0], "mohgp-3": [24.0]}},
+        task="walking-synthesis",
+        cases=(CaseLayout("row", {}, published="35(1)", not_comparable=not_comparable),),
+        published_models={"mohgp-1": "MOHGP-ICM", "mohgp-3": "MOHGP"},
+        published_metrics={"mse": "MCC"},
+    )
+    assert len(printed_findings(results_of(bundle), "mse")) == found

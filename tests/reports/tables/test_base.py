@@ -1,0 +1,41 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocapbench.reports.tables.base import counted, decimals, number, slug
+
+
+@pytest.mark.parametrize(
+    ("values", "places"),
+    [([], 2), ([0.0], 2), ([62.98, 139.75], 2), ([0.5, 0.12], 2), ([0.021], 3), ([1e-9], 4)],
+)
+def test_places_show_two_digits_of_small_values(values, places):
+    assert decimals(values) == places
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False)))
+def test_places_are_two_to_four_whatever_the_sign(values):
+    assert 2 <= decimals(values) == decimals([-value for value in values]) <= 4
+
+
+@given(st.floats(-1e9, 1e9), st.integers(2, 4))
+def test_a_number_reads_back_to_its_places(value, places):
+    text = number(value, places)
+    assert "-" not in text
+    assert float(text.replace("−", "-")) == pytest.approx(value, abs=0.51 * 10.0**-places)
+
+
+@pytest.mark.parametrize(
+    ("count", "text"), [(0, "0 cases"), (1, "1 case"), (2, "2 cases"), (21, "21 cases")]
+)
+def test_the_noun_follows_its_count(count, text):
+    assert counted(count, "case") == text
+
+
+def test_there_is_no_negative_zero():
+    assert number(-1e-9, 3) == "0.000"
+
+
+@given(st.text(), st.text())
+def test_a_slug_needs_no_escaping(one, other):
+    assert set(slug(one, other)) <= set("abcdefghijklmnopqrstuvwxyz0123456789-")

@@ -1,0 +1,185 @@
+import pandas as pd
+import pytest
+
+from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.bundle.bundle import CaseLayout
+from mocapbench.reports.page.sections import task_view
+from mocapbench.reports.paper.published import published_values
+from mocapbench.reports.tables.scores import score_table
+
+NAN = float("nan")
+
+
+def table_of(bundle, metric, task=0):
+    return score_table(task_results(bundle, bundle.layouts[task]), metric)
+
+
+def cell(table, case, column):
+    row = next(row for row in table.rows if row[0].text == case)
+    return row[[heading.text for heading in table.columns].index(column)]
+
+
+def test_every_row_is_as_wide_as_the_heading(bundle):
+    for layout in bundle.layouts:
+        for table in task_view(task_results(bundle, layout)).tables:
+            assert {sum(cell.span for cell in row) for row in table.rows} == {len(table.columns)}
+
+
+def test_a_cell_is_the_mean_and_two_standard_deviations(small):
+    found = cell(table_of(small({"row": {"a": [1.0, 3.0], "b": [9.0, 9.0]}}), "mse"), "row", "a")
+    assert (found.text, found.spread, found.kind) == ("2.00", "2.83", "best")
+
+
+def test_one_fold_shows_no_spread_and_says_so(small):
+    table = table_of(small({"row": {"a": [1.0]}}), "mse")
+    assert cell(table, "row", "a").spread == ""
+    assert cell(table, "row", "folds").text == "n=1"
+
+
+def test_best_cells_are_the_least_mean_and_what_no_test_tells_from_it(bundle):
+    results = task_results(bundle, bundle.layouts[0])
+    table = score_table(results, "mse")
+    for case, rows in table.data[table.data["label"] != "oracle"].groupby("case"):
+        best = {label for label in rows["label"] if cell(table, case, label).kind == "best"}
+        assert rows.loc[rows["mean"].idxmin(), "label"] in best
+        assert best == set(results.first_rank(case, "mse").labels)
+        assert best == set(rows.loc[rows["first_rank"], "label"])
+
+
+CLOSE = {"a": [1.0, 1.2, 0.9], "b": [1.1, 1.1, 1.0], "c": [5.0, 5.1, 4.8]}
+
+
+def bold(table):
+    return {c.text for c, v in zip(table.columns, table.rows[0], strict=True) if v.kind == "best"}
+
+
+def test_what_is_not_separable_shares_the_rank_and_a_note_says_by_what_test(small):
+    table = table_of(small({"row": CLOSE}), "mse")
+    assert bold(table) == {"a", "b"}
+    assert table.notes == (
+        "Bold: the best mean of a row, and every mean that the paired t-test with Holm’s "
+        "correction cannot tell from it (5 %, n = 3 folds).",
+    )
+
+
+@pytest.mark.parametrize(
+    ("values", "independent", "reason"),
+    [
+        (CLOSE, False, "overlapping windows of one recording count as one unit"),
+        ({label: folds[:1] for label, folds in CLOSE.items()}, True, "one fold"),
+    ],
+)
+def test_a_row_of_one_unit_is_not_tested_and_says_so(small, values, independent, reason):
+    table = table_of(small({"row": values}, independent_folds=independent), "mse")
+    assert bold(table) == {"a"}
+    assert cell(table, "row", "folds").note == "no test"
+    assert table.notes == (f"No test: {reason}; there the best mean alone is in bold.",)
+
+
+def test_a_failed_cell_leads_to_its_failure(bundle):
+    found = cell(table_of(bundle, "mse"), "test 8", "nn")
+    assert (found.text, found.kind) == ("failed", "trouble")
+    assert found.link.startswith("job-")
+
+
+def test_a_partly_failed_cell_says_how_many_folds_are_left(small):
+    found = cell(
+        table_of(small({"row": {"a": [1.0, NAN, 2.0], "b": [5.0] * 3}}), "mse"), "row", "a"
+    )
+    assert (found.text, found.note, found.link) == ("1.50", "n=2, 1 failed", "job-1")
+
+
+def test_every_way_of_failing_is_counted(small):
+    bundle = small({"row": {"a": [1.0, NAN, NAN, NAN]}})
+    bundle.records["status"] = ["ok", "failed", "timeout", "timeout"]
+    found = cell(table_of(bundle, "mse"), "row", "a")
+    assert found.note == "1 failed, 2 timeout"
+
+
+def test_what_does_not_apply_is_a_dash(bundle):
+    assert cell(table_of(bundle, "msll"), "test 1", "cubic-spline").text == "–"
+
+
+def test_missing_data_takes_the_row(bundle):
+    table = table_of(bundle, "rms_per_frame", task=2)
+    found = cell(table, "12-02 four-walkers", "cubic-spline")
+    assert (found.text, found.span) == ("data missing", len(bundle.layouts[2].labels))
+
+
+def test_generated_motion_is_labelled(bundle):
+    assert "synthetic" in cell(table_of(bundle, "msll", task=1), "generated 20", "case").note
+
+
+def test_the_papers_other_columns_come_last(bundle):
+    table = table_of(bundle, "rms_per_frame", task=2)
+    models = ("GPDM-MAP", "B-GPDM", "GPDM-fixed-alpha", "GPDM-two-stage-MAP")
+    assert [c.text for c in table.columns[-4:]] == [f"{model} (published)" for model in models]
+    printed = published_values("missing-frames")
+    for case in bundle.layouts[2].cases[:2]:
+        row = next(row for row in table.rows if row[0].text == case.name)
+        values = [printed[case.published, "RMS per frame", model].value for model in models]
+        assert [float(each.text) for each in row[-4:]] == values
+
+
+def test_remarks_and_degenerate_outputs_are_footnotes(small):
+    bundle = small({"row": {"a": [1.0, 2.0]}}, remarks=("an erratum",))
+    bundle.scores["left_out"] = [0, 3]
+    notes = table_of(bundle, "mse").notes
+    assert notes[0] == "an erratum"
+    assert notes[1] == "Left out as degenerate: up to 3 outputs a fold."
+
+
+def test_settings_are_columns(small):
+    cases = (CaseLayout("row", {"noise": 0.1}), CaseLayout("other", {"outputs": 3}))
+    values = {"row": {"a": [1.0]}, "other": {"a": [2.0]}}
+    table = table_of(small(values, cases=cases), "mse")
+    assert [c.text for c in table.columns] == ["case", "noise", "outputs", "folds", "a"]
+    assert cell(table, "other", "noise").text == ""
+
+
+def test_the_tidy_data_hold_full_precision(bundle):
+    data, scores = table_of(bundle, "mse").data, bundle.scores
+    expected = (
+        scores[(scores["task"] == "toy-interpolation-1") & (scores["metric"] == "mse")]
+        .groupby(["case", "label"])["value"]
+        .mean()
+    )
+    found = data[data["n"] > 0].set_index(["case", "label"])["mean"].sort_index()
+    pd.testing.assert_series_equal(found, expected, check_names=False, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("independent", "words"),
+    [(True, "mean ± 2 sd over folds"), (False, "mean ± spread over overlapping windows (2 sd)")],
+)
+def test_the_caption_says_what_the_spread_is(small, independent, words):
+    bundle = small({"row": {"a": [1.0, 2.0]}}, independent_folds=independent)
+    assert words in table_of(bundle, "mse").caption
+
+
+@pytest.mark.parametrize("metric", ["mse", "coverage_50"])
+def test_the_caption_says_which_way_is_better(small, metric):
+    words = {"mse": "lower is better", "coverage_50": "closest to 0.5 is better"}
+    assert words[metric] in table_of(small({"row": {"a": [1.0]}}, metric=metric), metric).caption
+
+
+def test_scores_of_samples_spread_over_samples(small):
+    bundle = small({"row": {"a": [1.0, 3.0]}})
+    bundle.scores["sample_two_sd"] = [0.4, 0.6]
+    table = table_of(bundle, "mse")
+    assert cell(table, "row", "a").spread == "0.50"
+    assert "2 sd over the samples of a fold, averaged over folds" in table.caption
+
+
+def test_errata_of_columns_that_only_the_paper_has_are_footnotes(small):
+    bundle = small(
+        {"row": {"a": [8.0]}, "other": {"a": [9.0]}},
+        task="toy-synthesis",
+        cases=(CaseLayout("row", {}, "test 1"), CaseLayout("other", {}, "test 2")),
+        published_metrics={"mse": "MCC"},
+        published_models={"a": "MOHGP"},
+    )
+    table = table_of(bundle, "mse")
+    assert cell(table, "row", "Control (published)").mark == "a"
+    assert cell(table, "other", "Control (published)").mark == ""
+    assert table.notes[-1].startswith("a: ")

@@ -1,0 +1,100 @@
+import pytest
+
+from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.tables.summaries import calibration_table, cost_table, oracle_table
+
+
+def results_of(bundle, task=0):
+    return task_results(bundle, bundle.layouts[task])
+
+
+def test_the_ratio_is_the_mean_over_cases_of_ratios_of_fold_means(small):
+    values = {
+        "one": {"a": [2.0, 4.0], "oracle": [1.0, 1.0]},
+        "two": {"a": [1.0, 1.0], "oracle": [2.0, 2.0]},
+    }
+    data = oracle_table(results_of(small(values, metric="smse_pooled"))).data
+    assert data.to_dict("records") == [{"label": "a", "ratio": pytest.approx(1.75), "cases": 2}]
+
+
+def test_a_case_that_only_one_has_does_not_count(small):
+    values = {
+        "one": {"a": [3.0], "oracle": [1.0]},
+        "two": {"a": [float("nan")], "oracle": [2.0]},
+    }
+    data = oracle_table(results_of(small(values, metric="smse_pooled"))).data
+    assert list(data["cases"]) == [1]
+
+
+def test_the_least_ratio_comes_first(bundle):
+    ratios = oracle_table(results_of(bundle)).data["ratio"]
+    assert ratios.is_monotonic_increasing
+
+
+def test_no_oracle_no_ratio(bundle):
+    assert oracle_table(results_of(bundle, task=1)) is None
+
+
+def test_coverage_stands_beside_its_nominal_value(bundle):
+    table = calibration_table(results_of(bundle))
+    assert [cell.text for cell in table.rows[0]] == ["nominal", "0.50", "0.80", "0.90", "0.95"]
+    assert set(table.data["label"]) == {
+        *("mohgp-3", "moa-3", "lmc-independent", "gp-independent", "trivial", "oracle")
+    }
+
+
+def test_a_target_metric_with_its_own_table_is_not_repeated(small):
+    bundle = small({"row": {"a": [0.5]}}, metric="coverage_50")
+    assert calibration_table(results_of(bundle)) is None
+
+
+def test_cost_is_the_median_of_seconds_and_the_peak_of_memory(small):
+    bundle = small({"row": {"a": [1.0, 1.0, 1.0, float("nan")]}})
+    bundle.records["fit_seconds"] = [1.0, 2.0, 9.0, 99.0]
+    bundle.records["peak_memory_mb"] = [10.0, 30.0, 20.0, 99.0]
+    (cost,) = cost_table(results_of(bundle)).data.to_dict("records")
+    assert (cost["jobs"], cost["fit_seconds"], cost["peak_memory_mb"]) == (3, 2.0, 30.0)
+
+
+def test_what_no_label_has_gets_no_column(small):
+    bundle = small({"row": {"a": [1.0], "b": [1.0]}})
+    bundle.records[["iterations", "converged", "engine"]] = [[3.0, None, ""], [None, None, ""]]
+    table = cost_table(results_of(bundle))
+    titles = [column.text for column in table.columns]
+    assert titles[-1] == "iterations, median"
+    assert [row[-1].text for row in table.rows] == ["3", "–"]
+
+
+def test_convergence_is_a_share_and_absent_where_it_means_nothing(bundle):
+    table = cost_table(results_of(bundle))
+    shares = table.data.set_index("label")["converged"]
+    assert 0.5 < shares["mohgp-3"] <= 1.0
+    spline = next(row for row in table.rows if row[0].text == "cubic-spline")
+    assert spline[-2].text == "–"
+
+
+def test_the_engine_stands_with_its_reason_and_others_are_counted(small):
+    bundle = small({"row": {"a": [1.0, 1.0, 1.0], "b": [1.0, 1.0, 1.0]}})
+    bundle.records["engine"] = ["dense: least work", "split: also", "dense: least work", "", "", ""]
+    table = cost_table(results_of(bundle))
+    (_, *_, first), (_, *_, second) = table.rows
+    assert (first.text, first.note) == ("dense and 1 other by case", "least work")
+    assert second.text == "–"
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [
+        *((0.0, "< 0.001"), (2.25e-05, "< 0.001"), (0.00123, "0.00123"), (0.5, "0.5")),
+        *((12.345, "12.3"), (1234.5, "1230"), (float("nan"), "–")),
+    ],
+)
+def test_seconds_are_never_a_power_of_ten(small, seconds, text):
+    bundle = small({"row": {"a": [1.0]}})
+    bundle.records["fit_seconds"] = [seconds]
+    ((_, _, fit, *_),) = cost_table(results_of(bundle)).rows
+    assert fit.text == text
+
+
+def test_nothing_finished_nothing_costs(small):
+    assert cost_table(results_of(small({"row": {"a": [float("nan")]}}))) is None
