@@ -11,6 +11,7 @@ from .bundle.pictures import (
     Space,
 )
 from .bundle.regression_check import RegressionCheck
+from .bundle.task_page import Figure, RowNotes, TaskPage
 from .page.page import render
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "Bundle",
     "CaseLayout",
     "Curve",
+    "Figure",
     "HeatMap",
     "HeatMaps",
     "Illustration",
@@ -26,7 +28,9 @@ __all__ = [
     "Path3D",
     "Picture",
     "RegressionCheck",
+    "RowNotes",
     "Space",
     "TaskLayout",
+    "TaskPage",
     "render",
 ]

@@ -4,25 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 
-from mocapbench.benchmark.cli.options import Names, split
-from mocapbench.benchmark.comparison.compare import Side, between_models, between_runs, tidy
-from mocapbench.benchmark.comparison.compare import compare as compare_sides
-from mocapbench.benchmark.comparison.output import markdown as to_markdown
-from mocapbench.benchmark.comparison.output import notes, terminal
+from mocapbench import benchmark as bench
+from mocapbench.benchmark import comparison
+from mocapbench.benchmark.cli.options import Names, show_left_out, split
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
-from mocapbench.benchmark.registry import METRICS, TASKS
-from mocapbench.benchmark.runs.store import Store
-from mocapbench.metrics.statistics import ROPE
 
-__all__ = ["compare"]
+if TYPE_CHECKING:
+    from mocapbench.benchmark.comparison.contrasts import Side
+
+__all__ = ["app"]
+
+app = typer.Typer()
 
 
+@app.command()
 def compare(
     runs: Annotated[list[Path], typer.Argument(help="Two run directories, or one with --models.")],
     models: Names = None,
@@ -30,7 +31,7 @@ def compare(
     metrics: Names = None,
     rope: Annotated[
         float, typer.Option(min=0.0, help="Equivalent in practice: this share of the mean value.")
-    ] = ROPE,
+    ] = 0.02,
     markdown: Annotated[Path | None, typer.Option(help="A Markdown file to write.")] = None,
     csv: Annotated[Path | None, typer.Option(help="A CSV file to write, unrounded.")] = None,
 ) -> None:
@@ -40,17 +41,17 @@ def compare(
         if path is not None and not path.parent.is_dir():
             raise UsageError(f"{path}: expected a file in a folder that exists")
     for name in split(tasks):
-        TASKS.get(name)
+        bench.TASKS.get(name)
     for name in split(metrics):
-        METRICS.get(name)
+        bench.METRICS.current_name(name)
     first, second, sides = _sides(runs, split(models), console)
-    rows = compare_sides(first, second, tasks=split(tasks), metrics=split(metrics), rope=rope)
-    for table in terminal(rows, sides):
+    rows = comparison.compare(first, second, tasks=split(tasks), metrics=split(metrics), rope=rope)
+    for table in comparison.terminal(rows, sides):
         console.print(table)
-    for note in notes(rows, sides):
+    for note in comparison.notes(rows, sides):
         console.print(note, markup=False, highlight=False)
-    _write(markdown, to_markdown(rows, sides))
-    _write(csv, tidy(rows).to_csv(index=False, lineterminator="\n"))
+    _write(markdown, comparison.markdown(rows, sides))
+    _write(csv, comparison.tidy(rows).to_csv(index=False, lineterminator="\n"))
 
 
 def _sides(
@@ -59,10 +60,12 @@ def _sides(
     """Return the two sides, and what to call them."""
     match runs:
         case [run]:
-            first, second = between_models(_records(run, console), models)
+            first, second = comparison.between_models(_records(run, console), models)
             return first, second, (models[0], models[1])
         case [one, other]:
-            first, second = between_runs(_records(one, console), _records(other, console), models)
+            first, second = comparison.between_runs(
+                _records(one, console), _records(other, console), models
+            )
             return first, second, _names(one, other)
         case _:
             raise UsageError(f"compare: expected one or two run directories, got {len(runs)}")
@@ -75,10 +78,9 @@ def _names(one: Path, other: Path) -> tuple[str, str]:
 
 
 def _records(run: Path, console: Console) -> Side:
-    store = Store.open(run)
+    store = bench.Store.open(run)
     records = store.planned()
-    for message in store.damaged:
-        console.print(f"damaged, so left out: {message}", markup=False)
+    show_left_out(store.damaged, console)
     return records
 
 

@@ -2,58 +2,29 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Iterable, Sequence
-from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
-import pooch
 import typer
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
+from mocapbench import benchmark as bench
+from mocapbench import datasets
+from mocapbench.benchmark.cli.options import DataDir, Plugins, load_plugins
 from mocapbench.benchmark.errors import ExitCode, UsageError
-from mocapbench.benchmark.registry import TASKS
-from mocapbench.datasets import (
-    Archive,
-    DigestMismatch,
-    FetchError,
-    RecordingStatus,
-    ServerUnreachable,
-    open_archive,
-)
 
-__all__ = ["DataDir", "app", "archive_at", "fetch_missing"]
+if TYPE_CHECKING:
+    from mocapbench.datasets import Archive, RecordingStatus
 
-# The progress bar says what pooch would say in a line per file.
-pooch.get_logger().setLevel(logging.WARNING)
+__all__ = ["app", "fetch_missing"]
 
 app = typer.Typer(help="Look for, fetch and verify recordings.", no_args_is_help=True)
 
-DataDir = Annotated[
-    Path | None,
-    typer.Option(envvar="MOCAPBENCH_DATA", help="A folder of recordings (subjects/NN/…)."),
-]
 Trials = Annotated[
     list[str] | None, typer.Argument(help="Such as 35_02; all that the tasks use if none.")
 ]
-
-
-def archive_at(data_dir: Path | None) -> Archive:
-    """Return the archive over ``data_dir``, the cache and the synthetic gait.
-
-    Raises
-    ------
-    UsageError
-        If ``data_dir`` is not a folder.
-    """
-    if data_dir is not None and not data_dir.is_dir():
-        raise UsageError(
-            f"--data-dir: expected a folder that holds subjects/NN/NN.asf, got {str(data_dir)!r}; "
-            "name one, or leave the option out to download"
-        )
-    return open_archive(data_dir)
 
 
 def fetch_missing(archive: Archive, uris: Sequence[str], console: Console) -> None:
@@ -66,10 +37,10 @@ def fetch_missing(archive: Archive, uris: Sequence[str], console: Console) -> No
     for uri in _tracked(missing, console):
         try:
             archive.fetch([uri])
-        except (ServerUnreachable, OSError) as error:
+        except (datasets.ServerUnreachable, OSError) as error:
             console.print(f"working without {len(missing)} recordings: {error}", markup=False)
             return
-        except FetchError as error:
+        except datasets.FetchError as error:
             console.print(f"working without {uri}: {error}", markup=False)
 
 
@@ -78,23 +49,26 @@ def _tracked(uris: Sequence[str], console: Console) -> Iterable[str]:
 
 
 @app.command()
-def status(trials: Trials = None, data_dir: DataDir = None) -> None:
+def status(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = None) -> None:
     """Show which recordings are on this machine, without reading them."""
-    archive = archive_at(data_dir)
-    _show(archive.status(_addresses(trials)))
+    load_plugins(plugin)
+    archive = bench.archive_at(data_dir)
+    _show(archive.status(_addresses(trials, archive)))
 
 
 @app.command()
-def fetch(trials: Trials = None, data_dir: DataDir = None) -> None:
+def fetch(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = None) -> None:
     """Download recordings; those that are here and right are left alone."""
-    archive, console, addresses = archive_at(data_dir), Console(), _addresses(trials)
+    load_plugins(plugin)
+    archive, console = bench.archive_at(data_dir), Console()
+    addresses = _addresses(trials, archive)
     failures = []
     for uri in _tracked(addresses, console):
         try:
             archive.fetch([uri])
-        except ServerUnreachable as error:
+        except datasets.ServerUnreachable as error:
             raise UsageError(str(error)) from error
-        except (FetchError, DigestMismatch) as error:
+        except (datasets.FetchError, datasets.DigestMismatch) as error:
             failures.append(str(error))
     _show(archive.status(addresses))
     if failures:
@@ -102,27 +76,29 @@ def fetch(trials: Trials = None, data_dir: DataDir = None) -> None:
 
 
 @app.command()
-def verify(trials: Trials = None, data_dir: DataDir = None) -> None:
+def verify(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = None) -> None:
     """Read the recordings that are here and check their digests."""
-    archive = archive_at(data_dir)
-    rows = [row for uri in track(_addresses(trials), "verifying") for row in archive.verify([uri])]
+    load_plugins(plugin)
+    archive = bench.archive_at(data_dir)
+    addresses = _addresses(trials, archive)
+    rows = [row for uri in track(addresses, "verifying") for row in archive.verify([uri])]
     _show(rows)
     if any(row.state == "wrong" for row in rows):
         raise typer.Exit(ExitCode.USAGE)
 
 
-def _addresses(trials: Iterable[str] | None) -> list[str]:
+def _addresses(trials: Iterable[str] | None, archive: Archive) -> list[str]:
     """Return the addresses of ``trials``, or of every recording that a task uses."""
     if trials:
         addresses = [trial if ":" in trial else f"cmu:{trial}" for trial in trials]
         try:
-            open_archive().status(addresses)
+            archive.status(addresses)
         except ValueError as error:
             raise UsageError(str(error)) from error
         return addresses
-    cases = (case for name in TASKS.names() for case in TASKS.get(name).cases)
-    sources = {uri for case in cases for uri in case.needs if uri.startswith("cmu:")}
-    return sorted(sources)
+    cases = (case for name in bench.TASKS.names() for case in bench.TASKS.get(name).cases)
+    recordings = {uri for case in cases for uri in case.recordings}
+    return sorted(uri for uri in recordings if not uri.startswith("gait:"))
 
 
 def _show(rows: Sequence[RecordingStatus]) -> None:

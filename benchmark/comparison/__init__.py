@@ -1,1 +1,5 @@
 """Comparisons of two runs, or of two models of one run, with their statistics."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -10,7 +10,7 @@ from rich.box import SIMPLE
 from rich.markup import escape
 from rich.table import Table
 
-from mocapbench.benchmark.comparison.compare import Row
+from mocapbench.benchmark.comparison.contrasts import Row
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.metrics.statistics import ALPHA, Contrast, least_signed_rank_p
 
@@ -19,14 +19,14 @@ __all__ = ["markdown", "notes", "outcome", "terminal"]
 
 def outcome(row: Row, sides: tuple[str, str]) -> str:
     """Return who is better by the corrected t-test, or why that cannot be said."""
-    found = row.contrast
-    if found.first == found.second and found.low == found.high:
+    contrast = row.contrast
+    if contrast.first == contrast.second and contrast.low == contrast.high:
         return "identical"
     if math.isnan(row.t_p_holm):
         return "one unit: no test"
     if row.t_p_holm > ALPHA:
         return "not separable"
-    return f"{sides[found.advantage < 0.0]} better"
+    return f"{sides[contrast.advantage < 0.0]} better"
 
 
 def terminal(rows: Sequence[Row], sides: tuple[str, str]) -> Iterator[Table]:

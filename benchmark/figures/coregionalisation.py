@@ -1,53 +1,64 @@
-"""Estimated coregionalisation matrices, layer by layer and component: thesis Figures 14–16."""
+"""Estimated coregionalisation matrices, by layer and component.
+
+After J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+thesis, Universidad Tecnológica de Pereira, 2017, Figures 14–16.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.benchmark.problems.base import Problem, Solution
-from mocapbench.benchmark.tasks.base import Task
+from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.reports import HeatMap, HeatMaps
 
-__all__ = ["coregionalisation_sketch"]
+__all__ = ["Coregionalisation"]
 
 
-def coregionalisation_sketch(
-    problem: Problem, task: Task, solutions: Mapping[str, Solution]
-) -> Sequence[HeatMaps]:
-    """Return the matrices of each entrant that the task names: of all joints, and of groups."""
-    channels = problem.train[0].channels
-    return [
-        figure
-        for label in task.coregionalisation_of
-        if label in solutions
-        for figure in _figures(task, label, channels, dict(_layers(solutions[label])))
-    ]
+@dataclass(frozen=True)
+class Coregionalisation:
+    """The matrices of one entrant: of all joints, and of groups of joints by themselves.
+
+    Parameters
+    ----------
+    label : str
+        The entrant; nothing is drawn if it did not run.
+    joint_groups : mapping of str to tuple of str
+        Joints whose part of the matrices is shown by itself, by a name for the group.
+    """
+
+    label: str
+    joint_groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def pictures(self, solved: Solved[Any, Any], /) -> Sequence[HeatMaps]:
+        """Return a picture of all joints, then one per group."""
+        if self.label not in solved.internals:
+            return ()
+        channels = solved.problem.train[0].channels
+        layers = _correlations(solved.internals[self.label].coregionalisation)
+        joints = [channel.partition(".")[0] for channel in channels]
+        pictures = [_picture(solved.task, f"{self.label}, all joints", joints, layers)]
+        for title, group in self.joint_groups.items():
+            chosen = [place for place, joint in enumerate(joints) if joint in group]
+            names = [channels[place] for place in chosen]
+            parts = {name: matrices[:, chosen][:, :, chosen] for name, matrices in layers.items()}
+            pictures.append(_picture(solved.task, f"{self.label}, {title}", names, parts))
+        return pictures
 
 
-def _figures(
-    task: Task, label: str, channels: Sequence[str], layers: Mapping[str, NDArray[np.float64]]
-) -> Iterator[HeatMaps]:
-    joints = [channel.partition(".")[0] for channel in channels]
-    yield _figure(task, f"{label}, all joints", joints, layers)
-    for title, group in task.joint_groups.items():
-        chosen = [place for place, joint in enumerate(joints) if joint in group]
-        names = [channels[place] for place in chosen]
-        parts = {name: matrices[:, chosen][:, :, chosen] for name, matrices in layers.items()}
-        yield _figure(task, f"{label}, {title}", names, parts)
-
-
-def _figure(
-    task: Task, of: str, labels: Sequence[str], layers: Mapping[str, NDArray[np.float64]]
+def _picture(
+    task: str, of: str, labels: Sequence[str], layers: Mapping[str, NDArray[np.float64]]
 ) -> HeatMaps:
     return HeatMaps(
-        task=task.name,
+        task=task,
         title=f"Coregionalisation by {of}",
         caption=(
-            "the matrices B of each layer and component, over the roots of the layer's variances, "
-            "so that the components of a layer add up to its matrix of correlations."
+            "the matrices B of each layer and component, divided by the roots of the layer's "
+            "variances, so that the components of a layer add up to its matrix of correlations."
         ),
         labels=tuple(labels),
         maps=tuple(
@@ -60,10 +71,12 @@ def _figure(
     )
 
 
-def _layers(solution: Solution) -> Iterator[tuple[str, NDArray[np.float64]]]:
-    """Yield the layers' names and their matrices (Q, D, D) in shares of the layer's variances."""
-    for name, matrices in solution.items():
-        kind, _, layer = name.partition("-")
-        if kind == "coregionalisation":
-            scale = np.sqrt(np.diagonal(matrices.sum(axis=0)))
-            yield layer, matrices / np.outer(scale, scale)
+def _correlations(
+    layers: Mapping[str, NDArray[np.float64]],
+) -> dict[str, NDArray[np.float64]]:
+    """Return each layer's matrices (Q, D, D) over the roots of the layer's variances."""
+    scaled = {}
+    for layer, matrices in layers.items():
+        scale = np.sqrt(np.diagonal(matrices.sum(axis=0)))
+        scaled[layer] = matrices / np.outer(scale, scale)
+    return scaled

@@ -1,18 +1,22 @@
-"""True and estimated covariances side by side: thesis Figures 11–13."""
+"""True and estimated covariances side by side.
+
+After J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+thesis, Universidad Tecnológica de Pereira, 2017, Figures 11–13.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.benchmark.problems.base import Solution
-from mocapbench.benchmark.problems.recover import LAYERS, RecoverProblem
-from mocapbench.benchmark.tasks.base import Task
+from mocapbench.benchmark.figures.solved import Solved
+from mocapbench.benchmark.problems.recover import LAYERS, Covariances, RecoverProblem
 from mocapbench.reports import HeatMap, HeatMaps
 
-__all__ = ["recovery_sketch"]
+__all__ = ["RecoveredCovariances"]
 
 EVERY = 2
 """Every so many points are drawn."""
@@ -22,22 +26,25 @@ TITLES = {
 }
 
 
-def recovery_sketch(
-    problem: RecoverProblem, task: Task, solutions: Mapping[str, Solution]
-) -> Sequence[HeatMaps]:
-    """Return for each layer its true covariance and the estimates of all that have one."""
-    return [_figure(problem, task, solutions, layer) for layer in reversed(LAYERS)]
+@dataclass(frozen=True)
+class RecoveredCovariances:
+    """For each layer its true covariance, and the estimates of all entrants that have one."""
+
+    def pictures(self, solved: Solved[RecoverProblem, Covariances], /) -> Sequence[HeatMaps]:
+        """Return a picture per layer, the innermost first."""
+        return [_picture(solved, layer) for layer in reversed(LAYERS)]
 
 
-def _figure(
-    problem: RecoverProblem, task: Task, solutions: Mapping[str, Solution], layer: str
-) -> HeatMaps:
-    name = f"covariance-{layer}"
-    found = {label: each[name] for label, each in solutions.items() if name in each}
-    shown = {"truth": problem.truth[layer], **found}
+def _picture(solved: Solved[RecoverProblem, Covariances], layer: str) -> HeatMaps:
+    problem = solved.problem
+    estimates = {
+        label: answer.by_layer[layer]
+        for label, answer in solved.answers.items()
+        if layer in answer.by_layer
+    }
     channels, n_points = problem.train[0].channels, len(problem.times[::EVERY])
     return HeatMaps(
-        task=task.name,
+        task=solved.task,
         title=TITLES[layer],
         caption=(
             "the true covariance of the curves and the estimates, without noise. Within a block "
@@ -46,7 +53,7 @@ def _figure(
         labels=tuple(np.repeat(channels, n_points).tolist()),
         maps=tuple(
             HeatMap(label, _thinned(covariance, len(channels)))
-            for label, covariance in shown.items()
+            for label, covariance in {"truth": problem.truth[layer], **estimates}.items()
         ),
         limit=float(np.abs(problem.truth[layer]).max()),
         columns=3,

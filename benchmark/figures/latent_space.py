@@ -1,95 +1,110 @@
-"""Latent spaces of three dimensions, and walks through them: GPDM Figures 3 to 11."""
+"""Latent spaces of three dimensions and walks through them.
+
+After Wang, Fleet and Hertzmann 2008 (GPDM), Figures 3 to 11.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
+from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.figures.stick_figures import strip
-from mocapbench.benchmark.problems.base import Problem, Solution
-from mocapbench.benchmark.problems.impute import ImputeProblem
-from mocapbench.benchmark.tasks.base import Task
+from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.benchmark.problems.internals import Internals
+from mocapbench.benchmark.problems.latent import LatentSpace, LatentWalks
 from mocapbench.datasets import Recording
 from mocapbench.reports import Illustration, Path3D, Picture, Space
 
-__all__ = ["latent_sketch"]
+__all__ = ["LatentSpaces"]
 
 TRAINING, MEAN, SAMPLE = "training", "mean prediction", "fair sample"
 
 
-def latent_sketch(
-    problem: Problem, task: Task, solutions: Mapping[str, Solution]
-) -> Sequence[Picture]:
-    """Return the latent space of each entrant that the task names, then walks through them."""
-    told = {label: solutions[label] for label in task.latent_of if label in solutions}
-    spaces = [
-        _space(task, label, solution)
-        for label, solution in told.items()
-        if "latent-cloud" in solution
-    ]
-    return [*spaces, *_walks(problem, task, told)]
+@dataclass(frozen=True)
+class LatentSpaces:
+    """The latent space of each entrant named, then motions along walks through them.
+
+    Parameters
+    ----------
+    labels : tuple of str
+        Entrants; those that did not run, or have no such space, are left out.
+    """
+
+    labels: tuple[str, ...]
+
+    def pictures(self, solved: Solved[ImputeProblem, FilledRecordings], /) -> Sequence[Picture]:
+        """Return a picture per latent space, and one of all walks."""
+        internals = {
+            label: solved.internals[label] for label in self.labels if label in solved.internals
+        }
+        spaces = [
+            _space(solved.task, label, of_label.latent_space, of_label.latent_walks)
+            for label, of_label in internals.items()
+            if of_label.latent_space is not None and of_label.latent_space.cloud is not None
+        ]
+        return [*spaces, *_walks(solved, internals)]
 
 
-def _space(task: Task, label: str, solution: Solution) -> Space:
-    found = {
-        name.removeprefix("property-"): float(value)
-        for name, value in solution.items()
-        if name.startswith("property-")
-    }
-    listed = ", ".join(f"{name} {value:.3g}" for name, value in found.items())
+def _space(task: str, label: str, space: LatentSpace, walks: LatentWalks | None) -> Space:
+    listed = ", ".join(f"{name} {float(value):.3g}" for name, value in space.properties.items())
+    walked = (
+        f"; the mean prediction and fair samples of {len(walks.mean)} frames from the first one"
+        if walks is not None
+        else ""
+    )
     caption = (
         f"latent positions of the training frames by {label}, and the confidence −ln σ² with "
-        f"which poses are reconstructed around them{_walked(solution)}. Kernels: {listed}."
+        f"which poses are reconstructed around them{walked}. Kernels: {listed}."
     )
-    cloud = np.asarray(solution["latent-cloud"], dtype=np.float64)
+    cloud = np.asarray(space.cloud, dtype=np.float64)
     return Space(
-        task.name,
+        task,
         f"Latent space of {label}",
         caption,
-        tuple(_paths(solution)),
+        tuple(_paths(space, walks)),
         cloud[:, :3],
         cloud[:, 3],
         "−ln σ²",
     )
 
 
-def _walked(solution: Solution) -> str:
-    if "latent-mean" not in solution:
-        return ""
-    n_frames = len(solution["latent-mean"])
-    return f"; the mean prediction and fair samples of {n_frames} frames from the first one"
+def _paths(space: LatentSpace, walks: LatentWalks | None) -> Iterator[Path3D]:
+    yield from (Path3D(points, TRAINING) for points in space.paths)
+    if walks is not None:
+        yield from (Path3D(points, SAMPLE) for points in walks.samples)
+        yield Path3D(walks.mean, MEAN)
 
 
-def _paths(solution: Solution) -> Iterator[Path3D]:
-    groups = {"latent-path": TRAINING, "latent-sample": SAMPLE, "latent-mean": MEAN}
-    for prefix, group in groups.items():
-        for name, points in solution.items():
-            if name.startswith(prefix):
-                yield Path3D(points, group)
-
-
-def _walks(problem: Problem, task: Task, told: Mapping[str, Solution]) -> Sequence[Illustration]:
+def _walks(
+    solved: Solved[ImputeProblem, FilledRecordings], internals: Mapping[str, Internals]
+) -> Sequence[Illustration]:
     """Return stick figures of the mean prediction and of a fair sample of each entrant."""
-    walking = {label: solution for label, solution in told.items() if "walk-mean" in solution}
-    if not isinstance(problem, ImputeProblem) or problem.skeleton is None or not walking:
+    skeleton, about = solved.problem.skeleton, solved.problem.train[0]
+    walks = {
+        label: of_label.latent_walks
+        for label, of_label in internals.items()
+        if of_label.latent_walks is not None
+    }
+    if skeleton is None or not walks:
         return ()
-    about = problem.train[0]
     step = float(np.diff(about.times).mean())
-    longest = max(len(solution["walk-mean"]) for solution in walking.values())
+    longest = max(len(walk.mean_poses) for walk in walks.values())
     times = np.linspace(0.0, step * (longest - 1), longest)
     panels = tuple(
         strip(
-            Recording(label, times[: len(walk)], walk, about.channels, about.units),
-            problem.skeleton,
+            Recording(label, times[: len(poses)], poses, about.channels, about.units),
+            skeleton,
             group,
             f"{label}: {group}, ",
         )
-        for label, solution in walking.items()
-        for walk, group in ((solution["walk-mean"], MEAN), (solution["walk-sample"], SAMPLE))
+        for label, walk in walks.items()
+        for poses, group in ((walk.mean_poses, MEAN), (walk.sample_poses, SAMPLE))
     )
     caption = (
         "mean poses along the mean prediction and along one fair sample of the latent dynamics, "
         "from the first training frame."
     )
-    return (Illustration(task.name, "Motions from the dynamics", caption, panels),)
+    return (Illustration(solved.task, "Motions from the dynamics", caption, panels),)

@@ -1,51 +1,71 @@
-"""The trend that models infer, beside the parent that drew the recordings: thesis Figure 6."""
+"""The inferred trend beside the parent that drew the recordings.
+
+After J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+thesis, Universidad Tecnológica de Pereira, 2017, Figure 6.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from mocapbench.benchmark.problems.base import Problem, Solution
-from mocapbench.benchmark.tasks.base import Task
+from mocapbench.benchmark.figures.solved import Solved
+from mocapbench.benchmark.problems.internals import Trend
 from mocapbench.datasets import Recording
 from mocapbench.reports import Band, Curve, Illustration, Panel
 
-__all__ = ["trend_sketch"]
+__all__ = ["InferredTrend"]
 
-TRUE, INFERRED = "true parent", "trend inferred"
+TRUE, INFERRED = "true parent", "inferred trend"
 WIDTH_95 = 1.96
 
 
-def trend_sketch(
-    problem: Problem, task: Task, solutions: Mapping[str, Solution]
-) -> Sequence[Illustration]:
-    """Return the trend of every entrant that has one, where the true parent is known."""
-    told = {label: each for label, each in solutions.items() if "trend-mean" in each}
-    if problem.parent is None or not told:
-        return ()
-    panels = tuple(
-        _panel(problem.parent, problem.parent.channels.index(channel), label, solution)
-        for channel in task.illustrated_channels
-        for label, solution in told.items()
-    )
-    caption = (
-        "the true parent, and its posterior mean and central 95 % band given the children. The "
-        "band is that of the curve, without noise."
-    )
-    return (Illustration(task.name, "Underlying trend", caption, panels),)
+@dataclass(frozen=True)
+class InferredTrend:
+    """The trend of every entrant that has one, where the true parent is known.
+
+    Parameters
+    ----------
+    channels : tuple of str
+    """
+
+    channels: tuple[str, ...]
+
+    def pictures(self, solved: Solved[Any, Any], /) -> Sequence[Illustration]:
+        """Return one picture, a panel per channel and entrant; none if no entrant has a trend."""
+        parent = solved.problem.parent
+        trends = {
+            label: internals.trend
+            for label, internals in solved.internals.items()
+            if internals.trend is not None
+        }
+        if parent is None or not trends:
+            return ()
+        panels = tuple(
+            _panel(parent, parent.channels.index(channel), label, trend)
+            for channel in self.channels
+            for label, trend in trends.items()
+        )
+        caption = (
+            "the true parent, and the posterior mean and central 95 % band of the trend given the "
+            "children. The band is that of the curve, without noise."
+        )
+        return (Illustration(solved.task, "Underlying trend", caption, panels),)
 
 
-def _panel(parent: Recording, column: int, label: str, solution: Solution) -> Panel:
-    times, mean = solution["trend-times"], solution["trend-mean"][:, column]
-    half = WIDTH_95 * np.sqrt(solution["trend-variance"][:, column])
+def _panel(parent: Recording, column: int, label: str, trend: Trend) -> Panel:
+    mean = trend.mean[:, column]
+    half = WIDTH_95 * np.sqrt(trend.variance[:, column])
     return Panel(
         f"{label}, {parent.channels[column]}",
         "time",
         "",
         (
             Curve(parent.times, parent.values[:, column], TRUE),
-            Curve(times, mean, INFERRED),
+            Curve(trend.times, mean, INFERRED),
         ),
-        bands=(Band(times, mean - half, mean + half, INFERRED),),
+        bands=(Band(trend.times, mean - half, mean + half, INFERRED),),
     )

@@ -1,4 +1,4 @@
-"""What a regression check found, and the exit code that follows."""
+"""The findings of a regression check, and the exit code that follows from them."""
 
 from __future__ import annotations
 
@@ -7,20 +7,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from mocapbench.benchmark.errors import ExitCode
-from mocapbench.benchmark.gate.reference import Address
-from mocapbench.benchmark.gate.rule import Environment, Judgement, Verdict
+from mocapbench.benchmark.gate.environment import Environment
+from mocapbench.benchmark.gate.reference import Series
+from mocapbench.benchmark.gate.rule import FAILING, Judgement, Verdict
 
 __all__ = ["Check", "Finding"]
 
 
 @dataclass(frozen=True)
 class Finding:
-    """What became of one metric of one entrant on one case.
+    """The verdict on one metric of one entrant on one case.
 
     Parameters
     ----------
-    address : Address
-        Its metric is empty where a job failed that has no baseline.
+    series : Series
+        Its metric is empty where a job failed that has no reference value.
     verdict : Verdict
         The gravest of all that is true of it.
     judgement : Judgement or None
@@ -29,7 +30,7 @@ class Finding:
         Why folds are absent, where some are.
     """
 
-    address: Address
+    series: Series
     verdict: Verdict
     judgement: Judgement | None = None
     reason: str = ""
@@ -37,17 +38,17 @@ class Finding:
 
 @dataclass(frozen=True)
 class Check:
-    """Everything that a check found.
+    """All findings of a check.
 
     Parameters
     ----------
     findings : tuple of Finding
-        By address.
+        By series.
     environment : Environment
     differing : tuple of str
-        What differs between the environments of run and baseline.
+        What differs between the environments of the run and the reference values.
     strict : bool
-        Whether what the baseline does not hold yet fails too.
+        Whether values that the reference does not hold yet fail too.
     """
 
     findings: tuple[Finding, ...]
@@ -58,13 +59,15 @@ class Check:
 
     def __post_init__(self) -> None:
         counts = Counter(finding.verdict for finding in self.findings)
-        object.__setattr__(self, "counts", {each: counts[each] for each in Verdict if counts[each]})
+        object.__setattr__(
+            self, "counts", {verdict: counts[verdict] for verdict in Verdict if counts[verdict]}
+        )
 
     @property
     def failing(self) -> frozenset[Verdict]:
         """The verdicts for which the exit code is 1."""
         unrecorded = {Verdict.BETTER, Verdict.NEW} if self.strict else frozenset[Verdict]()
-        return self.environment.failing | unrecorded
+        return FAILING[self.environment] | unrecorded
 
     @property
     def exit_code(self) -> ExitCode:

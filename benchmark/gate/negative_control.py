@@ -1,4 +1,4 @@
-"""The control check of a run, and how it is shown on a terminal."""
+"""The negative control of a run: whether samples surpass those of an unrelated process."""
 
 from __future__ import annotations
 
@@ -39,8 +39,9 @@ def check_controls(records: Sequence[Record], console: Console) -> ExitCode:
     failed = [finding for findings in checked.values() for finding in findings if finding.failed]
     broken = [record for record in records if record.status.broken]
     for record in broken[:1]:
-        told = f"{len(broken)} jobs failed and were not checked ({record.label}: {record.message})"
-        console.print(told, markup=False, highlight=False, soft_wrap=True)
+        failure = f"{record.address.label}: {record.message}"
+        line = f"{len(broken)} jobs failed and were not checked ({failure})"
+        console.print(line, markup=False, highlight=False, soft_wrap=True)
     if failed:
         return ExitCode.REGRESSION
     if broken:

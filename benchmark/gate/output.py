@@ -11,12 +11,13 @@ from rich.markup import escape
 from rich.table import Table
 
 from mocapbench.benchmark.gate.findings import Check, Finding
+from mocapbench.benchmark.gate.reference import COLUMNS
 from mocapbench.benchmark.gate.rule import Verdict
 
 __all__ = ["junit", "markdown", "plain", "summary", "terminal"]
 
 WHERE = "task, case, entrant"
-SHORT = ("baseline", "run", "worse by", "allowed")
+SHORT = ("reference", "run", "worse by", "allowed")
 NUMBERS = ("folds", *SHORT, "worst fold by")
 HEADS = ("verdict", WHERE, "metric", *NUMBERS, "why")
 SHOWN = 50
@@ -39,10 +40,10 @@ def terminal(check: Check) -> Table:
     for head in ("verdict", "what", *SHORT):
         table.add_column(head, overflow="fold", no_wrap=head != "what")
     for group in groups[:SHOWN]:
-        told = dict(zip(HEADS, _cells(group), strict=True))
-        what = "\n".join(filter(None, (told[WHERE], told["metric"], told["why"])))
+        cells = dict(zip(HEADS, _cells(group), strict=True))
+        what = "\n".join(filter(None, (cells[WHERE], cells["metric"], cells["why"])))
         style = "bold red" if _fails(check, group[0]) else ""
-        table.add_row(told["verdict"], escape(what), *(told[head] for head in SHORT), style=style)
+        table.add_row(cells["verdict"], escape(what), *(cells[head] for head in SHORT), style=style)
     return table
 
 
@@ -50,7 +51,7 @@ def markdown(check: Check) -> str:
     """Return a summary for a pull request."""
     state = "passed" if check.exit_code == 0 else f"failed, exit code {int(check.exit_code)}"
     lines = [f"### Metrics: {state}", "", summary(check), ""]
-    rows = [[text.replace("|", "\\|") for text in _cells(each)] for each in _notable(check)]
+    rows = [[text.replace("|", "\\|") for text in _cells(group)] for group in _notable(check)]
     if rows:
         lines += [_line(HEADS), _line(["---"] * len(HEADS)), *map(_line, rows), ""]
     return "\n".join(lines)
@@ -59,8 +60,8 @@ def markdown(check: Check) -> str:
 def junit(check: Check) -> bytes:
     """Return JUnit XML: a suite per task, a test case per case, entrant and metric."""
     root = ElementTree.Element("testsuites", name="mocapbench check")
-    for task in dict.fromkeys(finding.address.task for finding in check.findings):
-        findings = [each for each in check.findings if each.address.task == task]
+    for task in dict.fromkeys(finding.series.address.task for finding in check.findings):
+        findings = [f for f in check.findings if f.series.address.task == task]
         suite = ElementTree.SubElement(root, "testsuite", name=task, tests=str(len(findings)))
         outcomes = [_add_case(suite, check, finding) for finding in findings]
         for name in ("failure", "error", "skipped"):
@@ -77,7 +78,7 @@ def plain(check: Check) -> dict[str, Any]:
         "findings": [
             {
                 **(vars(finding.judgement) if finding.judgement else {}),
-                **finding.address._asdict(),
+                **dict(zip(COLUMNS, finding.series.cells, strict=True)),
                 "verdict": finding.verdict,
                 "fails": _fails(check, finding),
                 "reason": finding.reason,
@@ -92,7 +93,7 @@ def _notable(check: Check) -> list[list[Finding]]:
     groups: dict[object, list[Finding]] = {}
     for finding in check.findings:
         if finding.verdict not in _QUIET:
-            entrant = finding.address._replace(metric="")
+            entrant = finding.series.address
             key = finding.judgement or (entrant, finding.verdict, finding.reason)
             groups.setdefault((entrant, key), []).append(finding)
     return sorted(groups.values(), key=lambda group: tuple(Verdict).index(group[0].verdict))
@@ -104,14 +105,14 @@ def _fails(check: Check, finding: Finding) -> bool:
 
 def _cells(group: Sequence[Finding]) -> list[str]:
     finding = group[0]
-    address, judgement = finding.address, finding.judgement
+    address, judgement = finding.series.address, finding.judgement
     where = f"{address.task}, {address.case}, {address.label}"
-    metrics = ", ".join(each.address.metric for each in group)
+    metrics = ", ".join(member.series.metric for member in group)
     if judgement is None:
         return [finding.verdict, where, metrics, *[""] * len(NUMBERS), finding.reason]
     return [
         *(finding.verdict, where, metrics, str(judgement.n)),
-        *(f"{value:.6g}" for value in (judgement.baseline, judgement.run)),
+        *(f"{value:.6g}" for value in (judgement.reference, judgement.run)),
         f"{judgement.change:+.3g}",
         f"{judgement.allowance:.3g}",
         f"{judgement.worst:+.3g}",
@@ -125,19 +126,19 @@ def _line(cells: Sequence[str]) -> str:
 
 def _add_case(suite: ElementTree.Element, check: Check, finding: Finding) -> str:
     """Add one test case, and return what its outcome is called."""
-    address = finding.address
+    address, metric = finding.series
     case = ElementTree.SubElement(
         suite,
         "testcase",
         classname=_printable(f"{address.task}.{address.case}"),
-        name=_printable(f"{address.label}: {address.metric or 'job'}"),
+        name=_printable(f"{address.label}: {metric or 'job'}"),
     )
     outcome = _outcome(check, finding)
-    told = "; ".join(f"{k}: {v}" for k, v in zip(HEADS, _cells([finding]), strict=True) if v)
+    text = "; ".join(f"{k}: {v}" for k, v in zip(HEADS, _cells([finding]), strict=True) if v)
     if outcome:
-        ElementTree.SubElement(case, outcome, message=_printable(told))
+        ElementTree.SubElement(case, outcome, message=_printable(text))
     else:
-        ElementTree.SubElement(case, "system-out").text = _printable(told)
+        ElementTree.SubElement(case, "system-out").text = _printable(text)
     return outcome
 
 

@@ -1,8 +1,8 @@
-"""Baselines: the per-fold values that a run is held against.
+"""Reference values: the stored values of every fold that a run is compared with.
 
-A baseline is text that a review can read: a CSV file with one row per (task, version, case, label,
-metric), sorted, and a column per fold, below a head that says what the values were computed with.
-It is kept as one file, or as a folder with a file per task; a run directory serves as one too.
+They are kept as text that a review can read: a CSV file with one row per (task, version, case,
+label, metric), sorted, and a column per fold, below a head that says what the values were computed
+with. It is one file, or a folder with a file per task; a run directory serves as one too.
 """
 
 from __future__ import annotations
@@ -15,90 +15,120 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.errors import UnknownNameError, UsageError
 from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["ENVIRONMENT", "Address", "Baseline", "of_records", "read_baseline", "write_baseline"]
+__all__ = [
+    "COLUMNS",
+    "ENVIRONMENT",
+    "Folds",
+    "Reference",
+    "Series",
+    "of_records",
+    "read_reference",
+    "write_reference",
+]
 
 FORMAT = "mocapbench baseline"
+"""The first line of a file, from the time when reference values were called a baseline."""
 ENVIRONMENT = (
     *("machine", "libc", "BLAS"),
     *(f"{library} version" for library in ("numpy", "scipy", "scikit-learn")),
 )
 _REQUEST = ("profile", "seed")
 _UNKNOWN = "unknown"
+COLUMNS = ("task", "version", "case", "label", "metric")
 _FOLD = "fold "
 
 
-class Address(NamedTuple):
-    """Whose values they are, of which metric."""
-
-    task: str
-    version: int
-    case: str
-    label: str
-    metric: str
-
-
-@dataclass(frozen=True)
-class Baseline:
-    """Values by address and fold, and what they were computed with.
+class Series(NamedTuple):
+    """One metric of one entrant on one case, over all folds.
 
     Parameters
     ----------
-    values : mapping of Address to mapping of int to float
+    address : Address
+        Of all folds.
+    metric : str
+        Empty where a job is meant rather than a value.
+    """
+
+    address: Address
+    metric: str = ""
+
+    @property
+    def cells(self) -> tuple[object, ...]:
+        """The cells of its row in a file."""
+        address = self.address
+        return (address.task, address.version, address.case, address.label, self.metric)
+
+    def __str__(self) -> str:
+        return ", ".join(map(str, self.cells))
+
+
+Folds = Mapping[int, float]
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Values by series and fold, and what they were computed with.
+
+    Parameters
+    ----------
+    values : mapping of Series to mapping of int to float
         Finite values by fold.
     about : mapping of str to str
         Profile, seed, and what decides the last digits; where records differ, all their values.
     """
 
-    values: Mapping[Address, Mapping[int, float]]
+    values: Mapping[Series, Folds]
     about: Mapping[str, str] = field(default_factory=dict)
 
 
-def of_records(records: Sequence[Record], plan: Mapping[str, Any]) -> Baseline:
+def of_records(records: Sequence[Record], plan: Mapping[str, Any]) -> Reference:
     """Return the finite scores of a run.
 
     Parameters
     ----------
     records : sequence of Record
     plan : mapping
-        What the run was asked to do, as the store keeps it.
+        The run's request, as the store keeps it.
     """
-    values: dict[Address, dict[int, float]] = {}
+    values: dict[Series, dict[int, float]] = {}
     for record in records:
         for metric, value in record.scores.items():
             if math.isfinite(value):
-                address = Address(record.task, record.version, record.case, record.label, metric)
-                values.setdefault(address, {})[record.fold] = value
-    asked = {name: plan["provenance"].get(name, _UNKNOWN) for name in _REQUEST}
+                series = Series(record.address.all_folds, metric)
+                values.setdefault(series, {})[record.address.fold or 0] = value
+    request = {name: plan["provenance"].get(name, _UNKNOWN) for name in _REQUEST}
     scored = [record.provenance for record in records if record.scores]
-    return Baseline(values, {**asked, **_gathered(scored, ENVIRONMENT)})
+    return Reference(values, {**request, **_gathered(scored, ENVIRONMENT)})
 
 
 def _gathered(parts: Sequence[Mapping[str, str]], names: Iterable[str]) -> dict[str, str]:
-    """Return what ``parts`` tell, side by side where they differ."""
-    told = {name: sorted({part.get(name, _UNKNOWN) for part in parts}) for name in names}
-    return {name: " and ".join(values) for name, values in told.items()}
+    """Return what ``parts`` hold under ``names``, side by side where they differ."""
+    held = {name: sorted({part.get(name, _UNKNOWN) for part in parts}) for name in names}
+    return {name: " and ".join(values) for name, values in held.items()}
 
 
-def read_baseline(path: Path) -> Baseline | None:
-    """Return the baseline in a file, a folder of files or a run directory; None if none is there.
+def read_reference(path: Path) -> Reference | None:
+    """Return the values in a file, a folder of files or a run directory; None if none is there.
 
     Raises
     ------
     UsageError
-        If a file is not a baseline, the files of a folder do not belong together, or a record of
-        a run directory is damaged.
+        If a file holds no reference values, the files of a folder do not belong together, or a
+        record of a run directory is damaged.
     """
     if path.is_dir() and Store.is_run(path):
         store = Store.open(path)
         records = store.planned()
         if store.damaged:
             raise UsageError(
-                f"--baseline: {path} holds a damaged record ({store.damaged[0]}); run "
+                f"--reference: {path} holds a damaged record ({store.damaged[0]}); run "
                 "`mocapbench run` there again, which mends it"
             )
         return of_records(records, store.load_plan())
@@ -106,30 +136,28 @@ def read_baseline(path: Path) -> Baseline | None:
     return _joined(path, [_parse(file) for file in files]) if files else None
 
 
-def _joined(path: Path, parts: Sequence[Baseline]) -> Baseline:
+def _joined(path: Path, parts: Sequence[Reference]) -> Reference:
     about = _gathered([part.about for part in parts], (*_REQUEST, *ENVIRONMENT))
     for name in _REQUEST:
         if len({part.about.get(name) for part in parts}) > 1:
             raise UsageError(
-                f"--baseline: expected one {name} in all files of {path}, got {about[name]}; "
+                f"--reference: expected one {name} in all files of {path}, got {about[name]}; "
                 "delete them and write them again with --update"
             )
-    return Baseline(_distinct(row for part in parts for row in part.values.items()), about)
+    return Reference(_distinct(row for part in parts for row in part.values.items()), about)
 
 
-def _distinct(
-    rows: Iterable[tuple[Address, Mapping[int, float]]],
-) -> dict[Address, Mapping[int, float]]:
-    """Return ``rows`` by address: which of two rows a merge meant cannot be known."""
-    values: dict[Address, Mapping[int, float]] = {}
-    for address, folds in rows:
-        if address in values:
-            raise UsageError(f"--baseline: {', '.join(map(str, address))} has two rows; keep one")
-        values[address] = folds
+def _distinct(rows: Iterable[tuple[Series, Folds]]) -> dict[Series, Folds]:
+    """Return ``rows`` by series: which of two rows a merge meant cannot be known."""
+    values: dict[Series, Folds] = {}
+    for series, folds in rows:
+        if series in values:
+            raise UsageError(f"--reference: {series} has two rows; keep one")
+        values[series] = folds
     return values
 
 
-def _parse(path: Path) -> Baseline:
+def _parse(path: Path) -> Reference:
     try:
         *lines, rest = path.read_text(encoding="utf-8").split("\n")
         head = [line[2:] for line in lines if line.startswith("# ")]
@@ -138,53 +166,59 @@ def _parse(path: Path) -> Baseline:
         if rest:
             raise ValueError("its last line is cut short")
         values = _distinct(map(_row, csv.DictReader(lines[len(head) :], strict=True)))
-        return Baseline(values, dict(line.split(": ", 1) for line in head[1:]))
+        return Reference(values, dict(line.split(": ", 1) for line in head[1:]))
     except (OSError, ValueError, KeyError, TypeError, csv.Error) as error:
         raise UsageError(
-            f"--baseline: {path} is not a baseline ({error}); mend it, or delete it and write one "
-            "with --update"
+            f"--reference: {path} holds no reference values ({error}); mend it, or delete it and "
+            "write it again with --update"
         ) from error
 
 
-def _row(row: Mapping[Any, Any]) -> tuple[Address, Mapping[int, float]]:
+def _row(row: Mapping[Any, Any]) -> tuple[Series, Folds]:
     if None in row or None in row.values():
         raise ValueError(f"expected as many cells in a row as in the head, got {[*row.values()]}")
-    address = Address(row["task"], int(row["version"]), row["case"], row["label"], row["metric"])
+    address = Address(row["task"], int(row["version"]), row["case"], label=row["label"])
     values = {
         int(name.removeprefix(_FOLD)): float(text)
         for name, text in row.items()
         if name.startswith(_FOLD) and text
     }
     if not (values and all(map(math.isfinite, values.values()))):
-        raise ValueError(f"expected finite values of {address.metric}, got {values}")
-    return address, values
+        raise ValueError(f"expected finite values of {row['metric']}, got {values}")
+    return Series(address, _current(row["metric"])), values
 
 
-def write_baseline(path: Path, baseline: Baseline) -> None:
-    """Write ``baseline`` to a ``.csv`` file, or to one per task of a folder; each is whole."""
+def _current(metric: str) -> str:
+    """Return the name of a metric that was perhaps renamed, or is no longer there."""
+    try:
+        return METRICS.current_name(metric)
+    except UnknownNameError:
+        return metric
+
+
+def write_reference(path: Path, reference: Reference) -> None:
+    """Write the values to a ``.csv`` file, or to one per task of a folder; each is whole."""
     if path.suffix == ".csv" and not path.is_dir():
-        return _write(path, baseline.values, baseline.about)
-    by_task: dict[str, dict[Address, Mapping[int, float]]] = {}
-    for address, folds in baseline.values.items():
-        by_task.setdefault(address.task, {})[address] = folds
+        return _write(path, reference.values, reference.about)
+    by_task: dict[str, dict[Series, Folds]] = {}
+    for series, folds in reference.values.items():
+        by_task.setdefault(series.address.task, {})[series] = folds
     for task, values in by_task.items():
-        _write(path / f"{task}.csv", values, baseline.about)
+        _write(path / f"{task}.csv", values, reference.about)
     for file in path.glob("*.csv"):
         if file.stem not in by_task:
             file.unlink()
     return None
 
 
-def _write(
-    path: Path, values: Mapping[Address, Mapping[int, float]], about: Mapping[str, str]
-) -> None:
+def _write(path: Path, values: Mapping[Series, Folds], about: Mapping[str, str]) -> None:
     folds = range(1 + max(fold for folds in values.values() for fold in folds))
     buffer = io.StringIO()
     buffer.writelines(f"# {line}\n" for line in (FORMAT, *(f"{k}: {v}" for k, v in about.items())))
     writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow([*Address._fields, *(f"{_FOLD}{fold}" for fold in folds)])
-    for address, by_fold in sorted(values.items()):
-        writer.writerow([*address, *(by_fold.get(fold) for fold in folds)])
+    writer.writerow([*COLUMNS, *(f"{_FOLD}{fold}" for fold in folds)])
+    for series, by_fold in sorted(values.items()):
+        writer.writerow([*series.cells, *(by_fold.get(fold) for fold in folds)])
     path.parent.mkdir(parents=True, exist_ok=True)
     with atomic_write(path) as file:
         file.write(buffer.getvalue().encode())

@@ -2,11 +2,11 @@
 
 Values of the same fold are paired, because a fold is one problem: its difficulty cancels in the
 difference. With the losses ℓ of a metric (lower is better whatever its direction), the differences
-d_i = ℓ(run_i) − ℓ(baseline_i) over n folds have the mean d̄ and the standard error
+d_i = ℓ(run_i) − ℓ(reference_i) over n folds have the mean d̄ and the standard error
 SE = sd(d) / √n (ddof 1; 0 for one fold, and where all differences are equal). The metric is *worse*
 if
 
-    d̄ > max(absolute, relative · |mean baseline value|, k · SE),
+    d̄ > max(absolute, relative · |mean reference value|, k · SE),
 
 *better* if −d̄ is, and *moved* if neither holds but some fold lies beyond the first two.
 
@@ -24,7 +24,9 @@ from enum import StrEnum
 
 import numpy as np
 
-__all__ = ["Environment", "Judgement", "Tolerance", "Verdict", "judge"]
+from mocapbench.benchmark.gate.environment import Environment
+
+__all__ = ["DEFAULT_TOLERANCES", "FAILING", "Judgement", "Tolerance", "Verdict", "judge"]
 
 
 class Verdict(StrEnum):
@@ -49,7 +51,7 @@ class Tolerance:
     k : float
         Standard errors of the mean paired difference.
     relative : float
-        Share of the size of the baseline's mean value.
+        Share of the size of the reference's mean value.
     absolute : float
         In the unit of the metric.
     """
@@ -63,22 +65,12 @@ class Tolerance:
         return max(self.absolute, self.relative * abs(scale))
 
 
-class Environment(StrEnum):
-    """How alike the two runs' machines and libraries are."""
+DEFAULT_TOLERANCES = {Environment.SAME: Tolerance(), Environment.CROSS: Tolerance(relative=0.02)}
+"""The tolerance unless a metric has one of its own."""
 
-    SAME = "same"
-    CROSS = "cross"
-
-    @property
-    def tolerance(self) -> Tolerance:
-        """The tolerance unless a metric has one of its own."""
-        return {Environment.SAME: Tolerance(), Environment.CROSS: Tolerance(relative=0.02)}[self]
-
-    @property
-    def failing(self) -> frozenset[Verdict]:
-        """The verdicts that fail the gate."""
-        always = frozenset({Verdict.WORSE, Verdict.LOST})
-        return always | {Verdict.MOVED} if self is Environment.SAME else always
+_ALWAYS = frozenset({Verdict.WORSE, Verdict.LOST})
+FAILING = {Environment.SAME: _ALWAYS | {Verdict.MOVED}, Environment.CROSS: _ALWAYS}
+"""The verdicts that fail the gate."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +80,7 @@ class Judgement:
     Parameters
     ----------
     verdict : Verdict
-    baseline, run : float
+    reference, run : float
         Means over the paired folds.
     change : float
         Mean difference of the losses; positive is worse.
@@ -101,7 +93,7 @@ class Judgement:
     """
 
     verdict: Verdict
-    baseline: float
+    reference: float
     run: float
     change: float
     worst: float
@@ -110,16 +102,16 @@ class Judgement:
 
 
 def judge(
-    baseline: Sequence[float],
+    reference: Sequence[float],
     run: Sequence[float],
     loss: Callable[[float], float],
     tolerance: Tolerance,
 ) -> Judgement:
-    """Return whether the values of ``run`` are worse than those of ``baseline``.
+    """Return whether the values of ``run`` are worse than those of ``reference``.
 
     Parameters
     ----------
-    baseline, run : sequence of n float
+    reference, run : sequence of n float
         Finite values of one metric, paired by fold.
     loss : callable
         How bad a value is, lower being better: `mocapbench.metrics.Metric.loss`.
@@ -130,9 +122,9 @@ def judge(
     ValueError
         If there is no pair, or a value is not finite.
     """
-    pairs = np.array([baseline, run], dtype=np.float64)
+    pairs = np.array([reference, run], dtype=np.float64)
     if pairs.size == 0 or not np.isfinite(pairs).all():
-        raise ValueError(f"expected finite values in pairs, got {baseline!r} and {run!r}")
+        raise ValueError(f"expected finite values in pairs, got {reference!r} and {run!r}")
     losses = np.array([[loss(value) for value in values] for values in pairs.tolist()])
     differences = losses[1] - losses[0]
     before, after = pairs.mean(axis=1).tolist()

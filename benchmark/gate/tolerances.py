@@ -23,13 +23,14 @@ from pathlib import Path
 from typing import Any
 
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
-from mocapbench.benchmark.gate.rule import Environment, Tolerance
+from mocapbench.benchmark.gate.environment import Environment
+from mocapbench.benchmark.gate.rule import DEFAULT_TOLERANCES, Tolerance
 from mocapbench.benchmark.registry import METRICS
 
 __all__ = ["Tolerances", "read_tolerances"]
 
 _METRICS = "metrics"
-_NAMES = tuple(each.name for each in fields(Tolerance))
+_NAMES = tuple(parameter.name for parameter in fields(Tolerance))
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ def read_tolerances(environment: Environment, path: Path | None) -> Tolerances:
     """
     tables = _read(path) if path else {}
     _check_names("", tables, tuple(Environment))
-    read = {each: _tolerances(each, tables.get(each, {})) for each in Environment}
+    read = {level: _tolerances(level, tables.get(level, {})) for level in Environment}
     return read[environment]
 
 
@@ -76,14 +77,12 @@ def _tolerances(environment: Environment, table: object) -> Tolerances:
     own = _table(f"{environment}.{_METRICS}", options.get(_METRICS, {}))
     _check_names(environment, options, (*_NAMES, _METRICS))
     general = {name: value for name, value in options.items() if name != _METRICS}
-    default = _changed(environment.tolerance, environment, general)
-    for name in own:
-        if name not in METRICS.names():
-            raise UnknownNameError("metric", name, METRICS.names())
-    return Tolerances(
-        default,
-        {name: _changed(default, f"{environment}.{_METRICS}.{name}", own[name]) for name in own},
-    )
+    default = _changed(DEFAULT_TOLERANCES[environment], environment, general)
+    by_metric = {
+        METRICS.current_name(name): _changed(default, f"{environment}.{_METRICS}.{name}", own[name])
+        for name in own
+    }
+    return Tolerances(default, by_metric)
 
 
 def _changed(tolerance: Tolerance, where: str, table: object) -> Tolerance:

@@ -1,34 +1,44 @@
 """Problems: what a model may see, and apart from it what it may not.
 
-A problem also knows how to put its question to a model (`Problem.solve`) and how to confront the
-answer with the truth (`Problem.outcome`), so that nothing else asks of which kind it is. A
-`Solution` is plain arrays by name, which the store keeps.
+A problem puts its question to a model (`Problem.solve`) and compares the answer with the truth
+(`Problem.outcome`), so that no other module needs to know of which kind it is. Each kind of
+problem has a type of `Answer`, which turns into plain arrays and back for the store.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
-
-from numpy.typing import NDArray
+from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar
 
 from mocapbench.baselines import Informed, Model
+from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.datasets import Recording, ToyProcess
 from mocapbench.metrics import Clustering, Imputation, Recovery, Synthesis
 
-__all__ = ["InvalidPredictionError", "Problem", "Solution"]
-
-Solution = Mapping[str, NDArray[Any]]
+__all__ = ["Answer", "InvalidPredictionError", "Problem"]
 
 
 class InvalidPredictionError(ValueError):
     """A model answered with the wrong shape, a NaN, or a variance that is not positive."""
 
 
+class Answer(Protocol):
+    """A model's answer to a problem, of the type that belongs to the kind of problem."""
+
+    def to_arrays(self) -> Arrays:
+        """Return the answer as arrays by name."""
+
+    @classmethod
+    def from_arrays(cls, arrays: Arrays) -> Self:
+        """Return the answer that `to_arrays` turned into ``arrays``; other names are ignored."""
+
+
+A = TypeVar("A", bound=Answer)
+
+
 @dataclass(frozen=True, eq=False)
-class Problem(ABC):
+class Problem(ABC, Generic[A]):
     """A question to a model, and its secret answer.
 
     Parameters
@@ -36,14 +46,16 @@ class Problem(ABC):
     train : tuple of Recording
         What `fit` gets.
     process : ToyProcess or None
-        The generating process, for models that must be told it.
+        The process that generated them, for informed models.
     parent : Recording or None
         The curves g of the parent that a known process drew, which no model sees.
     """
 
     train: tuple[Recording, ...]
-    process: ToyProcess | None
+    process: ToyProcess | None = field(default=None, kw_only=True)
     parent: Recording | None = field(default=None, kw_only=True)
+
+    answer_type: ClassVar[type[Answer]]
 
     def fit(self, model: Model) -> Model:
         """Fit ``model`` to what it may see."""
@@ -52,7 +64,7 @@ class Problem(ABC):
         return model.fit(self.train)
 
     @abstractmethod
-    def solve(self, model: Any, random_state: int) -> Solution:
+    def solve(self, model: Any, random_state: int) -> A:
         """Put the question to a fitted model that has the abilities required.
 
         Raises
@@ -62,5 +74,5 @@ class Problem(ABC):
         """
 
     @abstractmethod
-    def outcome(self, solution: Solution) -> Imputation | Synthesis | Clustering | Recovery:
-        """Confront a solution with the truth."""
+    def outcome(self, answer: A) -> Imputation | Synthesis | Clustering | Recovery:
+        """Compare an answer with the truth."""

@@ -1,58 +1,84 @@
-"""A passage from one style to another (HLM §4.2, Figure 3)."""
+"""A transition from one style to another, as part of an answer.
+
+After Pan and Torresani 2009 (HLM), §4.2 and Figure 3.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import combinations
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines import Blender
-from mocapbench.benchmark.problems.base import InvalidPredictionError, Solution
+from mocapbench.benchmark.problems.arrays import Arrays
+from mocapbench.benchmark.problems.base import InvalidPredictionError
+from mocapbench.datasets import FrameByChannel
 
-__all__ = ["N_FRAMES", "passage"]
+__all__ = ["N_FRAMES", "Blend", "blend_of"]
 
 N_FRAMES = 75
 """Two and a half seconds at 30 Hz: two cycles of a walk, or so."""
 
-Array = NDArray[np.float64]
+
+@dataclass(frozen=True, eq=False)
+class Blend:
+    """A transition between two styles.
+
+    Parameters
+    ----------
+    first, between, second : ndarray of shape (N, D)
+        The first style, the transition and the second style, on the same states of the cycle.
+    clusters : tuple of two int
+        The clusters that are the styles.
+    """
+
+    first: FrameByChannel
+    between: FrameByChannel
+    second: FrameByChannel
+    clusters: tuple[int, int]
+
+    def to_arrays(self) -> Arrays:
+        """Return ``blend`` (3, N, D) and ``blended`` (2,)."""
+        motions = np.stack([self.first, self.between, self.second])
+        return {"blend": motions, "blended": np.array(self.clusters)}
+
+    @classmethod
+    def from_arrays(cls, arrays: Arrays) -> Self | None:
+        """Return the blend that `to_arrays` turned into ``arrays``, None if there is none."""
+        if "blend" not in arrays:
+            return None
+        one, other = arrays["blended"].tolist()
+        first, between, second = arrays["blend"]
+        return cls(first, between, second, (one, other))
 
 
-def passage(model: Blender, labels: NDArray[np.intp], n_channels: int) -> Solution:
-    """Return a passage between the two styles that differ most, and either style by itself.
-
-    Returns
-    -------
-    mapping
-        ``blend`` (3, N, D): the first style, the passage and the second style, on the same states
-        of the cycle; ``blended`` (2,): the clusters that these styles are. Empty if all recordings
-        are in one cluster.
+def blend_of(model: Blender, labels: NDArray[np.intp], n_channels: int) -> Blend | None:
+    """Return a transition between the two styles that differ most; None if all are in one cluster.
 
     Raises
     ------
     InvalidPredictionError
         If the model does not answer with finite frames of the recordings' channels.
     """
-    used = np.unique(labels)
+    used = np.unique(labels).tolist()
     if len(used) < 2:
-        return {}
-    alone = {
-        style: np.tile(np.arange(model.get_params()["n_styles"]) == style, (N_FRAMES, 1)) * 1.0
-        for style in used
-    }
-    pure = {style: _blended(model, weights, n_channels) for style, weights in alone.items()}
+        return None
+    n_styles = model.get_params()["n_styles"]
+    alone = {style: np.tile(np.eye(n_styles)[style], (N_FRAMES, 1)) for style in used}
+    pure = {style: _mixed(model, weights, n_channels) for style, weights in alone.items()}
     first, second = max(
         combinations(used, 2), key=lambda pair: float(((pure[pair[0]] - pure[pair[1]]) ** 2).sum())
     )
     share = (0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, N_FRAMES)))[:, None]
-    between = _blended(model, (1.0 - share) * alone[first] + share * alone[second], n_channels)
-    return {
-        "blend": np.stack([pure[first], between, pure[second]]),
-        "blended": np.array([first, second]),
-    }
+    weights = (1.0 - share) * alone[first] + share * alone[second]
+    between = _mixed(model, weights, n_channels)
+    return Blend(pure[first], between, pure[second], (first, second))
 
 
-def _blended(model: Blender, weights: Array, n_channels: int) -> Array:
+def _mixed(model: Blender, weights: NDArray[np.float64], n_channels: int) -> FrameByChannel:
     motion = np.asarray(model.blend(weights), dtype=np.float64)
     if motion.shape != (N_FRAMES, n_channels) or not np.isfinite(motion).all():
         raise InvalidPredictionError(

@@ -2,49 +2,83 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines import Aligner, Blender, Clusterer, StatePath
-from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem, Solution
-from mocapbench.benchmark.problems.blending import passage
+from mocapbench.baselines import Aligner, Blender, Clusterer
+from mocapbench.benchmark.problems.arrays import Arrays
+from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
+from mocapbench.benchmark.problems.blending import Blend, blend_of
+from mocapbench.benchmark.problems.cycle import Alignment, alignment_of
 from mocapbench.datasets import Skeleton
 from mocapbench.metrics import Clustering
 
-__all__ = ["ClusterProblem"]
+__all__ = ["ClusterProblem", "Clusters"]
 
 
 @dataclass(frozen=True, eq=False)
-class ClusterProblem(Problem):
+class Clusters:
+    """The answer to a `ClusterProblem`.
+
+    Parameters
+    ----------
+    labels : ndarray of int, shape (K,)
+        The cluster of each recording.
+    alignment : Alignment or None
+        Of a model that aligns.
+    blend : Blend or None
+        Of a model that blends styles and has found two or more.
+    """
+
+    labels: NDArray[np.intp]
+    alignment: Alignment | None = None
+    blend: Blend | None = None
+
+    def to_arrays(self) -> Arrays:
+        """Return ``labels``, and the arrays of the alignment and the blend."""
+        parts = (part.to_arrays() for part in (self.alignment, self.blend) if part is not None)
+        return {"labels": self.labels, **{n: a for arrays in parts for n, a in arrays.items()}}
+
+    @classmethod
+    def from_arrays(cls, arrays: Arrays) -> Self:
+        """Return the answer that `to_arrays` turned into ``arrays``."""
+        return cls(arrays["labels"], Alignment.from_arrays(arrays), Blend.from_arrays(arrays))
+
+
+@dataclass(frozen=True, eq=False)
+class ClusterProblem(Problem[Clusters]):
     """Group the training recordings by a class that no model sees.
 
     Parameters
     ----------
+    train : tuple of Recording
+        What `fit` gets.
     truth : tuple of str
         The class of each training recording.
     skeleton : Skeleton
-        On which the first recording's angles are to be seen.
+        The skeleton of the first recording, for figures.
     """
 
     truth: tuple[str, ...]
     skeleton: Skeleton
 
-    def solve(self, model: Clusterer, random_state: int) -> Solution:
-        """Return ``labels`` (K,), and what else the model can tell of its clusters.
+    answer_type = Clusters
 
-        Of a model that aligns, ``cycle_length`` and ``path-k`` (N_k,); of one that blends, the
-        `mocapbench.benchmark.problems.blending.passage`.
-        """
-        del random_state  # all is said in fit
+    def solve(self, model: Clusterer, random_state: int) -> Clusters:
+        """Return the clusters, and the alignment and the blend of a model that has them."""
+        del random_state  # fit has done everything
         labels = self._labels(model)
-        return {"labels": labels, **dict(self._alignment(model)), **self._blend(model, labels)}
+        alignment = alignment_of(model, self.train) if isinstance(model, Aligner) else None
+        n_channels = len(self.train[0].channels)
+        blend = blend_of(model, labels, n_channels) if isinstance(model, Blender) else None
+        return Clusters(labels, alignment, blend)
 
-    def outcome(self, solution: Solution) -> Clustering:
+    def outcome(self, answer: Clusters) -> Clustering:
         """Set the clusters beside the classes."""
-        return Clustering(np.array(self.truth), solution["labels"])
+        return Clustering(np.array(self.truth), answer.labels)
 
     def _labels(self, model: Clusterer) -> NDArray[np.intp]:
         labels = np.asarray(model.labels_)
@@ -54,30 +88,3 @@ class ClusterProblem(Problem):
                 f"shape {labels.shape} and type {labels.dtype}"
             )
         return labels.astype(np.intp)
-
-    def _alignment(self, model: Clusterer) -> Iterator[tuple[str, NDArray[np.intp]]]:
-        if isinstance(model, Aligner):
-            yield "cycle_length", np.array(model.cycle_length_)
-            for index, path in enumerate(self._paths(model)):
-                yield f"path-{index}", path
-
-    def _blend(self, model: Clusterer, labels: NDArray[np.intp]) -> Solution:
-        if not isinstance(model, Blender):
-            return {}
-        return passage(model, labels, len(self.train[0].channels))
-
-    def _paths(self, model: Aligner) -> list[StatePath]:
-        paths = [np.asarray(path) for path in model.path_]
-        lengths = [(len(recording.times),) for recording in self.train]
-        if [path.shape for path in paths] != lengths:
-            raise InvalidPredictionError(
-                "path_: expected a state for each frame of each recording, "
-                f"got paths of shapes {[path.shape for path in paths]}"
-            )
-        states = np.concatenate(paths)
-        if not np.isin(states, np.arange(model.cycle_length_)).all():
-            raise InvalidPredictionError(
-                f"path_: expected states 0 to {model.cycle_length_ - 1}, "
-                f"got {states.min()} to {states.max()}"
-            )
-        return paths

@@ -2,54 +2,67 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines import FrameImputer, Prediction
-from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem, Solution
-from mocapbench.datasets import FrameByChannel, Recording, Skeleton
+from mocapbench.benchmark.problems.arrays import Arrays, numbered, with_numbers
+from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
+from mocapbench.benchmark.problems.unit import Unit
+from mocapbench.datasets import FrameByChannel, Mask, Recording, Skeleton
 from mocapbench.metrics import Imputation
 
-__all__ = ["ImputeProblem", "Unit"]
+__all__ = ["FilledRecordings", "ImputeProblem"]
 
 
 @dataclass(frozen=True, eq=False)
-class Unit:
-    """An affine unit of measurement per channel, in which scores are taken.
+class FilledRecordings:
+    """The answer to an `ImputeProblem`.
 
     Parameters
     ----------
-    offset, scale : ndarray of shape (D,)
-        A value y is scored as (y − offset) / scale.
+    predictions : tuple of Prediction
+        One per recording to fill, in order; all have a variance, or none has.
     """
 
-    offset: NDArray[np.float64]
-    scale: NDArray[np.float64]
+    predictions: tuple[Prediction, ...]
+
+    @property
+    def mean(self) -> FrameByChannel:
+        """The means of all recordings, one below the other."""
+        return np.concatenate([prediction.mean for prediction in self.predictions])
+
+    @property
+    def variance(self) -> FrameByChannel | None:
+        """The variances of all recordings, one below the other, if the model has any."""
+        variances = [p.variance for p in self.predictions if p.variance is not None]
+        return np.concatenate(variances) if variances else None
+
+    def to_arrays(self) -> Arrays:
+        """Return ``mean-i`` and, where there is one, ``variance-i`` of recording i."""
+        means = (prediction.mean for prediction in self.predictions)
+        variances = (p.variance for p in self.predictions if p.variance is not None)
+        return {**with_numbers("mean", means), **with_numbers("variance", variances)}
 
     @classmethod
-    def natural(cls, n_channels: int) -> Unit:
-        """Return the channels' own units."""
-        return cls(np.zeros(n_channels), np.ones(n_channels))
-
-    @classmethod
-    def range_of(cls, values: FrameByChannel) -> Unit:
-        """Return the min-max unit of complete ``values`` (N, D)."""
-        low = values.min(axis=0)
-        return cls(low, values.max(axis=0) - low)
-
-    def of(self, values: FrameByChannel) -> FrameByChannel:
-        """Return ``values`` (N, D) in this unit."""
-        return (values - self.offset) / self.scale
+    def from_arrays(cls, arrays: Arrays) -> Self:
+        """Return the answer that `to_arrays` turned into ``arrays``."""
+        means, variances = numbered("mean", arrays), numbered("variance", arrays)
+        return cls(tuple(map(Prediction, means, variances or (None,) * len(means))))
 
 
 @dataclass(frozen=True, eq=False)
-class ImputeProblem(Problem):
+class ImputeProblem(Problem[FilledRecordings]):
     """Fill the hidden entries of some recordings.
 
     Parameters
     ----------
+    train : tuple of Recording
+        What `fit` gets.
     given : tuple of Recording
         The recordings to fill; NaN marks what is hidden.
     truth : tuple of ndarray (N, D)
@@ -58,6 +71,8 @@ class ImputeProblem(Problem):
         The unit that scores are taken in.
     skeleton : Skeleton or None
         Whose degrees of freedom the channels are, for figures.
+    process, parent
+        See `Problem`.
     """
 
     given: tuple[Recording, ...]
@@ -65,8 +80,38 @@ class ImputeProblem(Problem):
     unit: Unit
     skeleton: Skeleton | None = None
 
-    def solve(self, model: FrameImputer, random_state: int) -> Solution:
-        """Return ``mean-i`` and, where the model has one, ``variance-i`` for recording i."""
+    answer_type = FilledRecordings
+
+    @classmethod
+    def of_one(
+        cls,
+        recording: Recording,
+        hidden: Mask,
+        others: Sequence[Recording] = (),
+        *,
+        seen_in_fit: bool = True,
+    ) -> Self:
+        """Return the problem of filling one recording, scored in its channels' own units.
+
+        Parameters
+        ----------
+        recording : Recording
+            Complete.
+        hidden : ndarray of bool, shape (N, D)
+            True where its entries are hidden.
+        others : sequence of Recording
+            What models learn from besides.
+        seen_in_fit : bool
+            Whether models learn from the recording's visible entries too; if not, the task must
+            require `Inductive` models.
+        """
+        given = recording.hide(hidden)
+        own = (given,) if seen_in_fit else ()
+        unit = Unit.natural(len(recording.channels))
+        return cls((*others, *own), (given,), (recording.values,), unit)
+
+    def solve(self, model: FrameImputer, random_state: int) -> FilledRecordings:
+        """Return the model's predictions of the recordings given."""
         del random_state  # imputation draws nothing
         predictions = model.impute(self.given)
         wanted = [Prediction] * len(self.given)
@@ -74,60 +119,59 @@ class ImputeProblem(Problem):
             raise InvalidPredictionError(
                 f"impute: expected a list of {len(wanted)} Prediction, got {predictions!r:.200}"
             )
-        solution: dict[str, NDArray[np.float64]] = {}
-        for index, (recording, prediction) in enumerate(zip(self.given, predictions, strict=True)):
-            for name, values in _checked(recording, prediction).items():
-                solution[f"{name}-{index}"] = values
-        return solution
+        answer = FilledRecordings(tuple(map(_checked, self.given, predictions)))
+        if len({prediction.variance is None for prediction in predictions}) > 1:
+            raise InvalidPredictionError(
+                "impute: expected a variance with every Prediction or with none, got both"
+            )
+        return answer
 
-    def outcome(self, solution: Solution) -> Imputation:
-        """Concatenate the recordings along the frames, in the problem's unit."""
-        indices = range(len(self.given))
+    def outcome(self, answer: FilledRecordings) -> Imputation:
+        """Put the recordings one below the other, in the problem's unit."""
         visible_mean, visible_variance = self._visible_moments()
-        variance = None
-        if "variance-0" in solution:
-            variance = np.concatenate([solution[f"variance-{i}"] for i in indices])
-            variance = variance / self.unit.scale**2
+        variance = answer.variance
         return Imputation(
             truth=self.unit.of(np.concatenate(self.truth)),
-            mean=self.unit.of(np.concatenate([solution[f"mean-{i}"] for i in indices])),
-            variance=variance,
+            mean=self.unit.of(answer.mean),
+            variance=None if variance is None else variance / self.unit.scale**2,
             hidden=~np.concatenate([recording.visible for recording in self.given]),
             visible_mean=visible_mean,
             visible_variance=visible_variance,
         )
 
     def _visible_moments(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Moments over all recordings given to fit and impute, each counted once."""
+        """Return moments over all recordings given to fit and impute, each counted once."""
         unique = {recording.name: recording for recording in (*self.train, *self.given)}
         values = self.unit.of(np.concatenate([recording.values for recording in unique.values()]))
         seen = np.ma.masked_invalid(values)
         return seen.mean(axis=0).filled(0.0), seen.var(axis=0).filled(0.0)
 
 
-def _checked(recording: Recording, prediction: Prediction) -> dict[str, NDArray[np.float64]]:
-    """Return the prediction's arrays by name, once they are known to be usable."""
+def _checked(recording: Recording, prediction: Prediction) -> Prediction:
+    """Return the prediction as float64, once it is known to be usable."""
     hidden = ~recording.visible
-    arrays = {"mean": prediction.mean, "variance": prediction.variance}
-    answers = {
-        name: np.asarray(values, dtype=np.float64)
-        for name, values in arrays.items()
-        if values is not None
-    }
-    for name, values in answers.items():
-        if values.shape != hidden.shape:
-            raise InvalidPredictionError(
-                f"{recording.name}: expected a {name} of shape {hidden.shape}, got {values.shape}"
-            )
-        if not np.isfinite(values[hidden]).all():
-            bad = int((~np.isfinite(values[hidden])).sum())
-            raise InvalidPredictionError(
-                f"{recording.name}: expected a finite {name} at all {int(hidden.sum())} hidden "
-                f"entries, got {bad} that are NaN or infinite"
-            )
-    if "variance" in answers and not (answers["variance"][hidden] > 0).all():
-        worst = float(answers["variance"][hidden].min())
+    mean = _usable("mean", prediction.mean, hidden, recording.name)
+    if prediction.variance is None:
+        return Prediction(mean)
+    variance = _usable("variance", prediction.variance, hidden, recording.name)
+    if not (variance[hidden] > 0).all():
         raise InvalidPredictionError(
-            f"{recording.name}: expected a positive variance at hidden entries, got {worst:g}"
+            f"{recording.name}: expected a positive variance at hidden entries, "
+            f"got {float(variance[hidden].min()):g}"
         )
-    return answers
+    return Prediction(mean, variance)
+
+
+def _usable(what: str, values: FrameByChannel, hidden: Mask, name: str) -> FrameByChannel:
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != hidden.shape:
+        raise InvalidPredictionError(
+            f"{name}: expected a {what} of shape {hidden.shape}, got {array.shape}"
+        )
+    bad = int((~np.isfinite(array[hidden])).sum())
+    if bad:
+        raise InvalidPredictionError(
+            f"{name}: expected a finite {what} at all {int(hidden.sum())} hidden entries, "
+            f"got {bad} that are NaN or infinite"
+        )
+    return array

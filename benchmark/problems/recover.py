@@ -2,30 +2,57 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines import Layered
-from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem, Solution
+from mocapbench.benchmark.problems.arrays import Arrays, with_prefix
+from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
 from mocapbench.datasets import Frames, ToyProcess
 from mocapbench.metrics import Recovery
 
-__all__ = ["LAYERS", "RecoverProblem"]
+__all__ = ["LAYERS", "Covariances", "RecoverProblem"]
 
 LAYERS = ("parent", "child")
 """The layers of a `ToyProcess`, outermost first."""
 
 
 @dataclass(frozen=True, eq=False)
-class RecoverProblem(Problem):
+class Covariances:
+    """The answer to a `RecoverProblem`.
+
+    Parameters
+    ----------
+    by_layer : mapping of str to ndarray of shape (D N, D N)
+        Outputs slowest, without noise.
+    """
+
+    by_layer: Mapping[str, NDArray[np.float64]]
+
+    def to_arrays(self) -> Arrays:
+        """Return ``covariance-parent``, ``covariance-child`` …, by layer."""
+        return {f"covariance-{layer}": matrix for layer, matrix in self.by_layer.items()}
+
+    @classmethod
+    def from_arrays(cls, arrays: Arrays) -> Self:
+        """Return the answer that `to_arrays` turned into ``arrays``."""
+        return cls(with_prefix("covariance", arrays))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RecoverProblem(Problem[Covariances]):
     """Find the covariances of the process that drew the training recordings.
 
     Parameters
     ----------
+    train : tuple of Recording
+        What `fit` gets.
     process : ToyProcess
-        The process; no model that is asked is told it.
+        The process, which the models that enter are not told.
     times : ndarray of shape (N,)
         Where the covariances are compared.
     """
@@ -33,24 +60,22 @@ class RecoverProblem(Problem):
     process: ToyProcess
     times: Frames
 
-    def solve(self, model: Layered, random_state: int) -> Solution:
-        """Return ``covariance-child`` and, of a model with two layers, ``covariance-parent``.
+    answer_type = Covariances
+
+    def solve(self, model: Layered, random_state: int) -> Covariances:
+        """Return the children's covariance and, of a model with two layers, the parent's.
 
         Layers are paired from the innermost outwards: the one kernel of a model without a
         hierarchy stands for the children's, as in the thesis (§5.2.3).
         """
-        del random_state  # all is said in fit
+        del random_state  # fit has done everything
         paired = zip(reversed(LAYERS), reversed(model.layers), strict=False)
-        return {f"covariance-{layer}": self._covariance(model, own) for layer, own in paired}
+        return Covariances({layer: self._covariance(model, own) for layer, own in paired})
 
-    def outcome(self, solution: Solution) -> Recovery:
+    def outcome(self, answer: Covariances) -> Recovery:
         """Set the covariances beside those of the process."""
-        names = {layer: f"covariance-{layer}" for layer in LAYERS}
-        return Recovery(
-            truth=self.truth,
-            estimate={layer: solution[name] for layer, name in names.items() if name in solution},
-            noise=self.process.noise,
-        )
+        estimate = {layer: answer.by_layer[layer] for layer in LAYERS if layer in answer.by_layer}
+        return Recovery(truth=self.truth, estimate=estimate, noise=self.process.noise)
 
     @property
     def truth(self) -> dict[str, NDArray[np.float64]]:

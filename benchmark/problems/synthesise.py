@@ -3,31 +3,58 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
-from mocapbench.baselines import Misinformed, Model, Synthesiser
-from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem, Solution
+from mocapbench.baselines import Misinformed, Model, SampleByFrameByChannel, Synthesiser
+from mocapbench.benchmark.problems.arrays import Arrays
+from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
 from mocapbench.datasets import FrameByChannel, Frames, ToyProcess
 from mocapbench.metrics import Synthesis
 
-__all__ = ["SynthesiseProblem"]
+__all__ = ["Samples", "SynthesiseProblem"]
 
 
 @dataclass(frozen=True, eq=False)
-class SynthesiseProblem(Problem):
+class Samples:
+    """The answer to a `SynthesiseProblem`.
+
+    Parameters
+    ----------
+    values : ndarray of shape (n, N, D)
+    """
+
+    values: SampleByFrameByChannel
+
+    def to_arrays(self) -> Arrays:
+        """Return ``samples``."""
+        return {"samples": self.values}
+
+    @classmethod
+    def from_arrays(cls, arrays: Arrays) -> Self:
+        """Return the answer that `to_arrays` turned into ``arrays``."""
+        return cls(arrays["samples"])
+
+
+@dataclass(frozen=True, eq=False)
+class SynthesiseProblem(Problem[Samples]):
     """Draw new recordings that resemble the references.
 
     Parameters
     ----------
+    train : tuple of Recording
+        What `fit` gets.
     times : ndarray of shape (N,)
         When to draw.
     n_samples : int
     references : tuple of ndarray (N, D)
         Recordings that no model sees.
     control : ToyProcess or None
-        A process that generated neither the recordings nor the references, for models that must
-        be told one.
+        A process that generated neither the recordings nor the references, for misinformed
+        models.
+    process, parent
+        See `Problem`.
     """
 
     times: Frames
@@ -35,14 +62,16 @@ class SynthesiseProblem(Problem):
     references: tuple[FrameByChannel, ...]
     control: ToyProcess | None = None
 
+    answer_type = Samples
+
     def fit(self, model: Model) -> Model:
         """Fit ``model`` to what it may see."""
         if self.control is not None and isinstance(model, Misinformed):
             model.misinform(self.control)
         return super().fit(model)
 
-    def solve(self, model: Synthesiser, random_state: int) -> Solution:
-        """Return ``samples`` (n, N, D)."""
+    def solve(self, model: Synthesiser, random_state: int) -> Samples:
+        """Return the model's samples."""
         samples = np.asarray(model.sample(self.times, self.n_samples, random_state))
         expected = (self.n_samples, *self.references[0].shape)
         if samples.shape != expected or not np.isfinite(samples).all():
@@ -50,8 +79,8 @@ class SynthesiseProblem(Problem):
                 f"sample: expected finite samples of shape {expected}, got shape {samples.shape} "
                 f"with {int((~np.isfinite(samples)).sum())} entries that are NaN or infinite"
             )
-        return {"samples": samples}
+        return Samples(samples)
 
-    def outcome(self, solution: Solution) -> Synthesis:
+    def outcome(self, answer: Samples) -> Synthesis:
         """Set the samples beside the references."""
-        return Synthesis(solution["samples"], np.stack(self.references))
+        return Synthesis(answer.values, np.stack(self.references))

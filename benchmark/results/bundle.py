@@ -38,8 +38,8 @@ def bundle(
     check : mapping or None
         The last regression check, as the store keeps it.
     """
-    tasks = [TASKS.get(name) for name in _unique(record.task for record in records)]
-    shown = {metric for task in tasks for metric in task.metrics}
+    tasks = [TASKS.get(name) for name in _unique(record.address.task for record in records)]
+    shown = {metric for task in tasks for metric in task.page.metrics}
     used = shown | {metric for record in records for metric in record.scores}
     return Bundle(
         scores=score_table(records),
@@ -55,38 +55,26 @@ def bundle(
 
 
 def _budget(task: Task, profile: str) -> str:
-    selection = task.profiles.get(profile)
-    return ", ".join(f"{k}={v}" for k, v in selection.budget.items()) if selection else ""
+    chosen = task.profiles.get(profile)
+    return ", ".join(f"{k}={v}" for k, v in chosen.budget.items()) if chosen else ""
 
 
 def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
     return TaskLayout(
         name=task.name,
-        title=task.title,
-        reference=task.reference,
-        kind=task.kind,
-        description=task.description,
+        page=task.page,
         cases=tuple(
             CaseLayout(
                 case.name,
-                case.settings,
-                case.published,
-                case.synthetic,
-                case.remark,
-                case.not_comparable,
-                task.pools(case),
+                case.columns,
+                synthetic=case.synthetic,
+                averages_references=task.averages_references(case),
+                notes=task.page.notes(case.name),
             )
             for case in task.cases
         ),
-        labels=_unique(record.label for record in records if record.task == task.name),
-        metrics=task.metrics,
-        published_models=task.published_models,
-        published_metrics=task.published_metrics,
-        not_comparable=task.not_comparable,
-        not_controlled=task.not_controlled,
-        remarks=task.remarks,
+        labels=_unique(r.address.label for r in records if r.address.task == task.name),
         independent_folds=task.independent_folds,
-        crossed=task.crossed,
         budget=budget,
     )
 

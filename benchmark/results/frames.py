@@ -24,13 +24,13 @@ def score_table(records: Sequence[Record]) -> pd.DataFrame:
     """
     rows = [
         {
-            **{name: getattr(record, name) for name in _ADDRESS},
+            **_address(record),
             "metric": metric,
             "value": value,
             "sample_two_sd": _sample_two_sd(record, metric),
             "left_out": record.left_out.get(metric, 0),
             "parameters": _parameters(record),
-            "version": record.version,
+            "version": record.address.version,
             "seed": record.seed,
             "commit": record.provenance.get("commit", ""),
             "key": record.key,
@@ -51,7 +51,8 @@ def job_table(records: Sequence[Record]) -> pd.DataFrame:
     """
     rows = [
         {
-            **{name: getattr(record, name) for name in (*_ADDRESS, *_COSTS)},
+            **_address(record),
+            **{name: getattr(record, name) for name in _COSTS},
             "parameters": _parameters(record),
             "status": record.status.value,
             "message": record.message,
@@ -61,6 +62,10 @@ def job_table(records: Sequence[Record]) -> pd.DataFrame:
     ]
     columns = [*_ADDRESS, "parameters", "status", "message", "traceback", *_COSTS]
     return pd.DataFrame(rows, columns=columns)
+
+
+def _address(record: Record) -> dict[str, object]:
+    return {**record.address._asdict(), "model": record.model}
 
 
 def _sample_two_sd(record: Record, metric: str) -> float:

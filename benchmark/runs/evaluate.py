@@ -10,29 +10,31 @@ from typing import Any
 from joblib import parallel_config
 from threadpoolctl import threadpool_limits
 
+from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.problems.base import Problem
-from mocapbench.benchmark.registry import METRICS, TASKS, load_model_file
-from mocapbench.benchmark.runs.job import Job, Settings
+from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.runs.fit import Fit
+from mocapbench.benchmark.runs.job import Job, WorkerConfig
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.solve import solve
-from mocapbench.benchmark.runs.store import Fit, Store
-from mocapbench.datasets import open_archive
+from mocapbench.benchmark.runs.store import Store
 
 __all__ = ["evaluate"]
 
 
-def evaluate(job: Job, settings: Settings) -> Record:
+def evaluate(job: Job, config: WorkerConfig) -> Record:
     """Return the record of ``job``; whatever the model raises becomes a failed record.
 
     The predictions are kept in the store, and taken from there if they exist already.
     """
     try:
-        resource.setrlimit(resource.RLIMIT_AS, (settings.memory, resource.RLIM_INFINITY))
+        resource.setrlimit(resource.RLIMIT_AS, (config.memory, resource.RLIM_INFINITY))
         # One BLAS thread, so that results do not depend on how many jobs run at once.
-        with threadpool_limits(1), parallel_config("threading", n_jobs=settings.threads):
-            return _evaluate(job, settings)
+        with threadpool_limits(1), parallel_config("threading", n_jobs=config.threads):
+            return _evaluate(job, config)
     except MemoryError:
-        limit = settings.memory / 2**30
+        limit = config.memory / 2**30
         message = f"the job needed more than its {limit:.1f} GiB; raise --memory or lower --jobs"
         return job.record(Status.OUT_OF_MEMORY, message, traceback=traceback.format_exc())
     except BaseException as error:  # a model that calls sys.exit has failed like any other
@@ -40,32 +42,31 @@ def evaluate(job: Job, settings: Settings) -> Record:
         return job.record(Status.FAILED, message, traceback=traceback.format_exc())
 
 
-def _evaluate(job: Job, settings: Settings) -> Record:
-    for path in settings.model_files:
-        load_model_file(path)
-    task = TASKS.get(job.seeds.task)
-    archive = open_archive(settings.data_dir)
-    problem = task.problem(task.case(job.case), job.seeds, archive)
-    store = Store(settings.out)
+def _evaluate(job: Job, config: WorkerConfig) -> Record:
+    for path in config.plugins:
+        load_plugin(path)
+    case = TASKS.get(job.address.task).case(job.address.case)
+    problem = case.problem(job.seeds, archive_at(config.data_dir))
+    store = Store(config.out)
     fit = store.load_fit(job.fit_key)
     if fit is None:
-        fit = solve(job, problem)
+        fit = solve(problem, MODELS.get(job.model), job.parameters, job.seeds)
         store.save_fit(job.fit_key, fit)
-    costs = {name: value for name, value in asdict(fit).items() if name != "solution"}
+    costs = {name: value for name, value in asdict(fit).items() if name != "arrays"}
     costs["warnings"] = (*fit.warnings, *store.damaged)
-    found = {**costs, **_scores(job, problem, fit), "provenance": _provenance(job, settings)}
-    return job.record(Status.OK, **found)
+    results = {**costs, **_scores(job, problem, fit), "provenance": _provenance(job, config)}
+    return job.record(Status.OK, **results)
 
 
-def _scores(job: Job, problem: Problem, fit: Fit) -> dict[str, Any]:
+def _scores(job: Job, problem: Problem[Any], fit: Fit) -> dict[str, Any]:
     """Score by every metric that is defined for this outcome."""
-    outcome = problem.outcome(fit.solution)
+    outcome = problem.outcome(problem.answer_type.from_arrays(fit.arrays))
     metrics = [METRICS.get(name) for name in job.metrics]
     scores = {metric.name: metric(outcome) for metric in metrics if metric.applies(outcome)}
     if not scores:
         raise ValueError(
             f"none of the metrics {', '.join(job.metrics)} is defined for the answer of "
-            f"{job.label} to {job.seeds.task}; choose others with --metrics"
+            f"{job.address.label} to {job.address.task}; choose others with --metrics"
         )
     return {
         "scores": {name: float(score.value) for name, score in scores.items()},
@@ -77,6 +78,6 @@ def _scores(job: Job, problem: Problem, fit: Fit) -> dict[str, Any]:
     }
 
 
-def _provenance(job: Job, settings: Settings) -> dict[str, str]:
+def _provenance(job: Job, config: WorkerConfig) -> dict[str, str]:
     digests = {f"digest of {uri}": digest for uri, digest in job.digests.items()}
-    return {**settings.provenance, **digests}
+    return {**config.provenance, **digests}

@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.seeds import Seeds
 
-__all__ = ["Job", "Settings"]
+__all__ = ["Job", "WorkerConfig"]
 
 
 @dataclass(frozen=True)
-class Settings:
+class WorkerConfig:
     """What the jobs of a run have in common; travels to the workers.
 
     Parameters
@@ -23,21 +24,21 @@ class Settings:
         The run directory.
     data_dir : Path or None
         A folder of recordings that the user names.
-    model_files : tuple of Path
-        Files of the user's own models.
+    plugins : tuple of Path
+        The user's own files of models, tasks, metrics and libraries.
     timeout : float
         Seconds after which a job is killed.
     memory : int
         Bytes of address space that a job may take.
     threads : int
-        Threads that a job may share its work out to; results do not depend on it.
+        Threads that a job may divide its work among; results do not depend on it.
     provenance : mapping of str to str
         Copied into every record.
     """
 
     out: Path
     data_dir: Path | None
-    model_files: tuple[Path, ...]
+    plugins: tuple[Path, ...]
     timeout: float
     memory: int
     threads: int
@@ -50,12 +51,12 @@ class Job:
 
     Parameters
     ----------
+    address : Address
+        The case, the fold and the entrant.
     seeds : Seeds
-        Address of what is asked: task, version, question, fold, root seed.
-    case : str
-        The row that it is asked for.
-    label, model, parameters : str, str, mapping
-        The entrant.
+        The random streams of the problem, which cases may share.
+    model, parameters : str, mapping
+        What the entrant is.
     metrics : tuple of str
         What to score.
     key, fit_key : str
@@ -66,9 +67,8 @@ class Job:
         Addresses of the recordings that it needs and that are not at hand.
     """
 
+    address: Address
     seeds: Seeds
-    case: str
-    label: str
     model: str
     parameters: Mapping[str, Any]
     metrics: tuple[str, ...]
@@ -77,20 +77,16 @@ class Job:
     digests: Mapping[str, str]
     missing: tuple[str, ...] = ()
 
-    def record(self, status: Status, message: str = "", **found: Any) -> Record:
+    def record(self, status: Status, message: str = "", **results: Any) -> Record:
         """Return a record of this job that ended with ``status``."""
         return Record(
             key=self.key,
             fit_key=self.fit_key,
-            task=self.seeds.task,
-            version=self.seeds.version,
-            case=self.case,
-            fold=self.seeds.fold,
+            address=self.address,
             seed=self.seeds.root,
-            label=self.label,
             model=self.model,
             parameters=self.parameters,
             status=status,
             message=message,
-            **found,
+            **results,
         )

@@ -1,53 +1,41 @@
 """Keys: SHA-256 names for what a job computes, over everything that can change the result.
 
-The *fit key* covers the problem (task definition and version, case, fold, root seed, data
-digests), the model (name, parameters, source) and the numerical libraries. The *score key* adds
-the metrics, so that a changed metric rescores stored predictions without refitting.
+The *fit key* covers the problem (its address and root seed, the function that poses it with its
+arguments, data digests), the model (name, parameters, source) and the numerical libraries. The
+*score key* adds the metrics, so that a changed metric scores stored predictions again without
+fitting again. `sources` says which code counts.
 """
 
 from __future__ import annotations
 
-import ast
 import hashlib
-import importlib
 import importlib.metadata
 import json
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
-from pathlib import Path
 from typing import Any
 
-from mocapbench.benchmark.tasks.base import Case, Task
+import numpy as np
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.runs import solve
+from mocapbench.benchmark.runs.sources import source_digest
+from mocapbench.benchmark.tasks.base import Case
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.metrics import Metric
 
-__all__ = ["fit_key", "score_key", "source_digest"]
+__all__ = ["fit_key", "score_key"]
 
-_MODEL_SOURCES = ("mocapbench.baselines", "mocapbench.datasets.process")
-_TASK_SOURCES = (
-    "mocapbench.datasets",
-    "mocapbench.benchmark.problems.blending",
-    "mocapbench.benchmark.problems.cluster",
-    "mocapbench.benchmark.problems.impute",
-    "mocapbench.benchmark.problems.masks",
-    "mocapbench.benchmark.problems.base",
-    "mocapbench.benchmark.problems.recover",
-    "mocapbench.benchmark.tasks.seeds",
-    "mocapbench.benchmark.problems.synthesise",
-    "mocapbench.benchmark.tasks",
-)
-_SOLVING = "mocapbench.benchmark.runs.solve"
-_SOLVING_SOURCES = ("mocapbench.benchmark.problems.internals",)
+_FITTING = ("mocapbench.datasets", "mocapbench.baselines", "mocapbench.benchmark")
+_SCORING = ("mocapbench.metrics",)
 _LIBRARIES = ("numpy", "scipy", "scikit-learn")
 
 
 def fit_key(
-    task: Task,
     case: Case,
     seeds: Seeds,
     *,
-    label: str,
     model: type,
     parameters: Mapping[str, Any],
     digests: Mapping[str, str],
@@ -56,10 +44,10 @@ def fit_key(
 
     Parameters
     ----------
-    task, case, seeds
-        The problem's address.
-    label : str
-        The entrant, whose random streams carry it.
+    case : Case
+        Whose problem is posed.
+    seeds : Seeds
+        The problem's address, with the entrant's label, and the root seed.
     model, parameters
         The class and its full parameters.
     digests : mapping of str to str
@@ -67,22 +55,25 @@ def fit_key(
     """
     return _digest(
         {
-            "task": [task.name, task.version, source_digest(type(task).__module__, _TASK_SOURCES)],
-            "case": [*_question(case), dict(digests)],
-            "fold": [seeds.fold, seeds.root],
-            "entrant": [label, model.__qualname__, dict(parameters)],
+            "problem": [*seeds.address, seeds.root, dict(digests)],
+            "posed by": _problem(case),
+            "entrant": [model.__qualname__, dict(parameters)],
             "source": [
-                source_digest(model.__module__, _MODEL_SOURCES),
-                source_digest(_SOLVING, _SOLVING_SOURCES),
+                source_digest(model.__module__, _FITTING),
+                source_digest(solve.__name__, _FITTING),
             ],
             "libraries": {name: _installed_version(name) for name in _LIBRARIES},
         }
     )
 
 
-def _question(case: Case) -> tuple[str, dict[str, Any]]:
-    """Return what is asked: where cases share it, settings tell the judgement, not the question."""
-    return case.asked, {} if case.question else dict(case.settings)
+def _problem(case: Case) -> list[str]:
+    """Describe what poses the problem; where cases share it, without what each binds to it."""
+    match case.problem:
+        case partial(func=function) if case.problem_name != case.name:
+            return _description(function, _FITTING)
+        case function:
+            return _description(function, _FITTING)
 
 
 @cache
@@ -105,86 +96,37 @@ def score_key(
     references : mapping of str to str
         Digest of each recording that only the scores depend on.
     """
-    scored = {metric.name: _description(metric.statistic) for metric in metrics}
-    return _digest({"fit": fit, "metrics": scored, "judged": [case, dict(references)]})
+    scored = {metric.name: _description(metric.statistic, _SCORING) for metric in metrics}
+    return _digest({"fit": fit, "metrics": scored, "scored against": [case, dict(references)]})
 
 
-def _description(statistic: Callable[..., Any]) -> list[str]:
+def _description(function: Callable[..., Any], within: tuple[str, ...]) -> list[str]:
     """Name a function, the arguments that are bound to it, and the source of both."""
-    match statistic:
+    match function:
         case partial():
-            bound = [
-                part
-                for name, value in sorted(statistic.keywords.items())
-                for part in (name, *(_description(value) if callable(value) else [repr(value)]))
+            bound = [*enumerate(function.args), *sorted(function.keywords.items())]
+            return [
+                *_description(function.func, within),
+                *(part for name, value in bound for part in (str(name), *_value(value, within))),
             ]
-            return [*_description(statistic.func), *bound]
         case _:
-            source = source_digest(statistic.__module__, ("mocapbench.metrics",))
-            return [statistic.__qualname__, source]
+            source = source_digest(function.__module__, within)
+            return [function.__qualname__, source]
+
+
+def _value(value: object, within: tuple[str, ...]) -> list[str]:
+    if callable(value):
+        return _description(value, within)
+    with np.printoptions(threshold=sys.maxsize, floatmode="unique"):
+        text = repr(value)
+    if " at 0x" in text:
+        raise UsageError(
+            "expected arguments of a problem or a metric whose text tells them apart (numbers, "
+            f"texts, tuples, dataclasses), got {text}; use a dataclass, or give it a __repr__"
+        )
+    return [text]
 
 
 def _digest(document: Mapping[str, Any]) -> str:
     canonical = json.dumps(document, sort_keys=True)
     return hashlib.sha256(canonical.encode()).hexdigest()
-
-
-@cache
-def source_digest(module: str, within: tuple[str, ...]) -> str:
-    """Return the digest of a module's source and of what it imports from ``within``.
-
-    Imports are followed to the module that defines the imported name, so that a package's
-    ``__init__`` does not drag its whole content in. Modules in the same folder count too: they
-    are the helpers of a user's own model.
-
-    Parameters
-    ----------
-    module : str
-        Full name of an imported module.
-    within : tuple of str
-        Packages or modules whose source counts.
-    """
-    found: set[str] = set()
-    pending = [module]
-    while pending:
-        name = pending.pop()
-        if name not in found:
-            found.add(name)
-            pending += [item for item in _imports(name) if _counts(item, within, module)]
-    message = "".join(f"{name}\0{_source(name)}\0" for name in sorted(found))
-    return hashlib.sha256(message.encode()).hexdigest()
-
-
-def _counts(module: str, within: tuple[str, ...], root: str) -> bool:
-    if any(module == name or module.startswith(f"{name}.") for name in within):
-        return True
-    file, home = _file(module), _file(root)
-    foreign = not root.startswith("mocapbench.")
-    return foreign and file is not None and home is not None and file.parent == home.parent
-
-
-def _file(module: str) -> Path | None:
-    name = getattr(sys.modules.get(module), "__file__", None)
-    return Path(name) if name else None
-
-
-def _source(module: str) -> str:
-    importlib.import_module(module)
-    file = _file(module)
-    return file.read_text(encoding="utf-8") if file else ""
-
-
-def _imports(module: str) -> Iterator[str]:
-    for node in ast.walk(ast.parse(_source(module))):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            yield from (_definer(node.module, alias.name) for alias in node.names)
-
-
-def _definer(package: str, name: str) -> str:
-    """Return the module that defines ``name``, which ``package`` may only pass on."""
-    if f"{package}.{name}" in sys.modules:
-        return f"{package}.{name}"
-    value = getattr(sys.modules.get(package), name, None)
-    return str(getattr(value, "__module__", package))

@@ -12,7 +12,8 @@ from mocapbench.benchmark.errors import UnknownNameError, UsageError
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.keys import fit_key, score_key
-from mocapbench.benchmark.tasks.base import Case, Entrant, Selection, Task
+from mocapbench.benchmark.tasks.address import Address
+from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 
@@ -72,7 +73,7 @@ def required_sources(request: Request) -> tuple[str, ...]:
     """Return the addresses of every recording that ``request`` needs, each once."""
     _check_names(request)
     tasks = [task for task in _tasks(request) if _chosen_entrants(request, task)]
-    sources = [uri for task in tasks for case in _cases(request, task) for uri in case.needs]
+    sources = [uri for task in tasks for case in _cases(request, task) for uri in case.recordings]
     return tuple(dict.fromkeys(sources))
 
 
@@ -89,7 +90,7 @@ def _check_names(request: Request) -> None:
     for name in request.tasks:
         TASKS.get(name)
     for name in request.metrics:
-        METRICS.get(name)
+        METRICS.current_name(name)
     tasks = _tasks(request)
     labels = {entrant.label for task in tasks for entrant in task.entrants}
     _check_known("model", request.models, {*MODELS.names(), *labels})
@@ -115,7 +116,7 @@ def _tasks(request: Request) -> list[Task]:
 def _cases(request: Request, task: Task) -> Iterator[Case]:
     """Yield the profile's cases, or among all those of the task the ones asked for."""
     if not request.cases:
-        yield from map(task.case, task.selection(request.profile).cases)
+        yield from map(task.case, task.profile(request.profile).cases)
     for case in task.cases:
         if any(fnmatchcase(case.name, pattern) for pattern in request.cases):
             yield case
@@ -125,12 +126,12 @@ def _chosen_entrants(request: Request, task: Task) -> list[Entrant]:
     wanted = set(request.models)
     if wanted:
         return [e for e in entrants(task) if wanted & {e.label, e.model}]
-    left_out = task.selection(request.profile).without
+    left_out = task.profile(request.profile).opt_in
     return [e for e in entrants(task) if e.label not in left_out]
 
 
 def _folds(request: Request, task: Task) -> int:
-    folds = task.selection(request.profile).folds if request.folds is None else request.folds
+    folds = task.profile(request.profile).folds if request.folds is None else request.folds
     if task.max_folds is not None and folds > task.max_folds:
         raise UsageError(
             f"--folds: {task.name} has {task.max_folds} folds, got {folds}; ask for fewer, or "
@@ -139,12 +140,12 @@ def _folds(request: Request, task: Task) -> int:
     return folds
 
 
-def _parameters(entrant: Entrant, case: Case, selection: Selection) -> dict[str, Any]:
+def _parameters(entrant: Entrant, case: Case, profile: Profile) -> dict[str, Any]:
     """Return the model's full parameters, its seed apart, which the label decides."""
     model = MODELS.get(entrant.model)(**entrant.parameters)
     names = model.get_params()
-    asked = {**selection.budget, **case.parameters}
-    model.set_params(**{name: v for name, v in asked.items() if name in names})
+    prescribed = {**profile.budget, **case.parameters}
+    model.set_params(**{name: v for name, v in prescribed.items() if name in names})
     parameters = {name: v for name, v in model.get_params().items() if name != "random_state"}
     for name, value in parameters.items():
         _check_plain(entrant, name, value)
@@ -163,24 +164,25 @@ def _check_plain(entrant: Entrant, name: str, value: object) -> None:
 
 
 def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> Iterator[Job]:
-    missing = tuple(uri for uri in case.needs if not archive.available(uri))
-    digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.needs}
-    seen, judging = ({uri: digests[uri] for uri in of} for of in (case.sources, case.references))
-    names = tuple(sorted(request.metrics or METRICS.names()))
-    metrics = [METRICS.get(name) for name in names]
+    missing = tuple(uri for uri in case.recordings if not archive.available(uri))
+    digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.recordings}
+    seen, compared = ({uri: digests[uri] for uri in of} for of in (case.sources, case.references))
+    metrics = tuple(sorted(map(METRICS.current_name, request.metrics or METRICS.names())))
     for entrant in _chosen_entrants(request, task):
-        parameters = _parameters(entrant, case, task.selection(request.profile))
+        model = MODELS.get(entrant.model)
+        parameters = _parameters(entrant, case, task.profile(request.profile))
         for fold in range(_folds(request, task)):
-            seeds = Seeds(request.seed, task.name, task.version, case.asked, fold)
-            fit = fit_key(
-                task,
-                case,
+            address = Address(task.name, task.version, case.name, fold, entrant.label)
+            seeds = Seeds(request.seed, address._replace(case=case.problem_name))
+            fit = fit_key(case, seeds, model=model, parameters=parameters, digests=seen)
+            yield Job(
+                address,
                 seeds,
-                label=entrant.label,
-                model=MODELS.get(entrant.model),
-                parameters=parameters,
-                digests=seen,
+                entrant.model,
+                parameters,
+                metrics,
+                score_key(fit, [METRICS.get(name) for name in metrics], case.name, compared),
+                fit,
+                digests,
+                missing,
             )
-            key = score_key(fit, metrics, case.name, judging)
-            label, model = entrant.label, entrant.model
-            yield Job(seeds, case.name, label, model, parameters, names, key, fit, digests, missing)

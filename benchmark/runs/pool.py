@@ -13,7 +13,7 @@ from concurrent.futures import CancelledError, Future, as_completed
 from pebble import CONSTS, ProcessExpired, ProcessPool
 
 from mocapbench.benchmark.runs.evaluate import evaluate
-from mocapbench.benchmark.runs.job import Job, Settings
+from mocapbench.benchmark.runs.job import Job, WorkerConfig
 from mocapbench.benchmark.runs.record import Record, Status
 
 __all__ = ["execute"]
@@ -22,16 +22,15 @@ __all__ = ["execute"]
 # a job, at pebble's tenth of a second an idle core would wait as long as most baselines compute.
 CONSTS.sleep_unit = 0.01
 
-# The command line is what a worker takes for its main module.
 _PRELOAD = [
-    "mocapbench.benchmark.cli.main",
+    "mocapbench.benchmark.runs.evaluate",
     "scipy.interpolate",
     "scipy.optimize",
     "sklearn.impute",
 ]
 
 
-def execute(jobs: Sequence[Job], settings: Settings, n_workers: int) -> Iterator[Record]:
+def execute(jobs: Sequence[Job], config: WorkerConfig, n_workers: int) -> Iterator[Record]:
     """Run ``jobs`` and yield each one's record as it ends.
 
     Closing the iterator, or an interrupt, kills what still runs.
@@ -39,7 +38,7 @@ def execute(jobs: Sequence[Job], settings: Settings, n_workers: int) -> Iterator
     Parameters
     ----------
     jobs : sequence of Job
-    settings : Settings
+    config : Settings
     n_workers : int
         How many jobs run at once.
     """
@@ -48,23 +47,22 @@ def execute(jobs: Sequence[Job], settings: Settings, n_workers: int) -> Iterator
     pool = ProcessPool(max_workers=n_workers, max_tasks=1, context=context)
     try:
         futures: dict[Future[Record], Job] = {
-            pool.schedule(evaluate, args=[job, settings], timeout=settings.timeout): job
-            for job in jobs
+            pool.schedule(evaluate, args=[job, config], timeout=config.timeout): job for job in jobs
         }
         for future in as_completed(futures):
-            yield _record(future, futures[future], settings)
+            yield _record(future, futures[future], config)
     finally:
         pool.stop()  # type: ignore[no-untyped-call]
         pool.join()
 
 
-def _record(future: Future[Record], job: Job, settings: Settings) -> Record:
+def _record(future: Future[Record], job: Job, config: WorkerConfig) -> Record:
     """Return the job's record, whatever became of its process."""
     try:
         return future.result()
     except TimeoutError:
         message = (
-            f"killed after {settings.timeout:g} s, or ended by itself without a word; "
+            f"killed after {config.timeout:g} s, or exited without reporting; "
             "raise --timeout or lower the budget"
         )
         return job.record(Status.TIMEOUT, message)

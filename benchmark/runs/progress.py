@@ -52,7 +52,7 @@ def _bar(records: Iterable[Record], total: int, console: Console) -> Iterator[Re
         bar = progress.add_task("jobs", total=total, failed=0)
         for record in records:
             counts[record.status] += 1
-            progress.update(bar, advance=1, failed=_broken(counts), description=_address(record))
+            progress.update(bar, advance=1, failed=_broken(counts), description=str(record.address))
             _announce(record, console)
             yield record
 
@@ -76,12 +76,8 @@ def _lines(records: Iterable[Record], total: int, console: Console) -> Iterator[
 
 def _announce(record: Record, console: Console) -> None:
     if record.status.broken:
-        console.print(f"{record.status}: {_address(record)}: {record.message}", markup=False)
+        console.print(f"{record.status}: {record.address}: {record.message}", markup=False)
 
 
 def _broken(counts: Counter[Status]) -> int:
     return sum(count for status, count in counts.items() if status.broken)
-
-
-def _address(record: Record) -> str:
-    return f"{record.task} · {record.case} · {record.label} · fold {record.fold + 1}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.metadata
-import os
 import platform
 import shlex
 import subprocess
@@ -11,6 +10,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from threadpoolctl import threadpool_info
+
+from mocapbench.benchmark.runs.machine import n_cores
 
 __all__ = ["cpu_name", "provenance"]
 
@@ -37,7 +38,7 @@ def provenance(command: Sequence[str], threads: int) -> Mapping[str, str]:
         "libc": " ".join(platform.libc_ver()),
         "BLAS": _blas(),
         "CPU": cpu_name(),
-        "cores": str(os.cpu_count()),
+        "cores": str(n_cores()),
         "threads": f"{threads} per job",
         "command line": shlex.join(command),
     }
@@ -56,9 +57,9 @@ def cpu_name() -> str:
 def _blas() -> str:
     """Return the BLAS libraries that are loaded, with the processor family they compute for."""
     names = {
-        " ".join(str(each.get(key)) for key in ("internal_api", "version", "architecture"))
-        for each in threadpool_info()
-        if each["user_api"] == "blas"
+        " ".join(str(pool.get(key)) for key in ("internal_api", "version", "architecture"))
+        for pool in threadpool_info()
+        if pool["user_api"] == "blas"
     }
     return "; ".join(sorted(names)) or "unknown"
 

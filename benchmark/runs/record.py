@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import asdict, dataclass, field, fields
 from enum import StrEnum
 from typing import Any, Self
+
+from mocapbench.benchmark.tasks.address import Address
 
 __all__ = ["Record", "RecordError", "Status"]
 
@@ -41,10 +43,12 @@ class Record:
     ----------
     key, fit_key : str
         The score key, which names the record, and the fit key, which names its predictions.
-    task, version, case, fold, seed : str, int, str, int, int
-        The address of the problem.
-    label, model, parameters : str, str, mapping
-        The entrant.
+    address : Address
+        The case, the fold and the entrant.
+    seed : int
+        The root seed of the run.
+    model, parameters : str, mapping
+        What the entrant is.
     status, message, traceback : Status, str, str
         How it ended, and why.
     scores : mapping of str to float
@@ -66,12 +70,8 @@ class Record:
 
     key: str
     fit_key: str
-    task: str
-    version: int
-    case: str
-    fold: int
+    address: Address
     seed: int
-    label: str
     model: str
     parameters: Mapping[str, Any]
     status: Status
@@ -89,13 +89,11 @@ class Record:
     warnings: tuple[str, ...] = ()
     provenance: Mapping[str, str] = field(default_factory=dict)
 
-    def ended(self, status: Status, message: str, traceback: str = "") -> Record:
-        """Return this record with another ending."""
-        return replace(self, status=status, message=message, traceback=traceback)
-
     def to_json(self) -> str:
-        """Return the record as strict JSON; NaN becomes null."""
-        return json.dumps({"format": FORMAT, **_without_nan(asdict(self))}, indent=1)
+        """Return the record as strict JSON; NaN becomes null, the address five entries."""
+        document = {**self.address._asdict(), **asdict(self)}
+        del document["address"]
+        return json.dumps({"format": FORMAT, **_without_nan(document)}, indent=1)
 
     @classmethod
     def from_json(cls, text: str) -> Self:
@@ -116,12 +114,16 @@ class Record:
                 name: math.nan if value is None else value
                 for name, value in document["scores"].items()
             }
-            missing = {item.name for item in fields(cls)} ^ set(document)
+            missing = _ENTRIES ^ set(document)
             if missing:
                 raise RecordError(f"fields missing or unknown: {sorted(missing)}")
-            return cls(**document)
+            address = Address(**{name: document.pop(name) for name in Address._fields})
+            return cls(address=address, **document)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise RecordError(f"not a whole record: {error}") from error
+
+
+_ENTRIES = {*Address._fields, *(item.name for item in fields(Record))} - {"address"}
 
 
 def _without_nan(value: Any) -> Any:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from rich.console import Console
 
-from mocapbench.benchmark.runs.job import Job, Settings
+from mocapbench.benchmark.runs.job import Job, WorkerConfig
 from mocapbench.benchmark.runs.pool import execute
 from mocapbench.benchmark.runs.progress import watch
 from mocapbench.benchmark.runs.record import Record, Status
@@ -19,7 +19,7 @@ __all__ = ["run"]
 def run(
     jobs: Sequence[Job],
     store: Store,
-    settings: Settings,
+    config: WorkerConfig,
     *,
     n_workers: int,
     console: Console,
@@ -33,7 +33,7 @@ def run(
     ----------
     jobs : sequence of Job
     store : Store
-    settings : Settings
+    config : WorkerConfig
     n_workers : int
         How many jobs run at once.
     console : rich.console.Console
@@ -44,13 +44,13 @@ def run(
     todo = [job for job in jobs if job.key not in finished]
     if finished:
         console.print(f"{len(finished)} of {len(jobs)} jobs are in {store.path} already")
-    for record in watch(_records(todo, settings, n_workers), len(todo), console):
+    for record in watch(_records(todo, config, n_workers), len(todo), console):
         store.save(record)
         finished[record.key] = record
     return [finished[job.key] for job in jobs]
 
 
-def _records(jobs: Sequence[Job], settings: Settings, n_workers: int) -> Iterator[Record]:
+def _records(jobs: Sequence[Job], config: WorkerConfig, n_workers: int) -> Iterator[Record]:
     """Yield at once the jobs whose recordings cannot be had, then the others as they end."""
     for job in jobs:
         if job.missing:
@@ -58,6 +58,6 @@ def _records(jobs: Sequence[Job], settings: Settings, n_workers: int) -> Iterato
             yield job.record(
                 Status.DATA_MISSING,
                 f"{trials} cannot be had: get it with `{Archive.fetch_command(*job.missing)}`",
-                provenance=settings.provenance,
+                provenance=config.provenance,
             )
-    yield from execute([job for job in jobs if not job.missing], settings, n_workers)
+    yield from execute([job for job in jobs if not job.missing], config, n_workers)

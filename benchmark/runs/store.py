@@ -4,6 +4,7 @@
 
     run-directory/
         mocapbench.json             says that the folder is ours
+        mocapbench.lock             held by a run that writes
         plan.json                   the keys of the last run, in table order
         check.json                  what the last regression check of that run found
         records/<score key>.json
@@ -15,41 +16,28 @@ file is reported in `Store.damaged` and treated as absent.
 
 from __future__ import annotations
 
-import fcntl
 import json
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from filelock import FileLock, Timeout
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
-from mocapbench.benchmark.problems.base import Solution
+from mocapbench.benchmark.runs.fit import Fit
 from mocapbench.benchmark.runs.record import Record, RecordError
 
-__all__ = ["Fit", "Store"]
+__all__ = ["Store"]
 
 _MARKER = "mocapbench.json"
 _CHECK = "check.json"
+_LOCK = "mocapbench.lock"
 _FORMAT = 1
-
-
-@dataclass(frozen=True)
-class Fit:
-    """A solution and what it cost; everything that rescoring needs."""
-
-    solution: Solution
-    fit_seconds: float
-    predict_seconds: float
-    peak_memory_mb: float
-    iterations: int | None
-    converged: bool | None
-    engine: str = ""
-    warnings: tuple[str, ...] = ()
 
 
 class Store:
@@ -121,15 +109,18 @@ class Store:
         UsageError
             If another run is in it.
         """
-        with (self.path / _MARKER).open("rb") as file:
-            try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError as error:
-                raise UsageError(
-                    f"--out: another run is writing to {self.path}; wait for it or name another "
-                    "folder (copying records together later merges the two)"
-                ) from error
+        lock = FileLock(self.path / _LOCK, timeout=0)
+        try:
+            lock.acquire()
+        except Timeout as error:
+            raise UsageError(
+                f"--out: another run is writing to {self.path}; wait for it or name another "
+                "folder (copying records together later merges the two)"
+            ) from error
+        try:
             yield
+        finally:
+            lock.release()
 
     def load(self, key: str) -> Record | None:
         """Return the record called ``key``, or None if it is absent or damaged."""
@@ -176,18 +167,18 @@ class Store:
                 about = json.loads(str(arrays["about"]))
                 if about.pop("key") != key:
                     raise ValueError("it holds those of another job")
-                solution = {name: arrays[name] for name in arrays.files if name != "about"}
-            return Fit(solution, **{**about, "warnings": tuple(about["warnings"])})
+                contents = {name: arrays[name] for name in arrays.files if name != "about"}
+            return Fit(contents, **{**about, "warnings": tuple(about["warnings"])})
         except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
             self.damaged.append(f"{path}: not a whole set of predictions: {error}")
             return None
 
     def save_fit(self, key: str, fit: Fit) -> None:
         """Write ``fit`` whole or not at all."""
-        about = {name: value for name, value in asdict(fit).items() if name != "solution"}
+        about = {name: value for name, value in asdict(fit).items() if name != "arrays"}
         about["key"] = key
         with atomic_write(self._fit_path(key)) as file:
-            arrays: dict[str, Any] = {**fit.solution, "about": np.array(json.dumps(about))}
+            arrays: dict[str, Any] = {**fit.arrays, "about": np.array(json.dumps(about))}
             np.savez_compressed(file, **arrays)
 
     def save_plan(self, plan: Mapping[str, Any]) -> None:
@@ -230,7 +221,7 @@ class Store:
             return None
         try:
             check = dict(json.loads(path.read_text(encoding="utf-8")))
-            if check.keys() != {"baseline", "summary", "passed", "findings"}:
+            if check.keys() != {"reference", "summary", "passed", "findings"}:
                 raise ValueError(f"it holds {sorted(check)}")
             return check
         except (OSError, ValueError, TypeError) as error:

@@ -1,75 +1,71 @@
-"""Tasks: named, versioned protocols with cases, folds and entrants."""
+"""Tasks: named, versioned protocols with cases, folds and entrants, declared as values."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from mocapbench.baselines import Informed, Misinformed, Model
 from mocapbench.benchmark.errors import UnknownNameError
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
+from mocapbench.reports.bundle.task_page import TaskPage
 
-__all__ = ["Case", "Entrant", "Selection", "Task", "without_stand_ins"]
+__all__ = ["Case", "Entrant", "PoseProblem", "Profile", "Task", "on_recordings"]
 
-Setting = str | int | float
+PoseProblem = Callable[[Seeds, Archive], Problem[Any]]
+"""From the streams of a fold and the recordings to a problem: a pure function of both."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Case:
-    """One row of the paper's table.
+    """One row of a task's table.
 
     Parameters
     ----------
     name : str
-        Unique within the task; part of keys, and of seeds unless there is a ``question``.
-    settings : mapping
+        Unique within the task; part of keys, and of seeds unless there is a ``problem_name``.
+    problem : callable
+        ``problem(seeds, archive)`` poses the problem of the fold ``seeds.fold``: usually a
+        `functools.partial` of a function that several cases share. What it draws comes from
+        ``seeds`` alone, and what it reads from ``archive`` alone.
+    columns : mapping of str to str, int or float
         What the row varies, as columns of its table.
     sources : tuple of str
         Addresses of the recordings that models see of it, such as ``cmu:02_01``.
     references : tuple of str
-        Addresses of the recordings that no model sees, which its answers are judged by.
-    question : str
-        What is asked of models, where other cases ask the same and differ in what the answers are
-        judged by: its seeds and fits are shared under this name.
-    published : str or None
-        The row's name in the published values, None where the paper has no such row.
+        Addresses of the recordings that no model sees, and that answers are compared with.
+    problem_name : str
+        Cases that differ only in their references pose one problem: they share its name, and with
+        it their seeds and fits. By default the case's own name.
     synthetic : bool
         Whether it stands on generated gait rather than recordings of people.
-    remark : str
-        Shown where its numbers stand.
     parameters : mapping
-        What it sets on every model that has it, for example ``{"n_styles": 4}``.
-    not_comparable : mapping of str to str
-        By label, why the row's published values cannot be set beside ours.
+        Parameters set on every model that has them, for example ``{"n_styles": 4}``.
     """
 
     name: str
-    settings: Mapping[str, Setting]
+    problem: PoseProblem
+    columns: Mapping[str, str | int | float] = field(default_factory=dict)
     sources: tuple[str, ...] = ()
     references: tuple[str, ...] = ()
-    question: str = ""
-    published: str | None = None
+    problem_name: str = ""
     synthetic: bool = False
-    remark: str = ""
     parameters: Mapping[str, object] = field(default_factory=dict)
-    not_comparable: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "problem_name", self.problem_name or self.name)
 
     @property
-    def needs(self) -> tuple[str, ...]:
+    def recordings(self) -> tuple[str, ...]:
         """Addresses of all recordings that it takes, each once."""
         return tuple(dict.fromkeys((*self.sources, *self.references)))
 
-    @property
-    def asked(self) -> str:
-        """What seeds and fits know it by."""
-        return self.question or self.name
 
-
-def without_stand_ins(cases: Iterable[Case]) -> tuple[str, ...]:
-    """Return the names of the cases that do not stand on generated gait."""
+def on_recordings(cases: Iterable[Case]) -> tuple[str, ...]:
+    """Return the names of the cases that stand on recordings of people, not on generated gait."""
     return tuple(case.name for case in cases if not case.synthetic)
 
 
@@ -83,8 +79,8 @@ class Entrant:
 
 
 @dataclass(frozen=True)
-class Selection:
-    """What a profile runs of a task.
+class Profile:
+    """What a profile (``smoke``, ``quick``, ``paper``) runs of a task.
 
     Parameters
     ----------
@@ -94,102 +90,80 @@ class Selection:
         How many folds, from the first.
     budget : mapping
         Parameters set on every model that has them, for example ``{"max_iter": 20}``.
-    without : tuple of str
-        Labels that take part only when they are asked for.
+    opt_in : tuple of str
+        Labels that take part only when they are named.
     """
 
     cases: tuple[str, ...]
     folds: int
     budget: Mapping[str, object] = field(default_factory=dict)
-    without: tuple[str, ...] = ()
+    opt_in: tuple[str, ...] = ()
 
 
-class Task(ABC):
-    """A protocol: from an address (case, fold) and seeds to a `Problem`.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Task:
+    """A protocol: which problems are posed to which models, and what the report shows of it.
 
-    Attributes
+    Parameters
     ----------
     name, version : str, int
         Identity; the version rises whenever the same address would give another problem.
-    title, reference, description : str
-        Heading, place in the paper, and one or two sentences for readers of the report.
-    kind : str
-        ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``: what the report calls it.
+    page : TaskPage
+        How the report presents it; nothing in it changes a result.
     requires : tuple of type
         The abilities a model must have; others are not applicable.
+    cases : tuple of Case
+    profiles : mapping of str to Profile
+    entrants : tuple of Entrant
+        Configured models; a registered model without an entry enters with its defaults.
     has_process : bool
         Whether its data come from a known process, which informed models need.
     has_control : bool
         Whether its problems come with an unrelated process, which misinformed models need.
-    cases : tuple of Case
     max_folds : int or None
         How many folds there are, None where each draws anew.
     independent_folds : bool
         Whether folds are independent draws of the protocol, as overlapping windows are not.
-    entrants : tuple of Entrant
-        Configured models; a registered model without an entry enters with its defaults.
-    metrics : tuple of str
-        The tables to show, in order; the first is the one that headlines speak of.
-    profiles : mapping of str to Selection
-    published_models, published_metrics : mapping of str to str
-        From our labels and metrics to the paper's names.
-    not_comparable : mapping of (label, metric) to str
-        Why a published value cannot be set beside ours; metric ``"*"`` stands for all.
-    not_controlled : mapping of str to str
-        Labels whose samples need not resemble the references more than the control's do, and why.
-    remarks : tuple of str
-        Errata and cautions shown with the tables.
-    crossed : tuple of two str, or None
-        Settings along the rows and the columns of its tables, where one entrant takes part and
-        the cases are pairs.
-    illustrated : tuple of str
-        Names of cases; the first of them that has solutions is shown in figures.
-    illustrated_channels : tuple of str
-        The channels that figures of recordings show.
-    coregionalisation_of : tuple of str
-        Labels whose coregionalisation matrices are shown.
-    latent_of : tuple of str
-        Labels whose latent spaces are shown.
-    joint_groups : mapping of str to tuple of str
-        Joints whose part of those matrices is shown by itself, by a name for the group.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import FrameImputer
+    >>> from mocapbench.benchmark import Case, ImputeProblem, Profile, Task, hide_frames
+    >>> from mocapbench.datasets import Recording
+    >>> from mocapbench.reports import TaskPage
+    >>> def gap_in_a_wave(seeds, archive):
+    ...     times = np.linspace(0.0, 1.0, 30)
+    ...     phase = seeds.generator("data").uniform(0.0, 1.0)
+    ...     values = np.sin(2 * np.pi * (times[:, None] + phase))
+    ...     wave = Recording("wave", times, values, ("height",), ("",))
+    ...     hidden = hide_frames(10, 20, 30, 1)
+    ...     return ImputeProblem.of_one(wave, hidden)
+    >>> task = Task(
+    ...     name="wave",
+    ...     version=1,
+    ...     requires=(FrameImputer,),
+    ...     cases=(Case("gap of 10", gap_in_a_wave),),
+    ...     profiles={"quick": Profile(("gap of 10",), folds=3)},
+    ...     page=TaskPage(
+    ...         title="A wave", reference="", description="Fill a gap.", metrics=("mse",)
+    ...     ),
+    ... )
+    >>> task.case("gap of 10").problem_name
+    'gap of 10'
     """
 
     name: str
     version: int
-    title: str
-    reference: str
-    description: str
-    kind: str = "impute"
+    page: TaskPage
     requires: tuple[type[Model], ...]
+    cases: tuple[Case, ...]
+    profiles: Mapping[str, Profile]
+    entrants: tuple[Entrant, ...] = ()
     has_process: bool = False
     has_control: bool = False
-    cases: tuple[Case, ...]
     max_folds: int | None = None
     independent_folds: bool = True
-    entrants: tuple[Entrant, ...] = ()
-    metrics: tuple[str, ...]
-    profiles: Mapping[str, Selection]
-    published_models: Mapping[str, str] = {}
-    published_metrics: Mapping[str, str] = {}
-    not_comparable: Mapping[tuple[str, str], str] = {}
-    not_controlled: Mapping[str, str] = {}
-    remarks: tuple[str, ...] = ()
-    crossed: tuple[str, str] | None = None
-    illustrated: tuple[str, ...] = ()
-    illustrated_channels: tuple[str, ...] = ()
-    coregionalisation_of: tuple[str, ...] = ()
-    latent_of: tuple[str, ...] = ()
-    joint_groups: Mapping[str, tuple[str, ...]] = {}
-
-    @abstractmethod
-    def problem(self, case: Case, seeds: Seeds, archive: Archive) -> Problem:
-        """Return the problem of ``case`` at fold ``seeds.fold``: a pure function of all three.
-
-        Raises
-        ------
-        RecordingUnavailable
-            If a recording that the case needs is not at hand.
-        """
 
     def accepts(self, model: type[Model]) -> bool:
         """Return whether ``model`` has what the task requires, and the task what it requires."""
@@ -211,20 +185,22 @@ class Task(ABC):
                 return case
         raise UnknownNameError(f"case of {self.name}", name, [case.name for case in self.cases])
 
-    def pools(self, case: Case) -> bool:
-        """Return whether others ask the same and are about each of the references of ``case``."""
-        alone = {each.references for each in self.cases if each.asked == case.asked}
+    def averages_references(self, case: Case) -> bool:
+        """Return whether ``case`` averages over references that other cases have one by one."""
+        alone = {
+            other.references for other in self.cases if other.problem_name == case.problem_name
+        }
         single = {(reference,) for reference in case.references}
         return len(single) > 1 and single <= alone
 
-    def selection(self, profile: str) -> Selection:
-        """Return what ``profile`` runs of this task.
+    def profile(self, name: str) -> Profile:
+        """Return what the profile ``name`` runs of this task.
 
         Raises
         ------
         UnknownNameError
             If the task has no such profile.
         """
-        if profile not in self.profiles:
-            raise UnknownNameError(f"profile of {self.name}", profile, tuple(self.profiles))
-        return self.profiles[profile]
+        if name not in self.profiles:
+            raise UnknownNameError(f"profile of {self.name}", name, tuple(self.profiles))
+        return self.profiles[name]

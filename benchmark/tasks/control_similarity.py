@@ -1,20 +1,35 @@
-"""How similar real recordings are: what the scores of samples mean (thesis §A.4.2)."""
+"""How similar real recordings are to each other (thesis §A.4.2, Tables 18–21)."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 
-from mocapbench.baselines.replay import Replay
+from mocapbench.baselines import Replay
 from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
-from mocapbench.benchmark.tasks.base import Case, Selection, Task, without_stand_ins
-from mocapbench.benchmark.tasks.mocap_synthesis import KICKS, WALKS
+from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
+from mocapbench.benchmark.tasks.pages.control_similarity import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.benchmark.tasks.thesis_recordings import EVALUATION, read_excerpt
+from mocapbench.benchmark.tasks.thesis_recordings import EVALUATION, KICKS, WALKS, read_excerpt
 from mocapbench.datasets import Archive
 
-__all__ = ["ControlSimilarity", "control_similarity"]
+__all__ = ["control_similarity", "similarity_problem"]
 
 SYNTHETIC = {"synthetic 1": "gait:01_01", "synthetic 2": "gait:02_01"}
+
+
+def similarity_problem(
+    source: str, other: str, seeds: Seeds, archive: Archive
+) -> SynthesiseProblem:
+    """Let one recording stand for the samples, and another for the references."""
+    del seeds  # nothing is drawn
+    recording, reference = (read_excerpt(archive, uri, EVALUATION) for uri in (source, other))
+    return SynthesiseProblem(
+        train=(recording,),
+        times=recording.times,
+        n_samples=1,
+        references=(reference.values,),
+    )
 
 
 def _pairs(
@@ -23,62 +38,35 @@ def _pairs(
     return tuple(
         Case(
             f"{row} vs {column}",
+            partial(similarity_problem, rows[row], columns[column]),
             {"recording": row, "reference": column},
             (rows[row],),
-            references=(columns[column],),
-            question=row,
-            published=None if synthetic else f"{row} vs {column}",
+            (columns[column],),
+            problem_name=row,
             synthetic=synthetic,
-            remark="Generated gait, not recordings of people." if synthetic else "",
         )
         for row in rows
         for column in columns
     )
 
 
-class ControlSimilarity(Task):
-    """Tables 18–21: MCC and MLC between recordings of people, where no model has a part."""
+_CASES = (
+    *_pairs(WALKS, WALKS),
+    *_pairs(WALKS, KICKS),
+    *_pairs(SYNTHETIC, SYNTHETIC, synthetic=True),
+)
 
-    name = "control-similarity"
-    version = 1
-    title = "Similarity of real recordings"
-    reference = "thesis §A.4.2, Tables 18–21"
-    description = (
-        "Each walk that samples are compared with is itself compared with every such walk and "
-        "with every soccer kick: as much similarity as real motions have. The recording is "
-        "replayed as it is; MCC of a recording with itself is what a sample could reach."
-    )
-    kind = "synthesise"
-    requires = (Replay,)
-    cases = (
-        *_pairs(WALKS, WALKS),
-        *_pairs(WALKS, KICKS),
-        *_pairs(SYNTHETIC, SYNTHETIC, synthetic=True),
-    )
-    max_folds = 1
-    metrics = ("mcc", "mlc")
-    profiles = {
-        "smoke": Selection(("synthetic 1 vs synthetic 2",), folds=1),
-        "quick": Selection(("16(15) vs 35(1)", "synthetic 1 vs synthetic 2"), folds=1),
-        "paper": Selection(without_stand_ins(cases), folds=1),
-    }
-    crossed = ("recording", "reference")
-    published_models = {"replay": "real"}
-    published_metrics = {"mcc": "MCC", "mlc": "MLC"}
-
-    def problem(self, case: Case, seeds: Seeds, archive: Archive) -> SynthesiseProblem:
-        """Let one recording stand for the samples."""
-        del seeds  # nothing is drawn
-        recording, reference = (
-            read_excerpt(archive, uri, EVALUATION) for uri in (*case.sources, *case.references)
-        )
-        return SynthesiseProblem(
-            train=(recording,),
-            process=None,
-            times=recording.times,
-            n_samples=1,
-            references=(reference.values,),
-        )
-
-
-control_similarity = ControlSimilarity()
+control_similarity = Task(
+    name="control-similarity",
+    version=1,
+    page=PAGE,
+    requires=(Replay,),
+    cases=_CASES,
+    max_folds=1,
+    profiles={
+        "smoke": Profile(("synthetic 1 vs synthetic 2",), folds=1),
+        "quick": Profile(("16(15) vs 35(1)", "synthetic 1 vs synthetic 2"), folds=1),
+        "paper": Profile(on_recordings(_CASES), folds=1),
+    },
+)
+"""MCC and MLC between recordings of people; no model takes part."""

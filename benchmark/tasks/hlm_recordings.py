@@ -1,4 +1,7 @@
-"""The recordings of HLM's experiments, with their styles, and generated ones like them."""
+"""The recordings of HLM's experiments with their styles, and generated ones like them.
+
+HLM: W. Pan and L. Torresani, *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML 2009.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +32,7 @@ class Corpus:
 
     def read(self, archive: Archive) -> dict[str, Recording]:
         """Return HLM's 62 channels at 30 Hz of each recording, by its address."""
-        return {uri: hlm_features(archive.read(uri).recording(uri)) for uri in self.styles}
+        return {uri: hlm_features(archive.recording(uri)) for uri in self.styles}
 
     def of_subject(self, subject: str) -> tuple[str, ...]:
         """Return the addresses of the recordings of a subject such as ``cmu:07``."""

@@ -1,4 +1,8 @@
-"""The thesis's excerpts: its frames, resampled, in its channels (§5.2.2, footnotes 5–7)."""
+"""The recordings of the thesis: its frames, resampled, in its channels (§5.2.2, footnotes 5–7).
+
+J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+thesis, Universidad Tecnológica de Pereira, 2017.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +10,7 @@ from collections.abc import Mapping
 
 from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, clip, resample, restart
 
-__all__ = ["EVALUATION", "JOINT_GROUPS", "N_FRAMES", "TRAINING", "Window", "read_excerpt"]
+__all__ = ["EVALUATION", "KICKS", "N_FRAMES", "TRAINING", "WALKS", "Window", "read_excerpt"]
 
 N_FRAMES = 90
 
@@ -36,11 +40,21 @@ EVALUATION: Mapping[str, Window] = {
 }
 """Frames of the recordings that samples are compared with."""
 
-JOINT_GROUPS: Mapping[str, tuple[str, ...]] = {
-    "left leg": ("lfemur", "ltibia", "lfoot"),
-    "head and left femur": ("head", "lfemur"),
+# References in the thesis's notation, subject(motion).
+WALKS = {
+    "12(1)": "cmu:12_01",
+    "16(15)": "cmu:16_15",
+    "38(2)": "cmu:38_02",
+    "35(1)": "cmu:35_01",
+    "39(4)": "cmu:39_04",
 }
-"""The joints whose coregionalisation Figures 15 and 16 show."""
+KICKS = {
+    "10(5)": "cmu:10_05",
+    "10(3)": "cmu:10_03",
+    "10(2)": "cmu:10_02",
+    "10(6)": "cmu:10_06",
+    "11(1)": "cmu:11_01",
+}
 
 _GENERATED: Window = (0, 298)
 
@@ -55,5 +69,5 @@ def read_excerpt(archive: Archive, uri: str, windows: Mapping[str, Window]) -> R
     RecordingUnavailable
         If the recording is not at hand.
     """
-    recording = clip(archive.read(uri).recording(uri), *windows.get(uri, _GENERATED))
+    recording = clip(archive.recording(uri), *windows.get(uri, _GENERATED))
     return restart(resample(recording, N_FRAMES).select(THESIS_CHANNELS))

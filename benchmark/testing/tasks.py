@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 
 from mocapbench.baselines import FrameImputer, Imputer, Model
+from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.plan import entrants
+from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.benchmark.testing.errors import ConformanceError, raised_by, require, require_equal
-from mocapbench.datasets import Archive, open_archive
+from mocapbench.datasets import Archive
 
 __all__ = ["check_task"]
 
@@ -35,13 +37,13 @@ def check_task(task: Task, archive: Archive | None = None) -> None:
     ConformanceError
         At the first thing that is wrong.
     """
-    advice = "pass an instance, not its class or name"
-    require(isinstance(task, Task), "a mocapbench.benchmark.tasks.base.Task", repr(task), advice)
+    advice = "pass the task itself, not its name"
+    require(isinstance(task, Task), "a mocapbench.benchmark.Task", repr(task), advice)
     with raised_by(f"task {task.name}", "it is consistent"):
         _check_names(task)
         _check_profiles(task)
     with raised_by(f"task {task.name}", "it poses a problem"):
-        _check_problems(task, archive or open_archive(None))
+        _check_problems(task, archive or archive_at(None))
 
 
 def _check_names(task: Task) -> None:
@@ -50,23 +52,25 @@ def _check_names(task: Task) -> None:
     _require_distinct("cases", cases)
     _require_distinct("labels of entrants", labels)
     require(task.version >= 1, "a version from 1", task.version, "raise it when problems change")
-    require(task.metrics, "metrics to show", "none", "name at least one")
+    require(task.page.metrics, "metrics to show", "none", "name at least one")
     abilities = all(issubclass(each, Model) for each in task.requires)
     require(abilities, "abilities from mocapbench.baselines", task.requires, "say what is needed")
-    _require_among("metrics", task.metrics, METRICS.names())
-    _require_among("published_models", task.published_models, labels)
-    _require_among("published_metrics", task.published_metrics, task.metrics)
+    _require_among("metrics", task.page.metrics, METRICS.names())
+    _require_among("published_models", task.page.published_models, labels)
+    _require_among("published_metrics", task.page.published_metrics, task.page.metrics)
+    _require_among("rows of the page", task.page.rows, cases)
+    _require_among("illustrated cases", task.page.illustrated, cases)
 
 
 def _check_profiles(task: Task) -> None:
     require(task.profiles, "at least one profile", "none", "say what smoke, quick and paper run")
-    for profile, selection in task.profiles.items():
+    for name, profile in task.profiles.items():
         cases = [case.name for case in task.cases]
-        _require_among(f"cases of profile {profile}", selection.cases, cases)
-        folds = selection.folds
+        _require_among(f"cases of profile {name}", profile.cases, cases)
+        folds = profile.folds
         most = folds if task.max_folds is None else task.max_folds
-        expected = f"1 to {most} folds in profile {profile}"
-        require(1 <= folds <= most, expected, folds, "change its Selection")
+        expected = f"1 to {most} folds in profile {name}"
+        require(1 <= folds <= most, expected, folds, "change its Profile")
 
 
 def _check_problems(task: Task, archive: Archive) -> None:
@@ -102,7 +106,7 @@ def _check_folds(one: Any, other: Any) -> None:
 
 def _posable(task: Task, archive: Archive) -> Case:
     for case in task.cases:
-        if all(map(archive.available, case.needs)):
+        if all(map(archive.available, case.recordings)):
             return case
     raise ConformanceError(
         "expected a case whose recordings are at hand, got none: add one on generated data, so "
@@ -110,8 +114,9 @@ def _posable(task: Task, archive: Archive) -> Case:
     )
 
 
-def _posed(task: Task, case: Case, fold: int, archive: Archive) -> Problem:
-    return task.problem(case, Seeds(0, task.name, task.version, case.name, fold), archive)
+def _posed(task: Task, case: Case, fold: int, archive: Archive) -> Problem[Any]:
+    address = Address(task.name, task.version, case.problem_name, fold)
+    return case.problem(Seeds(0, address), archive)
 
 
 def _require_distinct(what: str, names: Sequence[str]) -> None:

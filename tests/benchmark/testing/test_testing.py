@@ -65,7 +65,9 @@ def test_what_is_no_model_is_told_so(model):
 
 @pytest.mark.parametrize("task", [ToyInterpolation1, "toy-interpolation-1"])
 def test_what_is_no_task_is_told_so(task):
-    with pytest.raises(ConformanceError, match=r"expected a mocapbench\.benchmark\.tasks\.base\.Task"):
+    with pytest.raises(
+        ConformanceError, match=r"expected a mocapbench\.benchmark\.tasks\.base\.Task"
+    ):
         check_task(task)
 
 

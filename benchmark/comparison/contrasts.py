@@ -17,6 +17,7 @@ import pandas as pd
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.metrics.statistics import (
     Contrast,
@@ -32,7 +33,6 @@ __all__ = ["POOLED", "Row", "between_models", "between_runs", "compare", "tidy"]
 POOLED = "all cases"
 
 Side = Sequence[Record]
-Address = tuple[str, str, int, str]
 
 
 @dataclass(frozen=True)
@@ -79,16 +79,19 @@ def between_models(run: Side, models: Sequence[str]) -> tuple[Side, Side]:
             f"{', '.join(models) or 'neither'}"
         )
     _require_models(models, run)
-    one, other = ([replace(r, label="") for r in run if r.label == name] for name in models)
+    one, other = (
+        [replace(r, address=r.address._replace(label="")) for r in _of_models(run, [name])]
+        for name in models
+    )
     return one, other
 
 
 def _labels(side: Side) -> set[str]:
-    return {record.label for record in side}
+    return {record.address.label for record in side}
 
 
 def _of_models(side: Side, models: Iterable[str]) -> list[Record]:
-    return [record for record in side if record.label in set(models)]
+    return [record for record in side if record.address.label in set(models)]
 
 
 def _require_models(models: Iterable[str], side: Side) -> None:
@@ -126,11 +129,11 @@ def compare(
     if not common:
         raise UsageError("compare: the two have no scored (task, case, fold, entrant) in common")
     _require_same_problems([(one[address], other[address]) for address in common])
-    names = list(dict.fromkeys(task for task, *_ in common))
+    names = list(dict.fromkeys(address.task for address in common))
     rows = [
         row
         for task in map(TASKS.get, names)
-        for metric in metrics or task.metrics
+        for metric in [METRICS.current_name(name) for name in metrics] or task.page.metrics
         for row in _rows(task, metric, _pairs(task, metric, one, other), rope)
     ]
     if not rows:
@@ -139,19 +142,20 @@ def compare(
 
 
 def _scored(side: Side, tasks: Sequence[str]) -> dict[Address, Record]:
+    """Return the records with scores by address, whose version `_differences` compares."""
     return {
-        (record.task, record.case, record.fold, record.label): record
+        record.address._replace(version=0): record
         for record in side
-        if record.status is Status.OK and (not tasks or record.task in tasks)
+        if record.status is Status.OK and (not tasks or record.address.task in tasks)
     }
 
 
 def _require_same_problems(pairs: Sequence[tuple[Record, Record]]) -> None:
     reasons = Counter(reason for pair in pairs for reason in _differences(*pair))
     if reasons:
-        told = "; ".join(f"{reason} ({count} jobs)" for reason, count in reasons.most_common(3))
+        listed = "; ".join(f"{reason} ({count} jobs)" for reason, count in reasons.most_common(3))
         raise UsageError(
-            f"compare: the two do not solve the same problems, so nothing is paired: {told}; "
+            f"compare: the two do not solve the same problems, so nothing is paired: {listed}; "
             "compare runs of one seed, one version of the tasks and the same recordings"
         )
 
@@ -167,7 +171,8 @@ def _differences(one: Record, other: Record) -> list[str]:
 
 def _problem(record: Record) -> Mapping[str, str]:
     digests = {k: v for k, v in record.provenance.items() if k.startswith("digest of ")}
-    return {"seed": str(record.seed), f"version of {record.task}": str(record.version), **digests}
+    task, version = record.address.task, str(record.address.version)
+    return {"seed": str(record.seed), f"version of {task}": version, **digests}
 
 
 def _pairs(
@@ -175,7 +180,7 @@ def _pairs(
 ) -> dict[str, pd.DataFrame]:
     """Return the paired values of each entrant of a task."""
     common = (address for address in one if address in other)
-    labels = dict.fromkeys(label for name, *_, label in common if name == task.name)
+    labels = dict.fromkeys(address.label for address in common if address.task == task.name)
     return {
         label: pair(*(_values(side, task, label, metric) for side in (one, other)))
         for label in labels
@@ -185,13 +190,13 @@ def _pairs(
 def _values(
     side: Mapping[Address, Record], task: Task, label: str, metric: str
 ) -> pd.Series[float]:
-    found = {
-        (case, fold): record.scores.get(metric, math.nan)
-        for (name, case, fold, entrant), record in side.items()
-        if (name, entrant) == (task.name, label)
+    values = {
+        (address.case, address.fold): record.scores.get(metric, math.nan)
+        for address, record in side.items()
+        if (address.task, address.label) == (task.name, label)
     }
-    addresses = pd.MultiIndex.from_tuples(list(found), names=["case", "fold"])
-    return pd.Series(list(found.values()), addresses, dtype=float)
+    index = pd.MultiIndex.from_tuples(list(values), names=["case", "fold"])
+    return pd.Series(list(values.values()), index, dtype=float)
 
 
 def _rows(task: Task, metric: str, pairs: Mapping[str, pd.DataFrame], rope: float) -> list[Row]:
@@ -205,18 +210,18 @@ def _rows(task: Task, metric: str, pairs: Mapping[str, pd.DataFrame], rope: floa
     pooled = [
         Row(task.name, metric, label, POOLED, contrast(units, loss, rope))
         for label, own in pairs.items()
-        for judged in [_judged(task, own)]
-        if judged.index.unique("case").size > 1
-        for units in [pooled_units(judged, independent=independent)]
+        for counted in [_counted(task, own)]
+        if counted.index.unique("case").size > 1
+        for units in [pooled_units(counted, independent=independent)]
     ]
     return [*_corrected(single), *_corrected(pooled)]
 
 
-def _judged(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
-    """Return the pairs that count over cases, by the rule of `TaskResults.judged`."""
-    made = [case.name for case in task.cases if case.synthetic]
-    pooling = [case.name for case in task.cases if task.pools(case)]
-    for apart in (made, pooling):
+def _counted(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
+    """Return the pairs that count over cases, by the rule that the report's tables follow."""
+    generated = [case.name for case in task.cases if case.synthetic]
+    averages = [case.name for case in task.cases if task.averages_references(case)]
+    for apart in (generated, averages):
         others = pairs[~pairs.index.get_level_values("case").isin(apart)]
         pairs = pairs if others.empty else others
     return pairs

@@ -1,0 +1,96 @@
+from .archives import archive_at
+from .comparison.contrasts import compare
+from .errors import ExitCode, UnknownNameError, UsageError
+from .figures.alignment import Alignments
+from .figures.blends import Blends
+from .figures.coregionalisation import Coregionalisation
+from .figures.covariances import RecoveredCovariances
+from .figures.filled_channels import FilledChannels
+from .figures.gap_error import GapError
+from .figures.latent_space import LatentSpaces
+from .figures.solved import Solved
+from .figures.trend import InferredTrend
+from .gate.checking import check
+from .plugins import load_plugin
+from .problems.base import Answer, InvalidPredictionError, Problem
+from .problems.cluster import ClusterProblem, Clusters
+from .problems.impute import FilledRecordings, ImputeProblem
+from .problems.internals import Internals
+from .problems.masks import hide_all_but, hide_frames
+from .problems.recover import Covariances, RecoverProblem
+from .problems.synthesise import Samples, SynthesiseProblem
+from .problems.unit import Unit
+from .registry import LIBRARIES, METRICS, MODELS, TASKS
+from .results.bundle import bundle
+from .results.frames import job_table, score_table
+from .results.illustrations import illustrations
+from .runs.job import Job, WorkerConfig
+from .runs.machine import memory_share, n_cores
+from .runs.plan import Request, plan, required_sources
+from .runs.provenance import provenance
+from .runs.record import Record, Status
+from .runs.run import run
+from .runs.store import Store
+from .tasks.address import Address
+from .tasks.base import Case, Entrant, Profile, Task
+from .tasks.seeds import Seeds
+
+__all__ = [
+    "LIBRARIES",
+    "METRICS",
+    "MODELS",
+    "TASKS",
+    "Address",
+    "Alignments",
+    "Answer",
+    "Blends",
+    "Case",
+    "ClusterProblem",
+    "Clusters",
+    "Coregionalisation",
+    "Covariances",
+    "Entrant",
+    "ExitCode",
+    "FilledChannels",
+    "FilledRecordings",
+    "GapError",
+    "ImputeProblem",
+    "InferredTrend",
+    "Internals",
+    "InvalidPredictionError",
+    "Job",
+    "LatentSpaces",
+    "Problem",
+    "Profile",
+    "Record",
+    "RecoverProblem",
+    "RecoveredCovariances",
+    "Request",
+    "Samples",
+    "Seeds",
+    "Solved",
+    "Status",
+    "Store",
+    "SynthesiseProblem",
+    "Task",
+    "Unit",
+    "UnknownNameError",
+    "UsageError",
+    "WorkerConfig",
+    "archive_at",
+    "bundle",
+    "check",
+    "compare",
+    "hide_all_but",
+    "hide_frames",
+    "illustrations",
+    "job_table",
+    "load_plugin",
+    "memory_share",
+    "n_cores",
+    "plan",
+    "provenance",
+    "required_sources",
+    "run",
+    "score_table",
+]

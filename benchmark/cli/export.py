@@ -1,0 +1,49 @@
+"""``mocapbench export``: everything in a run directory as tables."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from mocapbench import benchmark as bench
+from mocapbench.benchmark.cli.options import DEFAULT_OUT, Out, show_left_out
+from mocapbench.benchmark.errors import ExitCode
+from mocapbench.benchmark.files import atomic_write
+
+__all__ = ["app"]
+
+app = typer.Typer()
+
+
+@app.command()
+def export(
+    out: Out = DEFAULT_OUT,
+    to: Annotated[Path | None, typer.Option(help="Folder of the files.")] = None,
+) -> None:
+    """Write everything in a run directory, scores and jobs, as tables.
+
+    As CSV, and as Parquet where pyarrow is installed.
+    """
+    store, console = bench.Store.open(out), Console()
+    folder, with_parquet = to or out, find_spec("pyarrow") is not None
+    folder.mkdir(parents=True, exist_ok=True)
+    records = store.records()
+    tables = {"scores": bench.score_table(records), "jobs": bench.job_table(records)}
+    for name, table in tables.items():
+        with atomic_write(folder / f"{name}.csv") as file:
+            table.to_csv(file, index=False)
+        if with_parquet:
+            with atomic_write(folder / f"{name}.parquet") as file:
+                table.to_parquet(file, index=False)
+        suffixes = ".csv and .parquet" if with_parquet else ".csv"
+        console.print(f"{len(table)} rows: {folder / name}{suffixes}", soft_wrap=True)
+    if not with_parquet:
+        advice = "no Parquet files, which need pyarrow: `pip install 'mocapbench[parquet]'`"
+        console.print(advice, markup=False)
+    show_left_out(store.damaged, console)
+    if not records:
+        raise typer.Exit(ExitCode.NOTHING_RAN)

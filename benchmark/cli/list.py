@@ -1,0 +1,93 @@
+"""``mocapbench list``: the registered tasks, models, metrics and libraries of recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from mocapbench import baselines
+from mocapbench import benchmark as bench
+from mocapbench.benchmark.cli.options import Plugins, load_plugins
+
+__all__ = ["app"]
+
+app = typer.Typer()
+
+_ABILITIES = {
+    "Imputer": "imputes any mask",
+    "FrameImputer": "imputes whole frames",
+    "Inductive": "new recordings too",
+    "Synthesiser": "synthesises",
+    "Clusterer": "clusters",
+    "Aligner": "aligns",
+    "Blender": "blends",
+    "Informed": "is given the generating process",
+    "Misinformed": "is given an unrelated process",
+}
+
+
+class Kind(StrEnum):
+    """What can be listed."""
+
+    TASKS = "tasks"
+    MODELS = "models"
+    METRICS = "metrics"
+    LIBRARIES = "libraries"
+
+
+@app.command("list")
+def list_registered(
+    kind: Annotated[Kind, typer.Argument(help="What to list.")], plugin: Plugins = None
+) -> None:
+    """List the registered tasks, models, metrics or libraries of recordings."""
+    load_plugins(plugin)
+    tables: dict[Kind, Callable[[], Table]] = {
+        Kind.TASKS: _task_table,
+        Kind.MODELS: _model_table,
+        Kind.METRICS: _metric_table,
+        Kind.LIBRARIES: _library_table,
+    }
+    Console().print(tables[kind]())
+
+
+def _task_table() -> Table:
+    table = Table("task", "cases", "profiles", "entrants", "source")
+    for name in bench.TASKS.names():
+        task = bench.TASKS.get(name)
+        cases = ", ".join(case.name for case in task.cases)
+        labels = ", ".join(entrant.label for entrant in task.entrants)
+        table.add_row(name, cases, ", ".join(task.profiles), labels, task.page.reference)
+    return table
+
+
+def _model_table() -> Table:
+    table = Table("model", "abilities", "parameters")
+    classes = {text: getattr(baselines, ability) for ability, text in _ABILITIES.items()}
+    for name in bench.MODELS.names():
+        model = bench.MODELS.get(name)
+        abilities = [text for text, ability in classes.items() if issubclass(model, ability)]
+        parameters = ", ".join(f"{key}={value}" for key, value in model().get_params().items())
+        table.add_row(name, ", ".join(abilities), parameters)
+    return table
+
+
+def _metric_table() -> Table:
+    table = Table("metric", "title", "better", "of")
+    for name in bench.METRICS.names():
+        metric = bench.METRICS.get(name)
+        better = metric.direction.value if metric.target is None else f"near {metric.target:g}"
+        table.add_row(name, metric.title, better, metric.outcome.__name__.lower())
+    return table
+
+
+def _library_table() -> Table:
+    table = Table("library", "what it is")
+    for name in bench.LIBRARIES.names():
+        first, _, _ = (bench.LIBRARIES.get(name).__doc__ or "").partition("\n")
+        table.add_row(name, first)
+    return table

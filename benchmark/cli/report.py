@@ -1,0 +1,59 @@
+"""``mocapbench report``: write the HTML report of a run directory."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+
+from mocapbench import benchmark as bench
+from mocapbench import reports
+from mocapbench.benchmark.cli.options import DEFAULT_OUT, DataDir, Out, Plugins, load_plugins
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.files import atomic_write
+
+if TYPE_CHECKING:
+    from mocapbench.benchmark import Record, Store
+    from mocapbench.datasets import Archive
+
+__all__ = ["app", "write_report"]
+
+app = typer.Typer()
+
+
+@app.command()
+def report(
+    out: Out = DEFAULT_OUT,
+    to: Annotated[Path | None, typer.Option(help="The HTML file to write.")] = None,
+    data_dir: DataDir = None,
+    plugin: Plugins = None,
+) -> None:
+    """Write the HTML report of a run directory."""
+    load_plugins(plugin)
+    store, console = bench.Store.open(out), Console()
+    plan, records = store.load_plan(), store.planned()
+    if not records:
+        raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
+    archive, path = bench.archive_at(data_dir), to or out / "report.html"
+    write_report(records, plan["provenance"], store, archive, path, console)
+
+
+def write_report(
+    records: Sequence[Record],
+    about: Mapping[str, str],
+    store: Store,
+    archive: Archive,
+    path: Path,
+    console: Console,
+) -> None:
+    """Write the page of ``records`` to ``path``, and name what of the store is damaged."""
+    figures = bench.illustrations(records, store, archive)
+    page = reports.render(bench.bundle(records, about, figures, store.load_check()))
+    with atomic_write(path) as file:
+        file.write(page.encode())
+    console.print(f"report: {path.resolve()}", soft_wrap=True, highlight=False)
+    for message in dict.fromkeys(store.damaged):
+        console.print(f"damaged, so not trusted: {message}", markup=False)

@@ -1,0 +1,155 @@
+"""``mocapbench run``: run the benchmark and write its report."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import time
+from collections import Counter
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from types import FrameType
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from mocapbench import benchmark as bench
+from mocapbench import datasets
+from mocapbench.benchmark.cli.data import fetch_missing
+from mocapbench.benchmark.cli.options import (
+    DEFAULT_OUT,
+    DataDir,
+    Names,
+    Out,
+    Plugins,
+    load_plugins,
+    split,
+)
+from mocapbench.benchmark.cli.report import write_report
+from mocapbench.benchmark.errors import ExitCode, UsageError
+
+if TYPE_CHECKING:
+    from mocapbench.benchmark import Job, Record, Store, WorkerConfig
+
+__all__ = ["app"]
+
+app = typer.Typer()
+
+
+@app.command()
+def run(
+    profile: Annotated[str, typer.Option(help="smoke, quick or paper.")] = "quick",
+    tasks: Names = None,
+    models: Names = None,
+    cases: Names = None,
+    metrics: Names = None,
+    folds: Annotated[int | None, typer.Option(min=1, help="Folds of each case.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="The root seed.")] = 0,
+    jobs: Annotated[
+        int | None, typer.Option(min=1, help="How many jobs at once; by default one per core.")
+    ] = None,
+    threads: Annotated[
+        int, typer.Option(min=1, help="Threads of a job; does not affect results.")
+    ] = 1,
+    out: Out = DEFAULT_OUT,
+    data_dir: DataDir = None,
+    plugin: Plugins = None,
+    timeout: Annotated[
+        float, typer.Option(min=1, help="Seconds after which a job is killed.")
+    ] = 3600.0,
+    memory: Annotated[
+        float | None,
+        typer.Option(min=0.5, max=2**20, help="GiB a job may take; by default a fair share."),
+    ] = None,
+    offline: Annotated[bool, typer.Option("--offline", help="Download nothing.")] = False,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Show the jobs, run none.")] = False,
+) -> None:
+    """Run the benchmark and write its report; what the run directory holds is not run again."""
+    console, plugins = Console(), load_plugins(plugin)
+    request = bench.Request(
+        profile, split(tasks), split(models), split(cases), split(metrics), folds, seed
+    )
+    archive = bench.archive_at(data_dir)
+    if not (offline or dry_run):
+        fetch_missing(archive, bench.required_sources(request), console)
+    planned = bench.plan(request, archive)
+    if not planned:
+        raise UsageError(
+            "nothing to run: no chosen model has the abilities that the chosen tasks require; "
+            "`mocapbench list models` shows what each can do"
+        )
+    if dry_run:
+        console.print(_plan_table(planned))
+        return
+    store, workers = bench.Store.create(out), jobs or bench.n_cores()
+    about = {
+        **bench.provenance(["mocapbench", *sys.argv[1:]], threads),
+        "profile": profile,
+        "seed": str(seed),
+        "started": datetime.now(UTC).isoformat(timespec="seconds"),
+        **_acknowledgement(planned),
+    }
+    config = bench.WorkerConfig(
+        out.resolve(),
+        data_dir.resolve() if data_dir else None,
+        plugins,
+        timeout,
+        int((memory or bench.memory_share(workers)) * 2**30),
+        threads,
+        about,
+    )
+    signal.signal(signal.SIGTERM, _interrupt)
+    with store.locked():
+        raise typer.Exit(_run(planned, store, config, workers, console))
+
+
+def _interrupt(_signal: int, _frame: FrameType | None) -> None:
+    raise KeyboardInterrupt
+
+
+def _run(
+    planned: Sequence[Job], store: Store, config: WorkerConfig, n_workers: int, console: Console
+) -> ExitCode:
+    keys = [job.key for job in planned]
+    store.save_plan({"keys": keys, "provenance": dict(config.provenance)})
+    started = time.monotonic()
+    try:
+        records = bench.run(planned, store, config, n_workers=n_workers, console=console)
+    except KeyboardInterrupt:
+        console.print("interrupted; everything finished is kept, and the same command resumes")
+        return ExitCode.INTERRUPTED
+    about = {**config.provenance, "wall time": f"{time.monotonic() - started:.0f} s"}
+    store.save_plan({"keys": keys, "provenance": about})
+    code = _ending(records, console)
+    archive = bench.archive_at(config.data_dir)
+    write_report(records, about, store, archive, store.path / "report.html", console)
+    return code
+
+
+def _ending(records: Sequence[Record], console: Console) -> ExitCode:
+    """Say in one line how the run ended, and return the exit code for it."""
+    counts = Counter(record.status for record in records)
+    summary = ", ".join(f"{counts[status]} {status}" for status in bench.Status if counts[status])
+    missing = (r.message for r in records if r.status is bench.Status.DATA_MISSING)
+    for message in dict.fromkeys(missing):
+        console.print(f"data missing: {message}", markup=False, soft_wrap=True)
+    console.print(f"{len(records)} jobs: {summary}")
+    if any(record.status.broken for record in records):
+        return ExitCode.JOBS_FAILED
+    return ExitCode.OK if counts[bench.Status.OK] else ExitCode.NOTHING_RAN
+
+
+def _plan_table(planned: Sequence[Job]) -> Table:
+    table = Table("task", "case", "entrant", "folds", title=f"{len(planned)} jobs")
+    rows = Counter((job.address.task, job.address.case, job.address.label) for job in planned)
+    for address, count in rows.items():
+        table.add_row(*address, str(count))
+    return table
+
+
+def _acknowledgement(planned: Sequence[Job]) -> dict[str, str]:
+    """Return what the database asks to be said of work that uses it."""
+    used = any(uri.startswith("cmu:") for job in planned if not job.missing for uri in job.digests)
+    return {"acknowledgement": datasets.CMU_ACKNOWLEDGEMENT} if used else {}

@@ -1,0 +1,83 @@
+"""A transition between two styles as stick figures and curves: Pan and Torresani 2009, Figure 3."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mocapbench.benchmark.figures.solved import Solved
+from mocapbench.benchmark.figures.stick_figures import strip
+from mocapbench.benchmark.problems.blending import Blend
+from mocapbench.benchmark.problems.cluster import ClusterProblem, Clusters
+from mocapbench.datasets import Recording
+from mocapbench.reports import Curve, Illustration, Panel
+
+__all__ = ["Blends"]
+
+TRANSITION = "transition"
+
+
+@dataclass(frozen=True)
+class Blends:
+    """Stick figures of each transition, and channels of it between those of the two styles.
+
+    Parameters
+    ----------
+    channels : tuple of str
+    """
+
+    channels: tuple[str, ...]
+
+    def pictures(self, solved: Solved[ClusterProblem, Clusters], /) -> Sequence[Illustration]:
+        """Return a picture per model that blends."""
+        return [
+            self._picture(solved, label, answer, answer.blend)
+            for label, answer in solved.answers.items()
+            if answer.blend is not None
+        ]
+
+    def _picture(
+        self,
+        solved: Solved[ClusterProblem, Clusters],
+        label: str,
+        answer: Clusters,
+        blend: Blend,
+    ) -> Illustration:
+        problem = solved.problem
+        first, second = (_name(problem, answer, cluster) for cluster in blend.clusters)
+        recording = problem.train[0]
+        times = np.arange(len(blend.between)) * np.diff(recording.times).mean()
+        motion = Recording(TRANSITION, times, blend.between, recording.channels, recording.units)
+        curves = [
+            _panel(
+                motion,
+                channel,
+                {TRANSITION: blend.between, first: blend.first, second: blend.second},
+            )
+            for channel in self.channels
+        ]
+        caption = (
+            f"a transition from {first} to {second}: the mean cycles of two styles of {label}, "
+            "mixed by a weight that changes smoothly from one to the other. A cluster is named "
+            "after the style of most of its recordings. Curves of a style are jagged where unlike "
+            "recordings share it: one that advances two or three states a frame skips those "
+            "between, which another recording then shapes."
+        )
+        panels = (strip(motion, problem.skeleton, TRANSITION), *curves)
+        return Illustration(solved.task, f"Blend by {label}", caption, panels)
+
+
+def _panel(motion: Recording, channel: str, values: dict[str, np.ndarray]) -> Panel:
+    column = motion.channels.index(channel)
+    curves = (Curve(motion.times, array[:, column], group) for group, array in values.items())
+    return Panel(channel, "time, s", motion.units[column], tuple(curves))
+
+
+def _name(problem: ClusterProblem, answer: Clusters, cluster: int) -> str:
+    """Return the cluster's number and the style of most of its recordings."""
+    members = np.flatnonzero(answer.labels == cluster)
+    styles = Counter(problem.truth[k] for k in members)
+    return f"cluster {cluster} ({styles.most_common(1)[0][0]})"

@@ -1,0 +1,61 @@
+"""Filled channels beside the truth, after Pan and Torresani 2009 (HLM), Figure 4."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mocapbench.benchmark.figures.solved import Solved
+from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.reports import Curve, Illustration, Panel
+
+__all__ = ["FilledChannels"]
+
+
+@dataclass(frozen=True)
+class FilledChannels:
+    """Some channels of the first recording, by the papers' models and the best of the others.
+
+    Parameters
+    ----------
+    channels : tuple of str
+    """
+
+    channels: tuple[str, ...]
+
+    def pictures(
+        self, solved: Solved[ImputeProblem, FilledRecordings], /
+    ) -> Sequence[Illustration]:
+        """Return one picture, with a panel per channel."""
+        recording, truth = solved.problem.given[0], solved.problem.truth[0]
+        filled = {
+            label: np.where(recording.visible, np.nan, solved.answers[label].predictions[0].mean)
+            for label in _of_interest(solved)
+        }
+        caption = (
+            f"{recording.name}: the truth, and the values that the paper’s models and the best of "
+            "the other models of this run put where it is hidden."
+        )
+        panels = []
+        for channel in self.channels:
+            column = recording.channels.index(channel)
+            curves = tuple(
+                Curve(recording.times, values[:, column], label)
+                for label, values in {"truth": truth, **filled}.items()
+            )
+            panels.append(Panel(channel, "time, s", recording.units[column], curves))
+        return (Illustration(solved.task, "Filled channels", caption, tuple(panels)),)
+
+
+def _of_interest(solved: Solved[ImputeProblem, FilledRecordings]) -> list[str]:
+    """Return the labels that the paper has too, and the best of the others."""
+    hidden, truth = ~solved.problem.given[0].visible, solved.problem.truth[0]
+    errors = {
+        label: float(((answer.predictions[0].mean - truth)[hidden] ** 2).mean())
+        for label, answer in solved.answers.items()
+    }
+    papers = [label for label in errors if label in solved.papers]
+    others = sorted(set(errors) - set(papers), key=errors.__getitem__)
+    return [*papers, *others[:1]]

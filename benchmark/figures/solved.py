@@ -1,0 +1,39 @@
+"""A problem with the answers of all entrants: what figures draw."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from typing import Generic, TypeVar
+
+from mocapbench.benchmark.problems.base import Answer, Problem
+from mocapbench.benchmark.problems.internals import Internals
+
+__all__ = ["Solved"]
+
+P = TypeVar("P", bound=Problem)  # type: ignore[type-arg]
+A = TypeVar("A", bound=Answer)
+
+
+@dataclass(frozen=True, eq=False)
+class Solved(Generic[P, A]):
+    """One problem of a task, and what became of it.
+
+    Parameters
+    ----------
+    task : str
+        The task's name.
+    problem : Problem
+    answers : mapping of str to Answer
+        By label, of the type that belongs to the problem.
+    internals : mapping of str to Internals
+        Fitted quantities, by label.
+    papers : collection of str
+        The labels that stand for models of the papers.
+    """
+
+    task: str
+    problem: P
+    answers: Mapping[str, A]
+    internals: Mapping[str, Internals] = field(default_factory=dict)
+    papers: Collection[str] = ()

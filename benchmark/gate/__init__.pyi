@@ -1,0 +1,30 @@
+from .checking import check, differences, updated
+from .findings import Check, Finding
+from .negative_control import check_controls
+from .output import junit, markdown, plain, summary, terminal
+from .reference import Reference, of_records, read_reference, write_reference
+from .rule import Judgement, Tolerance, Verdict, judge
+from .tolerances import read_tolerances
+
+__all__ = [
+    "Check",
+    "Finding",
+    "Judgement",
+    "Reference",
+    "Tolerance",
+    "Verdict",
+    "check",
+    "check_controls",
+    "differences",
+    "judge",
+    "junit",
+    "markdown",
+    "of_records",
+    "plain",
+    "read_reference",
+    "read_tolerances",
+    "summary",
+    "terminal",
+    "updated",
+    "write_reference",
+]

@@ -1,0 +1,147 @@
+"""A user's own Python file of models, tasks, metrics and libraries of recordings, for one run."""
+
+from __future__ import annotations
+
+import hashlib
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from importlib.machinery import SourceFileLoader
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from mocapbench.baselines import Model
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.registry import LIBRARIES, METRICS, MODELS, TASKS, Registry
+from mocapbench.benchmark.tasks.base import Task
+from mocapbench.datasets import Library
+from mocapbench.metrics import Metric
+
+__all__ = ["load_plugin"]
+
+
+@dataclass(frozen=True)
+class _Door:
+    """What a file may define under one name: a mapping from names to values of one kind.
+
+    Parameters
+    ----------
+    registry : Registry
+        Where they are registered.
+    expected : str
+        What the values are.
+    fits : callable
+        Whether a value is of the kind.
+    """
+
+    registry: Registry[Any]
+    expected: str
+    fits: Callable[[object], bool]
+
+
+def _subclass_of(kind: type) -> Callable[[object], bool]:
+    return lambda value: isinstance(value, type) and issubclass(value, kind)
+
+
+def _instance_of(kind: type) -> Callable[[object], bool]:
+    return lambda value: isinstance(value, kind)
+
+
+_DOORS: Mapping[str, _Door] = {
+    "MODELS": _Door(MODELS, "subclasses of mocapbench.baselines.Model", _subclass_of(Model)),
+    "TASKS": _Door(TASKS, "mocapbench.benchmark.Task objects", _instance_of(Task)),
+    "METRICS": _Door(METRICS, "mocapbench.metrics.Metric objects", _instance_of(Metric)),
+    "LIBRARIES": _Door(
+        LIBRARIES, "subclasses of mocapbench.datasets.Library", _subclass_of(Library)
+    ),
+}
+
+
+def load_plugin(path: Path) -> tuple[str, ...]:
+    """Register what a Python file defines.
+
+    Parameters
+    ----------
+    path : Path
+        A file that defines one or more of ``MODELS = {"name": ModelClass}``,
+        ``TASKS = {"name": task}``, ``METRICS = {"name": metric}`` and
+        ``LIBRARIES = {"name": LibraryClass}``.
+
+    Returns
+    -------
+    tuple of str
+        The names registered.
+
+    Raises
+    ------
+    UsageError
+        If the file cannot be run, defines none of these, or something else under their names.
+    """
+    module = _execute(path)
+    defined = {name: vars(module)[name] for name in _DOORS if name in vars(module)}
+    if not defined:
+        raise UsageError(
+            f"{path}: expected one or more of {', '.join(_DOORS)}, each a mapping such as "
+            'MODELS = {"name": ModelClass}, got none'
+        )
+    for attribute, values in defined.items():
+        _check(path, attribute, values)
+    for attribute, values in defined.items():
+        for name, value in values.items():
+            _DOORS[attribute].registry.add(name, value)
+    return tuple(name for values in defined.values() for name in values)
+
+
+def _check(path: Path, attribute: str, values: object) -> None:
+    door = _DOORS[attribute]
+    if not (isinstance(values, dict) and values and all(map(door.fits, values.values()))):
+        raise UsageError(
+            f"{path}: expected {attribute} to map names to {door.expected}, got {values!r}"
+        )
+    for name, value in values.items():
+        _check_name(path, door.registry, name, value)
+
+
+def _check_name(path: Path, registry: Registry[Any], name: object, value: Any) -> None:
+    """Refuse a name that stands for something else already, and what cannot be used under it."""
+    labels = {entrant.label for task in map(TASKS.get, TASKS.names()) for entrant in task.entrants}
+    taken = registry is MODELS and name in labels
+    if not isinstance(name, str) or taken or registry.is_installed(name):
+        raise UsageError(
+            f"{path}: expected a name that no {registry.kind} or entrant has, got {name!r}; "
+            "choose another"
+        )
+    if not isinstance(value, type) and value.name != name:
+        raise UsageError(
+            f"{path}: expected the {registry.kind} under its own name {value.name!r}, got {name!r}"
+        )
+    _check_constructor(path, name, value)
+
+
+def _check_constructor(path: Path, name: str, value: object) -> None:
+    if not isinstance(value, type):
+        return
+    try:
+        value()
+    except TypeError as error:
+        raise UsageError(
+            f"{path}: expected a class that can be built without arguments, got {name!r}: {error}"
+        ) from error
+
+
+def _execute(path: Path) -> ModuleType:
+    """Run a Python file as a module whose name follows from its content."""
+    if not path.is_file():
+        raise UsageError(f"--plugin: expected a Python file, got {str(path)!r}")
+    name = f"mocapbench_plugin_{hashlib.sha256(path.read_bytes()).hexdigest()[:16]}"
+    loader = SourceFileLoader(name, str(path))
+    module = ModuleType(name)
+    module.__file__ = str(path)
+    sys.modules[name] = module  # where pickle and the source digest look for it
+    try:
+        loader.exec_module(module)
+    except (Exception, SystemExit) as error:
+        del sys.modules[name]
+        raise UsageError(f"{path} cannot be run: {type(error).__name__}: {error}") from error
+    return module

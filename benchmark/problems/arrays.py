@@ -1,0 +1,29 @@
+"""Arrays by name, the form in which the store keeps answers and internals of models."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from numpy.typing import NDArray
+
+__all__ = ["Arrays", "numbered", "with_numbers", "with_prefix"]
+
+Arrays = Mapping[str, NDArray[Any]]
+
+
+def with_numbers(name: str, arrays: Iterable[NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Return arrays by the names ``name-0``, ``name-1`` and so on."""
+    return {f"{name}-{number}": array for number, array in enumerate(arrays)}
+
+
+def numbered(name: str, arrays: Arrays) -> tuple[NDArray[Any], ...]:
+    """Return the arrays ``name-0``, ``name-1`` and so on, as many as there are."""
+    found = with_prefix(name, arrays)
+    return tuple(found[str(number)] for number in range(len(found)))
+
+
+def with_prefix(prefix: str, arrays: Arrays) -> dict[str, NDArray[Any]]:
+    """Return the arrays whose names begin with ``prefix`` and a hyphen, by the rest of the name."""
+    start = f"{prefix}-"
+    return {n.removeprefix(start): a for n, a in arrays.items() if n.startswith(start)}

@@ -1,0 +1,1 @@
+"""How the report presents our tasks, one page a module; no page changes a result."""

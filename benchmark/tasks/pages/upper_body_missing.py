@@ -1,0 +1,35 @@
+"""The page of the missing upper body."""
+
+from __future__ import annotations
+
+from mocapbench.benchmark.figures.filled_channels import FilledChannels
+from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
+
+__all__ = ["PAGE"]
+
+_ANOTHER_WALK = "the paper scores one walk, which it does not name; ours is a mean over walks"
+
+PAGE = TaskPage(
+    title="Upper body missing",
+    reference="HLM §4.3, Figure 4",
+    description=(
+        "Each of eleven walks of one subject is held out in turn, and models are trained on the "
+        "other recordings: walks, slow walks, strides and runs of this and other subjects, at "
+        "30 Hz. In the second half of the walk that is held out, 48 joint angles are hidden: the "
+        "trunk, the head, the arms and the hips. The root, the knees, the feet and the toes stay "
+        "visible. MSE is the mean squared error per joint angle, in squared degrees."
+    ),
+    metrics=("mse", "msll"),
+    rows={"subject 07 walks": RowNotes(published="subject 07 walk")},
+    published_models={"nn": "NN", "cyclic-alignment": "HLM"},
+    published_metrics={"mse": "MSE per joint"},
+    not_comparable=dict.fromkeys([("nn", "*"), ("cyclic-alignment", "*")], _ANOTHER_WALK),
+    remarks=(
+        "A fold is a walk. Each is trained on the ten others of the same subject, so folds are not "
+        "wholly independent, and the intervals are a little too narrow.",
+        "Joint angles are taken within half a turn of zero: in 08_01 the right thumb makes three "
+        "whole turns in a tenth of a second. The paper’s angles have no discontinuities either.",
+    ),
+    illustrated=("subject 07 walks", "synthetic walks"),
+    figures=(FilledChannels(("rhumerus.rx", "thorax.ry")),),
+)
