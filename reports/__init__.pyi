@@ -1,4 +1,6 @@
-from .bundle.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
+from .bundle.bundle import Bundle
+from .bundle.layout import CaseLayout, TaskLayout
+from .bundle.metric_info import MetricInfo
 from .bundle.pictures import (
     Band,
     Curve,
@@ -11,6 +13,7 @@ from .bundle.pictures import (
     Space,
 )
 from .bundle.regression_check import RegressionCheck
+from .bundle.task_page import Figure, RowNotes, TaskPage
 from .page.page import render
 
 __all__ = [
@@ -18,6 +21,7 @@ __all__ = [
     "Bundle",
     "CaseLayout",
     "Curve",
+    "Figure",
     "HeatMap",
     "HeatMaps",
     "Illustration",
@@ -26,7 +30,9 @@ __all__ = [
     "Path3D",
     "Picture",
     "RegressionCheck",
+    "RowNotes",
     "Space",
     "TaskLayout",
+    "TaskPage",
     "render",
 ]

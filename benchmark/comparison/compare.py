@@ -213,7 +213,7 @@ def _rows(task: Task, metric: str, pairs: Mapping[str, pd.DataFrame], rope: floa
 
 
 def _judged(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
-    """Return the pairs that count over cases, by the rule of `TaskResults.judged`."""
+    """Return the pairs of the representative cases; see `TaskResults.representative_cases`."""
     made = [case.name for case in task.cases if case.synthetic]
     pooling = [case.name for case in task.cases if task.pools(case)]
     for apart in (made, pooling):

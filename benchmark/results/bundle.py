@@ -15,7 +15,9 @@ from mocapbench.reports import (
     MetricInfo,
     Picture,
     RegressionCheck,
+    RowNotes,
     TaskLayout,
+    TaskPage,
 )
 
 __all__ = ["bundle"]
@@ -34,7 +36,7 @@ def bundle(
     records : sequence of Record
     provenance : mapping of str to str
         Of the run as a whole.
-    illustrations : tuple of Illustration or HeatMaps
+    illustrations : tuple of Illustration, HeatMaps or Space
     check : mapping or None
         The last regression check, as the store keeps it.
     """
@@ -50,7 +52,7 @@ def bundle(
         metrics={name: _metric_info(name) for name in sorted(used)},
         provenance=provenance,
         illustrations=illustrations,
-        check=RegressionCheck(**check) if check else None,
+        check=_check(check) if check else None,
     )
 
 
@@ -60,35 +62,53 @@ def _budget(task: Task, profile: str) -> str:
 
 
 def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
+    page = _page(task)
     return TaskLayout(
         name=task.name,
-        title=task.title,
-        reference=task.reference,
-        kind=task.kind,
-        description=task.description,
+        page=page,
         cases=tuple(
             CaseLayout(
-                case.name,
-                case.settings,
-                case.published,
-                case.synthetic,
-                case.remark,
-                case.not_comparable,
-                task.pools(case),
+                case.name, case.settings, case.synthetic, task.pools(case), page.notes(case.name)
             )
             for case in task.cases
         ),
         labels=_unique(record.label for record in records if record.task == task.name),
+        independent_folds=task.independent_folds,
+        budget=budget,
+    )
+
+
+def _page(task: Task) -> TaskPage:
+    return TaskPage(
+        title=task.title,
+        reference=task.reference,
+        description=task.description,
+        kind=task.kind,
         metrics=task.metrics,
+        rows={
+            case.name: RowNotes(
+                published=case.published, remark=case.remark, not_comparable=case.not_comparable
+            )
+            for case in task.cases
+        },
         published_models=task.published_models,
         published_metrics=task.published_metrics,
         not_comparable=task.not_comparable,
-        not_controlled=task.not_controlled,
+        exempt=task.exempt,
         remarks=task.remarks,
-        independent_folds=task.independent_folds,
         crossed=task.crossed,
-        budget=budget,
+        illustrated=task.illustrated,
     )
+
+
+def _check(stored: Mapping[str, Any]) -> RegressionCheck:
+    """Return a check as the store keeps it, where reference values are called the baseline."""
+    findings = [_with_reference(finding) for finding in stored["findings"]]
+    return RegressionCheck(**{**_with_reference(stored), "findings": findings})
+
+
+def _with_reference(stored: Mapping[str, Any]) -> dict[str, Any]:
+    return {"reference" if name == "baseline" else name: stored[name] for name in stored}
 
 
 def _metric_info(name: str) -> MetricInfo:

@@ -135,7 +135,7 @@ class Task(ABC):
         From our labels and metrics to the paper's names.
     not_comparable : mapping of (label, metric) to str
         Why a published value cannot be set beside ours; metric ``"*"`` stands for all.
-    not_controlled : mapping of str to str
+    exempt : mapping of str to str
         Labels whose samples need not resemble the references more than the control's do, and why.
     remarks : tuple of str
         Errata and cautions shown with the tables.
@@ -172,7 +172,7 @@ class Task(ABC):
     published_models: Mapping[str, str] = {}
     published_metrics: Mapping[str, str] = {}
     not_comparable: Mapping[tuple[str, str], str] = {}
-    not_controlled: Mapping[str, str] = {}
+    exempt: Mapping[str, str] = {}
     remarks: tuple[str, ...] = ()
     crossed: tuple[str, str] | None = None
     illustrated: tuple[str, ...] = ()

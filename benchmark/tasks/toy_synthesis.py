@@ -66,7 +66,7 @@ class ToySynthesis(Task):
         ("control", "*"): "the paper has one unrelated process where every fold here has a new "
         "one, and no side of a control’s score is the better one"
     }
-    not_controlled = {
+    exempt = {
         "lmc-independent-3": _OWN,
         "gp-independent": _OWN,
         "cyclic-alignment": "takes the curves for a cycle, and starts anywhere in it",
