@@ -1,4 +1,4 @@
-"""A results bundle in; tables, figures and one offline HTML page out."""
+"""Turn a results bundle into tables, figures and one offline HTML page."""
 
 import lazy_loader
 

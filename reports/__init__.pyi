@@ -1,4 +1,6 @@
-from .bundle.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
+from .bundle.bundle import Bundle
+from .bundle.layout import CaseLayout, TaskLayout
+from .bundle.metric_info import MetricInfo
 from .bundle.pictures import (
     Band,
     Curve,

@@ -10,21 +10,22 @@ from rich.table import Table
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.results.bundle import bundle
 from mocapbench.benchmark.runs.record import Record
-from mocapbench.reports.analysis.controls import ControlFinding, Measure, control_check
+from mocapbench.reports.analysis.negative_control import negative_control
+from mocapbench.reports.analysis.negative_control_result import Measure, NegativeControlResult
 from mocapbench.reports.analysis.results import task_results
 
 __all__ = ["check_controls"]
 
 
 def check_controls(records: Sequence[Record], console: Console) -> ExitCode:
-    """Show what `control_check` finds in every task of ``records``, and return the exit code.
+    """Show what `negative_control` finds in every task of ``records``, and return the exit code.
 
     `ExitCode.REGRESSION` if an entrant or a control fails, `ExitCode.JOBS_FAILED` if a job did,
     `ExitCode.NOTHING_RAN` if no task has a control with scores in two cells.
     """
     results = bundle(records, {})
     found = {
-        layout.name: control_check(task_results(results, layout)) for layout in results.layouts
+        layout.name: negative_control(task_results(results, layout)) for layout in results.layouts
     }
     checked = {task: findings for task, findings in found.items() if findings}
     if not checked:
@@ -49,7 +50,7 @@ def check_controls(records: Sequence[Record], console: Console) -> ExitCode:
     return ExitCode.OK if checked else ExitCode.NOTHING_RAN
 
 
-def _table(task: str, findings: Sequence[ControlFinding]) -> Table:
+def _table(task: str, findings: Sequence[NegativeControlResult]) -> Table:
     control, *others = findings
     table = Table(
         *("entrant", "cells", f"MLC − {control.label}’s", f"MCC − {control.label}’s"),
@@ -71,7 +72,7 @@ def _estimate(measure: Measure) -> str:
     return f"{measure.estimate.mean:.3f}" + ("" if half is None else f" ± {half:.3f}")
 
 
-def _reasons(findings: Sequence[ControlFinding]) -> Iterator[str]:
+def _reasons(findings: Sequence[NegativeControlResult]) -> Iterator[str]:
     """Yield why an entrant failed, with the cells that speak against it, or need not pass."""
     for finding in findings:
         if finding.failed:
@@ -81,7 +82,7 @@ def _reasons(findings: Sequence[ControlFinding]) -> Iterator[str]:
                 if not measure.passed
             )
         elif not finding.passed:
-            yield f"{finding.label} need not pass: it {finding.excuse}"
+            yield f"{finding.label} need not pass: it {finding.exempt}"
 
 
 def _offences(measure: Measure) -> str:

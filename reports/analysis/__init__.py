@@ -1,1 +1,1 @@
-"""What results mean: estimates, ranks, verdicts beside published values, the negative control."""
+"""Statistics of the results: means over folds, ranks, contrasts, verdicts, negative control."""

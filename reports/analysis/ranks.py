@@ -13,7 +13,7 @@ from scipy import stats
 from mocapbench.metrics.statistics import RankComparison, compare_ranks
 from mocapbench.reports.analysis.results import TaskResults
 
-__all__ = ["Ranks", "ranks_over_cases", "ranks_over_tasks"]
+__all__ = ["Ranks", "case_losses", "ranks_over_cases", "ranks_over_tasks"]
 
 FEWEST_ENTRANTS, FEWEST_BLOCKS = 3, 2
 
@@ -27,9 +27,9 @@ class Ranks:
     labels : tuple of str
         Entrants with a score in every block, in table order.
     left_out : tuple of str
-        Entrants with a score in some.
+        Entrants with a score in some blocks but not in all.
     blocks : str
-        What was ranked over: ``"cases"`` or ``"tasks"``.
+        What the entrants are ranked over: ``"cases"`` or ``"tasks"``.
     comparison : RankComparison
     """
 
@@ -40,9 +40,9 @@ class Ranks:
 
 
 def ranks_over_cases(results: TaskResults, metric: str) -> Ranks | None:
-    """Return the ranks over the judged cases of a task; None where there are too few.
+    """Return the ranks over the representative cases of a task; None where there are too few.
 
-    A case counts once, by the means over its folds.
+    Each case counts once, by the means over its folds.
     """
     return _ranks(case_losses(results, metric), "cases")
 
@@ -50,9 +50,9 @@ def ranks_over_cases(results: TaskResults, metric: str) -> Ranks | None:
 def ranks_over_tasks(tasks: Iterable[TaskResults]) -> Ranks | None:
     """Return the ranks over tasks, each by its first metric; None where there are too few.
 
-    A task counts once, by the mean ranks over its cases of the entrants that all tasks have.
+    Each task counts once, by the mean ranks over its cases of the entrants that all tasks share.
     """
-    losses = [case_losses(task, task.layout.metrics[0]) for task in tasks]
+    losses = [case_losses(task, task.layout.page.metrics[0]) for task in tasks]
     losses = [table for table in losses if not table.empty]
     if len(losses) < FEWEST_BLOCKS:
         return None
@@ -63,17 +63,24 @@ def ranks_over_tasks(tasks: Iterable[TaskResults]) -> Ranks | None:
 
 
 def case_losses(results: TaskResults, metric: str) -> pd.DataFrame:
-    """Return the loss of each entrant's mean, one row per judged case, NaN where it has none."""
+    """Return the losses of the entrants' means.
+
+    Returns
+    -------
+    DataFrame
+        One row per representative case and one column per entrant with a score; NaN where an
+        entrant has no score in a case.
+    """
     loss = results.metrics[metric].loss
-    judged = [case.name for case in results.judged(metric)]
+    cases = [case.name for case in results.representative_cases(metric)]
     table = {
         label: [
-            loss(found.mean) if (found := results.estimate(case, label, metric)) else np.nan
-            for case in judged
+            loss(estimate.mean) if (estimate := results.estimate(case, label, metric)) else np.nan
+            for case in cases
         ]
         for label in results.layout.ranked
     }
-    return pd.DataFrame(table, index=judged).dropna(axis=1, how="all")
+    return pd.DataFrame(table, index=cases).dropna(axis=1, how="all")
 
 
 def _ranks(losses: pd.DataFrame, blocks: str) -> Ranks | None:

@@ -1,1 +1,1 @@
-"""What a report is made of, as plain values: results, pages of tasks, pictures, a check."""
+"""The values that a report is made of: results, layouts, task pages, pictures, and a check."""

@@ -11,22 +11,22 @@ __all__ = ["RegressionCheck"]
 
 @dataclass(frozen=True, eq=False)
 class RegressionCheck:
-    """What a check of the run against a baseline found.
+    """The comparison of a run with stored reference values.
 
     Parameters
     ----------
-    baseline : str
-        What the run was held against.
+    reference : str
+        Where the reference values come from.
     summary : str
         Counts and environment in one line.
     passed : bool
     findings : sequence of mapping
         One per (task, case, label, metric): these names, ``verdict``, ``fails``, ``reason``, and
-        where values were paired ``n``, ``baseline``, ``run``, ``change``, ``worst`` and
+        where values were paired ``n``, ``reference``, ``run``, ``change``, ``worst`` and
         ``allowance``.
     """
 
-    baseline: str
+    reference: str
     summary: str
     passed: bool
     findings: Sequence[Mapping[str, Any]]

@@ -1,31 +1,33 @@
-"""How the report presents a task: text, names in the papers, and pictures.
+"""What a task's page says: its texts, its place in the paper, and the figures that it shows.
 
-Nothing on a page changes a result, so that rewording one recomputes nothing.
+A `TaskPage` holds everything about a task that is presentation and not protocol. A task declares
+one, and rewording it changes no problem, no seed and no key.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from mocapbench.reports.bundle.pictures import Picture
+if TYPE_CHECKING:
+    from mocapbench.reports.bundle.pictures import Picture
 
 __all__ = ["Figure", "RowNotes", "TaskPage"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class RowNotes:
-    """What the tables say of one case beside its numbers.
+    """What the tables say about one case beside its numbers.
 
     Parameters
     ----------
     published : str or None
         The row's name in the published values, None where the paper has no such row.
     remark : str
-        Shown in the row.
+        Shown under the name of the case.
     not_comparable : mapping of str to str
-        By label, why the row's published values cannot be set beside ours.
+        By label, why the row's published value cannot be compared with ours.
     """
 
     published: str | None = None
@@ -34,21 +36,55 @@ class RowNotes:
 
 
 class Figure(Protocol):
-    """A kind of picture that a page declares."""
+    """A figure that a page declares and that is drawn from a solved problem.
+
+    What a solved problem is belongs to the harness. This package only draws the pictures.
+    """
 
     def pictures(self, solved: Any, /) -> Sequence[Picture]:
-        """Return the pictures of a solved problem, which this package knows nothing of."""
+        """Return the pictures of ``solved``, none where it has nothing to show."""
+        ...
 
 
 @dataclass(frozen=True, kw_only=True)
 class TaskPage:
-    """How the report presents a task."""
+    """The presentation of one task.
+
+    Parameters
+    ----------
+    title, reference : str
+        Heading, and place in the paper (``"thesis §5.1.1, Tables 1–3"``).
+    description : str
+        One or two sentences for readers.
+    kind : str
+        ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``.
+    metrics : tuple of str
+        The tables to show, in order. The headlines use the first.
+    rows : mapping of str to RowNotes
+        Notes on cases, by their names.
+    published_models, published_metrics : mapping of str to str
+        From our labels and metrics to the paper's names.
+    not_comparable : mapping of (label, metric) to str
+        Why a published value cannot be compared with ours. The metric ``"*"`` stands for all.
+    exempt : mapping of str to str
+        Labels whose samples need not pass the negative control, and why. The reason completes the
+        sentence "label need not pass: it …".
+    remarks : tuple of str
+        Errata and cautions, shown under the tables.
+    crossed : tuple of two str, or None
+        The columns of the cases that go along the rows and along the columns of the tables, where
+        every case is a pair and only one entrant takes part.
+    illustrated : tuple of str
+        Names of cases. The first of them that has solutions is shown in figures.
+    figures : tuple of Figure
+        The figures of that case, in page order.
+    """
 
     title: str
     reference: str
     description: str
-    metrics: tuple[str, ...]
     kind: str = "impute"
+    metrics: tuple[str, ...]
     rows: Mapping[str, RowNotes] = field(default_factory=dict)
     published_models: Mapping[str, str] = field(default_factory=dict)
     published_metrics: Mapping[str, str] = field(default_factory=dict)
@@ -60,5 +96,5 @@ class TaskPage:
     figures: tuple[Figure, ...] = ()
 
     def notes(self, case: str) -> RowNotes:
-        """Return the notes on ``case``, empty ones where there are none."""
+        """Return the notes on ``case``; empty notes where the page has none."""
         return self.rows.get(case, RowNotes())

@@ -1,1 +1,1 @@
-"""Drawings of the page, as SVG."""
+"""Figures of the page, as SVG."""

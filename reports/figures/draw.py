@@ -1,4 +1,4 @@
-"""From an illustration of any kind to a drawing of the page."""
+"""Draw a picture of any kind as a figure of the page."""
 
 from __future__ import annotations
 
@@ -6,23 +6,21 @@ from functools import singledispatch
 
 from mocapbench.reports.bundle.pictures import HeatMaps, Illustration, Picture, Space
 from mocapbench.reports.figures import heat_maps, panels, spaces
-from mocapbench.reports.figures.panels import Drawing
+from mocapbench.reports.figures.svg_figure import SvgFigure
 
 __all__ = ["draw"]
 
 
 @singledispatch
-def draw(illustration: Picture) -> Drawing:
-    """Return the drawing of ``illustration``.
+def draw(picture: Picture) -> SvgFigure:
+    """Return ``picture`` as a figure of the page.
 
     Raises
     ------
     TypeError
-        If it is of a kind that nothing here draws.
+        If it is none of the three kinds of picture.
     """
-    raise TypeError(
-        f"expected an Illustration, HeatMaps or a Space, got {type(illustration).__name__}"
-    )
+    raise TypeError(f"expected an Illustration, HeatMaps or a Space, got {type(picture).__name__}")
 
 
 draw.register(Illustration, panels.draw)

@@ -1,76 +1,57 @@
 """The error-bar figure: a point per case and entrant, with a 95 % interval where folds give one.
 
-Markers and line styles tell the entrants apart without colour. The legend is text of the page with
-a swatch for each entrant, so that it wraps on a narrow screen while the drawing scales. Generated
-motion has axes of its own: no line leads to it from recordings of people, and scales differ.
+Markers and line styles distinguish the entrants without colour. Generated motion has separate axes:
+its scale differs, and no line joins it to recordings of people.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeVar
+from typing import TYPE_CHECKING
 
 import pandas as pd
 import seaborn as sns
 from markupsafe import Markup
 from matplotlib import rc_context
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
-from mocapbench.reports.analysis.results import Estimate, TaskResults
-from mocapbench.reports.bundle.bundle import CaseLayout
-from mocapbench.reports.figures.svg import PALETTE, STYLE, element
-from mocapbench.reports.tables.base import counted, slug
-from mocapbench.reports.tables.scores import case_name
+from mocapbench.reports.analysis.fold_mean import FoldMean
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.figures.styles import (
+    LINES,
+    MARKERS,
+    SMALLEST_SCALE,
+    cycled,
+    line_swatch,
+)
+from mocapbench.reports.figures.svg import PALETTE, STYLE, svg_element
+from mocapbench.reports.figures.svg_figure import Key, SvgFigure
+from mocapbench.reports.text import counted, slug
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["ErrorBars", "Key", "error_bars", "t_interval"]
+__all__ = ["error_bars", "t_interval"]
 
-MARKERS = ["o", "s", "^", "D", "v", "P", "X", "<", ">", "p"]
-LINES: list[Literal["-", "--", ":", "-."]] = ["-", "--", ":", "-."]
 MARKER_SIZE, LINE_WIDTH = 4.5, 1.0
 LOG_RANGE = 20.0
 SMALLEST_WIDTH = 4.9
-SMALLEST_SCALE = 0.7
-"""A page narrower than the drawing shrinks it so far and then scrolls it."""
-INTERVALS = "mean and 95 % interval over folds (Student’s t), of which one fold has none."
+INTERVALS = "mean and 95 % interval over folds (Student’s t). A single fold has no interval."
 POINTS = (
-    "mean over folds, which are overlapping windows of one recording: "
-    "not independent draws, so there is no interval."
+    "mean over folds. The folds are overlapping windows of one recording and not independent, "
+    "so there is no interval."
 )
-
-
-LookT = TypeVar("LookT", bound=str)
-
-
-@dataclass(frozen=True)
-class Key:
-    """One entry of the legend."""
-
-    label: str
-    swatch: Markup
-
-
-@dataclass(frozen=True)
-class ErrorBars:
-    """The drawing as an SVG element, its legend, and what the points and bars are."""
-
-    svg: Markup
-    legend: tuple[Key, ...]
-    caption: str
 
 
 def t_interval(values: pd.Series[float]) -> tuple[float, float]:
     """Return the 95 % interval of the mean by Student's t; the point itself for one value."""
-    estimate = Estimate.of(values.to_list())
+    estimate = FoldMean.of(values.to_list())
     half = estimate.half_width or 0.0
     return estimate.mean - half, estimate.mean + half
 
 
-def error_bars(results: TaskResults, metric: str) -> ErrorBars | None:
+def error_bars(results: TaskResults, metric: str) -> SvgFigure | None:
     """Return the figure of ``metric``; None where there is no score."""
     data = results.scores[results.scores["metric"] == metric]
     scored, prefix = set(data["label"]), slug(results.layout.name, metric, "figure")
@@ -78,30 +59,31 @@ def error_bars(results: TaskResults, metric: str) -> ErrorBars | None:
     if not places:
         return None
     with rc_context(STYLE):
-        return ErrorBars(
-            _drawing(results, metric, data, places, prefix),
+        return SvgFigure(
+            results.metrics[metric].title,
+            _svg(results, metric, data, places, prefix),
             tuple(Key(label, _swatch(i, f"{prefix}-key-{i}")) for label, i in places.items()),
             INTERVALS if results.layout.independent_folds else POINTS,
         )
 
 
-def _drawing(
+def _svg(
     results: TaskResults, metric: str, data: pd.DataFrame, places: dict[str, int], prefix: str
 ) -> Markup:
-    title, drawn = results.metrics[metric].title, set(data["case"])
-    cases = [case for case in results.cases if case.name in drawn]
-    names = {case.name: case_name(case) for case in cases}
-    orders = _apart(cases)
+    title, with_data = results.metrics[metric].title, set(data["case"])
+    cases = [case for case in results.cases if case.name in with_data]
+    headings = {case.name: case.heading for case in cases}
+    orders = _groups(cases)
     widths = _widths(orders)
     figure = Figure(figsize=(sum(widths), 3.4), layout="constrained")
     row = figure.subplots(1, len(orders), squeeze=False, width_ratios=widths)[0]
     errorbar = t_interval if results.layout.independent_folds else None
-    named = data.assign(case=data["case"].map(names))
+    named = data.assign(case=data["case"].map(headings))
     for axes, order, width in zip(row, orders, widths, strict=True):
         shown = named[named["case"].isin(order)]
         _draw(axes, shown, order, places, errorbar)
         _finish(axes, title, shown["value"], tilted=_collide(order, width))
-    return element(
+    return svg_element(
         figure,
         prefix,
         role="img",
@@ -110,10 +92,13 @@ def _drawing(
     )
 
 
-def _apart(cases: Sequence[CaseLayout]) -> list[list[str]]:
-    """Return the names of the cases on recordings and of those on generated motion, if any."""
-    sets = [[case for case in cases if case.synthetic is made] for made in (False, True)]
-    return [[case_name(case) for case in each] for each in sets if each]
+def _groups(cases: Sequence[CaseLayout]) -> list[list[str]]:
+    """Return the headings of the cases with recordings and of those with generated motion."""
+    groups = [
+        [case.heading for case in cases if case.synthetic is generated]
+        for generated in (False, True)
+    ]
+    return [group for group in groups if group]
 
 
 def _widths(orders: Sequence[Sequence[str]]) -> list[float]:
@@ -129,7 +114,7 @@ def _draw(
     places: dict[str, int],
     errorbar: Callable[[pd.Series[float]], tuple[float, float]] | None,
 ) -> None:
-    """Draw one series per label; its place in the task's labels fixes how it looks everywhere."""
+    """Draw one series per label, in the style of its place among the task's labels."""
     sns.pointplot(
         data=data,
         x="case",
@@ -137,9 +122,9 @@ def _draw(
         hue="label",
         order=order,
         hue_order=list(places),
-        palette=[_cycled(PALETTE, place) for place in places.values()],
-        markers=[_cycled(MARKERS, place) for place in places.values()],
-        linestyles=[_cycled(LINES, place) for place in places.values()],
+        palette=[cycled(PALETTE, place) for place in places.values()],
+        markers=[cycled(MARKERS, place) for place in places.values()],
+        linestyles=[cycled(LINES, place) for place in places.values()],
         dodge=0.6 if len(places) > 1 else False,
         errorbar=errorbar,
         legend=False,
@@ -148,10 +133,6 @@ def _draw(
         err_kws={"linewidth": 1.4},
         ax=axes,
     )
-
-
-def _cycled(looks: Sequence[LookT], place: int) -> LookT:
-    return looks[place % len(looks)]
 
 
 def _finish(axes: Axes, title: str, values: pd.Series[float], *, tilted: bool) -> None:
@@ -165,29 +146,26 @@ def _finish(axes: Axes, title: str, values: pd.Series[float], *, tilted: bool) -
 
 
 def _collide(names: Sequence[str], width: float) -> bool:
-    """Whether names of about six points a letter would touch, side by side in ``width`` inches."""
+    """Return whether names, at six points a letter, touch side by side in ``width`` inches."""
     return 6.0 * max(map(len, names)) > 72.0 * (width - 0.8) / len(names)
 
 
 def _scale(values: pd.Series[float]) -> str:
-    """Errors that span orders of magnitude are read on a logarithmic axis."""
+    """Return the scale of the axis: logarithmic where the values span orders of magnitude."""
     positive = values.min() > 0.0
     return "log" if positive and values.max() > LOG_RANGE * values.min() else "linear"
 
 
 def _swatch(place: int, prefix: str) -> Markup:
     """Return the line and marker of the label at ``place``."""
-    figure = Figure(figsize=(0.34, 0.14))
-    line = Line2D(
+    return line_swatch(
+        prefix,
         [0.0, 0.5, 1.0],
-        [0.5, 0.5, 0.5],
-        color=_cycled(PALETTE, place),
-        marker=_cycled(MARKERS, place),
-        linestyle=_cycled(LINES, place),
+        color=cycled(PALETTE, place),
+        marker=cycled(MARKERS, place),
+        linestyle=cycled(LINES, place),
         markersize=MARKER_SIZE,
         linewidth=LINE_WIDTH,
         markeredgewidth=0.75 * LINE_WIDTH,  # as seaborn does
         markevery=[1],
     )
-    figure.add_artist(line)
-    return element(figure, prefix, aria_hidden="true")

@@ -1,8 +1,8 @@
-"""From heat maps to a drawing of the page: nine levels around nought, and their legend.
+"""Draw heat maps in nine levels around zero.
 
-Small matrices have their values written in; in large ones negative cells are hatched, so that the
-sign can be told without colour. All cells of one level that touch along a row are one rectangle,
-and all rectangles of a level one path, which keeps a page with many matrices small.
+The cells of small matrices show their values. In large matrices negative cells are hatched, so that
+the sign is visible without colour. Neighbouring cells of one level in a row form one rectangle, and
+all rectangles of a level form one path, which keeps a page with many matrices small.
 """
 
 from __future__ import annotations
@@ -20,11 +20,10 @@ from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
-from mocapbench.reports.bundle.pictures import HeatMap, HeatMaps
-from mocapbench.reports.figures.error_bars import Key
-from mocapbench.reports.figures.panels import Drawing
-from mocapbench.reports.figures.svg import INK, LEVELS, STYLE, element
-from mocapbench.reports.tables.base import counted, slug
+from mocapbench.reports.bundle.heat_maps import HeatMap, HeatMaps
+from mocapbench.reports.figures.svg import INK, LEVELS, STYLE, svg_element
+from mocapbench.reports.figures.svg_figure import Key, SvgFigure
+from mocapbench.reports.text import counted, slug
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,18 +36,18 @@ MOST_WRITTEN = 8
 """Matrices of more rows have no room for their values."""
 SIDE, MARGIN = 2.4, 0.9
 RECTANGLE = re.compile(r"M (\S+) (\S+)\s+L (\S+) \2\s+L \3 (\S+)\s+L \1 \4\s+z\s*")
-"""A rectangle as matplotlib writes it, which takes twice the room that it need."""
+"""A rectangle as matplotlib writes it, at twice the necessary length."""
 MIDDLE = len(LEVELS) // 2
 HATCH: dict[str, Any] = {"facecolor": "none", "edgecolor": INK, "hatch": "/////", "linewidth": 0.0}
 LOOK = {**STYLE, "hatch.linewidth": 0.35, "xtick.labelsize": 7, "ytick.labelsize": 7}
 
 
-def draw(figure: HeatMaps) -> Drawing:
-    """Return the drawing of ``figure``, its nine levels spread evenly over ± its limit."""
+def draw(figure: HeatMaps) -> SvgFigure:
+    """Return ``figure`` drawn, with nine levels of equal width over ± its limit."""
     prefix = slug(figure.task, figure.title, "drawing")
     hatched = len(figure.labels) > MOST_WRITTEN
     with rc_context(LOOK):
-        return Drawing(
+        return SvgFigure(
             figure.title,
             _maps(figure, prefix),
             _legend(figure.limit, hatched, prefix),
@@ -57,9 +56,18 @@ def draw(figure: HeatMaps) -> Drawing:
 
 
 def levels_of(values: NDArray[np.float64], limit: float) -> Level:
-    """Return which of the levels 0 … 8, of equal width over [−limit, limit], each value is in.
+    """Return the level of each value.
 
-    What lies beyond is in the outermost.
+    Parameters
+    ----------
+    values : ndarray
+    limit : float
+
+    Returns
+    -------
+    ndarray of int, of the shape of ``values``
+        Levels 0 … 8 have equal width over [−limit, limit]. Values beyond ± ``limit`` belong to the
+        outermost levels.
     """
     n_levels = len(LEVELS)
     places = np.floor((values / limit + 1.0) * n_levels / 2.0).astype(np.intp)
@@ -73,12 +81,12 @@ def _maps(figure: HeatMaps, prefix: str) -> Markup:
     grid = canvas.subplots(n_rows, figure.columns, squeeze=False, sharex=True, sharey=True)
     for axes in grid.flat[len(figure.maps) :]:
         axes.set_visible(False)
-    for axes, each in zip(grid.flat, figure.maps, strict=False):
-        _draw_cells(axes, levels_of(each.values, figure.limit))
-        _frame(axes, each, figure.labels)
+    for axes, heat_map in zip(grid.flat, figure.maps, strict=False):
+        _draw_cells(axes, levels_of(heat_map.values, figure.limit))
+        _frame(axes, heat_map, figure.labels)
     for axes in grid.flat[max(0, len(figure.maps) - figure.columns) : len(figure.maps)]:
         axes.tick_params(labelbottom=True)
-    svg = element(
+    svg = svg_element(
         canvas,
         prefix,
         role="img",
@@ -97,7 +105,7 @@ def _draw_cells(axes: Axes, levels: Level) -> None:
 
 
 def _rectangles(chosen: NDArray[np.bool_]) -> Path:
-    """Return the chosen cells as one path, of a rectangle for each run along a row."""
+    """Return the chosen cells as one path, with a rectangle for each run along a row."""
     steps = np.diff(np.pad(chosen, ((0, 0), (1, 1))).astype(int), axis=1)
     rows, starts = np.nonzero(steps == 1)
     ends = np.nonzero(steps == -1)[1]
@@ -118,8 +126,8 @@ def _rectangles(chosen: NDArray[np.bool_]) -> Path:
     return Path(corners.reshape(-1, 2).astype(float), np.tile(codes, len(rows)))
 
 
-def _frame(axes: Axes, each: HeatMap, labels: Sequence[str]) -> None:
-    """Name the rows and columns, rule off those of one name, and write small matrices out."""
+def _frame(axes: Axes, heat_map: HeatMap, labels: Sequence[str]) -> None:
+    """Name rows and columns, separate groups of one name by lines, and write small matrices out."""
     names, sizes = zip(*((name, len(list(run))) for name, run in groupby(labels)), strict=True)
     ends = np.cumsum(sizes)
     centres = ends - np.asarray(sizes) / 2.0
@@ -127,18 +135,18 @@ def _frame(axes: Axes, each: HeatMap, labels: Sequence[str]) -> None:
     axes.set_xticks(centres, names, rotation=90)
     axes.set_yticks(centres, names)
     axes.tick_params(length=0)
-    axes.set_title(each.title, fontsize=9, loc="left")
+    axes.set_title(heat_map.title, fontsize=9, loc="left")
     for end in ends[:-1]:
         axes.axhline(end, color=INK, linewidth=0.25)
         axes.axvline(end, color=INK, linewidth=0.25)
     if len(labels) <= MOST_WRITTEN:
-        for (row, column), value in np.ndenumerate(each.values):
+        for (row, column), value in np.ndenumerate(heat_map.values):
             text = f"{value:z.2f}".replace("-", "−")
             axes.text(column + 0.5, row + 0.5, text, ha="center", va="center", fontsize=7)
 
 
 def _legend(limit: float, hatched: bool, prefix: str) -> tuple[Key, ...]:
-    """Return a key for each level, called after its centre, or after its edge if outermost."""
+    """Return a key for each level, named by its centre, or by its inner edge if outermost."""
     width = 2.0 * limit / len(LEVELS)
     texts = [_signed(width * (level - MIDDLE)) for level in range(len(LEVELS))]
     edge = width * (MIDDLE - 0.5)
@@ -158,4 +166,4 @@ def _swatch(level: int, hatched: bool, prefix: str) -> Markup:
     figure.add_artist(Rectangle((0.0, 0.0), 1.0, 1.0, facecolor=LEVELS[level], edgecolor=INK))
     if hatched:
         figure.add_artist(Rectangle((0.0, 0.0), 1.0, 1.0, **HATCH))
-    return element(figure, prefix, aria_hidden="true")
+    return svg_element(figure, prefix, aria_hidden="true")

@@ -1,8 +1,8 @@
-"""The critical-difference diagram: mean ranks, and who cannot be told apart.
+"""The critical-difference diagram: mean ranks, and groups of entrants that are not separable.
 
-One row per entrant, best on top, so that names never collide and a phone can show it. A vertical
-bar on the right joins a group that is not separable; the caption names the groups, so that nothing
-depends on seeing them.
+One row per entrant, best on top, so that names never collide and the diagram fits a phone. A
+vertical bar on the right joins a group that is not separable. The caption names the groups too, for
+readers who do not see the bars.
 """
 
 from __future__ import annotations
@@ -12,22 +12,22 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from mocapbench.reports.analysis.ranks import Ranks
-from mocapbench.reports.figures.error_bars import SMALLEST_SCALE
-from mocapbench.reports.figures.panels import Drawing
-from mocapbench.reports.figures.svg import INK, PALETTE, RULE, STYLE, element
-from mocapbench.reports.tables.base import counted, slug
+from mocapbench.reports.figures.styles import SMALLEST_SCALE
+from mocapbench.reports.figures.svg import INK, PALETTE, RULE, STYLE, svg_element
+from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.text import counted, slug
 
 __all__ = ["rank_figure"]
 
 WIDTH, ROW_HEIGHT, FRAME_HEIGHT = 5.2, 0.24, 0.85
 GROUP_GAP = 0.18
-LABEL_SHARE = 0.14  # of the axis, what the number beside the last dot needs
+LABEL_SHARE = 0.14  # share of the axis that the number beside the last dot needs
 
 
-def rank_figure(ranks: Ranks, title: str, name: str) -> Drawing:
-    """Return the diagram of ``ranks``; ``name`` leads the ids of its parts."""
+def rank_figure(ranks: Ranks, title: str, name: str) -> SvgFigure:
+    """Return the diagram of ``ranks``; the ids of its parts start with ``name``."""
     with rc_context(STYLE):
-        return Drawing(title, _diagram(ranks, title, slug(name, "ranks")), (), _caption(ranks))
+        return SvgFigure(title, _diagram(ranks, title, slug(name, "ranks")), (), _caption(ranks))
 
 
 def _diagram(ranks: Ranks, title: str, prefix: str) -> Markup:
@@ -52,7 +52,7 @@ def _diagram(ranks: Ranks, title: str, prefix: str) -> Markup:
     axes.tick_params(axis="y", length=0)
     axes.spines["bottom"].set_bounds(1, last)
     n = counted(comparison.n, ranks.blocks.removesuffix("s"))
-    return element(
+    return svg_element(
         figure,
         prefix,
         role="img",
@@ -62,15 +62,15 @@ def _diagram(ranks: Ranks, title: str, prefix: str) -> Markup:
 
 
 def _caption(ranks: Ranks) -> str:
-    found = ranks.comparison
-    n = counted(found.n, ranks.blocks.removesuffix("s"))
-    listed = "; ".join(", ".join(ranks.labels[entrant] for entrant in g) for g in found.groups)
-    together = f"Not separable, joined by a bar: {listed}." if listed else "All are separable."
+    comparison, block = ranks.comparison, ranks.blocks.removesuffix("s")
+    n = counted(comparison.n, block)
+    groups = "; ".join(", ".join(ranks.labels[entrant] for entrant in g) for g in comparison.groups)
+    together = f"Not separable, joined by a bar: {groups}." if groups else "All are separable."
     left_out = ", ".join(ranks.left_out)
     return " ".join(
         [
-            f"mean ranks over {n}. Friedman’s test of no difference: p = {found.p_value:.2g};",
-            f"Nemenyi’s critical difference at 5 %: {found.difference:.2f} ranks. {together}",
-            *([f"Left out for want of a score in every case: {left_out}."] if left_out else []),
+            f"mean ranks over {n}. Friedman’s test of no difference: p = {comparison.p_value:.2g};",
+            f"Nemenyi’s critical difference at 5 %: {comparison.difference:.2f} ranks. {together}",
+            *([f"Left out, without a score in every {block}: {left_out}."] if left_out else []),
         ]
     )

@@ -1,4 +1,4 @@
-"""From paths through a cloud to a drawing of the page, seen from two sides."""
+"""Draw paths through a cloud of points, seen from two sides."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mocapbench.reports.bundle.pictures import Space
-from mocapbench.reports.figures.error_bars import LINES, Key
-from mocapbench.reports.figures.panels import Drawing
-from mocapbench.reports.figures.svg import LEVELS, PALETTE, STYLE, element
-from mocapbench.reports.tables.base import counted, slug
+from mocapbench.reports.bundle.spaces import Space
+from mocapbench.reports.figures.styles import LINES, line_swatch
+from mocapbench.reports.figures.svg import LEVELS, PALETTE, STYLE, svg_element
+from mocapbench.reports.figures.svg_figure import Key, SvgFigure
+from mocapbench.reports.text import counted, slug
 
 if TYPE_CHECKING:
     from mpl_toolkits.mplot3d import Axes3D
@@ -25,16 +25,16 @@ SIDE = 2.9
 VIEWS = ((22, -60), (22, 30))
 """Elevation and azimuth of each view, in degrees."""
 SHOWN = 0.9
-"""Points of the cloud below this quantile are left out."""
+"""Points of the cloud whose values are below this quantile are left out."""
 CLOUD = LEVELS[5:]
 MARK: dict[str, Any] = {"s": 14.0, "marker": "o", "linewidths": 0.0, "depthshade": False}
 
 
-def draw(space: Space) -> Drawing:
-    """Return the drawing of ``space``: the highest tenth of its cloud in four even levels."""
+def draw(space: Space) -> SvgFigure:
+    """Return ``space`` as a figure: its paths, and the highest tenth of its cloud."""
     prefix = slug(space.task, space.title, "drawing")
     groups = tuple(dict.fromkeys(path.group for path in space.paths))
-    looks = {group: _look(place) for place, group in enumerate(groups)}
+    styles = {group: _style(place) for place, group in enumerate(groups)}
     with rc_context(STYLE):
         figure = Figure(figsize=(SIDE * len(VIEWS), SIDE))
         for place, (elevation, azimuth) in enumerate(VIEWS, start=1):
@@ -42,20 +42,20 @@ def draw(space: Space) -> Drawing:
             axes.view_init(elevation, azimuth)
             _draw_cloud(axes, space)
             for path in space.paths:
-                axes.plot(*path.points.T, **looks[path.group])
+                axes.plot(*path.points.T, **styles[path.group])
             _frame(axes)
         figure.subplots_adjust(left=0.0, right=1.0, bottom=0.04, top=1.0, wspace=0.02)
-        svg = element(
+        svg = svg_element(
             figure,
             prefix,
             role="img",
             aria_label=f"{space.title}: {counted(len(space.paths), 'path')}, from two sides",
             style=f"min-width: {SIDE * len(VIEWS):.2f}in",
         )
-        return Drawing(space.title, svg, _legend(space, looks, prefix), space.caption)
+        return SvgFigure(space.title, svg, _legend(space, styles, prefix), space.caption)
 
 
-def _look(place: int) -> dict[str, Any]:
+def _style(place: int) -> dict[str, Any]:
     return {"color": PALETTE[place], "linestyle": LINES[place], "linewidth": 1.2}
 
 
@@ -67,7 +67,7 @@ def _draw_cloud(axes: Axes3D, space: Space) -> None:
 
 
 def _edges(space: Space) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """Return the lower ends of the levels shown."""
+    """Return the lower ends of the levels, of equal width over the highest tenth of values."""
     low, high = np.quantile(space.values, SHOWN), space.values.max()
     return np.linspace(low, high, len(CLOUD) + 1)[:-1]
 
@@ -80,10 +80,10 @@ def _frame(axes: Axes3D) -> None:
         axis.labelpad = -12.0
 
 
-def _legend(space: Space, looks: dict[str, dict[str, Any]], prefix: str) -> tuple[Key, ...]:
+def _legend(space: Space, styles: dict[str, dict[str, Any]], prefix: str) -> tuple[Key, ...]:
     paths = [
-        Key(group, _line(look, f"{prefix}-key-{place}"))
-        for place, (group, look) in enumerate(looks.items())
+        Key(group, line_swatch(f"{prefix}-key-{place}", **style))
+        for place, (group, style) in enumerate(styles.items())
     ]
     levels = [
         Key(f"{space.value_name} ≥ {edge:.2g}", _dot(colour, f"{prefix}-level-{place}"))
@@ -92,13 +92,7 @@ def _legend(space: Space, looks: dict[str, dict[str, Any]], prefix: str) -> tupl
     return (*paths, *levels)
 
 
-def _line(look: dict[str, Any], prefix: str) -> Markup:
-    figure = Figure(figsize=(0.34, 0.14))
-    figure.add_artist(Line2D([0.0, 1.0], [0.5, 0.5], **look))
-    return element(figure, prefix, aria_hidden="true")
-
-
 def _dot(colour: str, prefix: str) -> Markup:
     figure = Figure(figsize=(0.16, 0.16))
     figure.add_artist(Line2D([0.5], [0.5], color=colour, marker="o", linestyle="none"))
-    return element(figure, prefix, aria_hidden="true")
+    return svg_element(figure, prefix, aria_hidden="true")

@@ -1,7 +1,7 @@
-"""From a matplotlib figure to an SVG element of the page.
+"""Convert a matplotlib figure to an SVG element of the page.
 
-The SVG names its colours instead of fixing them: matplotlib draws with placeholder colours that
-become CSS variables, so that one drawing serves light and dark pages.
+Matplotlib draws with placeholder colours, which become CSS variables. One SVG therefore serves
+light and dark pages.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from markupsafe import Markup
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-__all__ = ["INK", "LEVELS", "PALETTE", "RULE", "STYLE", "element"]
+__all__ = ["INK", "LEVELS", "PALETTE", "RULE", "STYLE", "svg_element"]
 
 N_COLOURS = 9
 PALETTE = [f"#fe01{index:02x}" for index in range(N_COLOURS)]
 LEVELS = [f"#fe03{index:02x}" for index in range(9)]
-"""From the most negative by nought to the most positive."""
+"""From the most negative, through zero, to the most positive."""
 INK, RULE = "#fe0201", "#fe0202"
 VARIABLES = {
     INK: "var(--ink)",
@@ -47,10 +47,16 @@ STYLE: dict[Any, Any] = {
 }
 
 
-def element(figure: Figure, prefix: str, **attributes: str) -> Markup:
-    """Return ``figure`` as an SVG element with further attributes, its ids led by ``prefix``.
+def svg_element(figure: Figure, prefix: str, **attributes: str) -> Markup:
+    """Return ``figure`` as an SVG element.
 
-    Underscores in the attributes' names stand for hyphens.
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    prefix : str
+        Start of all its ids, which makes them unique on the page.
+    **attributes : str
+        Attributes of the element; underscores in their names stand for hyphens.
     """
     svg = _svg(figure)
     text = re.sub(r"<metadata>.*?</metadata>", "", svg[svg.index("<svg") :], flags=re.DOTALL)
@@ -74,5 +80,5 @@ def _svg(figure: Figure) -> str:
 
 
 def _one_decimal(attribute: re.Match[str]) -> str:
-    """Cut coordinates to a tenth of a point, which halves the page."""
+    """Cut coordinates to a tenth of a point, which halves the size of the page."""
     return re.sub(r"(\.\d)\d+", r"\1", attribute.group())

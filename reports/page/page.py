@@ -1,4 +1,4 @@
-"""The page: one HTML file that holds everything and asks the network for nothing."""
+"""The page: one HTML file that contains everything and needs no network."""
 
 from __future__ import annotations
 
@@ -9,14 +9,18 @@ from importlib.resources import files
 from jinja2 import Environment, StrictUndefined, Template
 from markupsafe import Markup
 
-from mocapbench.reports.analysis.results import DATA_MISSING, task_results, troubles
+from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.troubles import DATA_MISSING, troubles
 from mocapbench.reports.bundle.bundle import STATUSES, Bundle
-from mocapbench.reports.page.sections import missing_data, overall_ranks, task_view
-from mocapbench.reports.tables.base import Table, counted, slug
+from mocapbench.reports.page.missing_data import missing_data
+from mocapbench.reports.page.sections import overall_ranks, task_view
+from mocapbench.reports.paper.citations import citations_of
+from mocapbench.reports.tables.base import Table
 from mocapbench.reports.tables.check import check_table
 from mocapbench.reports.tables.downloads import to_csv, to_latex
-from mocapbench.reports.tables.papers import scorecard
-from mocapbench.reports.tables.scores import MISSING_ID
+from mocapbench.reports.tables.papers import papers_table
+from mocapbench.reports.tables.score_cells import MISSING_ID
+from mocapbench.reports.text import counted, slug
 
 __all__ = ["render"]
 
@@ -24,11 +28,11 @@ __all__ = ["render"]
 def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
     results = [task_results(bundle, layout) for layout in bundle.layouts]
-    tasks = [task_view(each, bundle.illustrations) for each in results]
-    every = troubles(bundle)
-    checked = check_table(bundle.check) if bundle.check else None
-    scored = scorecard(results)
-    tables = [*(table for task in tasks for table in task.tables), checked, scored]
+    tasks = [task_view(of_task, bundle.illustrations) for of_task in results]
+    no_score = troubles(bundle)
+    check = check_table(bundle.check) if bundle.check else None
+    papers = papers_table(results)
+    tables = [*(table for task in tasks for table in task.tables), check, papers]
     return _template().render(
         bundle=bundle,
         provenance=bundle.provenance,
@@ -38,11 +42,12 @@ def render(bundle: Bundle) -> str:
         entrants=bundle.records["label"].nunique(),
         folds=bundle.records["fold"].nunique(),
         fold_counts=_fold_counts(bundle),
-        failures=[trouble for trouble in every if trouble.status != DATA_MISSING],
-        missing=missing_data(trouble for trouble in every if trouble.status == DATA_MISSING),
+        failures=[trouble for trouble in no_score if trouble.status != DATA_MISSING],
+        missing=missing_data(trouble for trouble in no_score if trouble.status == DATA_MISSING),
         missing_id=MISSING_ID,
-        checked=checked,
-        scored=scored,
+        check_table=check,
+        papers_table=papers,
+        citations=citations_of(layout.page.reference for layout in bundle.layouts),
         downloads=_downloads(table for table in tables if table is not None),
         css=Markup(_resource("report.css")),
         js=Markup(_resource("report.js")),

@@ -1,1 +1,1 @@
-"""The papers: their published values, and footnotes to them."""
+"""The papers: published values, remarks on them, and citations."""

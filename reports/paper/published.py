@@ -1,8 +1,8 @@
-"""The papers' numbers, as printed.
+"""The papers' numbers, as the papers print them.
 
 ``published.csv`` holds one row per (source, case, metric, model), where ``source`` is the paper's
 table, ``case`` its row and ``two_sd`` the ± that it prints, empty where it prints none. Errata and
-what is not comparable stand beside it (`mocapbench.reports.paper.remarks`).
+reasons against a comparison are kept apart from it (`mocapbench.reports.paper.remarks`).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from io import StringIO
 
 import pandas as pd
 
-from mocapbench.reports.paper.remarks import Address, parse_remarks, remark_on
+from mocapbench.reports.paper.remarks import PublishedAddress, parse_remarks, remark_on
 
 __all__ = [
     "PublishedTask",
@@ -34,10 +34,23 @@ PublishedTask = dict[tuple[str, str, str], "PublishedValue"]
 
 @dataclass(frozen=True)
 class PublishedValue:
-    """A number in a paper's table, its ± where there is one, and what must be said of it.
+    """A number in a paper's table, with the remarks on it.
 
-    ``erratum`` is a footnote, ``not_comparable`` the reason why no number here compares; both are
-    empty where there is nothing to say.
+    Parameters
+    ----------
+    source : str
+        The paper and its table, such as ``"thesis-table-01"``.
+    task : str
+        Our task.
+    case, metric, model : str
+        Row, metric and model, in the paper's names.
+    value : float
+    two_sd : float or None
+        The ± that the paper prints.
+    erratum : str
+        A footnote on an error of the paper, empty where there is none.
+    not_comparable : str
+        Why no number of ours can be compared with it, empty where one can.
     """
 
     source: str
@@ -51,7 +64,7 @@ class PublishedValue:
     not_comparable: str = ""
 
     @property
-    def address(self) -> Address:
+    def address(self) -> PublishedAddress:
         """Source, case, metric and model."""
         return self.source, self.case, self.metric, self.model
 
@@ -88,7 +101,7 @@ def _value(line: int, row: Mapping[Hashable, str]) -> PublishedValue:
 
 @cache
 def every_value() -> tuple[PublishedValue, ...]:
-    """Return every number that ships with the package, with the remarks on it."""
+    """Return every published number of the package, with the remarks on it."""
     errata, reasons = (parse_remarks(_read(f"{name}.csv")) for name in ("errata", "not_comparable"))
     return tuple(
         replace(

@@ -1,7 +1,7 @@
-"""Remarks on the papers' numbers, as data: errata, and why a number cannot be set beside ours.
+"""Remarks on the papers' numbers, as data: errata, and reasons why numbers are not comparable.
 
 ``errata.csv`` and ``not_comparable.csv`` hold one remark a row. Each of ``source``, ``case``,
-``metric`` and ``model`` is a pattern, in which ``*`` stands for anything and ``[47]`` for 4 or 7.
+``metric`` and ``model`` is a pattern, where ``*`` stands for anything and ``[47]`` for 4 or 7.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from string import ascii_lowercase
 
 import pandas as pd
 
-__all__ = ["Address", "Remark", "footnotes", "marks", "parse_remarks", "remark_on"]
+__all__ = ["PublishedAddress", "Remark", "footnotes", "marks", "parse_remarks", "remark_on"]
 
 COLUMNS = ["source", "case", "metric", "model", "note"]
 
-Address = tuple[str, str, str, str]
+PublishedAddress = tuple[str, str, str, str]
 """Source, case, metric and model of a number, in the paper's names."""
 
 
@@ -26,11 +26,11 @@ Address = tuple[str, str, str, str]
 class Remark:
     """A note on every number whose address matches the patterns."""
 
-    patterns: Address
+    patterns: PublishedAddress
     note: str
 
-    def concerns(self, address: Address) -> bool:
-        """Return whether the number at ``address`` is meant."""
+    def concerns(self, address: PublishedAddress) -> bool:
+        """Return whether the remark is about the number at ``address``."""
         return all(map(fnmatchcase, address, self.patterns))
 
 
@@ -53,17 +53,17 @@ def parse_remarks(text: str) -> tuple[Remark, ...]:
     )
 
 
-def remark_on(address: Address, remarks: Iterable[Remark]) -> str:
-    """Return the first remark that concerns ``address``, or nothing."""
+def remark_on(address: PublishedAddress, remarks: Iterable[Remark]) -> str:
+    """Return the first remark that concerns ``address``, empty where there is none."""
     return next((remark.note for remark in remarks if remark.concerns(address)), "")
 
 
 def marks(notes: Iterable[str]) -> dict[str, str]:
-    """Return a letter for every different note, in order of appearance; none for an empty one."""
-    found = dict.fromkeys(note for note in notes if note)
-    return {"": "", **dict(zip(found, ascii_lowercase, strict=False))}
+    """Return a letter for every distinct note, in order of appearance; none for an empty one."""
+    distinct = dict.fromkeys(note for note in notes if note)
+    return {"": "", **dict(zip(distinct, ascii_lowercase, strict=False))}
 
 
 def footnotes(lettered: dict[str, str]) -> Sequence[str]:
-    """Return the notes behind the letters of `marks`, as they stand under a table."""
+    """Return the notes of `marks` with their letters, as shown below a table."""
     return [f"{letter}: {note}" for note, letter in lettered.items() if letter]

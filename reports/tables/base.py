@@ -1,20 +1,17 @@
 """Tables as values: cells of text for people, and a tidy frame of full precision for machines.
 
-Every table of the page is a `Table`, whatever it shows, so that one template renders it and one
-function each turns it into CSV and LaTeX.
+Every table of the page is a `Table`, so that one template renders all of them and one function
+each turns them into CSV and LaTeX.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
 import pandas as pd
 
-__all__ = ["ABSENT", "Cell", "Table", "counted", "decimals", "headings", "number", "slug"]
-
-MINUS = "\N{MINUS SIGN}"
+__all__ = ["ABSENT", "Cell", "Table", "headings"]
 
 
 @dataclass(frozen=True)
@@ -25,13 +22,15 @@ class Cell:
     ----------
     text : str
     spread : str
-        The ± behind the text, without its sign.
+        The number after ±, without the sign.
     note : str
         A small line below.
     mark : str
         The letter of a footnote.
     kind : str
-        ``""``, ``"best"``, ``"text"``, ``"absent"``, ``"trouble"``, ``"published"`` or a verdict.
+        ``""``, ``"best"``, ``"text"``, ``"absent"``, ``"trouble"``, ``"published"``,
+        ``"contrast"``, ``"contrast ahead"``, ``"contrast behind"`` or a verdict: the cell's class
+        in the style sheet.
     link : str
         Id of the place on the page that explains the note, or the text where there is no note.
     span : int
@@ -66,7 +65,7 @@ class Table:
     data : DataFrame
         The same content, tidy and unrounded.
     notes : tuple of str
-        Footnotes.
+        Notes below the table.
     """
 
     id: str
@@ -75,33 +74,6 @@ class Table:
     rows: tuple[tuple[Cell, ...], ...]
     data: pd.DataFrame
     notes: tuple[str, ...] = ()
-
-
-def slug(*names: str) -> str:
-    """Return an id made of letters, digits and hyphens."""
-    characters = "-".join(names).lower()
-    return "".join(c if c.isascii() and c.isalnum() else "-" for c in characters)
-
-
-def decimals(values: Iterable[float]) -> int:
-    """Return how many decimals (2 to 4) show the small ones of ``values`` to two digits.
-
-    One value in ten may be smaller still: a single number near zero must not widen a table.
-    """
-    sizes = np.abs(np.array([value for value in values if value != 0.0]))
-    if not sizes.size:
-        return 2
-    return int(np.clip(1 - np.floor(np.log10(np.quantile(sizes, 0.1))), 2, 4))
-
-
-def number(value: float, places: int) -> str:
-    """Return ``value`` with ``places`` decimals, a true minus sign, and no negative zero."""
-    return f"{value:z.{places}f}".replace("-", MINUS)
-
-
-def counted(count: int, noun: str) -> str:
-    """Return "1 case", "2 cases": the count and the noun in the form that it takes."""
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def headings(names: Sequence[str], kind: str = "") -> tuple[Cell, ...]:

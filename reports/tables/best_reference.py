@@ -1,4 +1,9 @@
-"""The table of best matches: a synthesiser is judged by the reference that it resembles most."""
+"""The table of best-matched references: the score by the reference most similar to the samples.
+
+The thesis compares synthesisers by this score (J. D. Gil López, *Hierarchical Multiple Output
+Gaussian Processes for Human Motion Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017,
+§A.4.2).
+"""
 
 from __future__ import annotations
 
@@ -7,23 +12,24 @@ from collections.abc import Sequence
 import pandas as pd
 
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.tables.base import ABSENT, Cell, Table, decimals, headings, number, slug
-from mocapbench.reports.tables.scores import SAMPLES, case_name
+from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
+from mocapbench.reports.tables.score_notes import OVER_SAMPLES
+from mocapbench.reports.tables.scores import metric_decimals
+from mocapbench.reports.text import number, plus_minus, slug
 
-__all__ = ["match_table"]
+__all__ = ["best_reference_table"]
 
 BEST = "_best"
-"""Ends the name of a metric that looks at the best-matched reference alone."""
+"""Suffix of a metric that looks at the best-matched reference alone."""
 
 
-def match_table(results: TaskResults) -> Table | None:
-    """Return the mean over references beside the best-matched one; None where there is no choice.
+def best_reference_table(results: TaskResults) -> Table | None:
+    """Return the mean over references beside the score by the best-matched reference.
 
-    Only cases with several references have both.
-
-    References
-    ----------
-    Thesis §A.4.2.
+    Returns
+    -------
+    Table or None
+        Rows are the cases with several references; None where there is no such case.
     """
     metrics = [name for best in _best_metrics(results) for name in (best.removesuffix(BEST), best)]
     rows = [
@@ -34,17 +40,17 @@ def match_table(results: TaskResults) -> Table | None:
     ]
     if not rows:
         return None
-    places = {name: _places(results, name) for name in metrics}
+    places = {name: metric_decimals(results, name) for name in metrics}
     return Table(
         id=slug(results.layout.name, "matches"),
-        caption=f"Best-matched reference beside the mean over references: mean ± {SAMPLES}",
+        caption=f"Best-matched reference beside the mean over references: mean ± {OVER_SAMPLES}",
         columns=(
             *headings(["case", "entrant"], "text"),
             *headings([results.metrics[name].title for name in metrics]),
         ),
         rows=tuple(
             (
-                Cell(case_name(case)),
+                Cell(case.heading),
                 Cell(label, kind="text"),
                 *(_cell(results, case.name, label, name, places[name]) for name in metrics),
             )
@@ -52,8 +58,8 @@ def match_table(results: TaskResults) -> Table | None:
         ),
         data=_tidy(results, [(case.name, label) for case, label in rows], metrics),
         notes=(
-            "Real motions differ, so that no sample can resemble every reference: the thesis "
-            "(§A.4.2) compares models by the one that is matched best. First rank in bold.",
+            "Real motions differ, so no sample can resemble every reference. The thesis (§A.4.2) "
+            "therefore compares models by the best-matched reference. First rank in bold.",
         ),
     )
 
@@ -63,15 +69,11 @@ def _best_metrics(results: TaskResults) -> list[str]:
     return [name for name in results.metrics if name.endswith(BEST) and name in scored]
 
 
-def _places(results: TaskResults, metric: str) -> int:
-    return decimals(e.mean for (_, _, name), e in results.estimates.items() if name == metric)
-
-
 def _cell(results: TaskResults, case: str, label: str, metric: str, places: int) -> Cell:
     estimate = results.estimate(case, label, metric)
     if estimate is None:
         return ABSENT
-    spread = "" if estimate.spread is None else number(estimate.spread, places)
+    spread = plus_minus(estimate.spread, places)
     kind = "best" if label in results.best(case, metric) else ""
     return Cell(number(estimate.mean, places), spread=spread, kind=kind)
 

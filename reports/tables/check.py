@@ -1,4 +1,4 @@
-"""The regression check: what moved against a baseline, as a table."""
+"""The regression check as a table: the values that differ from the reference values."""
 
 from __future__ import annotations
 
@@ -8,22 +8,23 @@ from typing import Any
 import pandas as pd
 
 from mocapbench.reports.bundle.regression_check import RegressionCheck
-from mocapbench.reports.tables.base import MINUS, Cell, Table, headings
+from mocapbench.reports.tables.base import Cell, Table, headings
+from mocapbench.reports.text import MINUS
 
 __all__ = ["check_table"]
 
 QUIET = ("same", "data missing")
 LIMIT = 100
-COLUMNS = ("baseline", "run", "change", "allowance", "worst")
+COLUMNS = ("reference", "run", "change", "allowance", "worst")
 RULE = (
-    "A metric is worse if its mean paired difference over folds, turned so that positive is worse, "
-    "is more than what is allowed: the largest of an absolute floor, a share of the baseline, and "
+    "A metric is worse if its mean paired difference over folds, signed so that positive is worse, "
+    "exceeds the allowance: the largest of an absolute floor, a share of the reference value, and "
     "k standard errors of the differences."
 )
 
 
 def check_table(check: RegressionCheck) -> Table | None:
-    """Return what failed or moved, failures first; None if nothing did."""
+    """Return the values that failed or changed, failures first; None if there are none."""
     notable = [finding for finding in check.findings if finding["verdict"] not in QUIET]
     notable.sort(key=lambda finding: not finding["fails"])
     if not notable:
@@ -32,11 +33,11 @@ def check_table(check: RegressionCheck) -> Table | None:
     more = (f"{hidden} more rows are in the CSV download.",) if hidden > 0 else ()
     return Table(
         id="regression-check",
-        caption=f"What is not as in {check.baseline}",
+        caption=f"Differences from the reference values in {check.reference}",
         columns=(
             *headings(["verdict"]),
             *headings(["task", "case", "entrant", "metric"], "text"),
-            *headings(["folds", "baseline", "run", "worse by", "allowed", "worst fold by"]),
+            *headings(["folds", "reference", "run", "worse by", "allowed", "worst fold by"]),
             *headings(["why"], "text"),
         ),
         rows=tuple(_row(finding) for finding in notable[:LIMIT]),

@@ -3,55 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from itertools import combinations
 
 import pandas as pd
 
-from mocapbench.metrics.statistics import (
-    ALPHA,
-    Contrast,
-    contrast,
-    holm,
-    least_signed_rank_p,
-    pair,
-    pooled_units,
+from mocapbench.metrics.statistics import ALPHA, holm, least_signed_rank_p
+from mocapbench.reports.analysis.contrasts import (
+    CorrectedContrast,
+    corrected_contrasts,
+    pooled_contrast,
 )
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.tables.base import ABSENT, Cell, Table, decimals, headings, number, slug
+from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
+from mocapbench.reports.text import decimals, number, slug
 
-__all__ = ["Corrected", "contrast_table", "corrected", "pooled_contrast"]
+__all__ = ["contrast_table"]
 
-
-@dataclass(frozen=True)
-class Corrected:
-    """A contrast and its p-value by the paired t-test, corrected over a family."""
-
-    contrast: Contrast
-    p: float
-
-    @property
-    def separable(self) -> bool:
-        """Whether the difference is more than chance; never without a test."""
-        return self.p <= ALPHA
-
-
-def corrected(contrasts: Sequence[Contrast]) -> list[Corrected]:
-    """Correct a family of contrasts after Holm."""
-    p_values = holm([each.t_p for each in contrasts])
-    return [Corrected(each, float(p)) for each, p in zip(contrasts, p_values, strict=True)]
-
-
-def pooled_contrast(results: TaskResults, metric: str, first: str, second: str) -> Contrast:
-    """Return the contrast of two labels over the judged cases: see `pooled_units`."""
-    judged = [case.name for case in results.judged(metric)]
-    values = results.values[metric]
-    values = values[values.index.get_level_values("case").isin(judged)]
-    units = pooled_units(
-        pair(values[first], values[second]), independent=results.layout.independent_folds
-    )
-    return contrast(units, results.metrics[metric].loss)
+Contrasts = Mapping[tuple[str, str], CorrectedContrast]
+"""By the two labels, first and second."""
 
 
 def contrast_table(results: TaskResults, metric: str) -> Table | None:
@@ -59,44 +29,52 @@ def contrast_table(results: TaskResults, metric: str) -> Table | None:
     scored = {label for _, label, name in results.estimates if name == metric}
     labels = [label for label in results.layout.ranked if label in scored]
     pairs = list(combinations(labels, 2))
-    found = corrected([pooled_contrast(results, metric, *each) for each in pairs])
-    by_pair = dict(zip(pairs, found, strict=True))
-    most = max((each.contrast.n for each in found), default=0)
+    family = corrected_contrasts([pooled_contrast(results, metric, *pair) for pair in pairs])
+    contrasts = dict(zip(pairs, family, strict=True))
+    most = max((corrected.contrast.n for corrected in family), default=0)
     if most < 2:
         return None
-    places = decimals(e.contrast.advantage for e in found if math.isfinite(e.contrast.advantage))
+    places = _places(contrasts)
     title = results.metrics[metric].title
     return Table(
         id=slug(results.layout.name, metric, "contrasts"),
         caption=f"{title}, model against model: by how much the row is better than the column",
         columns=headings(["entrant", *(f"than {label}" for label in labels)], "contrast"),
         rows=tuple(
-            (Cell(one), *(_cell(by_pair, one, other, places) for other in labels)) for one in labels
+            (Cell(row), *(_cell(contrasts, row, column, places) for column in labels))
+            for row in labels
         ),
-        data=_tidy(results, metric, by_pair),
+        data=_tidy(results, metric, contrasts),
         notes=_notes(results, metric, most),
     )
 
 
-def _cell(pairs: Mapping[tuple[str, str], Corrected], one: str, other: str, places: int) -> Cell:
-    if (one, other) in pairs:
-        return _shown(pairs[one, other], 1.0, places)
-    return _shown(pairs[other, one], -1.0, places) if (other, one) in pairs else ABSENT
+def _places(contrasts: Contrasts) -> int:
+    advantages = [corrected.contrast.advantage for corrected in contrasts.values()]
+    return decimals(advantage for advantage in advantages if math.isfinite(advantage))
 
 
-def _shown(found: Corrected, sign: float, places: int) -> Cell:
-    """Return the cell of a contrast, seen from its first side (1) or its second (−1)."""
-    seen = found.contrast
-    if seen.n < 2:
+def _cell(contrasts: Contrasts, row: str, column: str, places: int) -> Cell:
+    if (row, column) in contrasts:
+        return _contrast_cell(contrasts[row, column], 1.0, places)
+    if (column, row) in contrasts:
+        return _contrast_cell(contrasts[column, row], -1.0, places)
+    return ABSENT
+
+
+def _contrast_cell(corrected: CorrectedContrast, sign: float, places: int) -> Cell:
+    """Return the cell of a contrast, seen from its first label (1) or its second (−1)."""
+    contrast = corrected.contrast
+    if contrast.n < 2:
         return ABSENT
-    low, high = sorted((sign * seen.low, sign * seen.high))
-    better, worse = (seen.better, seen.worse)[:: int(sign)]
-    shares = _unbroken(f"{better:.0%} / {seen.equivalent:.0%} / {worse:.0%}")
-    side = "ahead" if sign * seen.advantage > 0.0 else "behind"
+    low, high = sorted((sign * contrast.low, sign * contrast.high))
+    better, worse = (contrast.better, contrast.worse)[:: int(sign)]
+    shares = _unbroken(f"{better:.0%} / {contrast.equivalent:.0%} / {worse:.0%}")
+    side = "ahead" if sign * contrast.advantage > 0.0 else "behind"
     return Cell(
-        number(sign * seen.advantage, places),
+        number(sign * contrast.advantage, places),
         note=f"{_unbroken(f'{number(low, places)} to {number(high, places)}')}; {shares}",
-        kind=f"contrast {side}" if found.separable else "contrast",
+        kind=f"contrast {side}" if corrected.separable else "contrast",
     )
 
 
@@ -105,41 +83,38 @@ def _unbroken(text: str) -> str:
 
 
 def _notes(results: TaskResults, metric: str, most: int) -> tuple[str, ...]:
-    n_cases = len(results.judged(metric))
+    n_cases = len(results.representative_cases(metric))
     unit = "cases, each the mean of its folds" if n_cases > 1 else "folds of the only case"
     floor = least_signed_rank_p(most)
+    powerless = (
+        f"Wilcoxon’s signed-rank test, in the CSV, cannot go below p = {floor:.4g} with "
+        f"{most} units, so it cannot reach significance here."
+    )
     return (
         f"Below each difference: its 95 % interval (Student’s t over {most} {unit}), and the "
         "probabilities that the row is better, equivalent within 2 %, or worse than the column "
         "(Bayesian correlated t-test).",
         "▲ ahead, ▼ behind: more than chance by the paired t-test with Holm’s correction over all "
         "pairs, 5 %. No mark: the two share a rank.",
-        *(
-            [
-                f"Wilcoxon’s signed-rank test, in the CSV, cannot go below p = {floor:.4g} with "
-                f"{most} units, so it is no guide here."
-            ]
-            if floor > ALPHA
-            else []
-        ),
+        *([powerless] if floor > ALPHA else []),
     )
 
 
-def _tidy(
-    results: TaskResults, metric: str, pairs: Mapping[tuple[str, str], Corrected]
-) -> pd.DataFrame:
-    signed_ranks = holm([each.contrast.signed_rank_p for each in pairs.values()])
+def _tidy(results: TaskResults, metric: str, contrasts: Contrasts) -> pd.DataFrame:
+    signed_ranks = holm([corrected.contrast.signed_rank_p for corrected in contrasts.values()])
     return pd.DataFrame(
         [
             {
                 "task": results.layout.name,
                 "metric": metric,
-                "first_label": one,
-                "second_label": other,
-                **vars(found.contrast),
-                "t_p_holm": found.p,
-                "signed_rank_p_holm": signed,
+                "first_label": first,
+                "second_label": second,
+                **vars(corrected.contrast),
+                "t_p_holm": corrected.p,
+                "signed_rank_p_holm": signed_rank_p,
             }
-            for ((one, other), found), signed in zip(pairs.items(), signed_ranks, strict=True)
+            for ((first, second), corrected), signed_rank_p in zip(
+                contrasts.items(), signed_ranks, strict=True
+            )
         ]
     )

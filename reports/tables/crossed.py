@@ -1,13 +1,15 @@
-"""The table of a task of pairs, such as every recording with every other: rows by columns."""
+"""The table of a task whose cases are pairs, such as every recording with every other."""
 
 from __future__ import annotations
 
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.bundle.bundle import CaseLayout
+from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.paper.remarks import footnotes, marks
-from mocapbench.reports.tables.base import ABSENT, Cell, Table, decimals, headings, number
-from mocapbench.reports.tables.scores import MISSING_ID, score_table
+from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
+from mocapbench.reports.tables.score_cells import MISSING_ID
+from mocapbench.reports.tables.scores import metric_decimals, score_table
+from mocapbench.reports.text import number
 
 __all__ = ["cross_table"]
 
@@ -15,14 +17,25 @@ Lettered = dict[str, str]
 
 
 def cross_table(results: TaskResults, metric: str, crossed: tuple[str, str]) -> Table:
-    """Return the table of ``metric`` with one setting of ``crossed`` along rows, one along columns.
+    """Return the table of ``metric`` with one column of the cases along rows, one along columns.
 
-    The published value stands below ours. The tidy data are those of `score_table`.
+    Parameters
+    ----------
+    results : TaskResults
+        Of one entrant.
+    metric : str
+    crossed : tuple of two str
+        The columns of the cases (`CaseLayout.columns`) along rows and along columns.
+
+    Returns
+    -------
+    Table
+        The published value is shown below ours. The tidy data are those of `score_table`.
     """
     plain = score_table(results, metric)
     along_rows, along_columns = crossed
     pairs = {
-        (str(case.settings[along_rows]), str(case.settings[along_columns])): case
+        (str(case.columns[along_rows]), str(case.columns[along_columns])): case
         for case in results.cases
     }
     rows, columns = (list(dict.fromkeys(names)) for names in zip(*pairs, strict=True))
@@ -42,7 +55,7 @@ def cross_table(results: TaskResults, metric: str, crossed: tuple[str, str]) -> 
 
 
 def _erratum(results: TaskResults, case: CaseLayout, metric: str) -> str:
-    published = results.printed(case, results.layout.labels[0], metric)
+    published = results.published_value(case, results.layout.labels[0], metric)
     return published.erratum if published else ""
 
 
@@ -53,8 +66,8 @@ def _cell(results: TaskResults, case: CaseLayout | None, metric: str, lettered: 
     estimate = results.estimate(case.name, label, metric)
     if estimate is None:
         return Cell("missing", kind="trouble", link=MISSING_ID)
-    places = _places(results, metric)
-    note = _note(results.printed(case, label, metric), places, lettered)
+    places = metric_decimals(results, metric)
+    note = _note(results.published_value(case, label, metric), places, lettered)
     return Cell(number(estimate.mean, places), note=note)
 
 
@@ -63,7 +76,3 @@ def _note(published: PublishedValue | None, places: int, lettered: Lettered) -> 
         return ""
     letter = lettered[published.erratum]
     return number(published.value, places) + (f" ({letter})" if letter else "")
-
-
-def _places(results: TaskResults, metric: str) -> int:
-    return decimals(e.mean for (_, _, name), e in results.estimates.items() if name == metric)

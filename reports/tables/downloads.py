@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pandas as pd
 
-from mocapbench.reports.tables.base import MINUS, Cell, Table
+from mocapbench.reports.tables.base import Cell, Table
+from mocapbench.reports.text import MINUS
 
 __all__ = ["to_csv", "to_latex"]
 

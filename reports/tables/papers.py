@@ -1,4 +1,4 @@
-"""What became of each table of the papers: its values, and the verdicts passed on them."""
+"""The papers' tables: how many values each has, and the verdicts on them."""
 
 from __future__ import annotations
 
@@ -7,27 +7,33 @@ from collections.abc import Iterable, Sequence
 
 import pandas as pd
 
+from mocapbench.reports.analysis.comparisons import Comparison, every_comparison
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.verdicts import Comparison, Verdict, every_comparison
+from mocapbench.reports.analysis.verdicts import PublishedVerdict
 from mocapbench.reports.paper.published import PublishedValue
-from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings, slug
+from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
+from mocapbench.reports.text import slug
 
-__all__ = ["scorecard"]
+__all__ = ["papers_table"]
 
-VERDICTS = tuple(each.value for each in Verdict)
-UNANSWERED = "no score of ours"
-COUNTS = ("values", *VERDICTS, UNANSWERED)
+VERDICTS = tuple(verdict.value for verdict in PublishedVerdict)
+NO_SCORE = "no score of ours"
+COUNTS = ("values", *VERDICTS, NO_SCORE)
 NOTES = (
-    "Values: what the paper prints there. The other columns count verdicts: a value that several "
-    "entrants or cases of ours answer has one for each, and a row may have more than values.",
-    "Not comparable: a reason stands beside the value, whether it has a score of ours or not.",
+    "Values: how many numbers the paper prints in the table. The other columns count verdicts. A "
+    "value that several of our entrants or cases correspond to has a verdict for each, so a row "
+    "may have more verdicts than values.",
+    "Not comparable: there is a reason not to compare the value, with or without a score of ours.",
 )
 
 
-def scorecard(tasks: Iterable[TaskResults]) -> Table | None:
-    """Return a row per published table of the ``tasks``; None where nothing is compared.
+def papers_table(tasks: Iterable[TaskResults]) -> Table | None:
+    """Return a row for each published table of the ``tasks``, with a column for each verdict.
 
-    A column counts verdicts, one for each pair of a published value and an estimate of ours.
+    Returns
+    -------
+    Table or None
+        None where no value of ours has a published counterpart.
     """
     rows = [row for results in tasks for row in _rows(results)]
     if not any(row[verdict] for row in rows for verdict in VERDICTS):
@@ -38,7 +44,7 @@ def scorecard(tasks: Iterable[TaskResults]) -> Table | None:
         columns=(*headings(["published in"]), *headings(["task"], "text"), *headings(COUNTS)),
         rows=tuple(
             (
-                Cell(_spoken(str(row["source"]))),
+                Cell(_readable(str(row["source"]))),
                 Cell(str(row["task"]), kind="text", link=slug("task", str(row["task"]))),
                 *(Cell(str(row[name])) if row[name] else ABSENT for name in COUNTS),
             )
@@ -59,23 +65,23 @@ def _rows(results: TaskResults) -> list[dict[str, object]]:
 
 
 def _row(
-    task: str, source: str, values: Sequence[PublishedValue], every: Sequence[Comparison]
+    task: str, source: str, values: Sequence[PublishedValue], comparisons: Sequence[Comparison]
 ) -> dict[str, object]:
-    pairs = [pair for pair in every if pair.published.source == source]
+    pairs = [pair for pair in comparisons if pair.published.source == source]
     counts = Counter(pair.verdict.value for pair in pairs)
-    answered = {pair.published.address for pair in pairs}
-    others = [value for value in values if value.address not in answered]
-    excused = sum(bool(value.not_comparable) for value in others)
-    counts[Verdict.NOT_COMPARABLE.value] += excused
+    matched = {pair.published.address for pair in pairs}
+    others = [value for value in values if value.address not in matched]
+    not_compared = sum(bool(value.not_comparable) for value in others)
+    counts[PublishedVerdict.NOT_COMPARABLE.value] += not_compared
     return {
         "source": source,
         "task": task,
         "values": len(values),
         **{verdict: counts[verdict] for verdict in VERDICTS},
-        UNANSWERED: len(others) - excused,
+        NO_SCORE: len(others) - not_compared,
     }
 
 
-def _spoken(source: str) -> str:
+def _readable(source: str) -> str:
     """Return "thesis table 1" for ``thesis-table-01``."""
     return " ".join(part.lstrip("0") for part in source.split("-"))

@@ -1,10 +1,10 @@
-"""What a shared rank rests on, in words: the test, its units, and where none could be made."""
+"""Sentences on the test behind a shared rank: its units, and the rows where none is possible."""
 
 from __future__ import annotations
 
 from mocapbench.metrics.statistics import SharedRank
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.tables.base import counted
+from mocapbench.reports.text import counted
 
 __all__ = ["lead_note", "rank_notes", "untested_reason"]
 
@@ -18,9 +18,9 @@ def rank_notes(results: TaskResults, metric: str) -> tuple[str, ...]:
     sizes = sorted({rank.n for rank in ranks if rank.tested})
     tested = (
         "Bold: the best mean of a row, and every mean that the paired t-test with Holm’s "
-        f"correction cannot tell from it (5 %, {_counted(sizes)})."
+        f"correction does not separate from it (5 %, {_fold_counts(sizes)})."
     )
-    untested = f"No test: {untested_reason(results)}; there the best mean alone is in bold."
+    untested = f"No test: {untested_reason(results)}. Only the best mean of such a row is in bold."
     return (
         *([tested] if sizes else []),
         *([untested] if not all(rank.tested for rank in ranks) else []),
@@ -32,13 +32,13 @@ def _ranks(results: TaskResults, metric: str) -> list[SharedRank]:
     return [rank for rank in ranks if rank is not None]
 
 
-def _counted(sizes: list[int]) -> str:
+def _fold_counts(sizes: list[int]) -> str:
     *fewer, most = [str(size) for size in sizes] or ["0"]
     return f"n = {' or '.join([*fewer, most])} folds"
 
 
 def untested_reason(results: TaskResults) -> str:
-    """Return why no test could be made where a row has one unit only."""
+    """Return why a row with a single unit cannot be tested."""
     return FOLD if results.layout.independent_folds else WINDOWS
 
 
@@ -50,7 +50,7 @@ def lead_note(results: TaskResults, metric: str, label: str, cases: list[str]) -
         return f"Not tested: {untested_reason(results)}."
     alone = [rank for rank in tested if rank.labels == (label,)]
     others = dict.fromkeys(other for rank in tested for other in rank.labels if other != label)
-    shared = f"{', '.join(others)} cannot be told from it"
+    shared = f"the test does not separate it from {', '.join(others)}"
     if not alone:
         return f"Case by case the lead may be chance: {shared}."
     if not others:

@@ -1,4 +1,4 @@
-"""The table of our numbers beside the published ones, with the rule of the verdicts under it."""
+"""The table of our numbers beside the published ones, with the rule of the verdicts below it."""
 
 from __future__ import annotations
 
@@ -6,33 +6,43 @@ import math
 
 import pandas as pd
 
+from mocapbench.reports.analysis.comparisons import Comparison, comparisons
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.verdicts import Comparison, allowance, comparisons
-from mocapbench.reports.bundle.bundle import TaskLayout
+from mocapbench.reports.analysis.verdicts import allowance
+from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.paper.remarks import footnotes, marks
-from mocapbench.reports.tables.base import Cell, Table, decimals, headings, number, slug
+from mocapbench.reports.tables.base import Cell, Table, headings
+from mocapbench.reports.text import decimals, number, plus_minus, slug
 
 __all__ = ["verdict_table"]
 
 ALLOWANCE = "2 % of the published value, or the ± that the paper prints where that is more"
 RULES = (
-    f"Reproduced: our mean lies within the allowance, {ALLOWANCE}, and half its 95 % interval over "
-    "folds (Student’s t) is no wider than the allowance.",
+    f"Reproduced: our mean differs from the published value by no more than the allowance "
+    f"({ALLOWANCE}), and half its 95 % interval over folds (Student’s t) is no wider than the "
+    "allowance.",
     "Better, worse: the published value lies outside our interval widened by the allowance. "
-    "Undecided: neither; the folds are too few or too noisy to tell.",
-    "One fold has no interval: its verdict compares the bare value with the allowance.",
+    "Undecided: neither, because the folds are too few or too noisy.",
+    "One fold has no interval: its verdict rests on the difference alone.",
 )
 WINDOW_RULES = (
-    f"Reproduced: our mean lies within the allowance, {ALLOWANCE}. Better, worse: it does not.",
+    f"Reproduced: our mean differs from the published value by no more than the allowance "
+    f"({ALLOWANCE}). Better, worse: it differs by more.",
     "The folds are overlapping windows of one recording, and the published value is a mean over "
-    "all of the paper’s: the ± is the spread over the windows, and the verdict compares means "
-    "only. A run of fewer windows than the paper’s averages something else.",
+    "all windows of the paper. The ± is the spread over windows, and the verdict compares means "
+    "only. A run with fewer windows than the paper averages over another set.",
 )
 
 
 def verdict_table(results: TaskResults, metric: str) -> Table | None:
-    """Return the table of ours, published, difference and verdict; None where nothing compares."""
+    """Return the table of our mean, the published value, their difference and the verdict.
+
+    Returns
+    -------
+    Table or None
+        None where no value of ours has a published counterpart.
+    """
     pairs = comparisons(results, metric)
     if not pairs:
         return None
@@ -64,15 +74,13 @@ def _row(pair: Comparison, places: int, mark: str) -> tuple[Cell, ...]:
         Cell(pair.label, kind="text"),
         Cell(published.model, kind="text"),
         Cell(f"n={ours.n}"),
-        Cell(number(ours.mean, places), spread=_spread(ours.spread, places)),
-        Cell(number(published.value, places), spread=_spread(published.two_sd, places), mark=mark),
+        Cell(number(ours.mean, places), spread=plus_minus(ours.spread, places)),
+        Cell(
+            number(published.value, places), spread=plus_minus(published.two_sd, places), mark=mark
+        ),
         Cell(number(ours.mean - published.value, places)),
         Cell(pair.verdict.value, note=note, kind=slug(pair.verdict.value)),
     )
-
-
-def _spread(two_sd: float | None, places: int) -> str:
-    return "" if two_sd is None else number(two_sd, places)
 
 
 def _tidy(pair: Comparison, metric: str) -> dict[str, object]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import fields
 
 import numpy as np
 import pandas as pd
@@ -10,8 +11,11 @@ import pytest
 
 from mocapbench.metrics.base import Direction
 from mocapbench.reports import render
-from mocapbench.reports.bundle.bundle import Bundle, CaseLayout, MetricInfo, TaskLayout
+from mocapbench.reports.bundle.bundle import Bundle
+from mocapbench.reports.bundle.layout import CaseLayout, TaskLayout
+from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.pictures import Curve, Illustration, Panel
+from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
 METRICS = {
     info.name: info
@@ -35,18 +39,23 @@ HOSTILE = "<script>alert('x')</script>"
 
 TOY = TaskLayout(
     name="toy-interpolation-1",
-    title="Toy interpolation, one incomplete child",
-    reference="thesis §5.1.1, Tables 1–3, Figure 17",
-    kind="impute",
-    description=(
-        "Children of one parent are drawn from a two-layer Gaussian process. All are complete but "
-        "the last, of which 5 of 50 points per output are visible."
+    page=TaskPage(
+        title="Toy interpolation, one incomplete child",
+        reference="thesis §5.1.1, Tables 1–3, Figure 17",
+        description=(
+            "Children of one parent are drawn from a two-layer Gaussian process. All are complete "
+            "but the last, of which 5 of 50 points per output are visible."
+        ),
+        metrics=("mse", "smse_pooled", "msll"),
+        published_models={"mohgp-3": "MOHGP", "moa-3": "MOA"},
+        published_metrics={"mse": "MSE", "smse_pooled": "SMSE", "msll": "MSLL"},
+        remarks=("Tests 4 and 7 of the thesis carry identical MOHGP values.",),
     ),
     cases=tuple(
         CaseLayout(
             f"test {number}",
             {"noise": noise, "outputs": outputs, "children": children},
-            published=f"test {number}",
+            notes=RowNotes(published=f"test {number}"),
         )
         for number, (noise, (outputs, children)) in enumerate(
             ((noise, size) for noise in (0.001, 0.01, 0.1) for size in ((3, 5), (6, 6), (3, 10))), 1
@@ -56,47 +65,57 @@ TOY = TaskLayout(
         *("mohgp-3", "moa-3", "lmc-independent", "gp-independent"),
         *("cubic-spline", "knn", "nn", "trivial", "oracle"),
     ),
-    metrics=("mse", "smse_pooled", "msll"),
-    published_models={"mohgp-3": "MOHGP", "moa-3": "MOA"},
-    published_metrics={"mse": "MSE", "smse_pooled": "SMSE", "msll": "MSLL"},
-    remarks=("Tests 4 and 7 of the thesis carry identical MOHGP values.",),
 )
 WALKING = TaskLayout(
     name="walking-interpolation",
-    title="Walking interpolation",
-    reference="thesis §5.1.2, Tables 10–11, Figure 20",
-    kind="impute",
-    description="Three walks; the first has 40, 30, 20 or 10 of its 90 frames visible.",
+    page=TaskPage(
+        title="Walking interpolation",
+        reference="thesis §5.1.2, Tables 10–11, Figure 20",
+        description="Three walks; the first has 40, 30, 20 or 10 of its 90 frames visible.",
+        metrics=("smse_pooled", "mse", "msll"),
+        published_models={
+            **{"mohgp-1": "MOHGP", "mohgp-3": "MOHGP"},
+            **{"moa-1": "MOA", "moa-3": "MOA"},
+        },
+        published_metrics={"mse": "MSE", "smse_pooled": "SMSE", "msll": "MSLL"},
+        remarks=("The thesis does not print its 39 channels.",),
+    ),
     cases=(
         *(
-            CaseLayout(f"observed {n}", {"observed": n}, published=f"observed {n}")
+            CaseLayout(f"observed {n}", {"observed": n}, notes=RowNotes(published=f"observed {n}"))
             for n in (40, 30, 20, 10)
         ),
-        CaseLayout("generated 20", {"observed": 20}, synthetic=True, remark="embedded gait"),
+        CaseLayout(
+            "generated 20",
+            {"observed": 20},
+            synthetic=True,
+            notes=RowNotes(remark="embedded gait"),
+        ),
     ),
     labels=("mohgp-1", "mohgp-3", "moa-1", "moa-3", "gp-independent", "cubic-spline"),
-    metrics=("smse_pooled", "mse", "msll"),
-    published_models={"mohgp-1": "MOHGP", "mohgp-3": "MOHGP", "moa-1": "MOA", "moa-3": "MOA"},
-    published_metrics={"mse": "MSE", "smse_pooled": "SMSE", "msll": "MSLL"},
-    remarks=("The thesis does not print its 39 channels.",),
 )
 RECORDINGS = ("35-03", "12-02", "16-21", "12-03", "07-01", "07-02", "08-01", "08-02")
 FRAMES = TaskLayout(
     name="missing-frames",
-    title="Missing frames",
-    reference="GPDM §5.3, Table 2",
-    kind="impute",
-    description="31 whole frames of a walk are hidden; training walks are of other subjects.",
+    page=TaskPage(
+        title="Missing frames",
+        reference="GPDM §5.3, Table 2",
+        description=("31 whole frames of a walk are hidden; training walks are of other subjects."),
+        metrics=("rms_per_frame",),
+        published_models={"cubic-spline": "cubic-spline", "knn": "KNN-15"},
+        published_metrics={"rms_per_frame": "RMS per frame"},
+        not_comparable={("knn", "*"): "the paper does not print its KNN objective"},
+    ),
     cases=tuple(
-        CaseLayout(f"{name} {group}", {"test": name, "training": group}, published=name)
+        CaseLayout(
+            f"{name} {group}",
+            {"test": name, "training": group},
+            notes=RowNotes(published=name),
+        )
         for group in ("four-walkers", "three-walkers")
         for name in RECORDINGS
     ),
     labels=("cubic-spline", "knn", "aligned-window", "gp-independent"),
-    metrics=("rms_per_frame",),
-    published_models={"cubic-spline": "cubic-spline", "knn": "KNN-15"},
-    published_metrics={"rms_per_frame": "RMS per frame"},
-    not_comparable={("knn", "*"): "the paper does not print its KNN objective"},
     independent_folds=False,
 )
 FOLDS = {"toy-interpolation-1": 5, "walking-interpolation": 5, "missing-frames": 12}
@@ -242,10 +261,10 @@ Values = Mapping[str, Mapping[str, list[float]]]
 def small() -> Callable[..., Bundle]:
     """Return a maker of bundles of one task from {case: {label: [a value per fold]}}.
 
-    A NaN stands for a job that failed; further arguments are fields of the layout.
+    A NaN stands for a job that failed; further arguments are fields of the layout or of its page.
     """
 
-    def make(values: Values, metric: str = "mse", task: str = "small", **fields: object) -> Bundle:
+    def make(values: Values, metric: str = "mse", task: str = "small", **options: object) -> Bundle:
         rows = [
             {"task": task, "case": case, "fold": fold, "label": label, "model": label}
             | {"value": value}
@@ -261,17 +280,33 @@ def small() -> Callable[..., Bundle]:
             **dict.fromkeys(("fit_seconds", "predict_seconds", "peak_memory_mb"), 1.0),
             **dict.fromkeys(("iterations", "converged"), None),
         )
-        layout = TaskLayout(
-            **{
-                **dict.fromkeys(("title", "reference", "description"), "Small"),
-                "name": task,
-                "kind": "impute",
-                "cases": tuple(CaseLayout(case, {}) for case in values),
-                "labels": tuple(dict.fromkeys(row["label"] for row in rows)),
-                "metrics": (metric,),
-                **fields,
-            }
+        return Bundle(
+            frame.dropna(subset="value"),
+            records,
+            (_layout(task, metric, rows, options),),
+            METRICS,
+            {},
         )
-        return Bundle(frame.dropna(subset="value"), records, (layout,), METRICS, {})
 
     return make
+
+
+PAGE_FIELDS = {field.name for field in fields(TaskPage)}
+
+
+def _layout(
+    task: str, metric: str, rows: list[dict[str, object]], options: Mapping[str, object]
+) -> TaskLayout:
+    """Return a layout whose page has those of the ``options`` that are fields of a page."""
+    page = {name: value for name, value in options.items() if name in PAGE_FIELDS}
+    layout = {name: value for name, value in options.items() if name not in PAGE_FIELDS}
+    texts = dict.fromkeys(("title", "reference", "description"), "Small")
+    return TaskLayout(
+        **{
+            "name": task,
+            "page": TaskPage(**{**texts, "metrics": (metric,), **page}),
+            "cases": tuple(CaseLayout(case, {}) for case in dict.fromkeys(r["case"] for r in rows)),
+            "labels": tuple(dict.fromkeys(row["label"] for row in rows)),
+            **layout,
+        }
+    )

@@ -33,7 +33,7 @@ def test_an_entrant_without_a_score_in_every_case_is_left_out_and_named(small):
     values = {**ORDERED, "row 1": {**ORDERED["row 1"], "d": [0.5]}}
     ranks = ranks_over_cases(results_of(small(values)), "mse")
     assert (ranks.labels, ranks.left_out) == (("a", "b", "c"), ("d",))
-    assert "Left out for want of a score in every case: d." in rank_figure(ranks, "t", "n").caption
+    assert "Left out, without a score in every case: d." in rank_figure(ranks, "t", "n").caption
 
 
 @pytest.mark.parametrize(

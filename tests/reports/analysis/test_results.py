@@ -6,34 +6,36 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy import stats
 
-from mocapbench.reports.analysis.results import Estimate, task_results, troubles
-from mocapbench.reports.bundle.bundle import CaseLayout
+from mocapbench.reports.analysis.fold_mean import FoldMean
+from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.troubles import troubles
+from mocapbench.reports.bundle.layout import CaseLayout
 
 values = st.lists(st.floats(-1e3, 1e3), min_size=2, max_size=12)
 
 
 def test_an_estimate_in_closed_form():
-    estimate = Estimate.of([1.0, 3.0])
-    assert estimate == Estimate(2.0, pytest.approx(2.0 * math.sqrt(2.0)), 2)
+    estimate = FoldMean.of([1.0, 3.0])
+    assert estimate == FoldMean(2.0, pytest.approx(2.0 * math.sqrt(2.0)), 2)
 
 
 @given(values, st.floats(-1e3, 1e3))
 def test_a_shift_moves_the_mean_and_leaves_the_spread(sample, shift):
-    plain, moved = Estimate.of(sample), Estimate.of([value + shift for value in sample])
+    plain, moved = FoldMean.of(sample), FoldMean.of([value + shift for value in sample])
     assert moved.mean == pytest.approx(plain.mean + shift, abs=1e-8)
     assert moved.two_sd == pytest.approx(plain.two_sd, abs=1e-8)
 
 
 def test_one_fold_has_no_spread_and_no_interval():
-    assert Estimate.of([0.3]) == Estimate(0.3, None, 1)
-    assert Estimate.of([0.3]).half_width is None
+    assert FoldMean.of([0.3]) == FoldMean(0.3, None, 1)
+    assert FoldMean.of([0.3]).half_width is None
 
 
 @given(values)
 def test_the_interval_is_that_of_students_t(sample):
     assume(np.std(sample) > 1e-6)
     expected = stats.ttest_1samp(sample, 0.0).confidence_interval(0.95)
-    assert 2.0 * Estimate.of(sample).half_width == pytest.approx(expected.high - expected.low)
+    assert 2.0 * FoldMean.of(sample).half_width == pytest.approx(expected.high - expected.low)
 
 
 def results_of(bundle):
@@ -68,7 +70,7 @@ def test_equal_means_are_both_best(small):
 def test_scores_that_are_not_finite_do_not_count(small):
     bundle = small({"row": {"a": [1.0, 3.0]}})
     bundle.scores["value"] = [1.0, np.inf]
-    assert results_of(bundle).estimate("row", "a", "mse") == Estimate(1.0, None, 1)
+    assert results_of(bundle).estimate("row", "a", "mse") == FoldMean(1.0, None, 1)
 
 
 def test_only_cases_with_records_are_shown(small):
@@ -91,18 +93,20 @@ def test_every_job_without_a_score_is_a_trouble(bundle):
 
 @given(values, st.lists(st.floats(0.0, 1e3), min_size=1, max_size=12))
 def test_the_spread_over_samples_is_averaged_over_folds_and_comes_first(sample, within):
-    plain, sampled = Estimate.of(sample), Estimate.of(sample, within)
+    plain, sampled = FoldMean.of(sample), FoldMean.of(sample, within)
     assert plain.spread == plain.two_sd == sampled.two_sd
     assert sampled.spread == sampled.sample_two_sd == pytest.approx(np.mean(within))
     assert sampled.half_width == plain.half_width
 
 
 def test_values_that_are_no_means_over_samples_spread_over_folds():
-    assert Estimate.of([1.0, 3.0], [math.nan, math.nan]) == Estimate.of([1.0, 3.0])
+    assert FoldMean.of([1.0, 3.0], [math.nan, math.nan]) == FoldMean.of([1.0, 3.0])
 
 
 @pytest.mark.parametrize("rows", [{"one", "two", "both"}, {"one", "both"}, {"both"}])
 def test_a_row_that_pools_others_counts_only_where_it_is_alone(small, rows):
-    cases = tuple(CaseLayout(name, {}, pooled=name == "both") for name in ("one", "two", "both"))
+    cases = tuple(
+        CaseLayout(name, {}, averages_references=name == "both") for name in ("one", "two", "both")
+    )
     results = results_of(small({name: {"a": [1.0]} for name in rows}, cases=cases))
-    assert {case.name for case in results.judged("mse")} == (rows - {"both"} or rows)
+    assert {case.name for case in results.representative_cases("mse")} == (rows - {"both"} or rows)

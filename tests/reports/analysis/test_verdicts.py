@@ -5,9 +5,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.metrics.base import Direction
+from mocapbench.reports.analysis.comparisons import comparisons, tally
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.analysis.verdicts import Verdict, allowance, comparisons, tally, verdict
-from mocapbench.reports.bundle.bundle import CaseLayout, MetricInfo
+from mocapbench.reports.analysis.verdicts import PublishedVerdict, allowance, verdict
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.bundle.metric_info import MetricInfo
+from mocapbench.reports.bundle.task_page import RowNotes
 from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.tables.verdicts import verdict_table
 
@@ -32,33 +35,42 @@ def test_a_near_mean_that_is_sure_is_reproduced(value, share, two_sd, certainty)
     published = printed(value, two_sd)
     allowed = allowance(published)
     half_width = None if certainty is None else certainty * allowed
-    assert verdict(value + share * allowed, published, LOWER, half_width) is Verdict.REPRODUCED
+    assert (
+        verdict(value + share * allowed, published, LOWER, half_width)
+        is PublishedVerdict.REPRODUCED
+    )
 
 
 @given(sizes, sizes, spreads, sizes, st.sampled_from([LOWER, HIGHER]))
 def test_noise_only_ever_leaves_a_verdict_undecided(ours, value, two_sd, half_width, info):
     published = printed(value, two_sd)
     bare = verdict(ours, published, info)
-    assert bare is not Verdict.UNDECIDED
-    assert verdict(ours, published, info, half_width) in {bare, Verdict.UNDECIDED}
+    assert bare is not PublishedVerdict.UNDECIDED
+    assert verdict(ours, published, info, half_width) in {bare, PublishedVerdict.UNDECIDED}
 
 
 @given(sizes, sizes, spreads, sizes, st.floats(1.0, 100.0))
 def test_what_is_undecided_stays_so_under_more_noise(ours, value, two_sd, half_width, factor):
     published = printed(value, two_sd)
-    if verdict(ours, published, LOWER, half_width) is Verdict.UNDECIDED:
-        assert verdict(ours, published, LOWER, factor * half_width) is Verdict.UNDECIDED
+    if verdict(ours, published, LOWER, half_width) is PublishedVerdict.UNDECIDED:
+        assert verdict(ours, published, LOWER, factor * half_width) is PublishedVerdict.UNDECIDED
 
 
 @given(sizes, st.floats(1.01, 1e3))
 def test_a_mean_too_noisy_to_tell_is_undecided_however_well_it_agrees(value, factor):
     published = printed(value)
-    assert verdict(value, published, LOWER, factor * allowance(published)) is Verdict.UNDECIDED
+    assert (
+        verdict(value, published, LOWER, factor * allowance(published))
+        is PublishedVerdict.UNDECIDED
+    )
 
 
 @given(sizes, sizes, st.floats(0.0, 10.0))
 def test_the_direction_mirrors_the_verdict(ours, value, half_width):
-    mirror = {Verdict.BETTER: Verdict.WORSE, Verdict.WORSE: Verdict.BETTER}
+    mirror = {
+        PublishedVerdict.BETTER: PublishedVerdict.WORSE,
+        PublishedVerdict.WORSE: PublishedVerdict.BETTER,
+    }
     lower, higher = (verdict(ours, printed(value), info, half_width) for info in (LOWER, HIGHER))
     assert higher is mirror.get(lower, lower)
 
@@ -66,12 +78,12 @@ def test_the_direction_mirrors_the_verdict(ours, value, half_width):
 @pytest.mark.parametrize(
     ("ours", "half_width", "expected"),
     [
-        (1.0, 0.85, Verdict.BETTER),  # 2.0 lies beyond 1.0 + 0.85 + 0.1
-        (1.0, 0.95, Verdict.UNDECIDED),
-        (3.0, 0.85, Verdict.WORSE),
-        (3.0, 0.95, Verdict.UNDECIDED),
-        (2.05, 0.05, Verdict.REPRODUCED),
-        (2.05, 0.15, Verdict.UNDECIDED),
+        (1.0, 0.85, PublishedVerdict.BETTER),  # 2.0 lies beyond 1.0 + 0.85 + 0.1
+        (1.0, 0.95, PublishedVerdict.UNDECIDED),
+        (3.0, 0.85, PublishedVerdict.WORSE),
+        (3.0, 0.95, PublishedVerdict.UNDECIDED),
+        (2.05, 0.05, PublishedVerdict.REPRODUCED),
+        (2.05, 0.15, PublishedVerdict.UNDECIDED),
     ],
 )
 def test_verdicts_beside_two_plus_or_minus_a_tenth(ours, half_width, expected):
@@ -90,7 +102,7 @@ def test_every_value_with_a_counterpart_is_compared(bundle):
 
 def test_a_reason_forbids_the_comparison(bundle):
     pairs = [pair for pair in pairs_of(bundle, 2, "rms_per_frame") if pair.label == "knn"]
-    assert {pair.verdict for pair in pairs} == {Verdict.NOT_COMPARABLE}
+    assert {pair.verdict for pair in pairs} == {PublishedVerdict.NOT_COMPARABLE}
     assert {pair.reason for pair in pairs} == {"the paper does not print its KNN objective"}
 
 
@@ -100,7 +112,7 @@ def spline_on_35_03(small, folds, *, synthetic=False, **fields):
         {"row": {"cubic-spline": folds}},
         metric="rms_per_frame",
         task="missing-frames",
-        cases=(CaseLayout("row", {}, published="35-03", synthetic=synthetic),),
+        cases=(CaseLayout("row", {}, synthetic=synthetic, notes=RowNotes(published="35-03")),),
         published_models={"cubic-spline": "cubic-spline"},
         published_metrics={"rms_per_frame": "RMS per frame"},
         **fields,
@@ -109,7 +121,7 @@ def spline_on_35_03(small, folds, *, synthetic=False, **fields):
 
 def test_generated_motion_is_not_comparable(small):
     (pair,) = pairs_of(spline_on_35_03(small, [62.98], synthetic=True), 0, "rms_per_frame")
-    assert (pair.verdict, pair.reason) == (Verdict.NOT_COMPARABLE, "generated motion")
+    assert (pair.verdict, pair.reason) == (PublishedVerdict.NOT_COMPARABLE, "generated motion")
     assert tally([pair]).on_one_fold == 0
 
 
@@ -117,7 +129,8 @@ WINDOWS = [62.99 + step for step in (-30.0, -20.0, -10.0, 10.0, 20.0, 30.0)]
 
 
 @pytest.mark.parametrize(
-    ("independent", "expected"), [(True, Verdict.UNDECIDED), (False, Verdict.REPRODUCED)]
+    ("independent", "expected"),
+    [(True, PublishedVerdict.UNDECIDED), (False, PublishedVerdict.REPRODUCED)],
 )
 def test_the_spread_of_windows_is_no_uncertainty(small, independent, expected):
     bundle = spline_on_35_03(small, WINDOWS, independent_folds=independent)
@@ -129,7 +142,7 @@ def test_the_spread_of_windows_is_no_uncertainty(small, independent, expected):
 def test_noisy_folds_about_another_mean_are_not_reproduced(small):
     (pair,) = pairs_of(spline_on_35_03(small, [40.0, 70.0, 100.0]), 0, "rms_per_frame")
     assert abs(pair.ours.mean - 62.98) < pair.ours.two_sd
-    assert pair.verdict is Verdict.UNDECIDED
+    assert pair.verdict is PublishedVerdict.UNDECIDED
 
 
 def test_a_verdict_on_one_fold_says_so(small):
@@ -190,25 +203,26 @@ def test_an_erratum_stands_on_the_number_and_under_the_table(bundle):
 def test_a_row_may_have_a_reason_of_its_own(small):
     bundle = spline_on_35_03(small, [62.98])
     (case,) = bundle.layouts[0].cases
-    reasoned = dataclasses.replace(case, not_comparable={"cubic-spline": "another training set"})
+    notes = dataclasses.replace(case.notes, not_comparable={"cubic-spline": "another training set"})
+    reasoned = dataclasses.replace(case, notes=notes)
     layout = dataclasses.replace(bundle.layouts[0], cases=(reasoned,))
     (pair,) = comparisons(
         task_results(dataclasses.replace(bundle, layouts=(layout,)), layout), "rms_per_frame"
     )
-    assert (pair.verdict, pair.reason) == (Verdict.NOT_COMPARABLE, "another training set")
+    assert (pair.verdict, pair.reason) == (PublishedVerdict.NOT_COMPARABLE, "another training set")
 
 
 def test_what_the_papers_number_lacks_is_a_reason(small):
     bundle = small(
         {"row": {"replay": [1.0]}},
         task="control-similarity",
-        cases=(CaseLayout("row", {}, "12(1) vs 16(15)"),),
+        cases=(CaseLayout("row", {}, notes=RowNotes(published="12(1) vs 16(15)")),),
         published_metrics={"mse": "MCC"},
         published_models={"replay": "real"},
     )
     results = task_results(bundle, bundle.layouts[0])
     (pair,) = comparisons(results, "mse")
-    assert pair.verdict is Verdict.NOT_COMPARABLE
+    assert pair.verdict is PublishedVerdict.NOT_COMPARABLE
     assert "approached" in pair.reason
     (difference,) = verdict_table(results, "mse").data["relative_difference"]
     assert difference == pytest.approx((1.0 - 20.551) / 20.551)

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.metrics.base import Direction
-from mocapbench.reports.bundle.bundle import MetricInfo
+from mocapbench.reports.bundle.metric_info import MetricInfo
 
 finite = st.floats(-1e6, 1e6)
 

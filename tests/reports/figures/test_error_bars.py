@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.bundle.bundle import CaseLayout
+from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.error_bars import error_bars, t_interval
 
 
@@ -112,7 +112,7 @@ def test_only_independent_folds_have_intervals(small, independent, taller):
     )
     bars = [error_bars(task_results(each, each.layouts[0]), "mse") for each in (narrow, wide)]
     assert (bars[0].svg != bars[1].svg) is taller
-    assert all(("no interval" in each.caption) is not independent for each in bars)
+    assert all(("not independent" in each.caption) is not independent for each in bars)
 
 
 def test_no_line_leads_from_recordings_to_generated_motion(small):

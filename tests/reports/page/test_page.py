@@ -8,7 +8,7 @@ from itertools import pairwise
 import pandas as pd
 import pytest
 
-from mocapbench.reports import CaseLayout, render
+from mocapbench.reports import CaseLayout, RowNotes, render
 
 
 class Outline(HTMLParser):
@@ -85,10 +85,10 @@ def test_the_headline_says_that_the_simple_model_wins(page):
 
 
 def test_the_summary_says_what_its_claims_rest_on(page, small):
-    claim = "Claims between entrants compare means over {}. “More than chance” is said where"
+    claim = "Statements about entrants compare means over {}. “More than chance” means"
     assert claim.format("5 or 12 folds") in page
     assert claim.format("1 fold") in render(small({"row": {"a": [1.0]}}))
-    assert "Claims between" not in render(small({"row": {"a": [float("nan")]}}))
+    assert "Statements about entrants" not in render(small({"row": {"a": [float("nan")]}}))
 
 
 def test_ranks_over_tasks_stand_in_the_summary(small):
@@ -116,8 +116,8 @@ def test_one_of_each_is_singular(small):
 def test_a_reduced_budget_is_told(small, page):
     text = render(small({"row": {"a": [1.0]}}, budget="max_iter=200"))
     assert (
-        "Reduced budget in this profile: max_iter=200; numbers may fall short of a full run."
-        in text
+        "Reduced budget in this profile: max_iter=200. "
+        "Scores may be worse than those of a full run." in text
     )
     assert "Reduced budget" not in page
 
@@ -136,7 +136,7 @@ def test_a_verdict_on_one_fold_is_never_told_without_saying_so(small):
             {"row": {"cubic-spline": [62.98]}},
             metric="rms_per_frame",
             task="missing-frames",
-            cases=(CaseLayout("row", {}, published="35-03"),),
+            cases=(CaseLayout("row", {}, notes=RowNotes(published="35-03")),),
             published_models={"cubic-spline": "cubic-spline"},
             published_metrics={"rms_per_frame": "RMS per frame"},
         )

@@ -4,8 +4,9 @@ import pytest
 
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.bundle.bundle import Bundle, MetricInfo
-from mocapbench.reports.tables.best_reference import match_table
+from mocapbench.reports.bundle.bundle import Bundle
+from mocapbench.reports.bundle.metric_info import MetricInfo
+from mocapbench.reports.tables.best_reference import best_reference_table
 
 INFOS = {
     name: MetricInfo(name, name.upper(), Direction.HIGHER)
@@ -36,7 +37,7 @@ def results(small):
 
 
 def test_the_best_match_stands_beside_the_mean(results):
-    table = match_table(results)
+    table = best_reference_table(results)
     assert [cell.text for cell in table.columns] == ["case", "entrant", "MCC", "MCC_BEST"]
     rows = [[cell.text for cell in row] for row in table.rows]
     assert rows == [["several", "a", "21.00", "25.00"], ["several", "b", "22.00", "24.00"]]
@@ -46,4 +47,4 @@ def test_the_best_match_stands_beside_the_mean(results):
 
 def test_no_choice_of_references_no_table(small):
     bundle = small({"row": {"a": [1.0]}})
-    assert match_table(task_results(bundle, bundle.layouts[0])) is None
+    assert best_reference_table(task_results(bundle, bundle.layouts[0])) is None

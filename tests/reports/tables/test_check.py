@@ -12,7 +12,7 @@ def _finding(verdict, label="knn", **more):
     return {**address, "verdict": verdict, "fails": verdict == "worse", "reason": "", **more}
 
 
-PAIRED = {"n": 2, "baseline": 1.0, "run": 1.25, "change": -0.25, "worst": 0.5, "allowance": 0.01}
+PAIRED = {"n": 2, "reference": 1.0, "run": 1.25, "change": -0.25, "worst": 0.5, "allowance": 0.01}
 
 
 def _check(*findings):
@@ -43,7 +43,7 @@ def test_a_long_list_is_cut_and_says_so():
 def test_the_page_tells_the_check(small, verdict, told):
     check = _check(_finding(verdict, label="<script>", **PAIRED))
     page = render(replace(small({"row": {"a": [1.0]}}), check=check))
-    assert f"it <strong>{told}</strong>" in page
+    assert f"the run <strong>{told}</strong>" in page
     assert ("The regression check failed" in page) is (told == "failed")
     assert '<td class="text">&lt;script&gt;</td>' in page
 

@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
 
+from mocapbench.reports.analysis.contrasts import corrected_contrasts, pooled_contrast
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.bundle.bundle import CaseLayout
-from mocapbench.reports.tables.contrasts import contrast_table, corrected, pooled_contrast
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.tables.contrasts import contrast_table
 
 VALUES = {
     f"row {number}": {"a": [0.1 * number], "b": [0.5 + 0.101 * number], "c": [0.11 * number]}
@@ -86,6 +87,6 @@ def test_generated_motion_is_left_out_beside_recordings(small):
 
 def test_an_untested_contrast_is_never_separable(small):
     lone = pooled_contrast(results_of(small({"row": {"a": [1.0], "b": [9.0]}})), "mse", "a", "b")
-    (found,) = corrected([lone])
+    (found,) = corrected_contrasts([lone])
     assert np.isnan(found.p)
     assert not found.separable

@@ -1,7 +1,8 @@
 import pytest
 
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.bundle.bundle import CaseLayout
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.bundle.task_page import RowNotes
 from mocapbench.reports.page.sections import task_view
 
 PAIRS = ("12(1) vs 12(1)", "12(1) vs 16(15)", "16(15) vs 16(15)", "16(15) vs 10(5)")
@@ -15,7 +16,11 @@ def table(small):
         values,
         task="control-similarity",
         cases=tuple(
-            CaseLayout(pair, dict(zip("ab", pair.split(" vs "), strict=True)), published=pair)
+            CaseLayout(
+                pair,
+                dict(zip("ab", pair.split(" vs "), strict=True)),
+                notes=RowNotes(published=pair),
+            )
             for pair in PAIRS
         ),
         crossed=("a", "b"),

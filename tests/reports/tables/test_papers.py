@@ -2,11 +2,11 @@ from collections import Counter
 
 import pytest
 
+from mocapbench.reports.analysis.comparisons import every_comparison
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.analysis.verdicts import every_comparison
 from mocapbench.reports.paper.published import published_values
 from mocapbench.reports.tables.base import ABSENT
-from mocapbench.reports.tables.papers import COUNTS, UNANSWERED, VERDICTS, scorecard
+from mocapbench.reports.tables.papers import COUNTS, NO_SCORE, VERDICTS, papers_table
 
 
 @pytest.fixture
@@ -16,7 +16,7 @@ def tasks(bundle):
 
 @pytest.fixture
 def table(tasks):
-    return scorecard(tasks)
+    return papers_table(tasks)
 
 
 def test_every_published_value_of_the_tasks_is_counted_under_its_table(tasks, table):
@@ -47,12 +47,12 @@ def test_a_value_has_a_verdict_or_a_reason_or_no_score_of_ours(tasks, table):
             if value.address not in answered and not value.not_comparable
         )
         own = table.data[table.data["task"] == results.layout.name].set_index("source")
-        assert own[UNANSWERED].to_dict() == {source: left[source] for source in own.index}
+        assert own[NO_SCORE].to_dict() == {source: left[source] for source in own.index}
 
 
 def test_a_value_that_two_entrants_answer_counts_for_each(table):
     table_10 = table.data.set_index("source").loc["thesis-table-10"]
-    assert table_10[UNANSWERED] == 0
+    assert table_10[NO_SCORE] == 0
     assert table_10[list(VERDICTS)].sum() == 2 * table_10["values"]
 
 
@@ -74,4 +74,4 @@ def test_the_page_shows_it_and_offers_it(page):
 
 def test_there_is_none_where_nothing_is_compared(small):
     bundle = small({"a": {"one": [1.0, 2.0]}})
-    assert scorecard([task_results(bundle, bundle.layouts[0])]) is None
+    assert papers_table([task_results(bundle, bundle.layouts[0])]) is None

@@ -2,7 +2,8 @@ import pandas as pd
 import pytest
 
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.bundle.bundle import CaseLayout
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.bundle.task_page import RowNotes
 from mocapbench.reports.page.sections import task_view
 from mocapbench.reports.paper.published import published_values
 from mocapbench.reports.tables.scores import score_table
@@ -58,7 +59,7 @@ def test_what_is_not_separable_shares_the_rank_and_a_note_says_by_what_test(smal
     assert bold(table) == {"a", "b"}
     assert table.notes == (
         "Bold: the best mean of a row, and every mean that the paired t-test with Holm’s "
-        "correction cannot tell from it (5 %, n = 3 folds).",
+        "correction does not separate from it (5 %, n = 3 folds).",
     )
 
 
@@ -73,7 +74,7 @@ def test_a_row_of_one_unit_is_not_tested_and_says_so(small, values, independent,
     table = table_of(small({"row": values}, independent_folds=independent), "mse")
     assert bold(table) == {"a"}
     assert cell(table, "row", "folds").note == "no test"
-    assert table.notes == (f"No test: {reason}; there the best mean alone is in bold.",)
+    assert table.notes == (f"No test: {reason}. Only the best mean of such a row is in bold.",)
 
 
 def test_a_failed_cell_leads_to_its_failure(bundle):
@@ -117,7 +118,7 @@ def test_the_papers_other_columns_come_last(bundle):
     printed = published_values("missing-frames")
     for case in bundle.layouts[2].cases[:2]:
         row = next(row for row in table.rows if row[0].text == case.name)
-        values = [printed[case.published, "RMS per frame", model].value for model in models]
+        values = [printed[case.notes.published, "RMS per frame", model].value for model in models]
         assert [float(each.text) for each in row[-4:]] == values
 
 
@@ -129,7 +130,7 @@ def test_remarks_and_degenerate_outputs_are_footnotes(small):
     assert notes[1] == "Left out as degenerate: up to 3 outputs a fold."
 
 
-def test_settings_are_columns(small):
+def test_what_distinguishes_cases_is_in_columns(small):
     cases = (CaseLayout("row", {"noise": 0.1}), CaseLayout("other", {"outputs": 3}))
     values = {"row": {"a": [1.0]}, "other": {"a": [2.0]}}
     table = table_of(small(values, cases=cases), "mse")
@@ -175,7 +176,10 @@ def test_errata_of_columns_that_only_the_paper_has_are_footnotes(small):
     bundle = small(
         {"row": {"a": [8.0]}, "other": {"a": [9.0]}},
         task="toy-synthesis",
-        cases=(CaseLayout("row", {}, "test 1"), CaseLayout("other", {}, "test 2")),
+        cases=(
+            CaseLayout("row", {}, notes=RowNotes(published="test 1")),
+            CaseLayout("other", {}, notes=RowNotes(published="test 2")),
+        ),
         published_metrics={"mse": "MCC"},
         published_models={"a": "MOHGP"},
     )

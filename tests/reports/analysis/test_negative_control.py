@@ -1,4 +1,4 @@
-"""The control check: who passes, who fails, by what and where."""
+"""The negative control: who passes, who fails, by what and where."""
 
 from dataclasses import replace
 
@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 from scipy import stats
 
-from mocapbench.reports.analysis.controls import LEAST_SPREAD, NEAR_ZERO, control_check
+from mocapbench.reports.analysis.negative_control import LEAST_SPREAD, NEAR_ZERO, negative_control
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.tables.control import control_table
+from mocapbench.reports.tables.negative_control import negative_control_table
 from mocapbench.reports.tables.scores import score_table
 
 CONTROL = {"mlc": [0.05, -0.06, 0.02, -0.03], "mcc": [7.0, 7.4, 6.8, 7.1], "spread": [5.0] * 4}
@@ -41,15 +41,15 @@ def check(small):
 
 
 def verdicts(results):
-    return {finding.label: finding.verdict for finding in control_check(results)}
+    return {result.label: result.verdict for result in negative_control(results)}
 
 
 def failures(results):
     """Return by what each entrant that must pass fails."""
     return {
-        finding.label: [measure.name for measure in finding.measures if not measure.passed]
-        for finding in control_check(results)
-        if finding.failed
+        result.label: [measure.name for measure in result.measures if not measure.passed]
+        for result in negative_control(results)
+        if result.failed
     }
 
 
@@ -58,13 +58,13 @@ def test_what_resembles_passes_and_what_does_not_fails_with_its_cells(check):
     results = check({"good": GOOD, "stranger": stranger, "control": CONTROL})
     assert verdicts(results) == {"control": "passed", "good": "passed", "stranger": "failed"}
     assert failures(results) == {"stranger": ["MLC", "MCC"]}
-    stranger = next(found for found in control_check(results) if found.label == "stranger")
+    stranger = next(found for found in negative_control(results) if found.label == "stranger")
     of_mlc = [(cell.case, cell.fold) for cell in stranger.measures[0].offending]
     assert of_mlc == [("one", 1), ("two", 1)]
 
 
 def test_the_interval_is_that_of_the_paired_differences(check):
-    (_, good) = control_check(check({"good": GOOD, "control": CONTROL}))
+    (_, good) = negative_control(check({"good": GOOD, "control": CONTROL}))
     differences = np.subtract(GOOD["mlc"], CONTROL["mlc"])
     low, high = stats.ttest_1samp(differences, 0.0).confidence_interval(0.95)
     estimate = good.measures[0].estimate
@@ -111,7 +111,7 @@ def test_drawing_too_much_is_no_way_to_score_well_and_passes(check):
 )
 def test_a_control_must_be_near_zero(check, mlc, passes):
     results = check({"good": GOOD, "control": {**CONTROL, "mlc": mlc}})
-    control = control_check(results)[0]
+    control = negative_control(results)[0]
     assert control.passed is passes
     cells = control.measures[0].offending
     assert all(abs(cell.value) > NEAR_ZERO for cell in cells)
@@ -120,12 +120,10 @@ def test_a_control_must_be_near_zero(check, mlc, passes):
 
 def test_who_is_excused_is_shown_and_fails_nothing(check):
     reason = "draws around no trend"
-    results = check(
-        {"prior": CONTROL, "good": GOOD, "control": CONTROL}, not_controlled={"prior": reason}
-    )
+    results = check({"prior": CONTROL, "good": GOOD, "control": CONTROL}, exempt={"prior": reason})
     assert verdicts(results)["prior"] == "need not pass"
     assert failures(results) == {}
-    table = control_table(results)
+    table = negative_control_table(results)
     assert table.notes[-1] == f"prior need not pass: it {reason}."
     assert [cell.text for cell in table.rows[-1]][:3] == ["control", "passed", "4"]
     assert [cell.text for cell in table.rows[-1][-2:]] == ["–", "–"]
@@ -135,15 +133,15 @@ def test_an_entrant_that_lost_its_scores_fails(check):
     lost = {metric: [np.nan] * 4 for metric in GOOD}
     results = check({"lost": lost, "good": GOOD, "control": CONTROL})
     assert failures(results) == {"lost": ["MLC", "MCC", "spread"]}
-    assert control_table(results).rows[0][2].text == "0"
+    assert negative_control_table(results).rows[0][2].text == "0"
 
 
 def test_without_a_control_or_with_one_cell_of_it_nothing_is_checked(check):
     one = {metric: [values[0], *[np.nan] * 3] for metric, values in CONTROL.items()}
     for entrants in ({"good": GOOD}, {"good": GOOD, "control": one}):
         results = check(entrants)
-        assert control_check(results) == ()
-        assert control_table(results) is None
+        assert negative_control(results) == ()
+        assert negative_control_table(results) is None
 
 
 @pytest.mark.parametrize("label", ["oracle", "control", "replay"])
@@ -155,5 +153,5 @@ def test_what_is_no_synthesiser_is_not_ranked_and_a_note_says_so(check, label):
 
 def test_a_failure_that_no_cell_explains_is_explained(check):
     scattered = {**GOOD, "mlc": [2.0, 0.1, 0.1, 0.1]}
-    table = control_table(check({"scattered": scattered, "control": CONTROL}))
+    table = negative_control_table(check({"scattered": scattered, "control": CONTROL}))
     assert [cell.note for cell in table.rows[0][3:]] == ["too few cells to tell", "", ""]

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.reports.tables.base import counted, decimals, number, slug
+from mocapbench.reports.text import counted, decimals, number, slug
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,91 @@
+"""The layout of a task's tables: its page, its rows and its columns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
+
+__all__ = ["CaseLayout", "Setting", "TaskLayout"]
+
+Setting = str | int | float
+
+GENERATED = "Generated gait, not recordings of people."
+
+
+@dataclass(frozen=True)
+class CaseLayout:
+    """One row of a task's tables.
+
+    Parameters
+    ----------
+    name : str
+        Unique within the task.
+    columns : mapping of str to str, int or float
+        What distinguishes the row from others; each key becomes a column.
+    synthetic : bool
+        Whether the case uses generated motion instead of recordings.
+    averages_references : bool
+        Whether the row is a mean over references that have rows of their own. Those rows then
+        count in its place wherever cases are averaged or counted.
+    notes : RowNotes
+    """
+
+    name: str
+    columns: Mapping[str, Setting]
+    synthetic: bool = False
+    averages_references: bool = False
+    notes: RowNotes = field(default_factory=RowNotes)
+
+    @property
+    def heading(self) -> str:
+        """The name, marked where the motion is generated."""
+        return f"{self.name} (synthetic)" if self.synthetic else self.name
+
+    @property
+    def remark(self) -> str:
+        """The remark of the notes; without one, a generated case says that it is generated."""
+        return self.notes.remark or (GENERATED if self.synthetic else "")
+
+
+@dataclass(frozen=True)
+class TaskLayout:
+    """The tables of one task: its page, rows and columns.
+
+    Parameters
+    ----------
+    name : str
+    page : TaskPage
+    cases : tuple of CaseLayout
+        Rows, in table order. Rows without any record are not shown.
+    labels : tuple of str
+        Entrants, in table order.
+    independent_folds : bool
+        Whether folds are independent draws of the protocol. Overlapping windows of one recording
+        are not: their spread is shown, but it does not measure the uncertainty of the mean.
+    budget : str
+        What the run reduced (``"max_iter=200"``), empty where it ran the full protocol.
+    oracle : str
+        The label of the model that knows the generating process. It is a limit and is not ranked.
+    control : str
+        The label of the negative control: samples of an unrelated process. It is not ranked.
+    replay : str
+        The label that returns the training recordings as its samples. It is not ranked.
+    """
+
+    name: str
+    page: TaskPage
+    cases: tuple[CaseLayout, ...]
+    labels: tuple[str, ...]
+    independent_folds: bool = True
+    budget: str = ""
+    oracle: str = "oracle"
+    control: str = "control"
+    replay: str = "replay"
+
+    @property
+    def ranked(self) -> tuple[str, ...]:
+        """The labels that compete: all but the oracle, the control and the replay."""
+        unranked = {self.oracle, self.control, self.replay}
+        return tuple(label for label in self.labels if label not in unranked)

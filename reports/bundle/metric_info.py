@@ -1,0 +1,43 @@
+"""What the report needs to know about a metric."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mocapbench.metrics.base import Direction
+
+__all__ = ["MetricInfo"]
+
+
+@dataclass(frozen=True)
+class MetricInfo:
+    """The title of a metric and the direction in which it improves.
+
+    Parameters
+    ----------
+    name, title : str
+        Name in tables and records; heading for people.
+    direction : Direction
+        Or its value: ``"lower"``, ``"higher"``, ``"target"``.
+    target : float or None
+        The ideal value where the direction is ``TARGET``.
+
+    Raises
+    ------
+    ValueError
+        If the direction is none of the three, or is ``TARGET`` and the target is missing.
+    """
+
+    name: str
+    title: str
+    direction: Direction
+    target: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "direction", Direction(self.direction))
+        if self.direction is Direction.TARGET and self.target is None:
+            raise ValueError(f"metric {self.name!r}: expected a target, got None")
+
+    def loss(self, value: float) -> float:
+        """Return the loss of ``value``: lower is better for every direction."""
+        return self.direction.loss(value, self.target)

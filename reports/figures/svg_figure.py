@@ -1,0 +1,44 @@
+"""A figure of the page: an SVG element with its heading, legend and caption."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+__all__ = ["Key", "SvgFigure"]
+
+
+@dataclass(frozen=True)
+class Key:
+    """One entry of a legend.
+
+    Parameters
+    ----------
+    label : str
+    swatch : Markup
+        An SVG element that looks like what the label names.
+    """
+
+    label: str
+    swatch: Markup
+
+
+@dataclass(frozen=True)
+class SvgFigure:
+    """A drawn figure.
+
+    Parameters
+    ----------
+    title : str
+    svg : Markup
+        The SVG element.
+    legend : tuple of Key
+        Text of the page, so that it wraps on a narrow screen while the SVG scales.
+    caption : str
+    """
+
+    title: str
+    svg: Markup
+    legend: tuple[Key, ...]
+    caption: str

@@ -1,0 +1,41 @@
+"""A headline of the page, and the phrases that headlines share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.text import decimals, number
+
+__all__ = ["Headline", "cases_phrase", "same_places"]
+
+
+@dataclass(frozen=True)
+class Headline:
+    """A sentence about the results.
+
+    Parameters
+    ----------
+    subject : str
+        Its beginning, which the page emphasises.
+    text : str
+        The rest.
+    """
+
+    subject: str
+    text: str
+
+
+def cases_phrase(cases: Sequence[CaseLayout], total: int) -> str:
+    """Return how many of ``total`` cases these are, with their names unless they are all."""
+    if len(cases) < total:
+        return f"{len(cases)} of {total} cases ({', '.join(case.heading for case in cases)})"
+    synthetic = sum(case.synthetic for case in cases)
+    whole = {1: "the only case", 2: "both cases"}.get(total, f"all {total} cases")
+    return whole + (f" ({synthetic} synthetic)" if synthetic else "")
+
+
+def same_places(*values: float) -> list[str]:
+    """Return ``values`` with one number of decimals for all."""
+    return [number(value, decimals(values)) for value in values]

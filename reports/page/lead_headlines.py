@@ -1,0 +1,36 @@
+"""Headlines on the best mean of each case."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.wins import mean_over_cases
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.page.headline import Headline, cases_phrase, same_places
+from mocapbench.reports.tables.rank_notes import lead_note
+
+__all__ = ["lead_headlines"]
+
+
+def lead_headlines(results: TaskResults, metric: str) -> list[Headline]:
+    """Name the entrants with the best mean, in which cases and by how much, most cases first."""
+    cases = results.representative_cases(metric)
+    leaders = Counter(results.ranking(case.name, metric)[0] for case in cases)
+    return [
+        Headline(label, _lead(results, metric, label, cases)) for label, _ in leaders.most_common()
+    ]
+
+
+def _lead(results: TaskResults, metric: str, label: str, cases: Sequence[CaseLayout]) -> str:
+    led = [case for case in cases if results.ranking(case.name, metric)[0] == label]
+    title, where = results.metrics[metric].title, cases_phrase(led, len(cases))
+    seconds = [results.ranking(case.name, metric)[1:2] for case in led]
+    if not all(seconds):
+        return f"is the only entrant with a score in {where} ({title})."
+    first = mean_over_cases(results, metric, led, [label] * len(led))
+    second = mean_over_cases(results, metric, led, [label for (label,) in seconds])
+    mean, next_best = same_places(first, second)
+    lead = f"has the best mean {title} in {where}: {mean} on average, next best {next_best}."
+    return f"{lead} {lead_note(results, metric, label, [case.name for case in led])}"

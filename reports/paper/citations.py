@@ -1,0 +1,36 @@
+"""The papers in full, by the short names that titles and remarks use."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+__all__ = ["CITATIONS", "citations_of"]
+
+CITATIONS = {
+    "thesis": (
+        "J. D. Gil López, Hierarchical Multiple Output Gaussian Processes for Human Motion Data, "
+        "MSc thesis, Universidad Tecnológica de Pereira, 2017"
+    ),
+    "GPDM": (
+        "J. M. Wang, D. J. Fleet and A. Hertzmann, Gaussian Process Dynamical Models for Human "
+        "Motion, IEEE Transactions on Pattern Analysis and Machine Intelligence, 2008"
+    ),
+    "HLM": (
+        "W. Pan and L. Torresani, Unsupervised Hierarchical Modeling of Locomotion Styles, "
+        "International Conference on Machine Learning, 2009"
+    ),
+}
+"""Short name to full citation."""
+
+
+def citations_of(references: Iterable[str]) -> dict[str, str]:
+    """Return the citations of the papers that ``references`` name, in order of appearance.
+
+    Parameters
+    ----------
+    references : iterable of str
+        Places in papers, such as ``"thesis §5.1.1, Tables 1–3"``.
+    """
+    words = (word for reference in references for word in re.findall(r"\w+", reference))
+    return {word: CITATIONS[word] for word in dict.fromkeys(words) if word in CITATIONS}

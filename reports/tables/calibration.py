@@ -1,0 +1,80 @@
+"""The table of calibration: metrics with a target, beside that target."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+from mocapbench.metrics.base import Direction
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
+from mocapbench.reports.text import number, slug
+
+__all__ = ["calibration_table"]
+
+
+def calibration_table(results: TaskResults) -> Table | None:
+    """Return the means of every metric that has a target, such as the coverage of intervals.
+
+    Means run over folds and then over cases. Metrics that the task shows in a separate table are
+    left out.
+
+    Returns
+    -------
+    Table or None
+        None where no entrant has a score by such a metric.
+    """
+    metrics = [name for name in _targets(results) if name not in results.layout.page.metrics]
+    values = {
+        (label, metric): _mean_over_cases(results, label, metric)
+        for label in results.layout.labels
+        for metric in metrics
+    }
+    labels = [
+        label
+        for label in results.layout.labels
+        if any(values[label, metric] is not None for metric in metrics)
+    ]
+    if not labels:
+        return None
+    return Table(
+        id=slug(results.layout.name, "calibration"),
+        caption="Calibration: mean over cases and folds, beside the nominal value",
+        columns=headings(["entrant", *(results.metrics[metric].title for metric in metrics)]),
+        rows=(
+            (Cell("nominal"), *(_nominal(results, metric) for metric in metrics)),
+            *(
+                (Cell(label), *(_fraction(values[label, metric]) for metric in metrics))
+                for label in labels
+            ),
+        ),
+        data=pd.DataFrame(
+            [{"label": label, **{m: values[label, m] for m in metrics}} for label in labels]
+        ),
+        notes=("Below nominal: predicted variances are too small. Above: too large.",),
+    )
+
+
+def _targets(results: TaskResults) -> Sequence[str]:
+    scored = set(results.scores["metric"])
+    return [
+        name
+        for name, info in results.metrics.items()
+        if info.direction is Direction.TARGET and name in scored
+    ]
+
+
+def _mean_over_cases(results: TaskResults, label: str, metric: str) -> float | None:
+    estimates = [results.estimate(case.name, label, metric) for case in results.cases]
+    means = [estimate.mean for estimate in estimates if estimate is not None]
+    return float(np.mean(means)) if means else None
+
+
+def _nominal(results: TaskResults, metric: str) -> Cell:
+    return Cell(number(results.metrics[metric].target or 0.0, 2), kind="published")
+
+
+def _fraction(value: float | None) -> Cell:
+    return ABSENT if value is None else Cell(number(value, 2))

@@ -1,0 +1,95 @@
+"""The table of cost: seconds, memory, iterations, convergence and engine."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping
+
+import numpy as np
+import pandas as pd
+
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
+from mocapbench.reports.text import counted, slug
+
+__all__ = ["cost_table"]
+
+SHORTEST = 0.001
+_MEASURED = ("entrant", "jobs", "fit, median s", "predict, median s", "peak memory, MB")
+_OPTIONAL = ("iterations, median", "converged", "engine")
+
+
+def cost_table(results: TaskResults) -> Table | None:
+    """Return median seconds, peak memory and convergence per label, over the jobs that finished.
+
+    Iterations, convergence and engine get a column where at least one label has them.
+    """
+    done = results.records[results.records["status"] == "ok"]
+    if done.empty:
+        return None
+    data = pd.DataFrame(
+        [
+            _cost(label, done[done["label"] == label])
+            for label in results.layout.labels
+            if label in set(done["label"])
+        ]
+    )
+    columns = zip(*(_cost_row(row) for row in data.to_dict("records")), strict=True)
+    shown = {
+        title: cells
+        for title, cells in zip(_MEASURED + _OPTIONAL, columns, strict=True)
+        if title in _MEASURED or any(cell != ABSENT for cell in cells)
+    }
+    return Table(
+        id=slug(results.layout.name, "cost"),
+        caption="Cost: over the jobs that finished",
+        columns=headings(list(shown)),
+        rows=tuple(zip(*shown.values(), strict=True)),
+        data=data,
+    )
+
+
+def _cost(label: str, jobs: pd.DataFrame) -> dict[str, object]:
+    converged = jobs["converged"].dropna()
+    return {
+        "label": label,
+        "jobs": len(jobs),
+        "fit_seconds": jobs["fit_seconds"].dropna().astype(float).median(),
+        "predict_seconds": jobs["predict_seconds"].dropna().astype(float).median(),
+        "peak_memory_mb": jobs["peak_memory_mb"].astype(float).max(),
+        "iterations": jobs["iterations"].dropna().astype(float).median(),
+        "converged": float(converged.astype(float).mean()) if len(converged) else np.nan,
+        "engine": "; ".join(dict.fromkeys(filter(None, jobs["engine"]))),
+    }
+
+
+def _cost_row(row: Mapping[Hashable, float]) -> tuple[Cell, ...]:
+    return (
+        Cell(str(row["label"])),
+        Cell(str(row["jobs"])),
+        _seconds(row["fit_seconds"]),
+        _seconds(row["predict_seconds"]),
+        _measure(row["peak_memory_mb"], "{:.0f}"),
+        _measure(row["iterations"], "{:.0f}"),
+        _measure(row["converged"], "{:.0%}"),
+        _engine(str(row["engine"])),
+    )
+
+
+def _engine(engine: str) -> Cell:
+    """Return the first engine by name, with the reason for its choice and the number of others."""
+    first, *others = engine.split("; ")
+    name, _, reason = first.partition(": ")
+    more = f" and {counted(len(others), 'other')} by case" if others else ""
+    return Cell(f"{name}{more}", note=reason) if name else ABSENT
+
+
+def _seconds(value: float) -> Cell:
+    """Return three digits, never as a power of ten, and nothing finer than a millisecond."""
+    if value < SHORTEST:
+        return Cell(f"< {SHORTEST}")
+    digits = np.format_float_positional(value, precision=3, fractional=False, trim="-")
+    return ABSENT if np.isnan(value) else Cell(digits)
+
+
+def _measure(value: float, layout: str) -> Cell:
+    return ABSENT if np.isnan(value) else Cell(layout.format(value))

@@ -1,0 +1,104 @@
+"""The table of the negative control: every entrant beside samples of an unrelated process."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pandas as pd
+
+from mocapbench.reports.analysis.negative_control import (
+    LEAST_SPREAD,
+    NEAR_ZERO,
+    negative_control,
+)
+from mocapbench.reports.analysis.negative_control_result import Measure, NegativeControlResult
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
+from mocapbench.reports.text import counted, number, plus_minus, slug
+
+__all__ = ["negative_control_table"]
+
+PLACES = 3
+TOO_FEW = "too few cells to tell"
+"""Note on a measure that fails although every single cell meets its criterion."""
+
+
+def negative_control_table(results: TaskResults) -> Table | None:
+    """Return the table of the negative control; None where the task has no control."""
+    checked = negative_control(results)
+    if not checked:
+        return None
+    control, *entrants = checked
+    return Table(
+        id=slug(results.layout.name, "control"),
+        caption=(
+            f"Negative control: each entrant’s score minus that of {control.label}, which draws "
+            "samples of an unrelated process, cell by cell"
+        ),
+        columns=(
+            *headings(["entrant"]),
+            *headings(["verdict"], "text"),
+            *headings(["cells", "MLC", "MCC", "spread"]),
+        ),
+        rows=(
+            *(_row(entrant) for entrant in entrants),
+            _row(control, note="its MLC itself"),
+        ),
+        data=pd.DataFrame([_tidy(entrant, m) for entrant in checked for m in entrant.measures]),
+        notes=_notes(checked),
+    )
+
+
+def _row(result: NegativeControlResult, note: str = "") -> tuple[Cell, ...]:
+    cells = [_cell(measure) for measure in result.measures]
+    return (
+        Cell(result.label, note=note),
+        Cell(result.verdict, kind="worse" if result.failed else "text"),
+        Cell(str(result.n_cells)),
+        *cells,
+        *[ABSENT] * (3 - len(cells)),
+    )
+
+
+def _cell(measure: Measure) -> Cell:
+    if measure.estimate is None:
+        return ABSENT
+    return Cell(
+        number(measure.estimate.mean, PLACES),
+        spread=plus_minus(measure.estimate.half_width, PLACES),
+        note="" if measure.passed else _count(measure),
+    )
+
+
+def _count(measure: Measure) -> str:
+    return counted(len(measure.offending), "offending cell") if measure.offending else TOO_FEW
+
+
+def _notes(checked: Sequence[NegativeControlResult]) -> tuple[str, ...]:
+    return (
+        "Mean over case × fold ± half its 95 % interval (Student’s t). An entrant passes where "
+        "the intervals of MLC and MCC lie above 0 and its mean spread, which is not a difference, "
+        f"is at least {LEAST_SPREAD}. The control passes where the interval of its MLC contains 0 "
+        f"or lies within ± {NEAR_ZERO}.",
+        "Samples with too little variance score higher MLC and MCC, hence the lower limit of "
+        "spread. Samples with too much variance score lower.",
+        *(
+            f"{result.label} need not pass: it {result.exempt}."
+            for result in checked
+            if result.exempt
+        ),
+    )
+
+
+def _tidy(result: NegativeControlResult, measure: Measure) -> dict[str, object]:
+    estimate = measure.estimate
+    return {
+        "label": result.label,
+        "measure": measure.name,
+        "mean": None if estimate is None else estimate.mean,
+        "half_width": None if estimate is None else estimate.half_width,
+        "n": 0 if estimate is None else estimate.n,
+        "passed": measure.passed,
+        "offending": len(measure.offending),
+        "exempt": result.exempt,
+    }

@@ -1,0 +1,43 @@
+"""Numbers, counts and ids as the page writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+__all__ = ["MINUS", "counted", "decimals", "number", "plus_minus", "slug"]
+
+MINUS = "\N{MINUS SIGN}"
+
+
+def slug(*names: str) -> str:
+    """Return an id made of letters, digits and hyphens."""
+    characters = "-".join(names).lower()
+    return "".join(c if c.isascii() and c.isalnum() else "-" for c in characters)
+
+
+def decimals(values: Iterable[float]) -> int:
+    """Return how many decimals (2 to 4) show the small ones of ``values`` to two digits.
+
+    One value in ten may be smaller still, so that a single number near zero widens no table.
+    """
+    sizes = np.abs(np.array([value for value in values if value != 0.0]))
+    if not sizes.size:
+        return 2
+    return int(np.clip(1 - np.floor(np.log10(np.quantile(sizes, 0.1))), 2, 4))
+
+
+def number(value: float, places: int) -> str:
+    """Return ``value`` with ``places`` decimals, a true minus sign, and no negative zero."""
+    return f"{value:z.{places}f}".replace("-", MINUS)
+
+
+def plus_minus(spread: float | None, places: int) -> str:
+    """Return the number after ±, empty where there is no spread."""
+    return "" if spread is None else number(spread, places)
+
+
+def counted(count: int, noun: str) -> str:
+    """Return a count with its noun in the singular or plural: "1 case", "2 cases"."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"

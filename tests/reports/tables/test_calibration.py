@@ -1,0 +1,19 @@
+from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.tables.calibration import calibration_table
+
+
+def results_of(bundle, task=0):
+    return task_results(bundle, bundle.layouts[task])
+
+
+def test_coverage_stands_beside_its_nominal_value(bundle):
+    table = calibration_table(results_of(bundle))
+    assert [cell.text for cell in table.rows[0]] == ["nominal", "0.50", "0.80", "0.90", "0.95"]
+    assert set(table.data["label"]) == {
+        *("mohgp-3", "moa-3", "lmc-independent", "gp-independent", "trivial", "oracle")
+    }
+
+
+def test_a_target_metric_with_its_own_table_is_not_repeated(small):
+    bundle = small({"row": {"a": [0.5]}}, metric="coverage_50")
+    assert calibration_table(results_of(bundle)) is None
