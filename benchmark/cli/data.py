@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated
 
-import pooch
 import typer
 from rich.console import Console
 from rich.progress import track
@@ -25,9 +23,6 @@ from mocapbench.datasets import (
 )
 
 __all__ = ["DataDir", "app", "archive_at", "fetch_missing"]
-
-# The progress bar says what pooch would say in a line per file.
-pooch.get_logger().setLevel(logging.WARNING)
 
 app = typer.Typer(help="Look for, fetch and verify recordings.", no_args_is_help=True)
 

@@ -13,7 +13,7 @@ from mocapbench.benchmark.problems.masks import hide_frames
 from mocapbench.benchmark.tasks.base import Case, Selection, Task, without_stand_ins
 from mocapbench.benchmark.tasks.gpdm_entrants import NOT_QUICK, POSE_VITERBI, SLOW, WITH_BEST_START
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, Recording, excerpt, gpdm_features
+from mocapbench.datasets import Archive, Recording, gpdm_features, one_based_frames
 
 __all__ = ["GolfSwings", "golf_swings"]
 
@@ -105,7 +105,7 @@ class GolfSwings(Task):
 
 def _swing(archive: Archive, uri: str) -> Recording:
     first, last = SWINGS.get(uri.removeprefix("cmu:"), SYNTHETIC_FRAMES)
-    return gpdm_features(excerpt(archive.read(uri).recording(uri), first, last))
+    return gpdm_features(one_based_frames(archive.read(uri).recording(uri), first, last))
 
 
 golf_swings = GolfSwings()

@@ -16,7 +16,7 @@ from mocapbench.benchmark.tasks.gpdm_entrants import (
     WITH_BEST_START,
 )
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, Recording, excerpt, gpdm_features
+from mocapbench.datasets import Archive, Recording, gpdm_features, one_based_frames
 
 __all__ = ["MissingFrames", "missing_frames"]
 
@@ -168,7 +168,7 @@ def _training_walk(archive: Archive, uri: str) -> Recording:
     """Return a training walk, cut to the paper's frames where it names them."""
     recording = archive.read(uri).recording(uri)
     first, last = TRAINING.get(uri.removeprefix("cmu:"), (1, len(recording.times)))
-    return gpdm_features(excerpt(recording, first, last))
+    return gpdm_features(one_based_frames(recording, first, last))
 
 
 missing_frames = MissingFrames()

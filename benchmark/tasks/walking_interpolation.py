@@ -8,7 +8,7 @@ from mocapbench.benchmark.problems.masks import hide_all_but
 from mocapbench.benchmark.tasks.base import Case, Entrant, Selection, Task, without_stand_ins
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.benchmark.tasks.thesis_recordings import JOINT_GROUPS
-from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, clip, resample
+from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, resample, zero_based_frames
 
 __all__ = ["WalkingInterpolation", "walking_interpolation"]
 
@@ -105,7 +105,7 @@ class WalkingInterpolation(Task):
 
 def _walk(archive: Archive, uri: str) -> Recording:
     recording = archive.read(uri).recording(uri)
-    return resample(clip(recording, *WINDOW), N_FRAMES).select(THESIS_CHANNELS)
+    return resample(zero_based_frames(recording, *WINDOW), N_FRAMES).select(THESIS_CHANNELS)
 
 
 walking_interpolation = WalkingInterpolation()
