@@ -52,7 +52,7 @@ class ToySynthesis(Task):
         Entrant("oracle", "oracle"),
         Entrant("control", "control"),
     )
-    metrics = ("mcc", "mlc", "spread", "mcc_best", "mlc_best")
+    metrics = ("mcc", "mlc", "variance_ratio", "mcc_best", "mlc_best")
     profiles = {
         "smoke": Selection(("test 1",), folds=2, budget={"max_iter": 25, "n_restarts": 1}),
         "quick": Selection(("test 1", "test 4", "test 9"), folds=3, without=("gpdm",)),

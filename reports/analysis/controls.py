@@ -5,11 +5,11 @@ A measure of similarity means something only if a *control*, which has learnt no
 one case, and takes a 95 % interval by Student's t over all of them:
 
 * an entrant passes where the mean of (its MLC − the control's) has an interval above 0, likewise
-  its MCC, and the mean of its spread is at least `LEAST_SPREAD`;
+  its MCC, and the mean of its variance ratio is at least `LEAST_VARIANCE_RATIO`;
 * the control passes where the interval of its mean MLC contains 0 or lies within ± `NEAR_ZERO`.
 
-Spread has a lower limit alone: to draw too little variance raises MCC and MLC, up to those of a
-sampler that repeats its trend; to draw too much lowers them, and so gains nothing.
+The variance ratio has a lower limit alone: to draw too little variance raises MCC and MLC, up to
+those of a sampler that repeats its trend; to draw too much lowers them, and so gains nothing.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ import pandas as pd
 from mocapbench.reports.analysis.results import Estimate, TaskResults
 
 __all__ = [
-    "LEAST_SPREAD",
+    "LEAST_VARIANCE_RATIO",
     "NEAR_ZERO",
     "ControlFinding",
     "Measure",
@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 NEAR_ZERO = 0.1
-LEAST_SPREAD = 0.75
+LEAST_VARIANCE_RATIO = 0.75
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,8 @@ class Measure:
     Parameters
     ----------
     name : str
-        ``"MLC"``, ``"MCC"`` or ``"spread"``, of which the former are differences for an entrant.
+        ``"MLC"``, ``"MCC"`` or ``"variance ratio"``, of which the former are differences for an
+        entrant.
     estimate : Estimate or None
         Over all cells; None where there is none.
     passed : bool
@@ -140,10 +141,10 @@ def _measures(cells: pd.DataFrame, label: str, control: str) -> tuple[Measure, .
         _measure("MLC", mlc, _above_zero, lambda value: value > 0.0),
         _measure("MCC", mcc, _above_zero, lambda value: value > 0.0),
         _measure(
-            "spread",
-            _column(cells, "spread", label),
-            lambda estimate: estimate.mean >= LEAST_SPREAD,
-            lambda value: value >= LEAST_SPREAD,
+            "variance ratio",
+            _column(cells, "variance_ratio", label),
+            lambda estimate: estimate.mean >= LEAST_VARIANCE_RATIO,
+            lambda value: value >= LEAST_VARIANCE_RATIO,
         ),
     )
 

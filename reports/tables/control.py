@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from mocapbench.reports.analysis.controls import (
-    LEAST_SPREAD,
+    LEAST_VARIANCE_RATIO,
     NEAR_ZERO,
     ControlFinding,
     Measure,
@@ -35,7 +35,7 @@ def control_table(results: TaskResults) -> Table | None:
         columns=(
             *headings(["entrant"]),
             *headings(["verdict"], "text"),
-            *headings(["cells", "MLC", "MCC", "spread"]),
+            *headings(["cells", "MLC", "MCC", "variance ratio"]),
         ),
         rows=(
             *(_row(finding) for finding in others),
@@ -75,11 +75,11 @@ def _count(measure: Measure) -> str:
 def _notes(findings: Sequence[ControlFinding]) -> tuple[str, ...]:
     return (
         "Mean over case × fold ± half its 95 % interval (Student’s t). An entrant passes where "
-        "the intervals of MLC and MCC lie above 0 and its mean spread, which is not a difference, "
-        f"is at least {LEAST_SPREAD}; the control where the interval of its own MLC contains 0 or "
-        f"lies within ± {NEAR_ZERO}.",
-        "To draw too little variance raises MLC and MCC, hence the limit of spread; to draw too "
-        "much lowers them.",
+        "the intervals of MLC and MCC lie above 0 and its mean variance ratio, which is not a "
+        f"difference, is at least {LEAST_VARIANCE_RATIO}; the control where the interval of its "
+        f"own MLC contains 0 or lies within ± {NEAR_ZERO}.",
+        "To draw too little variance raises MLC and MCC, hence the limit of the variance ratio; to "
+        "draw too much lowers them.",
         *(
             f"{finding.label} need not pass: it {finding.excuse}."
             for finding in findings
