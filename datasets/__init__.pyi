@@ -3,15 +3,22 @@ from .acclaim.motion import FRAME_RATE, Motion, format_motion
 from .acclaim.motion_reader import parse_motion, read_motion
 from .acclaim.skeleton import Segment, Skeleton, format_skeleton
 from .acclaim.skeleton_reader import parse_skeleton, read_skeleton
-from .archive import Archive, open_archive
+from .archive import Archive, RecordingStatus, open_archive
 from .cmu import CMU_ACKNOWLEDGEMENT, CMU_URL, CMULibrary, registered_digests
 from .digests import DigestMismatch, UnregisteredDigestWarning
-from .download import FetchError, ServerUnreachable
+from .errors import FetchError, RecordingUnavailable, ServerUnreachable, SkeletonUnavailable
 from .features import THESIS_CHANNELS, gpdm_features, hlm_features
 from .gait import GAIT_VERSION, GaitLibrary, gait_style
 from .kinematics import FrameByJointBy3, joint_positions
-from .library import Library, RecordingStatus, RecordingUnavailable
-from .preprocessing import clip, excerpt, integrate_root, resample, restart, root_differences
+from .library import Library
+from .preprocessing import (
+    integrate_root,
+    one_based_frames,
+    resample,
+    restart,
+    root_differences,
+    zero_based_frames,
+)
 from .process import Layer, ToyProcess
 from .recording import FrameByChannel, Frames, Mask, Recording
 
@@ -40,11 +47,10 @@ __all__ = [
     "Segment",
     "ServerUnreachable",
     "Skeleton",
+    "SkeletonUnavailable",
     "ToyProcess",
     "TruncatedFrameWarning",
     "UnregisteredDigestWarning",
-    "clip",
-    "excerpt",
     "format_motion",
     "format_skeleton",
     "gait_style",
@@ -52,6 +58,7 @@ __all__ = [
     "hlm_features",
     "integrate_root",
     "joint_positions",
+    "one_based_frames",
     "open_archive",
     "parse_motion",
     "parse_skeleton",
@@ -61,4 +68,5 @@ __all__ = [
     "resample",
     "restart",
     "root_differences",
+    "zero_based_frames",
 ]

@@ -2,29 +2,60 @@
 
 from __future__ import annotations
 
-import os
+import shlex
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple, cast
 
-import pooch
-
-from mocapbench.datasets.acclaim.errors import AcclaimError
 from mocapbench.datasets.acclaim.motion import Motion
+from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.cmu import CMULibrary
-from mocapbench.datasets.digests import DigestMismatch
+from mocapbench.datasets.errors import RecordingUnavailable
 from mocapbench.datasets.gait import GaitLibrary
-from mocapbench.datasets.library import Library, RecordingStatus, RecordingUnavailable
+from mocapbench.datasets.library import Library
+from mocapbench.datasets.recording import Recording
 
-__all__ = ["Archive", "open_archive"]
+__all__ = ["Archive", "RecordingStatus", "open_archive"]
+
+_DEFAULT = "cmu:"
+"""What ``mocapbench data`` puts before a key without a library."""
+
+
+class RecordingStatus(NamedTuple):
+    """One row of ``mocapbench data``."""
+
+    uri: str
+    state: str
+    """``available``, ``missing``, ``verified`` or ``wrong``."""
+    where: str
+    """A path or ``generated``; the error message if the state is ``wrong``."""
+    digest: str
+    """Of the whole recording; an empty string unless the state is ``verified``."""
 
 
 class Archive:
-    """Recordings by address, ``LIBRARY:SUBJECT_TRIAL``; a malformed one raises ValueError.
+    """Recordings of several libraries by address, ``LIBRARY:KEY``.
+
+    Every method raises ValueError for a malformed address or an unknown library.
 
     Parameters
     ----------
     libraries : mapping of str to Library
         By the name that precedes the colon.
+
+    See Also
+    --------
+    open_archive : An archive of the libraries that come with the package.
+
+    Examples
+    --------
+    >>> from mocapbench.datasets import Archive, GaitLibrary
+    >>> archive = Archive({"gait": GaitLibrary()})
+    >>> archive.recording("gait:01_01").values.shape
+    (338, 62)
+    >>> archive.digest("gait:01_01")
+    'gait-1:01_01'
     """
 
     def __init__(self, libraries: Mapping[str, Library]) -> None:
@@ -35,18 +66,40 @@ class Archive:
         library, key = self._resolve(uri)
         return bool(library.where(key))
 
-    def read(self, uri: str) -> Motion:
-        """Return a recording, verified; nothing is downloaded.
+    def recording(self, uri: str) -> Recording:
+        """Return a recording, verified and named by its address; nothing is downloaded.
 
         Raises
         ------
         RecordingUnavailable
             If it is not on this machine.
-        DigestMismatch, AcclaimError
-            If it is here and wrong.
+        DigestMismatch
+            If it is here and is not the registered one.
+        AcclaimError, ValueError
+            If it is here and malformed.
         """
         library, key = self._here(uri)
-        return library.read(key)
+        return replace(library.recording(key), name=uri)
+
+    def skeleton(self, uri: str) -> Skeleton:
+        """Return the skeleton of a recording; nothing is downloaded.
+
+        Raises
+        ------
+        RecordingUnavailable
+            If the recording is not on this machine.
+        SkeletonUnavailable
+            If its library has no skeletons.
+        DigestMismatch, AcclaimError
+            If the skeleton is here and wrong.
+        """
+        library, key = self._here(uri)
+        return library.skeleton(key)
+
+    def read(self, uri: str) -> Motion:
+        """Return the motion behind a recording of ``cmu`` or ``gait``."""
+        library, key = self._here(uri)
+        return cast("CMULibrary | GaitLibrary", library).motion(key)
 
     def recording(self, uri: str):
         return self.read(uri).recording(uri)
@@ -62,7 +115,7 @@ class Archive:
         RecordingUnavailable
             If it is not on this machine.
         DigestMismatch
-            If it is here and wrong.
+            If it is here and is not the registered one.
         """
         library, key = self._here(uri)
         return library.digest(key)
@@ -70,7 +123,9 @@ class Archive:
     @staticmethod
     def fetch_command(*uris: str) -> str:
         """Return the command that gets the recordings."""
-        return " ".join(["mocapbench data fetch", *(uri.rpartition(":")[2] for uri in uris)])
+        return shlex.join(
+            ["mocapbench", "data", "fetch", *(u.removeprefix(_DEFAULT) for u in uris)]
+        )
 
     def fetch(self, uris: Iterable[str]) -> list[RecordingStatus]:
         """Make recordings available; those that are here and right are left alone.
@@ -86,11 +141,11 @@ class Archive:
         return self.verify(uris)
 
     def status(self, uris: Iterable[str]) -> list[RecordingStatus]:
-        """Return what is here, without reading it."""
+        """Return which recordings are here, without reading them."""
         return [self._status(uri) for uri in uris]
 
     def verify(self, uris: Iterable[str]) -> list[RecordingStatus]:
-        """Return what is here and whether it is right, after reading all of it."""
+        """Return which recordings are here and whether they are right, after reading them."""
         return [self._verify(uri) for uri in uris]
 
     def _status(self, uri: str) -> RecordingStatus:
@@ -101,11 +156,11 @@ class Archive:
     def _verify(self, uri: str) -> RecordingStatus:
         status = self._status(uri)
         try:
-            self.read(uri)
+            self.recording(uri)
             return status._replace(state="verified", digest=self.digest(uri))
         except RecordingUnavailable:
             return status
-        except (AcclaimError, DigestMismatch) as problem:
+        except (ValueError, OSError) as problem:
             return status._replace(state="wrong", where=str(problem))
 
     def _here(self, uri: str) -> tuple[Library, str]:
@@ -116,16 +171,18 @@ class Archive:
 
     def _resolve(self, uri: str) -> tuple[Library, str]:
         name, _, key = uri.partition(":")
-        if name not in self.libraries:
+        if name not in self.libraries or not key or ":" in key:
             known = ", ".join(self.libraries)
-            raise ValueError(f"expected LIBRARY:SUBJECT_TRIAL, LIBRARY one of {known}; got {uri!r}")
+            raise ValueError(
+                f"expected LIBRARY:KEY, LIBRARY one of {known} and KEY without a colon; got {uri!r}"
+            )
         return self.libraries[name], key
 
 
 def open_archive(
     data_dir: str | Path | None = None, cache_dir: str | Path | None = None
 ) -> Archive:
-    """Return the archive of all libraries: ``cmu`` and ``gait``.
+    """Return an archive of the libraries that come with the package, ``cmu`` and ``gait``.
 
     Parameters
     ----------
@@ -133,9 +190,25 @@ def open_archive(
         Folder with the CMU database's ``subjects/``; None stands for the environment's
         ``MOCAPBENCH_DATA``, if it is set.
     cache_dir : path or None
-        Folder for downloads; None stands for ``MOCAPBENCH_CACHE``, else the user's cache.
+        Folder for downloads; None stands for the environment's ``MOCAPBENCH_CACHE``, else for the
+        user's cache.
+
+    Returns
+    -------
+    Archive
+        Whose addresses are ``cmu:SUBJECT_TRIAL`` and ``gait:SUBJECT_TRIAL``.
+
+    See Also
+    --------
+    CMULibrary, GaitLibrary : The two libraries.
+
+    Examples
+    --------
+    Synthetic gait needs neither files nor a network:
+
+    >>> from mocapbench.datasets import open_archive
+    >>> walk = open_archive().recording("gait:01_01")
+    >>> walk.name, len(walk.times), walk.channels[:3]
+    ('gait:01_01', 338, ('root.tx', 'root.ty', 'root.tz'))
     """
-    folder = data_dir or os.environ.get("MOCAPBENCH_DATA")
-    cache = cache_dir or os.environ.get("MOCAPBENCH_CACHE") or pooch.os_cache("mocapbench")
-    cmu = CMULibrary(Path(folder) if folder else None, Path(cache))
-    return Archive({"cmu": cmu, "gait": GaitLibrary()})
+    return Archive({"cmu": CMULibrary(data_dir, cache_dir), "gait": GaitLibrary()})

@@ -6,13 +6,17 @@ A folder that the user names comes before the cache, and only `CMULibrary.fetch`
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
 
+import platformdirs
+
 from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.motion_reader import read_motion
+from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.acclaim.skeleton_reader import read_skeleton
 from mocapbench.datasets.digests import (
     DigestMismatch,
@@ -21,7 +25,9 @@ from mocapbench.datasets.digests import (
     with_unix_line_ends,
 )
 from mocapbench.datasets.download import Downloader
-from mocapbench.datasets.library import Library, split_key
+from mocapbench.datasets.keys import split_key
+from mocapbench.datasets.library import Library
+from mocapbench.datasets.recording import Recording
 
 __all__ = ["CMU_ACKNOWLEDGEMENT", "CMU_URL", "CMULibrary", "registered_digests"]
 
@@ -43,10 +49,12 @@ class CMULibrary(Library):
 
     Parameters
     ----------
-    data_dir : Path or None
-        A folder with the database's ``subjects/``, which is read and never written.
-    cache_dir : Path
-        Where downloads and the digests of unregistered files are kept.
+    data_dir : path or None
+        A folder with the database's ``subjects/``, which is read and never written; None stands
+        for the environment's ``MOCAPBENCH_DATA``, if it is set.
+    cache_dir : path or None
+        Where downloads and the digests of unregistered files are kept; None stands for the
+        environment's ``MOCAPBENCH_CACHE``, else for the user's cache.
     base_url : str
         Address of the database.
     known : mapping of str to str or None
@@ -59,27 +67,39 @@ class CMULibrary(Library):
 
     def __init__(
         self,
-        data_dir: Path | None,
-        cache_dir: Path,
+        data_dir: str | Path | None = None,
+        cache_dir: str | Path | None = None,
         *,
         base_url: str = CMU_URL,
         known: Mapping[str, str] | None = None,
         retries: int = 4,
         backoff: float = 0.5,
     ) -> None:
-        self.folders = [cache_dir] if data_dir is None else [data_dir, cache_dir]
-        self.cache_dir = cache_dir
+        folder = data_dir or os.environ.get("MOCAPBENCH_DATA")
+        super().__init__(Path(folder) if folder else None)
+        cache = cache_dir or os.environ.get("MOCAPBENCH_CACHE")
+        self.cache_dir = Path(cache or platformdirs.user_cache_dir("mocapbench"))
         self.digests = DigestRegistry(
-            registered_digests() if known is None else known, cache_dir / "digests.tsv"
+            registered_digests() if known is None else known, self.cache_dir / "digests.tsv"
         )
-        self.downloader = Downloader(base_url, cache_dir, retries=retries, backoff=backoff)
+        self.downloader = Downloader(base_url, self.cache_dir, retries=retries, backoff=backoff)
 
     def where(self, key: str) -> str:
         """Return the path of the .amc file, or an empty string unless both files are here."""
         found = [self._find(path) for path in _paths(key)]
         return "" if None in found else str(found[-1])
 
-    def read(self, key: str) -> Motion:
+    def recording(self, key: str) -> Recording:
+        """Return all channels of the motion.
+
+        Raises
+        ------
+        FileNotFoundError, DigestMismatch, AcclaimError
+            As `motion`.
+        """
+        return self.motion(key).recording(key)
+
+    def motion(self, key: str) -> Motion:
         """Return the motion, from files whose digests were verified.
 
         Raises
@@ -93,6 +113,16 @@ class CMULibrary(Library):
         """
         skeleton_file, motion_file = (self._verified(path) for path in _paths(key))
         return read_motion(motion_file, read_skeleton(skeleton_file))
+
+    def skeleton(self, key: str) -> Skeleton:
+        """Return the subject's skeleton, from a file whose digest was verified.
+
+        Raises
+        ------
+        FileNotFoundError, DigestMismatch, AcclaimError
+            As `motion`.
+        """
+        return read_skeleton(self._verified(_paths(key)[0]))
 
     def digest(self, key: str) -> str:
         """Return the SHA-256 of the .asf followed by the .amc, line ends normalised to LF."""
@@ -114,14 +144,17 @@ class CMULibrary(Library):
             if self._find(path) is None:
                 self.downloader.fetch(path, partial(self.digests.check, path))
 
+    def _folders(self) -> tuple[Path, ...]:
+        return (self.cache_dir,) if self.data_dir is None else (self.data_dir, self.cache_dir)
+
     def _find(self, path: str) -> Path | None:
-        files = (folder / path for folder in self.folders)
+        files = (folder / path for folder in self._folders())
         return next((file for file in files if file.is_file()), None)
 
     def _verified(self, path: str) -> Path:
         file = self._find(path)
         if file is None:
-            raise FileNotFoundError(f"{path} is in none of {', '.join(map(str, self.folders))}")
+            raise FileNotFoundError(f"{path} is in none of {', '.join(map(str, self._folders()))}")
         self.digests.check(path, file.read_bytes(), str(file))
         return file
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import warnings
 from collections.abc import Mapping
@@ -9,10 +10,13 @@ from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 
+from mocapbench.datasets.recording import Recording
+
 __all__ = [
     "DigestMismatch",
     "DigestRegistry",
     "UnregisteredDigestWarning",
+    "content_digest",
     "read_digests",
     "with_unix_line_ends",
 ]
@@ -46,6 +50,12 @@ class DigestMismatch(ValueError):  # noqa: N818
 
 class UnregisteredDigestWarning(UserWarning):
     """A file that no registry lists was accepted, and its digest pinned."""
+
+
+def content_digest(recording: Recording) -> str:
+    """Return the SHA-256 of a recording's channels, units, times and values; not of its name."""
+    names = json.dumps([recording.channels, recording.units]).encode()
+    return sha256(names + recording.times.tobytes() + recording.values.tobytes()).hexdigest()
 
 
 def with_unix_line_ends(data: bytes) -> bytes:

@@ -4,43 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
-import pooch
 import requests
 from requests.adapters import HTTPAdapter
 from urllib3.util.retry import Retry
 
-__all__ = ["Downloader", "FetchError", "ServerUnreachable"]
+from mocapbench.datasets.errors import FetchError, ServerUnreachable
+
+__all__ = ["Downloader"]
 
 _TIMEOUT = 30.0
 _OVERLOADED = (500, 502, 503, 504)
-
-
-class FetchError(RuntimeError):
-    """A download that failed.
-
-    Parameters
-    ----------
-    what : str
-        The address.
-    why : str
-        What happened.
-    remedy : str
-        What to do.
-    """
-
-    def __init__(self, what: str, why: str, remedy: str) -> None:
-        super().__init__(what, why, remedy)
-        self.what = what
-        self.why = why
-        self.remedy = remedy
-
-    def __str__(self) -> str:
-        return f"{self.what}: {self.why}; {self.remedy}"
-
-
-class ServerUnreachable(FetchError):  # noqa: N818
-    """A download that failed because the server does not answer: others would fail too."""
 
 
 class Downloader:
@@ -74,14 +49,10 @@ class Downloader:
         ServerUnreachable
             If it does not answer.
         """
-
-        def deliver(url: str, output: str, _pooch: object) -> None:
-            content = self._get(url)
-            check(content, url)
-            Path(output).write_bytes(content)
-
-        store = pooch.create(self.folder, self.base_url, registry={path: None})
-        store.fetch(path, downloader=deliver)
+        url = self.base_url + path
+        content = self._get(url)
+        check(content, url)
+        _write_whole(self.folder / path, content)
 
     def _get(self, url: str) -> bytes:
         try:
@@ -119,3 +90,12 @@ class Downloader:
         for scheme in ("http://", "https://"):
             session.mount(scheme, HTTPAdapter(max_retries=retry))
         return session
+
+
+def _write_whole(file: Path, content: bytes) -> None:
+    """Write a file by renaming, so that a process that is killed leaves no part of it."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory(dir=file.parent) as folder:
+        part = Path(folder) / file.name
+        part.write_bytes(content)
+        part.replace(file)

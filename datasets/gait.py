@@ -10,10 +10,13 @@ from pathlib import Path
 
 from mocapbench.datasets.acclaim.motion import Motion, format_motion
 from mocapbench.datasets.acclaim.motion_reader import parse_motion
+from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.acclaim.skeleton_reader import read_skeleton
 from mocapbench.datasets.gait_curves import STYLES
 from mocapbench.datasets.gait_walker import walk
-from mocapbench.datasets.library import Library, split_key
+from mocapbench.datasets.keys import split_key
+from mocapbench.datasets.library import Library
+from mocapbench.datasets.recording import Recording
 
 __all__ = ["GAIT_VERSION", "GaitLibrary", "gait_style"]
 
@@ -30,24 +33,45 @@ def gait_style(key: str) -> str:
 
 
 class GaitLibrary(Library):
-    """Synthetic recordings by key, ``SUBJECT_TRIAL``; every key names one."""
+    """Synthetic recordings by key, ``SUBJECT_TRIAL``; every such key names one.
+
+    Parameters
+    ----------
+    data_dir : Path or None
+        Not used: recordings are generated.
+
+    Examples
+    --------
+    >>> from mocapbench.datasets import GaitLibrary
+    >>> library = GaitLibrary()
+    >>> library.where("03_05")
+    'generated'
+    >>> library.recording("03_05").values.shape
+    (312, 62)
+    """
 
     def where(self, key: str) -> str:
-        """Return ``generated``."""
+        """Return ``"generated"``."""
         split_key(key)
         return "generated"
 
-    def read(self, key: str) -> Motion:
+    def recording(self, key: str) -> Recording:
+        """Return all 62 channels of the motion."""
+        return self.motion(key).recording(key)
+
+    def motion(self, key: str) -> Motion:
         """Return the motion, written and read back as Acclaim text like any other."""
-        skeleton = read_skeleton(Path(__file__).with_name("gait.asf"))
-        motion = walk(skeleton, STYLES[gait_style(key)], *map(int, split_key(key)))
+        subject, trial = map(int, split_key(key))
+        skeleton = self.skeleton(key)
+        motion = walk(skeleton, STYLES[gait_style(key)], subject, trial)
         return parse_motion(format_motion(motion), skeleton, f"gait:{key}")
 
+    def skeleton(self, key: str) -> Skeleton:
+        """Return the skeleton, which all recordings share."""
+        split_key(key)
+        return read_skeleton(Path(__file__).with_name("gait.asf"))
+
     def digest(self, key: str) -> str:
-        """Return generator version and key, from which the bytes follow."""
+        """Return generator version and key, which determine the recording."""
         split_key(key)
         return f"gait-{GAIT_VERSION}:{key}"
-
-    def fetch(self, key: str) -> None:
-        """Do nothing: the recording is made on demand."""
-        split_key(key)

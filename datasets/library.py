@@ -1,79 +1,115 @@
-"""What a library of recordings is: a place that resolves keys such as ``35_02`` to motions."""
+"""Libraries of recordings: the class to subclass in order to add one."""
 
 from __future__ import annotations
 
-import re
 from abc import ABC, abstractmethod
-from typing import NamedTuple
+from pathlib import Path
 
-from mocapbench.datasets.acclaim.motion import Motion
+from mocapbench.datasets.acclaim.skeleton import Skeleton
+from mocapbench.datasets.digests import content_digest
+from mocapbench.datasets.errors import FetchError, SkeletonUnavailable
+from mocapbench.datasets.recording import Recording
 
-__all__ = ["Library", "RecordingStatus", "RecordingUnavailable", "split_key"]
-
-_KEY = re.compile(r"([0-9]{2,3})_([0-9]{2})")
-
-
-class RecordingUnavailable(LookupError):  # noqa: N818
-    """A recording that is not on this machine.
-
-    Parameters
-    ----------
-    uri : str
-        The recording asked for.
-    command : str
-        The command that gets it.
-    """
-
-    def __init__(self, uri: str, command: str) -> None:
-        super().__init__(uri, command)
-        self.uri = uri
-        self.command = command
-
-    def __str__(self) -> str:
-        return f"{self.uri} is not on this machine; get it with: {self.command}"
-
-
-class RecordingStatus(NamedTuple):
-    """One row of ``mocapbench data``."""
-
-    uri: str
-    state: str
-    """``available``, ``missing``, ``verified`` or ``wrong``."""
-    where: str
-    """A path, ``generated`` or, where something is wrong, what."""
-    digest: str
-    """Of the whole recording, where it was computed."""
+__all__ = ["Library"]
 
 
 class Library(ABC):
-    """Recordings by key, ``SUBJECT_TRIAL``; a malformed key raises ValueError everywhere."""
+    """A collection of recordings, each with a key.
+
+    A subclass defines `where` and `recording`. It overrides `fetch` if it can download,
+    `skeleton` if it has skeletons, and `digest` if it knows a cheaper or stricter way to identify
+    its content. An `Archive` gives access to recordings of several libraries.
+
+    Keys are any non-empty text without a colon; a library that is stricter raises ValueError for a
+    malformed key in every method.
+
+    Parameters
+    ----------
+    data_dir : Path or None
+        Folder of recordings that the user named, stored as ``self.data_dir``; a library may ignore
+        it.
+
+    See Also
+    --------
+    Archive : Finds recordings by addresses such as ``waves:2``.
+    CMULibrary, GaitLibrary : The libraries that come with the package.
+
+    Examples
+    --------
+    A library of sine waves, whose keys are angular frequencies:
+
+    >>> import numpy as np
+    >>> from mocapbench.datasets import Archive, Library, Recording
+    >>> class Waves(Library):
+    ...     def where(self, key):
+    ...         return "generated" if key.isdigit() else ""
+    ...
+    ...     def recording(self, key):
+    ...         times = np.arange(4) / 30
+    ...         return Recording(key, times, np.sin(int(key) * times)[:, None], ["wave"], [""])
+    >>> archive = Archive({"waves": Waves()})
+    >>> archive.recording("waves:2").channels
+    ('wave',)
+    >>> archive.available("waves:two")
+    False
+    """
+
+    def __init__(self, data_dir: Path | None = None) -> None:
+        self.data_dir = data_dir
 
     @abstractmethod
     def where(self, key: str) -> str:
-        """Return where the recording is, or an empty string if it would have to be fetched."""
+        """Return where a recording is: a path or ``"generated"``; an empty string if not here."""
 
     @abstractmethod
-    def read(self, key: str) -> Motion:
-        """Return an available recording, verified; the network is never asked."""
+    def recording(self, key: str) -> Recording:
+        """Return a recording for which `where` is not empty, without using the network.
 
-    @abstractmethod
+        Raises
+        ------
+        ValueError
+            If its file is malformed, or is not the one it should be.
+        """
+
     def digest(self, key: str) -> str:
-        """Return what identifies the content of an available recording, verified."""
+        """Return what identifies the content of a recording for which `where` is not empty.
 
-    @abstractmethod
+        Results are stored under this digest, so it must change whenever the recording does.
+
+        Returns
+        -------
+        str
+            The SHA-256 of the recording's times, values, channels and units.
+
+        Raises
+        ------
+        ValueError
+            As `recording`.
+        """
+        return content_digest(self.recording(key))
+
     def fetch(self, key: str) -> None:
-        """Make the recording available; what is here and right is left alone."""
+        """Make a recording available; one that is here already is left alone.
 
+        Raises
+        ------
+        FetchError
+            If that is impossible. The base class cannot download: any recording that is not here.
+        """
+        if not self.where(key):
+            raise FetchError(
+                key,
+                f"{type(self).__name__} cannot download recordings",
+                "put it where the library looks for it, or name a folder that holds it "
+                "with --data-dir",
+            )
 
-def split_key(key: str) -> tuple[str, str]:
-    """Return subject and trial of a key such as ``35_02``.
+    def skeleton(self, key: str) -> Skeleton:
+        """Return the skeleton of a recording for which `where` is not empty.
 
-    Raises
-    ------
-    ValueError
-        If the key is malformed.
-    """
-    match = _KEY.fullmatch(key)
-    if match is None:
-        raise ValueError(f"expected a recording as SUBJECT_TRIAL, such as 35_02, got {key!r}")
-    return match[1], match[2]
+        Raises
+        ------
+        SkeletonUnavailable
+            If the library has none: always, in the base class.
+        """
+        raise SkeletonUnavailable(key, type(self).__name__)

@@ -1,7 +1,6 @@
 """Choosing frames of a recording, and stating the root's path as differences.
 
-Every function is pure, `Recording` in, `Recording` out; all but `restart` let frames keep their
-own times.
+Every function returns a new `Recording`. Frames keep their times, except in `restart`.
 """
 
 from __future__ import annotations
@@ -13,19 +12,39 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets.recording import Recording
 
-__all__ = ["clip", "excerpt", "integrate_root", "resample", "restart", "root_differences"]
+__all__ = [
+    "integrate_root",
+    "one_based_frames",
+    "resample",
+    "restart",
+    "root_differences",
+    "zero_based_frames",
+]
 
 _ROOT_PATH = ("root.tx", "root.ty", "root.tz")
 _ROOT_VELOCITY = ("root.dtx", "root.dty", "root.dtz")
 
 
-def clip(recording: Recording, start: int, stop: int) -> Recording:
-    """Return frames ``start`` to ``stop`` (0-based, half open), as far as the recording has them.
+def zero_based_frames(recording: Recording, start: int, stop: int) -> Recording:
+    """Return frames ``start`` to ``stop``, counted from 0 and without ``stop``, as Python counts.
+
+    The thesis's footnotes 5 to 7 state frames so. A window that goes beyond the end of the
+    recording is cut there.
+
+    Parameters
+    ----------
+    recording : Recording
+    start, stop : int
+        ``0 <= start < stop``; ``start`` lies within the recording.
 
     Raises
     ------
     ValueError
-        If it has none of them.
+        If the recording has none of the frames.
+
+    See Also
+    --------
+    one_based_frames : The other way to count.
     """
     frames = np.arange(len(recording.times))[start:stop]
     if not 0 <= start < stop or not len(frames):
@@ -36,24 +55,39 @@ def clip(recording: Recording, start: int, stop: int) -> Recording:
     return recording.frames(frames)
 
 
-def excerpt(recording: Recording, first: int, last: int) -> Recording:
-    """Return frames ``first`` to ``last``, 1-based and inclusive, as GPDM §5.4 states them.
+def one_based_frames(recording: Recording, first: int, last: int) -> Recording:
+    """Return frames ``first`` to ``last``, counted from 1 and with ``last``, as GPDM counts.
+
+    So Wang, Fleet and Hertzmann (2008), Gaussian process dynamical models for human motion
+    (GPDM), §5.4, state them.
+
+    Parameters
+    ----------
+    recording : Recording
+    first, last : int
+        ``1 <= first <= last <= N``.
 
     Raises
     ------
     ValueError
-        If the recording does not have all of them.
+        If the recording does not have all of the frames.
+
+    See Also
+    --------
+    zero_based_frames : The other way to count.
     """
     if not 1 <= first <= last <= len(recording.times):
         raise ValueError(
             f"recording {recording.name!r}: expected frames within 1 to {len(recording.times)}, "
             f"got {first} to {last}"
         )
-    return clip(recording, first - 1, last)
+    return zero_based_frames(recording, first - 1, last)
 
 
 def resample(recording: Recording, n_frames: int) -> Recording:
-    """Return ``n_frames`` of the frames, at ``round(linspace(first, last, n_frames))``.
+    """Return ``n_frames`` of the frames, evenly spaced from the first to the last.
+
+    Their indices are ``round(linspace(0, N - 1, n_frames))``.
 
     Raises
     ------
@@ -72,8 +106,8 @@ def resample(recording: Recording, n_frames: int) -> Recording:
 def restart(recording: Recording) -> Recording:
     """Return the recording with its times counted from its first frame.
 
-    Rounded to nanoseconds, so that excerpts with the same number of frames share a clock, bit for
-    bit, wherever they began.
+    Times are rounded to nanoseconds, so that windows of equal length have exactly equal times,
+    wherever they began.
     """
     return replace(recording, times=np.round(recording.times - recording.times[0], 9))
 
@@ -86,7 +120,7 @@ def root_differences(recording: Recording) -> Recording:
     Raises
     ------
     ValueError
-        If there is but one frame, or a channel of the root's translation is missing.
+        If there is only one frame, or a channel of the root's translation is missing.
     """
     columns = _columns(recording, _ROOT_PATH)
     if len(recording.times) < 2:
@@ -98,9 +132,9 @@ def root_differences(recording: Recording) -> Recording:
 
 
 def integrate_root(recording: Recording) -> Recording:
-    """Return the recording with the root's path from its differences, starting at the origin.
+    """Return the recording with the root's path summed from its differences, from the origin.
 
-    Undoes `root_differences` but for where the path started.
+    The inverse of `root_differences`, except that the path starts at the origin.
 
     Raises
     ------

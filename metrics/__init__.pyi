@@ -4,7 +4,7 @@ from .clustering import adjusted_rand, purity
 from .errors import mse, rms_per_frame, smse, smse_pooled
 from .likelihood import msll
 from .recovery import frobenius_child, frobenius_parent, logdet_child, logdet_parent
-from .similarity import mcc, mcc_best, mlc, mlc_best, spread
+from .similarity import mcc, mcc_best, mlc, mlc_best, variance_ratio
 
 __all__ = [
     "Clustering",
@@ -36,5 +36,5 @@ __all__ = [
     "sharpness",
     "smse",
     "smse_pooled",
-    "spread",
+    "variance_ratio",
 ]

@@ -145,9 +145,9 @@ class Metric(Generic[OutcomeT]):
     Parameters
     ----------
     name : str
-        Name in tables and records, for example ``"smse_pooled"``.
+        Name in tables and records, for example ``"mse"``.
     title : str
-        Heading for people, for example ``"SMSE (pooled)"``.
+        Heading for people, for example ``"Mean squared error (MSE)"``.
     direction : Direction
         Which way it improves.
     outcome : type
@@ -160,6 +160,9 @@ class Metric(Generic[OutcomeT]):
         The ideal value where the direction is ``TARGET``.
     defined : callable
         Whether an outcome of that kind has what the metric judges.
+    former_names : tuple of str
+        Names that the metric had in earlier versions; stored values and options may still use
+        them.
     """
 
     name: str
@@ -170,6 +173,7 @@ class Metric(Generic[OutcomeT]):
     needs_variance: bool = False
     target: float | None = None
     defined: Callable[[OutcomeT], bool] = _always
+    former_names: tuple[str, ...] = ()
 
     def applies(self, outcome: object) -> bool:
         """Return whether the metric is defined for ``outcome``, whatever its kind."""

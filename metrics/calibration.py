@@ -110,7 +110,7 @@ coverage_90 = _coverage(90)
 coverage_95 = _coverage(95)
 pit = Metric(
     "pit",
-    "PIT distance from uniform",
+    "Probability integral transform (PIT), distance from uniform",
     Direction.LOWER,
     Imputation,
     pit_distance,
@@ -124,4 +124,11 @@ sharpness = Metric(
     mean_deviation,
     needs_variance=True,
 )
-crps = Metric("crps", "CRPS", Direction.LOWER, Imputation, gaussian_crps, needs_variance=True)
+crps = Metric(
+    "crps",
+    "Continuous ranked probability score (CRPS)",
+    Direction.LOWER,
+    Imputation,
+    gaussian_crps,
+    needs_variance=True,
+)

@@ -92,10 +92,20 @@ def rms_error_per_frame(outcome: Imputation) -> Score:
     return Score(float(np.nanmean(frames)), {"frame": frames})
 
 
-mse = Metric("mse", "MSE", Direction.LOWER, Imputation, mean_squared_error)
-smse = Metric("smse", "SMSE", Direction.LOWER, Imputation, standardised_error)
+mse = Metric("mse", "Mean squared error (MSE)", Direction.LOWER, Imputation, mean_squared_error)
+smse = Metric(
+    "smse",
+    "Standardised MSE (SMSE)",
+    Direction.LOWER,
+    Imputation,
+    standardised_error,
+)
 smse_pooled = Metric(
-    "smse_pooled", "SMSE (pooled)", Direction.LOWER, Imputation, pooled_standardised_error
+    "smse_pooled",
+    "Standardised MSE, pooled (SMSE)",
+    Direction.LOWER,
+    Imputation,
+    pooled_standardised_error,
 )
 rms_per_frame = Metric(
     "rms_per_frame", "RMS error per frame", Direction.LOWER, Imputation, rms_error_per_frame

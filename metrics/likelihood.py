@@ -43,7 +43,7 @@ def mean_standardised_log_loss(outcome: Imputation) -> Score:
 
 msll = Metric(
     "msll",
-    "MSLL",
+    "Mean standardised log loss (MSLL)",
     Direction.LOWER,
     Imputation,
     mean_standardised_log_loss,

@@ -93,10 +93,26 @@ def _metric(name: str, title: str, of_layer: Statistic, layer: str) -> Metric[Re
 
 
 frobenius_child = _metric(
-    "frobenius_child", "Relative Frobenius error of K_f", relative_frobenius, "child"
+    "frobenius_child",
+    "Relative Frobenius error, child K_f",
+    relative_frobenius,
+    "child",
 )
 frobenius_parent = _metric(
-    "frobenius_parent", "Relative Frobenius error of K_g", relative_frobenius, "parent"
+    "frobenius_parent",
+    "Relative Frobenius error, parent K_g",
+    relative_frobenius,
+    "parent",
 )
-logdet_child = _metric("logdet_child", "Log-det divergence of K_f", log_det_divergence, "child")
-logdet_parent = _metric("logdet_parent", "Log-det divergence of K_g", log_det_divergence, "parent")
+logdet_child = _metric(
+    "logdet_child",
+    "Log-determinant divergence, child K_f",
+    log_det_divergence,
+    "child",
+)
+logdet_parent = _metric(
+    "logdet_parent",
+    "Log-determinant divergence, parent K_g",
+    log_det_divergence,
+    "parent",
+)

@@ -19,12 +19,12 @@ from mocapbench.metrics.correlation import (
 __all__ = [
     "Correlation",
     "best_similarity",
+    "marginal_variance_ratio",
     "mcc",
     "mcc_best",
     "mean_similarity",
     "mlc",
     "mlc_best",
-    "spread",
     "variance_ratio",
 ]
 
@@ -87,7 +87,7 @@ def _deviation(pairs: Array) -> Array:
     return np.asarray(pairs.std(axis=0, ddof=1))
 
 
-def variance_ratio(outcome: Synthesis) -> Score:
+def marginal_variance_ratio(outcome: Synthesis) -> Score:
     """Return the mean marginal variance of the samples over that of the references.
 
     The variance (ddof 1) is taken over sequences at each frame of each output, around the
@@ -105,7 +105,7 @@ def variance_ratio(outcome: Synthesis) -> Score:
         return Score(np.nan)
     of_references = outcome.references.var(axis=0, ddof=1).mean()
     if of_references == 0:
-        raise ValueError("spread: expected references that differ, got equal ones")
+        raise ValueError("variance_ratio: expected references that differ, got equal ones")
     return Score(float(outcome.samples.var(axis=0, ddof=1).mean() / of_references))
 
 
@@ -119,8 +119,16 @@ def _best(name: str, title: str, correlation: Correlation) -> Metric[Synthesis]:
     return Metric(name, title, Direction.HIGHER, Synthesis, statistic)
 
 
-mcc = _mean("mcc", "MCC", cross_correlation)
-mlc = _mean("mlc", "MLC", linear_correlation)
-mcc_best = _best("mcc_best", "MCC, best reference", cross_correlation)
-mlc_best = _best("mlc_best", "MLC, best reference", linear_correlation)
-spread = Metric("spread", "Spread", Direction.TARGET, Synthesis, variance_ratio, target=1.0)
+mcc = _mean("mcc", "Maximum cross-correlation (MCC)", cross_correlation)
+mlc = _mean("mlc", "Mean linear correlation (MLC)", linear_correlation)
+mcc_best = _best("mcc_best", "Maximum cross-correlation, best match", cross_correlation)
+mlc_best = _best("mlc_best", "Mean linear correlation, best match", linear_correlation)
+variance_ratio = Metric(
+    "variance_ratio",
+    "Variance ratio",
+    Direction.TARGET,
+    Synthesis,
+    marginal_variance_ratio,
+    target=1.0,
+    former_names=("spread",),
+)

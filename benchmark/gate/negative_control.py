@@ -54,7 +54,7 @@ def _table(task: str, findings: Sequence[NegativeControlResult]) -> Table:
     control, *others = findings
     table = Table(
         *("entrant", "cells", f"MLC − {control.label}’s", f"MCC − {control.label}’s"),
-        *("spread", "verdict"),
+        *("variance ratio", "verdict"),
         title=task,
         caption=f"mean ± half the 95 % interval; the row of {control.label} is its own MLC",
     )

@@ -18,7 +18,7 @@ from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.gpdm_entrants import NOT_QUICK, POSE_VITERBI, SLOW, WITH_BEST_START
 from mocapbench.benchmark.tasks.pages.golf_swings import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, Recording, excerpt, gpdm_features
+from mocapbench.datasets import Archive, Recording, gpdm_features, one_based_frames
 
 __all__ = ["golf_problem", "golf_swings"]
 
@@ -55,7 +55,7 @@ def golf_problem(
 
 
 def _swing(archive: Archive, uri: str, first: int, last: int) -> Recording:
-    return gpdm_features(excerpt(archive.recording(uri), first, last))
+    return gpdm_features(one_based_frames(archive.recording(uri), first, last))
 
 
 def _case(name: str, swing: str, held_out: str, frames: dict[str, tuple[int, int]]) -> Case:

@@ -17,7 +17,7 @@ from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task, on_rec
 from mocapbench.benchmark.tasks.gpdm_entrants import GPDM_STARTS, NOT_QUICK, POSE_VITERBI, SLOW
 from mocapbench.benchmark.tasks.pages.missing_frames import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, Recording, excerpt, gpdm_features
+from mocapbench.datasets import Archive, Recording, gpdm_features, one_based_frames
 
 __all__ = ["missing_frames", "missing_frames_problem"]
 
@@ -62,7 +62,7 @@ def _training_walk(archive: Archive, uri: str) -> Recording:
     """Return a training walk, cut to the paper's frames where it names them."""
     recording = archive.recording(uri)
     first, last = TRAINING.get(uri, (1, len(recording.times)))
-    return gpdm_features(excerpt(recording, first, last))
+    return gpdm_features(one_based_frames(recording, first, last))
 
 
 def _case(

@@ -8,7 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, clip, resample, restart
+from mocapbench.datasets import (
+    THESIS_CHANNELS,
+    Archive,
+    Recording,
+    resample,
+    restart,
+    zero_based_frames,
+)
 
 __all__ = ["EVALUATION", "KICKS", "N_FRAMES", "TRAINING", "WALKS", "Window", "read_excerpt"]
 
@@ -69,5 +76,5 @@ def read_excerpt(archive: Archive, uri: str, windows: Mapping[str, Window]) -> R
     RecordingUnavailable
         If the recording is not at hand.
     """
-    recording = clip(archive.recording(uri), *windows.get(uri, _GENERATED))
+    recording = zero_based_frames(archive.recording(uri), *windows.get(uri, _GENERATED))
     return restart(resample(recording, N_FRAMES).select(THESIS_CHANNELS))

@@ -11,7 +11,7 @@ from mocapbench.benchmark.problems.unit import Unit
 from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.pages.walking_interpolation import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, clip, resample
+from mocapbench.datasets import THESIS_CHANNELS, Archive, Recording, resample, zero_based_frames
 
 __all__ = ["walking_interpolation", "walking_problem"]
 
@@ -38,7 +38,9 @@ def walking_problem(
 
 
 def _walk(archive: Archive, uri: str) -> Recording:
-    return resample(clip(archive.recording(uri), *WINDOW), N_FRAMES).select(THESIS_CHANNELS)
+    return resample(zero_based_frames(archive.recording(uri), *WINDOW), N_FRAMES).select(
+        THESIS_CHANNELS
+    )
 
 
 def _case(

@@ -1,14 +1,14 @@
 """Tests and intervals of the mean of paired differences, and Holm's correction.
 
-One difference tells nothing of chance: what cannot be computed is NaN. Differences that are all
-equal leave no doubt: their interval is a point, and p is 0, or 1 where they are all zero.
+A single difference has no variance, so everything that needs one is NaN. Where all differences are
+equal, their interval has no width, and p is 0, or 1 if they are all zero.
 """
 
 from __future__ import annotations
 
 import math
-from functools import cache
-from itertools import product
+import warnings
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,7 +20,6 @@ __all__ = [
     "least_signed_rank_p",
     "mean_interval",
     "signed_rank_test",
-    "standard_error",
     "t_test",
     "validated",
 ]
@@ -29,6 +28,9 @@ ALPHA = 0.05
 MOST_ENUMERATED = 12
 
 Array = NDArray[np.float64]
+
+# SciPy warns where differences are equal but for rounding; their p is 0 all the same.
+_without_warnings = partial(warnings.catch_warnings, action="ignore", category=RuntimeWarning)
 
 
 def validated(differences: ArrayLike) -> Array:
@@ -48,37 +50,90 @@ def validated(differences: ArrayLike) -> Array:
     return values
 
 
-def standard_error(differences: ArrayLike) -> float:
-    """Return the standard error of the mean (ddof 1) of independent units; NaN for one."""
+def mean_interval(differences: ArrayLike, confidence: float = 0.95) -> tuple[float, float]:
+    """Return the confidence interval of the mean by Student's t with n − 1 degrees of freedom.
+
+    Parameters
+    ----------
+    differences : array-like of shape (n,)
+        One per unit; units are independent.
+    confidence : float
+        Probability that the interval covers the mean, between 0 and 1.
+
+    Returns
+    -------
+    low, high : float
+        In the unit of the differences. NaN for a single unit; both the mean where all differences
+        are equal.
+
+    Raises
+    ------
+    ValueError
+        If there is no difference, or one is not finite.
+    """
     values = validated(differences)
     if values.size == 1:
-        return math.nan
-    if np.ptp(values) == 0.0:  # rounding of the mean would leave a spread
-        return 0.0
-    return float(np.std(values, ddof=1)) / math.sqrt(values.size)
-
-
-def mean_interval(differences: ArrayLike, confidence: float = 0.95) -> tuple[float, float]:
-    """Return the interval of the mean by Student's t with n − 1 degrees of freedom."""
-    values = validated(differences)
-    half = stats.t.ppf(0.5 + 0.5 * confidence, values.size - 1) * standard_error(values)
-    return float(values.mean() - half), float(values.mean() + half)
+        return math.nan, math.nan
+    if _all_equal(values):
+        return float(values.mean()), float(values.mean())
+    with _without_warnings():
+        low, high = stats.ttest_1samp(values, 0.0).confidence_interval(confidence)
+    return float(low), float(high)
 
 
 def t_test(differences: ArrayLike) -> float:
-    """Return the two-sided p-value of the paired t-test of a mean difference of zero."""
+    """Return the two-sided p-value of the paired t-test of a mean difference of zero.
+
+    Parameters
+    ----------
+    differences : array-like of shape (n,)
+        One per unit; units are independent.
+
+    Returns
+    -------
+    float
+        NaN for a single unit. Where all differences are equal: 1 if they are zero, 0 otherwise.
+
+    Raises
+    ------
+    ValueError
+        If there is no difference, or one is not finite.
+    """
     values = validated(differences)
-    error = standard_error(values)
-    if error == 0.0:
+    if values.size == 1:
+        return math.nan
+    if _all_equal(values):
         return float(values[0] == 0.0)
-    return float(2.0 * stats.t.sf(abs(values.mean()) / error, values.size - 1))
+    with _without_warnings():
+        return float(stats.ttest_1samp(values, 0.0).pvalue)
+
+
+def _all_equal(values: Array) -> bool:
+    """Return whether no difference differs; rounding of the mean could hide it in the variance."""
+    return bool(np.ptp(values) == 0.0)
 
 
 def signed_rank_test(differences: ArrayLike) -> float:
     """Return the two-sided p-value of Wilcoxon's signed-rank test.
 
-    Zero differences are dropped. Up to twelve units all signs are enumerated, so that p is exact
-    with ties too; the normal approximation would go below what so few units can give.
+    Zero differences are dropped. With up to twelve units p is exact, ties included: it is the
+    share of all assignments of signs to the ranks whose sum is as far from zero. Above that it is
+    SciPy's.
+
+    Parameters
+    ----------
+    differences : array-like of shape (n,)
+        One per unit; units are independent.
+
+    Returns
+    -------
+    float
+        NaN for a single unit; 1 if all differences are zero.
+
+    Raises
+    ------
+    ValueError
+        If there is no difference, or one is not finite.
     """
     values = validated(differences)
     if values.size == 1:
@@ -87,16 +142,14 @@ def signed_rank_test(differences: ArrayLike) -> float:
         return 1.0
     if values.size > MOST_ENUMERATED:
         return float(stats.wilcoxon(values).pvalue)
-    ranked = values[values != 0.0]
-    ranks = stats.rankdata(np.abs(ranked))
-    extreme = np.abs(_every_sign(ranked.size) @ ranks) >= abs(np.sign(ranked) @ ranks)
-    return float(extreme.mean())
-
-
-@cache
-def _every_sign(n: int) -> Array:
-    """Return the 2ⁿ ways to give n ranks a sign, shape (2ⁿ, n)."""
-    return np.array(list(product((-1.0, 1.0), repeat=n)))
+    # The same p-value as of stats.wilcoxon with a PermutationMethod, which takes a second.
+    n_zeros = np.count_nonzero(values == 0.0)
+    signed_ranks = np.sign(values) * (stats.rankdata(np.abs(values)) - n_zeros)
+    every_sign = 2**values.size
+    test = stats.permutation_test(
+        (signed_ranks,), np.sum, permutation_type="samples", n_resamples=every_sign, vectorized=True
+    )
+    return float(test.pvalue)
 
 
 def least_signed_rank_p(n: int) -> float:

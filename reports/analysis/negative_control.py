@@ -7,10 +7,10 @@ The check pairs an entrant with the control cell by cell, where a cell is one fo
 takes a 95 % interval by Student's t over all cells:
 
 * an entrant passes where the mean of (its MLC − the control's) has an interval above 0, likewise
-  its MCC, and the mean of its spread is at least `LEAST_SPREAD`;
+  its MCC, and the mean of its variance ratio is at least `LEAST_VARIANCE_RATIO`;
 * the control passes where the interval of its mean MLC contains 0 or lies within ± `NEAR_ZERO`.
 
-Spread has only a lower limit. Samples with too little variance score higher MCC and MLC, up to the
+The variance ratio has only a lower limit. Samples with too little variance score higher MCC and MLC, up to the
 scores of a sampler that repeats its trend. Samples with too much variance score lower, which gains
 nothing.
 """
@@ -29,10 +29,10 @@ from mocapbench.reports.analysis.negative_control_result import (
 )
 from mocapbench.reports.analysis.results import TaskResults
 
-__all__ = ["LEAST_SPREAD", "NEAR_ZERO", "negative_control"]
+__all__ = ["LEAST_VARIANCE_RATIO", "NEAR_ZERO", "negative_control"]
 
 NEAR_ZERO = 0.1
-LEAST_SPREAD = 0.75
+LEAST_VARIANCE_RATIO = 0.75
 
 
 def negative_control(results: TaskResults) -> tuple[NegativeControlResult, ...]:
@@ -72,10 +72,10 @@ def _measures(cells: pd.DataFrame, label: str, control: str) -> tuple[Measure, .
         _measure("MLC", mlc, _above_zero, lambda value: value > 0.0),
         _measure("MCC", mcc, _above_zero, lambda value: value > 0.0),
         _measure(
-            "spread",
-            _column(cells, "spread", label),
-            lambda estimate: estimate.mean >= LEAST_SPREAD,
-            lambda value: value >= LEAST_SPREAD,
+            "variance ratio",
+            _column(cells, "variance_ratio", label),
+            lambda estimate: estimate.mean >= LEAST_VARIANCE_RATIO,
+            lambda value: value >= LEAST_VARIANCE_RATIO,
         ),
     )
 

@@ -25,7 +25,7 @@ class Measure:
     Parameters
     ----------
     name : str
-        ``"MLC"``, ``"MCC"`` or ``"spread"``. For an entrant the first two are differences from the
+        ``"MLC"``, ``"MCC"`` or ``"variance ratio"``. For an entrant the first two are differences from the
         control.
     estimate : FoldMean or None
         The mean over all cells; None where there is none.

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from mocapbench.reports.analysis.negative_control import (
-    LEAST_SPREAD,
+    LEAST_VARIANCE_RATIO,
     NEAR_ZERO,
     negative_control,
 )
@@ -38,7 +38,7 @@ def negative_control_table(results: TaskResults) -> Table | None:
         columns=(
             *headings(["entrant"]),
             *headings(["verdict"], "text"),
-            *headings(["cells", "MLC", "MCC", "spread"]),
+            *headings(["cells", "MLC", "MCC", "variance ratio"]),
         ),
         rows=(
             *(_row(entrant) for entrant in entrants),
@@ -77,8 +77,8 @@ def _count(measure: Measure) -> str:
 def _notes(checked: Sequence[NegativeControlResult]) -> tuple[str, ...]:
     return (
         "Mean over case × fold ± half its 95 % interval (Student’s t). An entrant passes where "
-        "the intervals of MLC and MCC lie above 0 and its mean spread, which is not a difference, "
-        f"is at least {LEAST_SPREAD}. The control passes where the interval of its MLC contains 0 "
+        "the intervals of MLC and MCC lie above 0 and its mean variance ratio, which is not a difference, "
+        f"is at least {LEAST_VARIANCE_RATIO}. The control passes where the interval of its MLC contains 0 "
         f"or lies within ± {NEAR_ZERO}.",
         "Samples with too little variance score higher MLC and MCC, hence the lower limit of "
         "spread. Samples with too much variance score lower.",

@@ -1,4 +1,4 @@
-"""The archive: one address for every recording, and what can be said of it."""
+"""The archive: one address for every recording, whatever its library."""
 
 import pickle
 
@@ -9,25 +9,28 @@ from mocapbench.datasets import (
     Archive,
     DigestMismatch,
     Library,
-    Motion,
+    Recording,
     RecordingUnavailable,
+    SkeletonUnavailable,
     open_archive,
 )
 
 
 class Shelf(Library):
-    """Holds 01_01, holds a wrong 01_02, and has nothing else until it is fetched."""
+    """Holds 01_01, a wrong 01_02 and a damaged 01_04; the others can be fetched."""
 
-    def __init__(self, motion):
-        self.motion = motion
-        self.here = {"01_01", "01_02"}
+    def __init__(self):
+        super().__init__()
+        self.here = {"01_01", "01_02", "01_04"}
 
     def where(self, key):
         return f"shelf/{key}" if key in self.here else ""
 
-    def read(self, key):
+    def recording(self, key):
         self.digest(key)
-        return self.motion
+        if key == "01_04":
+            raise OSError("cannot be read")
+        return Recording(key, [0.0, 0.1], np.zeros((2, 1)), ["x"], ["deg"])
 
     def digest(self, key):
         if key == "01_02":
@@ -39,38 +42,63 @@ class Shelf(Library):
 
 
 @pytest.fixture
-def motion(skeleton):
-    return Motion(skeleton, tuple(skeleton.moving), np.zeros((2, 12)))
+def archive():
+    return Archive({"shelf": Shelf()})
 
 
-@pytest.fixture
-def archive(motion):
-    return Archive({"shelf": Shelf(motion)})
-
-
-def test_an_address_leads_to_the_library(archive, motion):
+def test_an_address_leads_to_the_library(archive):
     assert archive.available("shelf:01_01")
-    assert archive.read("shelf:01_01") is motion
+    assert archive.recording("shelf:01_01").channels == ("x",)
     assert archive.digest("shelf:01_01") == "digest of 01_01"
+
+
+def test_a_recording_is_named_by_its_address(archive):
+    assert archive.recording("shelf:01_01").name == "shelf:01_01"
+
+
+def test_a_skeleton_is_that_of_the_library(archive, skeleton, monkeypatch):
+    with pytest.raises(SkeletonUnavailable, match="Shelf has no skeleton for recording '01_01'"):
+        archive.skeleton("shelf:01_01")
+    monkeypatch.setattr(Shelf, "skeleton", lambda self, key: skeleton)
+    assert archive.skeleton("shelf:01_01") is skeleton
 
 
 def test_what_is_not_here_comes_with_the_command_that_gets_it(archive):
     assert not archive.available("shelf:01_03")
-    for ask in (archive.read, archive.digest):
-        with pytest.raises(RecordingUnavailable, match="mocapbench data fetch 01_03") as caught:
-            ask("shelf:01_03")
+    for method in (archive.recording, archive.skeleton, archive.digest):
+        with pytest.raises(
+            RecordingUnavailable, match=r"get it with: mocapbench data fetch shelf:01_03$"
+        ) as caught:
+            method("shelf:01_03")
         assert caught.value.uri == "shelf:01_03"
 
 
-def test_that_error_can_be_pickled():
-    error = pickle.loads(pickle.dumps(RecordingUnavailable("cmu:01_01", "get it")))
-    assert (error.uri, error.command) == ("cmu:01_01", "get it")
+def test_the_command_names_every_library_but_cmu_and_can_be_pasted():
+    assert Archive.fetch_command("cmu:35_02", "gait:01_01", "shelf:a walk") == (
+        "mocapbench data fetch 35_02 gait:01_01 'shelf:a walk'"
+    )
+
+
+@pytest.mark.parametrize(
+    "error",
+    [RecordingUnavailable("cmu:01_01", "get it"), SkeletonUnavailable("01_01", "Shelf")],
+    ids=lambda error: type(error).__name__,
+)
+def test_its_errors_can_be_pickled(error):
+    again = pickle.loads(pickle.dumps(error))
+    assert (vars(again), str(again)) == (vars(error), str(error))
 
 
 @pytest.mark.parametrize("uri", ["01_01", "attic:01_01", ""])
 def test_an_unknown_library_is_refused(archive, uri):
     with pytest.raises(ValueError, match="one of shelf"):
         archive.available(uri)
+
+
+@pytest.mark.parametrize("uri", ["shelf:", "shelf", "shelf:a:b"])
+def test_a_key_is_text_without_a_colon(archive, uri):
+    with pytest.raises(ValueError, match="expected LIBRARY:KEY, LIBRARY one of shelf"):
+        archive.recording(uri)
 
 
 def test_status_tells_what_is_here(archive):
@@ -81,11 +109,14 @@ def test_status_tells_what_is_here(archive):
 
 
 def test_verify_tells_right_from_wrong_and_missing(archive):
-    right, wrong, missing = archive.verify(["shelf:01_01", "shelf:01_02", "shelf:01_03"])
+    right, wrong, missing, damaged = archive.verify(
+        [f"shelf:{key}" for key in ("01_01", "01_02", "01_03", "01_04")]
+    )
     assert right == ("shelf:01_01", "verified", "shelf/01_01", "digest of 01_01")
     assert (wrong.state, missing.state) == ("wrong", "missing")
     assert "right" in wrong.where
     assert "wrong" in wrong.where
+    assert (damaged.state, damaged.where) == ("wrong", "cannot be read")
 
 
 def test_fetch_gets_what_is_missing_and_verifies_it(archive):
@@ -111,6 +142,17 @@ def test_folders_come_from_the_environment(tmp_path, monkeypatch):
         (tree / f"{subject}_01.amc").touch()
     assert open_archive().available("cmu:01_01")
     assert open_archive().available("cmu:02_01")
+
+
+def test_the_cache_is_the_users_where_none_is_named(tmp_path, monkeypatch):
+    monkeypatch.delenv("MOCAPBENCH_CACHE", raising=False)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert open_archive().libraries["cmu"].cache_dir == tmp_path / "mocapbench"
+
+
+@pytest.mark.recordings
+def test_a_skeleton_of_real_recordings_is_that_of_the_motion(cmu):
+    assert cmu.skeleton("cmu:35_02") == cmu.libraries["cmu"].motion("35_02").skeleton
 
 
 @pytest.mark.recordings

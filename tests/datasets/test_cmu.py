@@ -51,14 +51,14 @@ def store(folder, files):
 def test_a_recording_that_is_nowhere_is_not_downloaded_by_reading(library, server):
     assert library.where("01_02") == ""
     with pytest.raises(FileNotFoundError, match=ASF):
-        library.read("01_02")
+        library.motion("01_02")
     assert not server.requests
 
 
 def test_fetching_makes_it_readable(library, tmp_path):
     library.fetch("01_02")
     assert library.where("01_02") == str(tmp_path / "cache" / AMC)
-    assert library.read("01_02").values.shape == (3, 12)
+    assert library.motion("01_02").values.shape == (3, 12)
 
 
 def test_fetching_again_asks_for_what_is_missing_only(library, server, files, known, tmp_path):
@@ -83,7 +83,7 @@ def test_the_users_folder_comes_first_and_needs_no_server(library, server, files
 def test_folder_and_cache_complete_each_other(library, files, tmp_path):
     store(tmp_path / "data", {ASF: files[ASF]})
     store(tmp_path / "cache", {AMC: files[AMC]})
-    assert library.read("01_02").values.shape == (3, 12)
+    assert library.motion("01_02").values.shape == (3, 12)
 
 
 def test_one_file_of_two_is_not_a_recording(library, files, tmp_path):
@@ -97,7 +97,7 @@ def test_the_digest_is_that_of_both_files_and_blind_to_line_ends(library, files,
     assert library.digest("01_02") == expected
     store(tmp_path / "data", {p: c.replace(b"\n", b"\r\n") for p, c in files.items()})
     assert library.digest("01_02") == expected
-    np.testing.assert_array_equal(library.read("01_02").values[0, :3], [1, 2, 3])
+    np.testing.assert_array_equal(library.motion("01_02").values[0, :3], [1, 2, 3])
 
 
 def test_a_wrong_download_is_refused_and_not_kept(library, server, known):
@@ -110,7 +110,7 @@ def test_a_wrong_download_is_refused_and_not_kept(library, server, known):
 def test_a_wrong_file_in_the_cache_is_refused_and_fetched_anew(library, files, tmp_path):
     store(tmp_path / "cache", {**files, AMC: b"damaged"})
     with pytest.raises(DigestMismatch, match="01_02"):
-        library.read("01_02")
+        library.motion("01_02")
     library.fetch("01_02")
     assert (tmp_path / "cache" / AMC).read_bytes() == files[AMC]
 
@@ -126,10 +126,10 @@ def test_without_a_registered_digest_the_first_one_seen_holds(library, known, fi
     del known[AMC]
     with pytest.warns(UnregisteredDigestWarning, match=AMC):
         library.fetch("01_02")
-    assert library.read("01_02").values.shape == (3, 12)
+    assert library.motion("01_02").values.shape == (3, 12)
     store(tmp_path / "data", {AMC: files[AMC].replace(b"shin 42", b"shin 43")})
     with pytest.raises(DigestMismatch, match="data"):
-        library.read("01_02")
+        library.motion("01_02")
 
 
 def test_a_file_that_the_server_lacks_is_an_error_and_keeps_the_rest(library, tmp_path):
@@ -142,7 +142,7 @@ def test_a_right_but_unreadable_file_is_an_acclaim_error(library, known, files, 
     known[AMC] = sha256(b"nonsense\n").hexdigest()
     store(tmp_path / "data", {**files, AMC: b"nonsense\n"})
     with pytest.raises(AcclaimError, match=r"01_02\.amc, line 1"):
-        library.read("01_02")
+        library.motion("01_02")
 
 
 @pytest.mark.parametrize("key", ["", "35", "35_2", "../../etc_02", "35_02.amc", "cmu:35_02"])

@@ -2,6 +2,7 @@
 
 import pickle
 import socket
+from pathlib import Path
 
 import pytest
 
@@ -63,6 +64,17 @@ def test_what_the_check_refuses_is_not_kept(downloader, tmp_path):
 
     with pytest.raises(ValueError, match="wrong"):
         downloader.fetch(PATH, refuse)
+    assert not [path for path in tmp_path.rglob("*") if path.is_file()]
+
+
+def test_a_write_that_fails_leaves_nothing(downloader, tmp_path, monkeypatch):
+    def fail(file, target):
+        assert file.read_bytes() == b"content\n"
+        raise OSError("no space left")
+
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(OSError, match="no space left"):
+        downloader.fetch(PATH, accept)
     assert not [path for path in tmp_path.rglob("*") if path.is_file()]
 
 

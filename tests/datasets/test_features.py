@@ -8,17 +8,17 @@ from mocapbench.datasets import (
     THESIS_CHANNELS,
     GaitLibrary,
     Recording,
-    clip,
     gpdm_features,
     hlm_features,
     resample,
+    zero_based_frames,
 )
 from mocapbench.datasets.features import smoothness, thesis_candidates
 
 
 @pytest.fixture(scope="module")
 def walk():
-    return GaitLibrary().read("01_01").recording("walk")
+    return GaitLibrary().recording("01_01")
 
 
 def test_the_thesis_has_39_of_44_candidates(walk):
@@ -69,7 +69,7 @@ def test_hlm_takes_whole_turns_off_joints_and_leaves_the_root_its_heading(walk):
 @pytest.mark.recordings
 def test_the_thesis_channels_follow_from_the_criterion(cmu):
     walks = [
-        resample(clip(thesis_candidates(cmu.read(uri).recording(uri)), 0, 298), 90)
+        resample(zero_based_frames(thesis_candidates(cmu.recording(uri)), 0, 298), 90)
         for uri in ("cmu:02_01", "cmu:02_02", "cmu:07_02")
     ]
     order = np.argsort(np.mean([smoothness(walk) for walk in walks], axis=0))
@@ -91,7 +91,7 @@ def test_the_thesis_channels_follow_from_the_criterion(cmu):
 )
 def test_a_spline_through_the_features_gives_the_papers_errors(cmu, uri, published):
     """GPDM Table 2, cubic spline: 31 hidden frames of 50, in twelve windows."""
-    features = gpdm_features(clip(cmu.read(uri).recording(uri), 0, 200)).values
+    features = gpdm_features(zero_based_frames(cmu.recording(uri), 0, 200)).values
     frames = np.arange(50)
     errors = []
     for first in range(4, 16):

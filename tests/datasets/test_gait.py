@@ -20,7 +20,7 @@ KEYS = ["01_01", "03_03", "05_04", "08_05"]
 
 @pytest.fixture(scope="module")
 def motions():
-    return {key: GaitLibrary().read(key) for key in KEYS}
+    return {key: GaitLibrary().motion(key) for key in KEYS}
 
 
 def joints_of(motion):
@@ -40,13 +40,13 @@ def test_the_channels_are_those_of_the_database(motions):
 
 def test_a_key_names_one_motion(motions):
     for key, motion in motions.items():
-        np.testing.assert_array_equal(GaitLibrary().read(key).values, motion.values)
+        np.testing.assert_array_equal(GaitLibrary().motion(key).values, motion.values)
 
 
 def test_subjects_and_trials_differ():
     library = GaitLibrary()
     starts = [
-        tuple(library.read(f"{subject:02}_{trial:02}").values[0])
+        tuple(library.motion(f"{subject:02}_{trial:02}").values[0])
         for subject, trial in product(range(1, 9), range(1, 4))
     ]
     assert len(set(starts)) == 24
@@ -101,8 +101,8 @@ def test_feet_stay_near_the_floor_and_the_head_up(motions):
 def test_the_root_advances_at_the_pace_of_the_style():
     library = GaitLibrary()
     speeds = [
-        np.ptp(joints_of(library.read(f"02_{trial:02}"))["root"][[0, -1], 2])
-        / len(library.read(f"02_{trial:02}").values)
+        np.ptp(joints_of(library.motion(f"02_{trial:02}"))["root"][[0, -1], 2])
+        / len(library.motion(f"02_{trial:02}").values)
         * 120
         for trial in (3, 1, 5)
     ]
@@ -136,6 +136,6 @@ def test_its_skeleton_is_written_as_it_is_read(motions):
 
 def test_a_malformed_key_is_refused():
     library = GaitLibrary()
-    for ask in (library.where, library.read, library.digest, library.fetch):
+    for ask in (library.where, library.motion, library.digest, library.fetch):
         with pytest.raises(ValueError, match="SUBJECT_TRIAL"):
             ask("1_1")

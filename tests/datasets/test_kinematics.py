@@ -94,9 +94,9 @@ def test_unknown_channels_and_hidden_entries_are_refused(skeleton, channel, valu
 
 @pytest.mark.recordings
 def test_a_real_walker_has_its_head_up_and_its_feet_on_the_floor(cmu):
-    motion = cmu.read("cmu:02_01")
-    names = [segment.name for segment in motion.skeleton.segments]
-    joints = joint_positions(motion.skeleton, motion.recording("walk"))
+    skeleton = cmu.skeleton("cmu:02_01")
+    names = [segment.name for segment in skeleton.segments]
+    joints = joint_positions(skeleton, cmu.recording("cmu:02_01"))
     assert (joints[:, names.index("head"), 1] > 140).all()
     lowest = joints[:, [names.index("ltoes"), names.index("rtoes")], 1].min(axis=1)
     assert (np.abs(lowest) < 8).all()

@@ -8,12 +8,12 @@ from hypothesis.extra.numpy import arrays
 
 from mocapbench.datasets import (
     Recording,
-    clip,
-    excerpt,
     integrate_root,
+    one_based_frames,
     resample,
     restart,
     root_differences,
+    zero_based_frames,
 )
 
 CHANNELS = ("root.tx", "root.ty", "root.tz", "knee.rx")
@@ -27,27 +27,27 @@ def recorded(values):
 WALK = recorded(np.arange(40.0).reshape(10, 4) ** 2)
 
 
-def test_clip_takes_a_half_open_window_as_far_as_there_are_frames():
-    np.testing.assert_array_equal(clip(WALK, 2, 5).values, WALK.values[2:5])
-    np.testing.assert_array_equal(clip(WALK, 7, 500).values, WALK.values[7:])
-    np.testing.assert_array_equal(clip(WALK, 2, 5).times, WALK.times[2:5])
+def test_zero_based_frames_are_half_open_and_cut_at_the_end():
+    np.testing.assert_array_equal(zero_based_frames(WALK, 2, 5).values, WALK.values[2:5])
+    np.testing.assert_array_equal(zero_based_frames(WALK, 7, 500).values, WALK.values[7:])
+    np.testing.assert_array_equal(zero_based_frames(WALK, 2, 5).times, WALK.times[2:5])
 
 
 @pytest.mark.parametrize("window", [(10, 12), (-1, 3), (5, 5), (5, 3)])
-def test_clip_refuses_a_window_without_frames(window):
+def test_zero_based_frames_refuse_a_window_without_frames(window):
     with pytest.raises(ValueError, match="10 frames"):
-        clip(WALK, *window)
+        zero_based_frames(WALK, *window)
 
 
-def test_an_excerpt_counts_from_one_and_includes_its_last_frame():
-    np.testing.assert_array_equal(excerpt(WALK, 1, 10).values, WALK.values)
-    np.testing.assert_array_equal(excerpt(WALK, 3, 4).values, WALK.values[2:4])
+def test_one_based_frames_include_the_last():
+    np.testing.assert_array_equal(one_based_frames(WALK, 1, 10).values, WALK.values)
+    np.testing.assert_array_equal(one_based_frames(WALK, 3, 4).values, WALK.values[2:4])
 
 
 @pytest.mark.parametrize("frames", [(0, 4), (4, 3), (4, 11)])
-def test_an_excerpt_is_all_there_or_refused(frames):
+def test_one_based_frames_must_all_exist(frames):
     with pytest.raises(ValueError, match="1 to 10"):
-        excerpt(WALK, *frames)
+        one_based_frames(WALK, *frames)
 
 
 @given(st.integers(1, 10))
@@ -87,10 +87,10 @@ def test_a_path_is_needed():
             function(WALK.select(["knee.rx"]))
 
 
-def test_excerpts_of_one_length_share_a_clock_bit_for_bit_wherever_they_begin():
+def test_windows_of_one_length_have_equal_times_bit_for_bit_wherever_they_begin():
     times = np.arange(500) / 120
     recording = Recording("r", times, np.zeros((500, 1)), ("x",), ("",))
-    early, late = (restart(clip(recording, start, start + 300)) for start in (0, 130))
+    early, late = (restart(zero_based_frames(recording, start, start + 300)) for start in (0, 130))
     assert early.times[0] == 0.0
     np.testing.assert_array_equal(early.times, late.times)
     np.testing.assert_allclose(late.times, times[:300], atol=1e-9)

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.signal import correlate
 
-from mocapbench.metrics import Synthesis, mcc, mcc_best, mlc, mlc_best, spread
+from mocapbench.metrics import Synthesis, mcc, mcc_best, mlc, mlc_best, variance_ratio
 from mocapbench.metrics.correlation import cross_correlation
 
 seeds = st.integers(0, 2**32 - 1)
@@ -81,7 +81,7 @@ def test_correlations_are_invariant_to_the_unit_of_an_output(seed, scale, offset
 def test_the_order_of_samples_and_outputs_does_not_matter(seed, order):
     drawn = outcome(seed)
     permuted = Synthesis(drawn.samples[order][:, :, ::-1], drawn.references[:, :, ::-1])
-    for metric in (*CORRELATIONS, spread):
+    for metric in (*CORRELATIONS, variance_ratio):
         assert metric(permuted).value == pytest.approx(metric(drawn).value)
 
 
@@ -126,17 +126,17 @@ def test_a_single_sample_has_no_deviation():
 
 
 @given(seed=seeds, factor=st.floats(0.0, 10.0))
-def test_spread_is_the_ratio_of_variances(seed, factor):
+def test_the_variance_ratio_is_that_of_the_variances_around_the_mean(seed, factor):
     drawn = outcome(seed, n_samples=4)
     trend = drawn.samples.mean(axis=0)
     narrowed = Synthesis(trend + factor * (drawn.samples - trend), drawn.samples)
-    assert spread(narrowed).value == pytest.approx(factor**2, abs=1e-12)
+    assert variance_ratio(narrowed).value == pytest.approx(factor**2, abs=1e-12)
 
 
-def test_spread_of_draws_from_one_process_is_one():
+def test_the_variance_ratio_of_draws_from_one_process_is_one():
     rng = np.random.default_rng(4)
     drawn = Synthesis(rng.normal(size=(25, 100, 5)), rng.normal(size=(5, 100, 5)))
-    assert spread(drawn).value == pytest.approx(1.0, abs=0.15)
+    assert variance_ratio(drawn).value == pytest.approx(1.0, abs=0.15)
 
 
 @pytest.mark.parametrize(
@@ -148,22 +148,24 @@ def test_spread_of_draws_from_one_process_is_one():
         (np.full((2, 5, 3), np.nan), np.zeros((2, 5, 3)), "finite"),
     ],
 )
-@pytest.mark.parametrize("metric", [*CORRELATIONS, spread], ids=lambda metric: metric.name)
+@pytest.mark.parametrize("metric", [*CORRELATIONS, variance_ratio], ids=lambda metric: metric.name)
 def test_unsound_outcomes_are_refused(metric, samples, references, message):
     with pytest.raises(ValueError, match=message):
         metric(Synthesis(samples, references))
 
 
-@pytest.mark.parametrize("metric", [mcc_best, mlc_best, spread], ids=lambda metric: metric.name)
+@pytest.mark.parametrize(
+    "metric", [mcc_best, mlc_best, variance_ratio], ids=lambda metric: metric.name
+)
 def test_one_reference_leaves_no_choice_and_no_variance(metric):
     assert np.isnan(metric(outcome(0, n_references=1)).value)
     assert np.isfinite(metric(outcome(0)).value)
 
 
-def test_one_sample_has_no_spread():
-    assert np.isnan(spread(outcome(0, n_samples=1)).value)
+def test_one_sample_has_no_variance_ratio():
+    assert np.isnan(variance_ratio(outcome(0, n_samples=1)).value)
 
 
-def test_spread_needs_references_that_differ():
+def test_the_variance_ratio_needs_references_that_differ():
     with pytest.raises(ValueError, match="differ"):
-        spread(Synthesis(np.zeros((2, 5, 3)), np.ones((2, 5, 3))))
+        variance_ratio(Synthesis(np.zeros((2, 5, 3)), np.ones((2, 5, 3))))

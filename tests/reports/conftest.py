@@ -26,7 +26,7 @@ METRICS = {
         MetricInfo("rms_per_frame", "RMS per frame", Direction.LOWER),
         MetricInfo("mcc", "MCC", Direction.HIGHER),
         MetricInfo("mlc", "MLC", Direction.HIGHER),
-        MetricInfo("spread", "Spread", Direction.TARGET, 1.0),
+        MetricInfo("variance_ratio", "Variance ratio", Direction.TARGET, 1.0),
         *(
             MetricInfo(f"coverage_{p}", f"Coverage at {p} %", Direction.TARGET, p / 100)
             for p in (50, 80, 90, 95)

@@ -13,7 +13,7 @@ NOBODY = "http://127.0.0.1:9/"
 @pytest.fixture
 def database(tmp_path, monkeypatch):
     """A folder with one made recording, an empty cache, and a server that does not answer."""
-    motion = GaitLibrary().read("01_01")
+    motion = GaitLibrary().motion("01_01")
     folder = tmp_path / "database" / "subjects" / "99"
     folder.mkdir(parents=True)
     (folder / "99.asf").write_text(format_skeleton(motion.skeleton))

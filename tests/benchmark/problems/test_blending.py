@@ -33,7 +33,7 @@ class Poses(Blender):
 
 @pytest.fixture
 def problem():
-    motion = GaitLibrary().read("01_01")
+    motion = GaitLibrary().motion("01_01")
     walk = hlm_features(motion.recording("walk"))
     train = tuple(
         Recording(f"take {k}", walk.times, walk.values, walk.channels, walk.units) for k in range(3)

@@ -15,7 +15,7 @@ from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.benchmark.tasks.toy_interpolation_1 import toy_interpolation_1
 from mocapbench.benchmark.tasks.toy_synthesis import toy_synthesis
 from mocapbench.datasets import open_archive
-from mocapbench.metrics import mcc, mlc, spread
+from mocapbench.metrics import mcc, mlc, variance_ratio
 
 SAMPLERS = Path(__file__).parents[1] / "samplers.py"
 
@@ -78,7 +78,9 @@ def test_new_children_resemble_the_references_and_the_control_does_not():
     of_oracle, of_control = ([mlc(each).value for each in scores[m]] for m in (Oracle, Control))
     assert np.min(of_oracle) > 0.3
     assert abs(np.mean(of_control)) < 0.2
-    assert np.mean([spread(each).value for each in scores[Oracle]]) == pytest.approx(1.0, abs=0.2)
+    assert np.mean([variance_ratio(each).value for each in scores[Oracle]]) == pytest.approx(
+        1.0, abs=0.2
+    )
 
 
 @pytest.mark.slow
@@ -90,7 +92,7 @@ def test_the_hierarchy_comes_close_to_the_oracle():
         models = {"mohgp": MOHGP(n_components=3, kernel="rbf"), "oracle": Oracle()}
         for name, model in models.items():
             outcome = problem.outcome(problem.solve(problem.fit(model), 1))
-            found[name].append([metric(outcome).value for metric in (mlc, mcc, spread)])
+            found[name].append([metric(outcome).value for metric in (mlc, mcc, variance_ratio)])
     ours, limit = (np.array(scores).T for scores in found.values())
     assert np.mean(ours[0] - limit[0]) == pytest.approx(0.0, abs=0.05)
     assert np.mean(ours[1] / limit[1]) == pytest.approx(1.0, abs=0.03)
@@ -117,7 +119,7 @@ def test_the_check_tells_a_sampler_from_one_that_has_collapsed(cli, run, records
     for (_, _, label, _), record in records(tmp_path / "run").items():
         scores.get(label, []).append(record["scores"]["mlc"])
     assert np.mean(scores["collapsed"]) > np.mean(scores["resampler"])
-    assert "collapsed fails by spread: test 1 fold 0 0.0" in cli.printed
+    assert "collapsed fails by variance ratio: test 1 fold 0 0.0" in cli.printed
     assert "resampler fails" not in cli.printed
     assert run("resampler,control") == 0
     assert "failed" not in cli.printed
@@ -150,8 +152,10 @@ def scored(tmp_path):
 
 
 SCORES = {
-    "control": [{"mlc": m, "mcc": 7.0 + m, "spread": 1.0} for m in (0.02, -0.03, 0.01)],
-    "replay": [{"mlc": 0.8 + m, "mcc": 9.0 + m, "spread": 1.0} for m in (0.02, -0.03, 0.05)],
+    "control": [{"mlc": m, "mcc": 7.0 + m, "variance_ratio": 1.0} for m in (0.02, -0.03, 0.01)],
+    "replay": [
+        {"mlc": 0.8 + m, "mcc": 9.0 + m, "variance_ratio": 1.0} for m in (0.02, -0.03, 0.05)
+    ],
 }
 
 

@@ -163,20 +163,20 @@ def test_a_motion_cannot_be_changed(motion):
 def test_real_recordings_are_read_whatever_their_line_ends(cmu):
     n_frames = {"cmu:02_01": 343, "cmu:11_01": 597, "cmu:12_01": 523}
     for uri, n in n_frames.items():
-        assert cmu.read(uri).values.shape == (n, 62)
+        assert cmu.recording(uri).values.shape == (n, 62)
 
 
 @pytest.mark.recordings
 def test_the_frame_that_the_capture_cut_short_is_dropped(cmu):
     with pytest.warns(TruncatedFrameWarning, match="lacks 1 of its 29 segments"):
-        motion = cmu.read("cmu:07_12")
-    assert motion.values.shape == (244, 62)
+        recording = cmu.recording("cmu:07_12")
+    assert recording.values.shape == (244, 62)
 
 
 @pytest.mark.recordings
 def test_real_values_are_read_as_they_stand(cmu, data_dir):
-    motion = cmu.read("cmu:35_02")
+    recording = cmu.recording("cmu:35_02")
     lines = (data_dir / "subjects/35/35_02.amc").read_text().split("\n")
     frame = lines[lines.index("100") + 1 : lines.index("101")]
     words = [word for line in frame for word in line.split()[1:]]
-    assert motion.values[99].tolist() == list(map(float, words))
+    assert recording.values[99].tolist() == list(map(float, words))

@@ -7,13 +7,25 @@ import pandas as pd
 import pytest
 from scipy import stats
 
-from mocapbench.reports.analysis.negative_control import LEAST_SPREAD, NEAR_ZERO, negative_control
+from mocapbench.reports.analysis.negative_control import (
+    LEAST_VARIANCE_RATIO,
+    NEAR_ZERO,
+    negative_control,
+)
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.tables.negative_control import negative_control_table
 from mocapbench.reports.tables.scores import score_table
 
-CONTROL = {"mlc": [0.05, -0.06, 0.02, -0.03], "mcc": [7.0, 7.4, 6.8, 7.1], "spread": [5.0] * 4}
-GOOD = {"mlc": [0.8, 0.7, 0.9, 0.75], "mcc": [9.0, 9.3, 8.9, 9.2], "spread": [1.0, 1.2, 0.8, 1.1]}
+CONTROL = {
+    "mlc": [0.05, -0.06, 0.02, -0.03],
+    "mcc": [7.0, 7.4, 6.8, 7.1],
+    "variance_ratio": [5.0] * 4,
+}
+GOOD = {
+    "mlc": [0.8, 0.7, 0.9, 0.75],
+    "mcc": [9.0, 9.3, 8.9, 9.2],
+    "variance_ratio": [1.0, 1.2, 0.8, 1.1],
+}
 
 
 @pytest.fixture
@@ -31,7 +43,7 @@ def check(small):
                 metric=metric,
                 **fields,
             )
-            for metric in ("mlc", "mcc", "spread")
+            for metric in ("mlc", "mcc", "variance_ratio")
         ]
         scores = pd.concat([bundle.scores for bundle in bundles])
         whole = replace(bundles[0], scores=scores)
@@ -88,15 +100,17 @@ def test_pairs_count_and_not_levels(check):
     assert failures(check(entrants)) == {}
 
 
-@pytest.mark.parametrize("spread", [0.0, 0.3, LEAST_SPREAD - 0.01])
-def test_a_sampler_that_collapses_fails_however_well_it_scores(check, spread):
-    collapsed = {"mlc": [0.99] * 4, "mcc": [12.0] * 4, "spread": [spread] * 4}
+@pytest.mark.parametrize("ratio", [0.0, 0.3, LEAST_VARIANCE_RATIO - 0.01])
+def test_a_sampler_that_collapses_fails_however_well_it_scores(check, ratio):
+    collapsed = {"mlc": [0.99] * 4, "mcc": [12.0] * 4, "variance_ratio": [ratio] * 4}
     found = check({"good": GOOD, "collapsed": collapsed, "control": CONTROL})
-    assert failures(found) == {"collapsed": ["spread"]}
+    assert failures(found) == {"collapsed": ["variance ratio"]}
 
 
 def test_drawing_too_much_is_no_way_to_score_well_and_passes(check):
-    assert failures(check({"wide": {**GOOD, "spread": [4.0] * 4}, "control": CONTROL})) == {}
+    assert (
+        failures(check({"wide": {**GOOD, "variance_ratio": [4.0] * 4}, "control": CONTROL})) == {}
+    )
 
 
 @pytest.mark.parametrize(
@@ -132,7 +146,7 @@ def test_who_is_excused_is_shown_and_fails_nothing(check):
 def test_an_entrant_that_lost_its_scores_fails(check):
     lost = {metric: [np.nan] * 4 for metric in GOOD}
     results = check({"lost": lost, "good": GOOD, "control": CONTROL})
-    assert failures(results) == {"lost": ["MLC", "MCC", "spread"]}
+    assert failures(results) == {"lost": ["MLC", "MCC", "variance ratio"]}
     assert negative_control_table(results).rows[0][2].text == "0"
 
 

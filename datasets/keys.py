@@ -1,0 +1,23 @@
+"""Keys of the form ``SUBJECT_TRIAL``, such as ``35_02``, by which CMU names its recordings."""
+
+from __future__ import annotations
+
+import re
+
+__all__ = ["split_key"]
+
+_KEY = re.compile(r"([0-9]{2,3})_([0-9]{2})")
+
+
+def split_key(key: str) -> tuple[str, str]:
+    """Return subject and trial of a key such as ``35_02``.
+
+    Raises
+    ------
+    ValueError
+        If the key is malformed.
+    """
+    match = _KEY.fullmatch(key)
+    if match is None:
+        raise ValueError(f"expected a recording as SUBJECT_TRIAL, such as 35_02, got {key!r}")
+    return match[1], match[2]
