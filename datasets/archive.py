@@ -101,12 +101,6 @@ class Archive:
         library, key = self._here(uri)
         return cast("CMULibrary | GaitLibrary", library).motion(key)
 
-    def recording(self, uri: str):
-        return self.read(uri).recording(uri)
-
-    def skeleton(self, uri: str):
-        return self.read(uri).skeleton
-
     def digest(self, uri: str) -> str:
         """Return what identifies the content of a recording, verified.
 

@@ -10,9 +10,9 @@ takes a 95 % interval by Student's t over all cells:
   its MCC, and the mean of its variance ratio is at least `LEAST_VARIANCE_RATIO`;
 * the control passes where the interval of its mean MLC contains 0 or lies within ± `NEAR_ZERO`.
 
-The variance ratio has only a lower limit. Samples with too little variance score higher MCC and MLC, up to the
-scores of a sampler that repeats its trend. Samples with too much variance score lower, which gains
-nothing.
+The variance ratio has only a lower limit. Samples with too little variance score higher MCC and
+MLC, up to the scores of a sampler that repeats its trend. Samples with too much variance score
+lower, which gains nothing.
 """
 
 from __future__ import annotations

@@ -25,8 +25,8 @@ class Measure:
     Parameters
     ----------
     name : str
-        ``"MLC"``, ``"MCC"`` or ``"variance ratio"``. For an entrant the first two are differences from the
-        control.
+        ``"MLC"``, ``"MCC"`` or ``"variance ratio"``. For an entrant the first two are
+        differences from the control.
     estimate : FoldMean or None
         The mean over all cells; None where there is none.
     passed : bool

@@ -77,9 +77,9 @@ def _count(measure: Measure) -> str:
 def _notes(checked: Sequence[NegativeControlResult]) -> tuple[str, ...]:
     return (
         "Mean over case × fold ± half its 95 % interval (Student’s t). An entrant passes where "
-        "the intervals of MLC and MCC lie above 0 and its mean variance ratio, which is not a difference, "
-        f"is at least {LEAST_VARIANCE_RATIO}. The control passes where the interval of its MLC contains 0 "
-        f"or lies within ± {NEAR_ZERO}.",
+        "the intervals of MLC and MCC lie above 0 and its mean variance ratio, which is not a "
+        f"difference, is at least {LEAST_VARIANCE_RATIO}. The control passes where the interval of "
+        f"its MLC contains 0 or lies within ± {NEAR_ZERO}.",
         "Samples with too little variance score higher MLC and MCC, hence the lower limit of "
         "spread. Samples with too much variance score lower.",
         *(
