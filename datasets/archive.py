@@ -6,9 +6,8 @@ import shlex
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
-from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.cmu import CMULibrary
 from mocapbench.datasets.errors import RecordingUnavailable
@@ -95,11 +94,6 @@ class Archive:
         """
         library, key = self._here(uri)
         return library.skeleton(key)
-
-    def read(self, uri: str) -> Motion:
-        """Return the motion behind a recording of ``cmu`` or ``gait``."""
-        library, key = self._here(uri)
-        return cast("CMULibrary | GaitLibrary", library).motion(key)
 
     def digest(self, uri: str) -> str:
         """Return what identifies the content of a recording, verified.

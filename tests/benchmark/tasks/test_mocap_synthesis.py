@@ -103,7 +103,7 @@ def test_figures_are_named_after_what_models_learn_from(cli, tmp_path):
 @pytest.mark.recordings
 def test_frames_are_those_of_the_footnotes():
     problem = _problem("soccer-synthesis", "10(6)")
-    whole = open_archive().read("cmu:10_06").recording("whole").select(THESIS_CHANNELS).values
+    whole = open_archive().recording("cmu:10_06").select(THESIS_CHANNELS).values
     np.testing.assert_array_equal(problem.train[1].values[[0, -1]], whole[[130, 565]])
     np.testing.assert_array_equal(problem.references[0][[0, -1]], whole[[130, 361]])
     assert problem.times[-1] == pytest.approx(435 / 120)
