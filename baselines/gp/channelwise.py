@@ -1,4 +1,4 @@
-"""What models have in common that are one Gaussian process a channel, nothing shared."""
+"""The base class of models with one independent Gaussian process for each channel."""
 
 from __future__ import annotations
 
@@ -29,29 +29,33 @@ Single = TypeVar("Single", bound=GaussianProcess)
 
 
 class Channelwise(Imputer, Synthesiser, Generic[Single]):
-    """A model for each channel on its own, with parameters of its own.
+    """A separate model for each channel, with separate parameters.
+
+    N is the number of frames of a recording, D that of channels, Q that of components of a layer.
 
     Parameters
     ----------
     n_components : int or mapping of str to int, default=1
-        Number of kernels that are added in each channel, of each layer or of every layer by its
+        Number Q of kernels that are added up in every layer of a channel, or in each layer by its
         name.
     kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
         The kernel of every component.
     n_restarts : int, default=1
-        Number of searches a channel; the first starts from the data.
+        Number of searches for each channel; the first starts from the data, the others at random
+        around it.
     max_iter : int, default=1000
         Largest number of iterations of a search.
     tol : float, default=1e-7
-        Relative gain of an iteration at which a search has converged, as in `GaussianProcess`.
+        Relative gain of an iteration below which a search has converged, as in `GaussianProcess`.
     max_seconds : float or None, default=None
-        Time for all channels together, of which each gets an even share.
+        Time for all channels together, in seconds, divided evenly between them; None sets no
+        limit.
     warm_start : bool, default=False
-        Whether `fit` starts from the parameters of the last one, where there was one.
+        Whether `fit` starts from the parameters of the previous fit, if there was one.
     verbose : bool, default=False
         Whether `fit` prints a line for every iteration.
-    solver : {"auto", "dense", "latent-split", "state-space"}, default="auto"
-        How the likelihood is computed.
+    solver : {"auto", "dense", "latent-split", "state-space", "kronecker"}, default="auto"
+        How the likelihood is computed, as in `GaussianProcess`.
     random_state : int, numpy.random.Generator or None, default=None
         Seed of the random starts.
 
@@ -102,12 +106,25 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         """Return an unfitted model of one channel."""
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
-        """Find each channel's parameters of largest likelihood.
+        """Find the parameters of largest likelihood of every channel.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+            Recordings with the same channels and different names; NaN marks a hidden entry.
+
+        Returns
+        -------
+        Channelwise
+            The model itself.
 
         Raises
         ------
         ValueError
-            As `GaussianProcess.fit`.
+            If a parameter is out of range, there is no recording, channels differ, a name
+            repeats, or a channel is nowhere visible.
+        SingularCovarianceError
+            If the covariance of a channel is singular at a start.
         """
         checked = check_recordings(recordings)
         models = self._unfitted(checked[0].channels)
@@ -124,10 +141,24 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictive distributions of recordings that `fit` has seen.
+        """Return the predictive distributions of recordings given to `fit`.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+            Recordings given to `fit`, in any order, with the same names, times and values.
+
+        Returns
+        -------
+        list of Prediction
+            One for each recording, with a mean and a variance of shape (N, D) in the channels' own
+            units and their squares. Variances include the noise. Visible entries are copied, with
+            variance 0.
 
         Raises
         ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
         ValueError
             If a recording was not given to `fit`, or not with these times and values.
         """
@@ -147,7 +178,29 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Return new recordings, noise included, (n, N, D), as `GaussianProcess.sample`."""
+        """Return draws of new recordings, noise included, as `GaussianProcess.sample` does.
+
+        Parameters
+        ----------
+        times : ndarray of shape (N,)
+            In seconds, in any order.
+        n_samples : int
+            Number n of recordings.
+        random_state : int or numpy.random.Generator
+            Seed of the draws.
+
+        Returns
+        -------
+        ndarray of shape (n, N, D)
+            In the channels' own units.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If the number of recordings is not a positive integer.
+        """
         check_is_fitted(self)
         rng = np.random.default_rng(random_state)
         return np.dstack([model.sample(times, n_samples, rng) for model in self.models_])
@@ -155,9 +208,28 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
     def posterior_covariance(
         self, recording: Recording, times: Frames | None = None
     ) -> NDArray[np.float64]:
-        """Return the joint covariance of a recording's curve, (D M, D M), channel by channel.
+        """Return the joint covariance of a recording's curve given all visible entries.
 
-        As `GaussianProcess.posterior_covariance`; channels do not covary.
+        Noise is left out. Covariances between different channels are 0.
+
+        Parameters
+        ----------
+        recording : Recording
+            One that was given to `fit`.
+        times : ndarray of shape (M,), optional
+            In seconds, in any order; the recording's times if left out.
+
+        Returns
+        -------
+        ndarray of shape (D M, D M)
+            In the channels' own units, with channels slowest.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If the recording was not given to `fit`, or not with these times and values.
         """
         check_is_fitted(self)
         return np.asarray(
@@ -176,7 +248,32 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         random_state: int | np.random.Generator,
         times: Frames | None = None,
     ) -> SampleByFrameByChannel:
-        """Return draws of a recording's curve, (n, M, D), as `GaussianProcess.posterior_draws`."""
+        """Return draws of a recording's curve given all visible entries, without noise.
+
+        Parameters
+        ----------
+        recording : Recording
+            One that was given to `fit`.
+        n_samples : int
+            Number n of draws.
+        random_state : int or numpy.random.Generator
+            Seed of the draws.
+        times : ndarray of shape (M,), optional
+            In seconds, in any order; the recording's times if left out.
+
+        Returns
+        -------
+        ndarray of shape (n, M, D)
+            In the channels' own units.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If the recording was not given to `fit`, or not with these times and values, or the
+            number of draws is not a positive integer.
+        """
         check_is_fitted(self)
         rng = np.random.default_rng(random_state)
         return np.dstack(
@@ -187,7 +284,7 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         )
 
     def _unfitted(self, channels: Sequence[str]) -> Mapping[str, Single]:
-        """Return a model for each channel; a warm start takes up the last one of that channel."""
+        """Return a model to fit for each channel; a warm start takes the channel's previous one."""
         settings = self.get_params() | {"random_state": np.random.default_rng(self.random_state)}
         if self.max_seconds is not None:
             check_positive("max_seconds", self.max_seconds)

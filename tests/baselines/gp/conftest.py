@@ -10,10 +10,12 @@ import pytest
 from hypothesis import strategies as st
 
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.prior.kernels import KERNELS, Kernel
-from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, Layer, Parameters
+from mocapbench.baselines.gp.prior.kernels import KERNELS, StationaryKernel
+from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParameters, Parameters
 from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
-from mocapbench.baselines.gp.reduction.reduction import Reduction, independent, pooled
+from mocapbench.baselines.gp.reduction.independent import independent
+from mocapbench.baselines.gp.reduction.pooled import pooled
+from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow
 from mocapbench.baselines.gp.solvers.dense import Dense
@@ -45,7 +47,7 @@ class Case:
     structure: Structure
     replicates: Replicates
     parameters: Parameters
-    kernel: Kernel
+    kernel: StationaryKernel
     paths: tuple[Path, ...] | None
 
     @property
@@ -151,7 +153,7 @@ def draw_case(
     data = np.where(observed, rng.standard_normal(shape), 0.0)
     times = np.sort(rng.uniform(0.0, 3.0, n_times)) + 0.05 * np.arange(n_times)
     layers = {
-        name: Layer(
+        name: LayerParameters(
             rng.uniform(-1.0, 0.5, n_components),
             Coregionalisation(
                 rng.standard_normal((n_components, n_outputs, rank)),
@@ -255,7 +257,7 @@ def with_outputs() -> Callable[[Parameters, np.ndarray], Parameters]:
 
 def _with_outputs(parameters: Parameters, index: np.ndarray) -> Parameters:
     layers = {
-        name: Layer(
+        name: LayerParameters(
             layer.log_lengthscales,
             Coregionalisation(
                 layer.coregionalisation.weights[:, index],

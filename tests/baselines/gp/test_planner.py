@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gp.planner import PLANS, name_of, work
+from mocapbench.baselines.gp.planner import PLANS, solver_names, work
 
 
 def _plan(example, name="auto"):
-    return name_of(PLANS[name](example.kernel, example.reduction, example.parameters))
+    return solver_names(PLANS[name](example.kernel, example.reduction, example.parameters))
 
 
 def test_many_outputs_are_split_and_few_are_not(case):

@@ -104,8 +104,8 @@ def test_the_covariance_is_one_and_has_the_predicted_variances(solver, by, serve
         covariance = joint_covariance(*problem)
         np.testing.assert_array_equal(covariance, covariance.T)
         assert np.linalg.eigvalsh(covariance).min() > -1e-10 * max(1.0, np.trace(covariance))
-        reduction, solvers, parameters, shares, _ = problem
-        ((_, variance),) = infer(reduction, solvers, parameters, [shares], [times])
+        reduction, solvers, parameters, terms, _ = problem
+        ((_, variance),) = infer(reduction, solvers, parameters, [terms], [times])
         diagonal = np.diagonal(covariance).reshape(-1, len(times)).T
         np.testing.assert_allclose(diagonal, variance, atol=1e-8)
 
@@ -183,7 +183,7 @@ def test_draws_depend_on_the_seed_and_the_times_alone(by, cases):
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_draws_of_two_shares_have_their_moments(solver, by, case, brute_force):
+def test_draws_of_two_terms_have_their_moments(solver, by, case, brute_force):
     example = case(np.random.default_rng(5), n_components=1, n_times=5, masks="complete")
     problem, r = curve(example, by, solver, 1, AT[:3])
     assert len(problem[3]) == 2

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from mocapbench.baselines.gp.posterior.prediction import infer
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.prior.parameters import Layer, Parameters
+from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.dense import Dense
 
 AT = np.array([-0.4, 0.7, 1.3, 5.0])
@@ -171,7 +171,7 @@ def test_without_variance_of_groups_there_are_two_layers(masks, case, example):
 def _sum(one, two):
     """Return the layer whose components are those of both."""
     a, b = one.coregionalisation, two.coregionalisation
-    return Layer(
+    return LayerParameters(
         np.concatenate([one.log_lengthscales, two.log_lengthscales]),
         Coregionalisation(
             np.concatenate([a.weights, b.weights]),

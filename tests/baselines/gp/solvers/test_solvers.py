@@ -48,7 +48,7 @@ def test_solvers_agree(solver, by, served):
     @given(served(solver))
     def law(case):
         (one, by_one), (two, by_two) = (
-            case.reduction.evaluate(by(each, case), case.parameters) for each in (Dense, solver)
+            case.reduction.evaluate(by(method, case), case.parameters) for method in (Dense, solver)
         )
         assert relative(one, two) < 1e-9
         assert relative(by_one, by_two) < 1e-8

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.prior.parameters import Layer, Parameters
+from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.solvers.block import Target
 from mocapbench.baselines.gp.solvers.dense import Dense
@@ -90,14 +90,14 @@ def test_writing_is_the_adjoint_of_reading(case):
     rng = np.random.default_rng(7)
     states = rng.standard_normal((model.size, 1))
     entries = rng.standard_normal((block.observed[..., 0].size, 1))
-    assert np.vdot(entries, model.read(model.units, states)) == pytest.approx(
-        np.vdot(model.write(model.units, entries), states), rel=1e-12
+    assert np.vdot(entries, model.observe(model.units, states)) == pytest.approx(
+        np.vdot(model.observe_adjoint(model.units, entries), states), rel=1e-12
     )
 
 
 def test_copies_without_noise_are_singular(by, case):
     example = case(np.random.default_rng(8), structure="independent", masks="complete")
-    copies = Layer(np.zeros(1), Coregionalisation(np.ones((1, 2, 1)), np.zeros((1, 2))))
+    copies = LayerParameters(np.zeros(1), Coregionalisation(np.ones((1, 2, 1)), np.zeros((1, 2))))
     hopeless = Parameters({"child": copies}, np.full(2, -80.0))
     with pytest.raises(SingularCovarianceError, match=r"raise the noise.*"):
         example.reduction.evaluate(by(StateSpace, example), hopeless)

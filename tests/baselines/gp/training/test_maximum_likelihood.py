@@ -6,9 +6,11 @@ import pytest
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
 from mocapbench.baselines.gp.training import maximum_likelihood as module
+from mocapbench.baselines.gp.training.bounds import bounds
 from mocapbench.baselines.gp.training.coordinates import Coordinates
-from mocapbench.baselines.gp.training.maximum_likelihood import Budget, Space, maximise
-from mocapbench.baselines.gp.training.start import bounds, data_driven, perturbed
+from mocapbench.baselines.gp.training.maximum_likelihood import maximise
+from mocapbench.baselines.gp.training.search import Budget, SearchSpace
+from mocapbench.baselines.gp.training.start import data_driven, perturbed
 
 
 @pytest.fixture
@@ -33,7 +35,7 @@ def _likelihood(example):
 
 def _train(example, likelihood, starts, *, report=None, **budget):
     draws = {name: 1 + (name == "child") for name in example.structure.layers}
-    space = Space(
+    space = SearchSpace(
         Coordinates.around(starts[0], draws), *bounds(starts[0], example.replicates.times)
     )
     spent = Budget(**({"tol": 1e-7, "max_iter": 200, "max_seconds": None} | budget))

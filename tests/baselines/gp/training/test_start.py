@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gp.training.start import bounds, data_driven, perturbed
+from mocapbench.baselines.gp.training.bounds import bounds
+from mocapbench.baselines.gp.training.start import data_driven, perturbed
 
 
 def _start(example, n_components=2, rank=1):
