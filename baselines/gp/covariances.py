@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 
 class LearntCovariances(Coregionalised):
-    """A model whose `fit` leaves the maximum-likelihood parameters and the process they define."""
+    """A Gaussian-process model whose learnt layers and noise can be looked at after `fit`."""
 
     n_jobs: int | None
     tree_: Tree

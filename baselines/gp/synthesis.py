@@ -24,9 +24,9 @@ class NewRecordings(LearntCovariances, Synthesiser):
     ) -> SampleByFrameByChannel:
         """Return draws of new recordings, noise included.
 
-        Each is the trend (see ``sampled_trend``; zero if the model has none) plus independent
-        draws of the layers below it, or of the only layer. The covariances are factorised once
-        for all draws.
+        Each is the trend (see ``sampled_trend``; the outputs' means if the model has none) plus
+        independent draws of the layers below it, or of the only layer. The covariances are
+        factorised once for all draws.
 
         Parameters
         ----------

@@ -61,7 +61,7 @@ class FittedProcess:
     def infer(
         self, curves: Sequence[tuple[PosteriorTerm, ...]], times: Sequence[Frames]
     ) -> list[tuple[FrameByChannel, FrameByChannel]]:
-        """Return the posterior mean and variance, (M, D) each, of every curve at its times."""
+        """Return the posterior mean and variance of every curve at its times: (M, D) each."""
         inferred = infer(self.reduction, self.solvers, self.parameters, curves, times)
         return [
             (self.scaling.restore(mean), variance * self.scaling.scale**2)

@@ -8,7 +8,7 @@ from mocapbench.baselines.common.gaps import runs
 
 
 @given(frames=st.lists(st.booleans(), max_size=30))
-def test_runs_are_unbroken_apart_and_cover_what_is_true(frames):
+def test_runs_are_consecutive_separate_and_cover_all_true_frames(frames):
     frames = np.array(frames, dtype=bool)
     unbroken = runs(frames)
     np.testing.assert_array_equal(np.concatenate([[], *unbroken]), np.flatnonzero(frames))

@@ -9,7 +9,7 @@ OBSERVED = arrays(bool, array_shapes(min_dims=3, max_dims=3, max_side=4), elemen
 
 
 @given(OBSERVED)
-def test_the_sites_show_what_is_visible_and_no_more(observed):
+def test_the_sites_are_the_visible_entries(observed):
     entries = Entries.of(observed)
     sites = np.zeros_like(observed)
     sites[entries.unit, :, entries.time] = entries.visible.T
@@ -20,7 +20,7 @@ def test_the_sites_show_what_is_visible_and_no_more(observed):
 
 
 @given(OBSERVED, st.integers(0, 99))
-def test_placing_what_was_picked_keeps_the_visible_pairs_and_clears_the_rest(observed, seed):
+def test_place_after_pick_keeps_visible_pairs_and_sets_all_others_to_zero(observed, seed):
     entries = Entries.of(observed)
     matrices = np.random.default_rng(seed).standard_normal(entries.shape)
     for d, (matrix, seen) in enumerate(zip(matrices, entries.visible, strict=True)):

@@ -1,4 +1,4 @@
-"""Every solver against the joint Gaussian of all visible entries, and against each other."""
+"""Every solver, compared with the joint Gaussian of all visible entries and with the others."""
 
 import numpy as np
 import pytest
@@ -92,7 +92,7 @@ def test_the_trend_conditions_the_joint_gaussian(solver, by, case, brute_force):
 
 
 @pytest.mark.parametrize("solver", [Dense, LatentSplit])
-def test_a_singular_covariance_names_its_cause(solver, by, case):
+def test_the_error_of_a_singular_covariance_names_the_cause(solver, by, case):
     example = case(np.random.default_rng(1), kernel="rbf", n_times=20, rank=0, masks="complete")
     flat = example.parameters.flat
     flat[-2:] = -80.0

@@ -1,4 +1,4 @@
-"""What the state-space solver promises beside the laws of all solvers."""
+"""Properties of the state-space solver beside those of all solvers."""
 
 from dataclasses import replace
 
@@ -18,7 +18,7 @@ MATERN = ("matern12", "matern32", "matern52")
 
 
 @pytest.mark.parametrize("kernel", MATERN)
-def test_the_order_of_outputs_is_immaterial(kernel, by, case, with_outputs):
+def test_the_order_of_outputs_does_not_matter(kernel, by, case, with_outputs):
     rng = np.random.default_rng(2)
     example = case(rng, kernel=kernel, n_outputs=4, n_components=2)
     order = rng.permutation(4)
@@ -69,7 +69,7 @@ def test_predictions_are_continuous_across_frames(kernel, case):
 
 
 @pytest.mark.parametrize("kernel", MATERN)
-def test_far_from_the_data_the_prior_returns(kernel, case):
+def test_far_from_the_data_the_posterior_is_the_prior(kernel, case):
     example = case(np.random.default_rng(5), kernel=kernel, n_components=2)
     block = example.reduction.blocks[0]
     posterior = StateSpace(example.kernel).condition(block, example.parameters)
@@ -83,7 +83,7 @@ def test_far_from_the_data_the_prior_returns(kernel, case):
     np.testing.assert_allclose(variance, np.stack([prior, prior], axis=1), rtol=1e-12)
 
 
-def test_writing_is_the_adjoint_of_reading(case):
+def test_observe_adjoint_is_the_adjoint_of_observe(case):
     example = case(np.random.default_rng(6), n_components=2, n_outputs=3)
     block = example.reduction.blocks[0]
     model = StateModel.of(example.kernel, block, example.parameters)
