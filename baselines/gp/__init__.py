@@ -10,8 +10,8 @@ Data pass through its folders and modules in this order:
 * `training`: the parameters of largest likelihood are searched for;
 * `posterior`: predictions, joint covariances and draws with these parameters;
 * `estimator`: the base class of the models, on `covariances` (what is learnt), `imputation` (what
-  is predicted) and `synthesis` (what is drawn). `trended` adds a trend to it, and `channelwise`
-  makes one model for each channel.
+  is predicted) and `synthesis` (what is drawn). `trended` adds a trend to it; `channelwise` and
+  `channel_posteriors` make one model for each channel.
 
 ``docs/inference.md`` has the mathematics in the names used here.
 """

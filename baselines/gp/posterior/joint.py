@@ -16,15 +16,13 @@ JMLR 22, Theorem 1). It needs draws of the layers at the times, but no joint cov
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.gp.posterior.sampling import draw_layer
+from mocapbench.baselines.gp.posterior.term import TermInference
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
-from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.solvers.solver import Solver
 
 __all__ = ["draw_curves", "joint_covariance"]
@@ -65,7 +63,7 @@ def joint_covariance(
     total = np.zeros((size, size))
     for term in terms:
         block, solver = reduction.blocks[term.block], solvers[term.block]
-        inference = _TermInference(block, solver, parameters, term.target, times)
+        inference = TermInference(block, solver, parameters, term.target, times)
         # (ρ / h) (K_** − K_* K⁻¹ K_*ᵀ)
         explained = inference.mean_given(inference.cross()).reshape(size, size)
         total += block.variance_scale * (inference.prior() - explained)
@@ -112,76 +110,10 @@ def draw_curves(
     total = np.zeros((n_samples, len(times), len(parameters.log_noise)))
     for term in terms:
         block, solver = reduction.blocks[term.block], solvers[term.block]
-        inference = _TermInference(block, solver, parameters, term.target, times)
+        inference = TermInference(block, solver, parameters, term.target, times)
         # √(ρ/h) f̃_* + K_* K⁻¹ (z − √(ρ/h) z̃)
         data, curves = inference.simulate(n_samples, rng)
         scale = np.sqrt(block.variance_scale)
         correction = inference.mean_given(block.data[term.column] - scale * data)
         total += scale * curves + correction.transpose(0, 2, 1)
     return total
-
-
-@dataclass(frozen=True, eq=False)
-class _TermInference:
-    """Inference of one term of a curve at ``times`` (M,), in its block."""
-
-    block: Block
-    solver: Solver
-    parameters: Parameters
-    target: Target
-    times: Array
-
-    def mean_given(self, data: Array) -> Array:
-        """Return K_* K⁻¹ z for data vectors (k, P, D, N), (k, D, M)."""
-        posterior = self.solver.condition(replace(self.block, data=data), self.parameters)
-        mean, _ = posterior.predict(self.target, self.times)
-        return mean
-
-    def prior(self) -> Array:
-        """Return K_**, (D M, D M)."""
-        size = len(self.parameters.log_noise) * len(self.times)
-        total = np.zeros((size, size))
-        for name in self.block.units:
-            covariance = self._layer(name, self.times).reshape(size, size)
-            total += self.target.prior_scale(name) * covariance
-        return total
-
-    def cross(self) -> Array:
-        """Return the rows of K_* as data vectors, (D M, P, D, N), 0 where hidden."""
-        observed = self.block.observed
-        cross = np.zeros((observed.shape[1] * len(self.times), *observed.shape))
-        for name, factor in self.block.units.items():
-            covariance = self._layer(name, self.block.times)
-            by_row = covariance.reshape(len(cross), 1, *observed.shape[1:])
-            cross += (factor @ self.target.weights[name])[:, None, None] * by_row
-        return np.where(observed, cross, 0.0)
-
-    def simulate(self, n_samples: int, rng: np.random.Generator) -> tuple[Array, Array]:
-        """Return joint prior draws of data vectors (n, P, D, N) and of the target (n, M, D)."""
-        block, times = self.block, np.concatenate([self.block.times, self.times])
-        # All times once, in order, so that equal times get equal values.
-        grid, places = np.unique(times, return_inverse=True)
-        at_entries, at_times = np.split(places, [len(block.times)])
-        # The noise of the data, then the layers' draws in data and target.
-        noise = np.sqrt(self.parameters.noise[:, None] * block.noise_scale)
-        data = noise * rng.standard_normal((n_samples, *noise.shape))
-        curves = np.zeros((n_samples, len(self.times), noise.shape[1]))
-        for name, factor in block.units.items():
-            draws = self._draw(name, grid, n_samples * factor.shape[1], rng)
-            draws = draws.reshape(n_samples, factor.shape[1], *draws.shape[1:])
-            data += np.einsum("pi,nitd->npdt", factor, draws[:, :, at_entries])
-            curves += np.einsum("i,nitd->ntd", self.target.weights[name], draws[:, :, at_times])
-        for name, variance in self.target.independent_variance.items():
-            draws = self._draw(name, grid, n_samples, rng)
-            curves += np.sqrt(variance) * draws[:, at_times]
-        return np.where(block.observed, data, 0.0), curves
-
-    def _draw(self, name: str, times: Array, n_samples: int, rng: np.random.Generator) -> Array:
-        """Return (n, M, D) draws of a layer at ``times`` (M,)."""
-        layer = self.parameters.layers[name]
-        return draw_layer(self.solver.kernel, layer, times, n_samples, rng)
-
-    def _layer(self, name: str, others: Array) -> Array:
-        """Return Σ_q B_q ⊗ k_q of a layer between the times and ``others`` (N,), (D, M, D, N)."""
-        lags = np.subtract.outer(self.times, others)
-        return self.parameters.layers[name].covariance(self.solver.kernel, lags)

@@ -109,7 +109,7 @@ class BruteForce:
         return signal + np.diag(parameters.noise[self.rows[:, 1]])
 
     def _draws(self, name: str) -> np.ndarray:
-        """Return the index of each replicate's draw of a layer, and last that of a new replicate."""
+        """Return the index of each replicate's draw of a layer, and last a new replicate's."""
         nodes = self.case.tree[name]
         known = list(dict.fromkeys(nodes))
         return np.array([*(known.index(node) for node in nodes), 0 if name == PARENT else -1])

@@ -143,6 +143,8 @@ class FilterPass:
 def _innovation(
     model: StateModel, block: Block, parameters: Parameters, predicted: FilteredState, t: int
 ) -> Innovation:
+    """Return the innovation of frame t, given the predicted state x⁻, P⁻."""
+    # H P⁻ and S = H P⁻ Hᵀ + R of the visible entries.
     entries = np.flatnonzero(block.observed[..., t])
     cross = model.observe(model.units, predicted.covariance)[entries]
     covariance = model.observe(model.units, cross.T)[entries]
@@ -150,6 +152,7 @@ def _innovation(
     covariance.flat[:: len(entries) + 1] += noise.flat[entries]
     with refuse_singular(parameters):
         whitening, _ = lapack.dtrtri(np.linalg.cholesky(covariance), lower=1)
+    # e = z − H x⁻
     data = block.data[..., t].reshape(len(block.data), -1).T[entries]
     residual = data - model.observe(model.units, predicted.mean)[entries]
     return Innovation(entries, whitening, whitening @ residual, whitening @ cross)

@@ -46,7 +46,7 @@ class UnitNoise:
 
 
 def moments_of_draws(*problem):
-    """Return the exact mean (D M,) and covariance of `draw_curves`, an affine map of white noise."""
+    """Return the exact mean (D M,) and covariance of `draw_curves`, which is affine in noise."""
     noise = CountedNoise()
     draw_curves(*problem, n_samples=1, rng=noise)
     unit = UnitNoise(noise.count)
@@ -95,9 +95,7 @@ def test_the_covariance_conditions_the_joint_gaussian(solver, by, served, brute_
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_the_covariance_is_symmetric_semi_definite_and_has_the_predicted_variances(
-    solver, by, served
-):
+def test_the_covariance_is_semi_definite_and_has_the_predicted_variances(solver, by, served):
     @settings(deadline=None)
     @given(served(solver), st.integers(0, 3))
     def law(case, which):
@@ -131,9 +129,7 @@ def test_draws_have_exactly_the_moments_of_the_conditioned_gaussian(
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_replicates_without_visible_entries_have_the_covariance_of_the_trend(
-    solver, by, case, brute_force
-):
+def test_the_covariance_between_unseen_replicates_is_the_trends(solver, by, case, brute_force):
     example = case(np.random.default_rng(3), n_components=2, n_replicates=5, masks="complete")
     example.replicates.observed[3:] = False
     example.replicates.data[3:] = 0.0

@@ -86,9 +86,7 @@ def test_a_looser_tolerance_ends_sooner_and_lower(example):
     assert loose.log_likelihood < tight.log_likelihood
 
 
-def test_a_spent_time_limit_ends_a_search_at_its_best_point_and_starts_no_other(
-    example, monkeypatch
-):
+def test_a_spent_time_limit_ends_all_searches_at_the_best_point(example, monkeypatch):
     clock = count()
     monkeypatch.setattr(module, "perf_counter", lambda: float(next(clock)))
     likelihood, start = _likelihood(example), _start(example)

@@ -14,7 +14,7 @@ def _start(example, n_components=2, rank=1):
 @pytest.mark.parametrize("structure", ["hierarchical", "pooled", "independent"])
 @pytest.mark.parametrize("masks", ["complete", "mixed", "frames"])
 @pytest.mark.parametrize("n_components", [1, 4])
-def test_starts_lie_within_bounds_where_gradients_do_not_vanish(
+def test_starts_are_within_bounds_where_gradients_do_not_vanish(
     structure, masks, n_components, case
 ):
     example = case(np.random.default_rng(2), structure=structure, masks=masks, n_times=9)
