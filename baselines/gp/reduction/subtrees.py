@@ -92,7 +92,7 @@ def parent_of(parts: Sequence[Subtree], node: Node, layer: str, shape: Shape) ->
     shape : Shape
         The shape of the subtree, as given by `shape_above`.
     """
-    # The node's own curve: weight 1 on its draw, 0 on the draws below.
+    # The node's curve: weight 1 on the node's draw, 0 on the draws below.
     top = {layer: np.ones(1)}
     zeros = {name: np.zeros(factor.shape[1]) for name, factor in shape.units.items()}
     curves = {node: NodeCurve(zeros | top, ())}
