@@ -11,7 +11,8 @@ from collections.abc import Sequence
 
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.prior.parameters import CHILD
-from mocapbench.baselines.gp.reduction.reduction import Reduction, independent
+from mocapbench.baselines.gp.reduction.independent import independent
+from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
 

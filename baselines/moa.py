@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mocapbench.baselines.gp.prior.parameters import PARENT
-from mocapbench.baselines.gp.reduction.reduction import Reduction, pooled
+from mocapbench.baselines.gp.reduction.pooled import pooled
+from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
 from mocapbench.baselines.gp.trended import TrendedProcess

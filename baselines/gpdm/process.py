@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.cholesky import mirror
 from mocapbench.baselines.common.lapack import potrf, potri
-from mocapbench.baselines.gp.solvers.cholesky import mirror
 from mocapbench.baselines.gpdm.kernels import Kernel
 
 __all__ = ["Conditioned", "Process", "Slopes", "invert"]
