@@ -67,3 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         app(args=None if arguments is None else list(arguments))
     except Exception as error:  # the module that explains errors takes time to import
         sys.exit(cli.explain(error))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,4 +1,4 @@
-"""A model, a task, a library of recordings and a metric in one file, for `mocapbench --plugin`."""
+"""A library of recordings, a model, a task and a metric in one file, for ``--plugin``."""
 
 from functools import partial
 
@@ -11,12 +11,12 @@ from mocapbench.metrics import Direction, Imputation, Metric, Score
 from mocapbench.reports import TaskPage
 
 LENGTHS = {"short": 0.5, "middle": 1.0, "long": 2.0}
-N_FRAMES = 120
-STEPS = (slice(None, -1), slice(1, None))
+SOURCES = tuple(f"pendulums:{name}" for name in LENGTHS)
+N_FRAMES, N_HIDDEN = 120, 20
 
 
 class Pendulums(Library):
-    """Swinging pendulums of three lengths, in degrees; yours would read files of `data_dir`."""
+    """Swinging pendulums of three lengths; a library of yours may read files of `data_dir`."""
 
     def where(self, key):
         return "generated" if key in LENGTHS else ""
@@ -32,7 +32,8 @@ class LinearDynamics(FrameImputer, Inductive):
     """Step through a gap by the linear map that best predicts each training frame from the last."""
 
     def fit(self, recordings):
-        before, after = (np.concatenate([r.values[s] for r in recordings]) for s in STEPS)
+        before = np.concatenate([recording.values[:-1] for recording in recordings])
+        after = np.concatenate([recording.values[1:] for recording in recordings])
         whole = np.isfinite(before + after).all(axis=1)
         self.map_ = np.linalg.lstsq(before[whole], after[whole], rcond=None)[0]
         return self
@@ -47,12 +48,12 @@ class LinearDynamics(FrameImputer, Inductive):
         return values
 
 
-def pendulum_problem(key, n_hidden, seeds, archive):
-    """Hide ``n_hidden`` frames in a row of one pendulum; the others are there to learn from."""
-    pendulums = {name: archive.recording(f"pendulums:{name}") for name in LENGTHS}
+def pendulum_problem(key, seeds, archive):
+    """Hide twenty frames in a row of one pendulum, and give the others to learn from."""
+    pendulums = dict(zip(LENGTHS, map(archive.recording, SOURCES), strict=True))
     held_out = pendulums.pop(key)
-    start = int(seeds.generator("mask").integers(1, N_FRAMES - n_hidden))
-    hidden = hide_frames(start, start + n_hidden, *held_out.values.shape)
+    start = int(seeds.generator("mask").integers(1, N_FRAMES - N_HIDDEN))
+    hidden = hide_frames(start, start + N_HIDDEN, *held_out.values.shape)
     return ImputeProblem.of_one(held_out, hidden, tuple(pendulums.values()), seen_in_fit=False)
 
 
@@ -61,34 +62,25 @@ def worst_error(outcome):
     return Score(float(np.abs(outcome.truth - outcome.mean)[outcome.hidden].max()))
 
 
-CASES = tuple(
-    Case(
-        f"{key}, {n_hidden} frames",
-        partial(pendulum_problem, key, n_hidden),
-        columns={"pendulum": key, "hidden frames": n_hidden},
-        sources=tuple(f"pendulums:{name}" for name in LENGTHS),
-    )
-    for key in LENGTHS
-    for n_hidden in (10, 30)
-)
-PAGE = TaskPage(
-    title="Pendulums",
-    reference="an example",
-    description="Fill a gap in the swing of a pendulum, having seen others of other lengths.",
-    metrics=("rms_per_frame", "worst_error"),
-    illustrated=("long, 30 frames",),
-    figures=(GapError(),),
-)
-
-WORST_ERROR = Metric("worst_error", "Worst error", Direction.LOWER, Imputation, worst_error)
 PENDULUMS = Task(
     name="pendulums",
     version=1,
-    page=PAGE,
     requires=(FrameImputer, Inductive),
-    cases=CASES,
-    profiles={"quick": Profile(tuple(case.name for case in CASES), folds=3)},
+    cases=tuple(
+        Case(key, partial(pendulum_problem, key), {"length, m": LENGTHS[key]}, SOURCES)
+        for key in LENGTHS
+    ),
+    profiles={"quick": Profile(tuple(LENGTHS), folds=3)},
+    page=TaskPage(
+        title="Pendulums",
+        reference="an example",
+        description="Fill a gap in the swing of a pendulum, having seen others of other lengths.",
+        metrics=("rms_per_frame", "worst_error"),
+        illustrated=("long",),
+        figures=(GapError(),),
+    ),
 )
+WORST_ERROR = Metric("worst_error", "Worst error", Direction.LOWER, Imputation, worst_error)
 
 LIBRARIES = {"pendulums": Pendulums}
 MODELS = {"linear-dynamics": LinearDynamics}
