@@ -1,6 +1,6 @@
 """Models, tasks, metrics and libraries of recordings by name: four doors, alike.
 
-Ours and third parties' are found in the same way: by entry points of the groups
+Ours and those of other packages are found in the same way: by entry points of the groups
 ``mocapbench.models``, ``mocapbench.tasks``, ``mocapbench.metrics`` and ``mocapbench.libraries``. A
 file of the user's own adds to any of them for one run (`mocapbench.benchmark.plugins`).
 """

@@ -16,7 +16,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark.comparison.contrasts import Side
+    from mocapbench.benchmark.comparison.sides import Side
 
 __all__ = ["app"]
 

@@ -6,7 +6,7 @@
         mocapbench.json             says that the folder is ours
         mocapbench.lock             held by a run that writes
         plan.json                   the keys of the last run, in table order
-        check.json                  what the last regression check of that run found
+        check.json                  the result of its last regression check
         records/<score key>.json
         predictions/<fit key>.npz
 
@@ -182,13 +182,13 @@ class Store:
             np.savez_compressed(file, **arrays)
 
     def save_plan(self, plan: Mapping[str, Any]) -> None:
-        """Write what the last run was asked to do; a check of an earlier one is dropped."""
+        """Write the request of the last run; the check of an earlier one is dropped."""
         (self.path / _CHECK).unlink(missing_ok=True)
         with atomic_write(self.path / "plan.json") as file:
             file.write(json.dumps(plan, indent=1).encode())
 
     def load_plan(self) -> Mapping[str, Any]:
-        """Return what the last run was asked to do.
+        """Return the request of the last run.
 
         Raises
         ------
@@ -210,12 +210,12 @@ class Store:
         return plan
 
     def save_check(self, check: Mapping[str, Any]) -> None:
-        """Write what a regression check of the last run found."""
+        """Write the result of a regression check of the last run."""
         with atomic_write(self.path / _CHECK) as file:
             file.write(json.dumps(check, indent=1).encode())
 
     def load_check(self) -> Mapping[str, Any] | None:
-        """Return what the last run's check found; None if it was not checked, or is damaged."""
+        """Return the result of the last run's check; None if there is none, or it is damaged."""
         path = self.path / _CHECK
         if not path.is_file():
             return None
