@@ -27,5 +27,5 @@ def test_examples_are_right(name, nothing_here):
 
 
 @pytest.mark.parametrize("name", WITH_EXAMPLES)
-def test_what_users_meet_first_has_an_example(name):
+def test_the_main_names_have_an_example(name):
     assert doctest.DocTestParser().get_examples(getattr(datasets, name).__doc__)
