@@ -9,7 +9,13 @@ import numpy as np
 from mocapbench.baselines.common.validation import check_choice, check_count
 from mocapbench.baselines.gpdm.dynamics import Dynamics, Markov
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
-from mocapbench.baselines.gpdm.kernels import RBF, Kernel, Linear, Scaled, Sum
+from mocapbench.baselines.gpdm.kernels import (
+    LatentKernel,
+    LinearKernel,
+    RBFKernel,
+    ScaledKernel,
+    SumKernel,
+)
 from mocapbench.baselines.gpdm.learning import (
     Balanced,
     FixedDynamics,
@@ -22,10 +28,10 @@ from mocapbench.baselines.gpdm.two_stage import TwoStage
 
 __all__ = ["GPDM"]
 
-_KERNELS: Mapping[str, Callable[[int], Kernel]] = {
-    "linear+rbf": lambda order: Sum(Scaled(RBF(order)), Linear(order)),
-    "rbf": lambda order: Scaled(RBF(order)),
-    "linear": Linear,
+_KERNELS: Mapping[str, Callable[[int], LatentKernel]] = {
+    "linear+rbf": lambda order: SumKernel(ScaledKernel(RBFKernel(order)), LinearKernel(order)),
+    "rbf": lambda order: ScaledKernel(RBFKernel(order)),
+    "linear": LinearKernel,
 }
 _CARRY = {"position": 0.0, "velocity": 1.0}
 _FIXED_ALPHA = (0.009, 0.2, 0.001, 1e6)  # §4.3
@@ -52,7 +58,7 @@ class GPDM(DynamicalModel):
     n_latent : int, default=3
         Latent dimensions; as many as the data have, if they are fewer.
     dynamics : {"linear+rbf", "rbf", "linear"}, default="linear+rbf"
-        Kernel of the dynamics, (12) and (11).
+        LatentKernel of the dynamics, (12) and (11).
     order : {1, 2}, default=1
         On how many positions the next one depends, (17).
     predicts : {"position", "velocity"}, default="position"
@@ -77,9 +83,9 @@ class GPDM(DynamicalModel):
     Attributes
     ----------
     channels_ : tuple of D str
-    sequences_ : Sequences
+    sequences_ : TrainingSequences
         The training frames.
-    estimate_ : Estimate
+    estimate_ : PointEstimate
         Latent positions and parameters.
     conditional_ : Conditional
         The distribution of a further sequence.
@@ -93,7 +99,7 @@ class GPDM(DynamicalModel):
     References
     ----------
     J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical Models for Human
-    Motion, IEEE TPAMI 30(2).
+    ConditionedDynamics, IEEE TPAMI 30(2).
     """
 
     def __init__(
