@@ -54,7 +54,7 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
     def latent_walks(
         self, n_frames: int, n_samples: int, random_state: int | np.random.Generator
     ) -> tuple[Array, Array]:
-        """Return the mean prediction (N, d) and samples (n, N, d), from the first training frame."""
+        """Return the mean prediction (N, d) and samples (n, N, d) from the first training frame."""
         check_is_fitted(self)
         dynamics, first = self.conditional_.dynamics, self._first(self._origins()[0])
         sampler = HybridMonteCarlo(n_samples, _BURN_IN, _LEAPS, _STEP, _BURN_IN)
