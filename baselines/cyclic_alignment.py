@@ -14,7 +14,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.em import Run
 from mocapbench.baselines.alignment.estimator import CycleAligner
-from mocapbench.baselines.alignment.fitting import Settings, best_fit
+from mocapbench.baselines.alignment.fitting import EMSettings, best_fit
 from mocapbench.baselines.alignment.inference import moments, refine
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
@@ -211,7 +211,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         return Hyperparameters(self.regularisation, PRIORS[self.prior])
 
     def _learn(self, rng: np.random.Generator) -> Run:
-        self.settings_ = Settings(
+        self.settings_ = EMSettings(
             n_styles=self.n_styles,
             n_states=self.cycle_length_,
             max_jump=self.max_jump,

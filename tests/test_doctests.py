@@ -27,7 +27,8 @@ def _module_names():
         package = importlib.import_module(f"mocapbench.{part}")
         yield package.__name__
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
-            yield module.name
+            if not module.name.endswith("__main__"):
+                yield module.name
 
 
 def _has_example(name):

@@ -1,13 +1,13 @@
 import numpy as np
 
-from mocapbench.baselines.alignment.fitting import Settings, best_fit
+from mocapbench.baselines.alignment.fitting import EMSettings, best_fit
 from mocapbench.baselines.alignment.inference import infer, moments, refine
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Sequences
 
 HYPER = Hyperparameters(0.1, PRIORS["normalised"])
-SETTINGS = Settings(
+SETTINGS = EMSettings(
     n_styles=2,
     n_states=12,
     max_jump=2,
