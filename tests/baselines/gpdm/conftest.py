@@ -1,6 +1,9 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from mocapbench.baselines.gpdm.conditional import Conditional
 from mocapbench.baselines.gpdm.dynamics import Markov, Static
 from mocapbench.baselines.gpdm.kernels import LinearKernel, RBFKernel, ScaledKernel, SumKernel
 from mocapbench.baselines.gpdm.posterior import JointPosterior, PointEstimate
@@ -54,5 +57,24 @@ def numerical_gradient(function, at, step=1e-6):
     return gradient
 
 
-def relative_error(found, expected):
-    return np.linalg.norm(found - expected) / max(np.linalg.norm(expected), 1e-12)
+def relative_error(actual, expected):
+    return np.linalg.norm(actual - expected) / max(np.linalg.norm(expected), 1e-12)
+
+
+@pytest.fixture
+def conditional():
+    """Return the model of two smooth training sequences of seven and five frames, second order."""
+    rng, dynamics = np.random.default_rng(0), DYNAMICS["second order"]
+    posterior, estimate = smooth_posterior(dynamics)
+    noise = 0.01 * rng.standard_normal(estimate.x.shape)
+    return Conditional.of(posterior, replace(estimate, x=estimate.x + noise))
+
+
+def smooth_posterior(dynamics):
+    """Return a posterior of poses on a circle, and an estimate with their latent positions."""
+    angle = np.concatenate([0.6 * np.arange(length) + 0.45 * length for length in LENGTHS])
+    x = np.column_stack([np.sin(angle), np.cos(angle)])
+    y = x @ np.array([[1.0, 0.5, -1.0, 0.2], [0.0, 1.0, 0.4, -0.7]])
+    posterior = JointPosterior(Process(RBFKernel()), dynamics, y, LENGTHS, weight=2.0)
+    start = Process(RBFKernel()).start
+    return posterior, PointEstimate(x, dynamics.start, start, np.ones(4))

@@ -7,9 +7,7 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from mocapbench.baselines.gpdm.conditional import Conditional, Query
-from mocapbench.baselines.gpdm.kernels import RBFKernel, ScaledKernel
 from mocapbench.baselines.gpdm.posterior import KAPPA
-from mocapbench.baselines.gpdm.process import Process, invert
 
 from .conftest import (
     DYNAMICS,
@@ -21,20 +19,20 @@ from .conftest import (
 )
 
 
-def test_the_slopes_of_the_posterior_are_finite_differences(dynamics):
+def test_the_gradients_of_the_posterior_are_finite_differences(dynamics):
     rng = np.random.default_rng(0)
     posterior, at = random_posterior(rng, dynamics), random_estimate(rng, dynamics, sum(LENGTHS))
-    found = posterior.value_and_gradients(at)
+    gradients = posterior.value_and_gradients(at)
     for name in ("x", "alpha", "beta"):
         expected = numerical_gradient(
             lambda v, name=name: posterior.value_and_gradients(replace(at, **{name: v})).value,
             getattr(at, name),
         )
-        assert relative_error(getattr(found, name), expected) < 1e-6, name
+        assert relative_error(getattr(gradients, name), expected) < 1e-6, name
 
 
 @pytest.mark.parametrize("n_visible", [0, 3, 6])
-def test_the_slope_of_the_conditional_is_finite_differences(dynamics, n_visible):
+def test_the_gradient_of_the_conditional_is_finite_differences(dynamics, n_visible):
     rng = np.random.default_rng(1)
     posterior, at = random_posterior(rng, dynamics), random_estimate(rng, dynamics, sum(LENGTHS))
     model = Conditional.of(posterior, at)
@@ -90,7 +88,7 @@ def test_the_posterior_is_the_sum_of_normal_densities():
     np.testing.assert_allclose(posterior.value_and_gradients(at).value, expected, rtol=1e-10)
 
 
-def test_the_best_scales_have_no_slope():
+def test_the_best_scales_have_no_gradient():
     rng, dynamics = np.random.default_rng(5), DYNAMICS["linear+rbf"]
     posterior, at = random_posterior(rng, dynamics), random_estimate(rng, dynamics, sum(LENGTHS))
     best = posterior.best_scales(posterior.inverse(at.x, at.beta))
@@ -100,22 +98,3 @@ def test_the_best_scales_have_no_slope():
         return posterior.value_and_gradients(replace(at, scales=scales)).value + regular
 
     np.testing.assert_allclose(numerical_gradient(objective, best), 0.0, atol=1e-6)
-
-
-def test_moments_and_marginals_agree():
-    rng = np.random.default_rng(6)
-    process = Process(ScaledKernel(RBFKernel()))
-    at = process.conditioned(process.start, rng.normal(size=(8, 2)), rng.normal(size=(8, 3)))
-    new = rng.normal(size=(5, 2))
-    mean, covariance, _ = at.moments(new)
-    means, variances = at.marginals(new)
-    np.testing.assert_allclose(mean, means)
-    np.testing.assert_allclose(np.diagonal(covariance), variances)
-
-
-def test_what_no_jitter_makes_positive_definite_is_refused():
-    with pytest.raises(np.linalg.LinAlgError, match="positive definite"):
-        invert(-np.eye(3))
-    inverse, log_determinant = invert(np.ones((3, 3)))
-    assert np.isfinite(inverse).all()
-    assert np.isfinite(log_determinant)
