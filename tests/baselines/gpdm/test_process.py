@@ -10,9 +10,10 @@ from mocapbench.baselines.gpdm.process import Process, invert
 from .conftest import linear_rbf, numerical_gradient, relative_error
 
 N, M, P = 7, 4, 3
+KERNELS = {"rbf": ScaledKernel(RBFKernel()), "linear+rbf": linear_rbf(1)}
 
 
-@pytest.fixture(params=["rbf", "linear+rbf"])
+@pytest.fixture(params=KERNELS)
 def problem(request):
     """Return a process, its log-parameters, and inputs and targets, given and new."""
     process = Process(
