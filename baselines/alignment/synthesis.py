@@ -74,8 +74,8 @@ def blended(state: State, weights: Array) -> Array:
 def _poses(cycles: Array, position: Array) -> Array:
     """Return cycles (M, …) at positions (N,) on the ring, interpolated linearly: (N, …)."""
     state, n_states = position.astype(np.intp), len(cycles)
-    share = (position - state).reshape(-1, *[1] * (cycles.ndim - 1))
-    return (1.0 - share) * cycles[state % n_states] + share * cycles[(state + 1) % n_states]
+    fraction = (position - state).reshape(-1, *[1] * (cycles.ndim - 1))
+    return (1.0 - fraction) * cycles[state % n_states] + fraction * cycles[(state + 1) % n_states]
 
 
 def _check_weights(weights: Array, n_styles: int) -> None:

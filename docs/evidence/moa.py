@@ -6,7 +6,7 @@ Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017.
 ::
 
     python docs/evidence/moa.py masks [TEST …]     # one dataset, five masks, as in Tables 1–3
-    python docs/evidence/moa.py visible            # 10 and 20 visible points of one dataset, Table 7
+    python docs/evidence/moa.py visible            # 10 and 20 visible points of one dataset
     python docs/evidence/moa.py walking [FOLDS]    # Table 11, each walk mapped by its own range
 """
 

@@ -115,7 +115,7 @@ def variants(max_iter: int) -> Iterator[dict[str, object]]:
 def _measures(
     fitted: TrendedProcess, train: Sequence[Recording], references: Mapping[str, np.ndarray]
 ) -> dict[str, float]:
-    """Return the variance of samples in time over that of half the recordings' difference.
+    """Return the variance of samples in time over half that of the recordings' difference.
 
     It is the median over channels. The MLC of the samples with each reference is returned too.
     """

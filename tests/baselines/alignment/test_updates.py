@@ -1,4 +1,4 @@
-"""Each update's closed form; that none lowers the bound is asked in ``test_bound``."""
+"""Each update's closed form; ``test_bound`` checks that none lowers the bound."""
 
 from dataclasses import replace
 
@@ -41,9 +41,8 @@ def test_probabilities_sum_to_one(posed):
 def test_a_style_without_visible_entries_keeps_its_precision(posed):
     labels = np.tile([1.0, 0.0, 0.0], (4, 1))
     state = replace(posed.state, labels=labels)
-    precisions = updates.update_precisions(
-        state, posed.sequences, posed.hyper
-    ).parameters.precisions
+    after = updates.update_precisions(state, posed.sequences, posed.hyper)
+    precisions = after.parameters.precisions
     np.testing.assert_array_equal(precisions[1:], state.parameters.precisions[1:])
     assert (precisions <= posed.hyper.max_precision).all()
 
