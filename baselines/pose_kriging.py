@@ -66,7 +66,7 @@ class PoseKriging(FrameImputer, Inductive):
         The channels of the recordings given to `fit`.
     matchers_ : list of PoseViterbi
         One for each training recording with two consecutive complete frames.
-    spread_ : float
+    total_variance_ : float
         The sum S of the channels' variances in training.
 
     References
@@ -124,7 +124,7 @@ class PoseKriging(FrameImputer, Inductive):
             raise ValueError("expected two consecutive complete frames in training, got none")
         self.matchers_ = [PoseViterbi(self.smoothness).fit([recording]) for recording in usable]
         frames = np.concatenate([matcher.frames_ for matcher in self.matchers_])
-        self.spread_ = float(frames.var(axis=0).sum()) or 1.0
+        self.total_variance_ = float(frames.var(axis=0).sum()) or 1.0
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -164,7 +164,7 @@ class PoseKriging(FrameImputer, Inductive):
         factor = cho_factor(noisy, lower=True)
         residual = (recording.values - matched)[visible]
         dual = cho_solve(factor, residual)
-        scales = np.maximum((residual * dual).mean(axis=0), _LEAST_VARIANCE * self.spread_)
+        scales = np.maximum((residual * dual).mean(axis=0), _LEAST_VARIANCE * self.total_variance_)
         cross = prior[:, visible]
         explained = (cross * cho_solve(factor, cross.T).T).sum(axis=1)
         variance = np.diagonal(prior) + _NOISE - explained
@@ -174,7 +174,7 @@ class PoseKriging(FrameImputer, Inductive):
         """Return the prior covariance (N, N) of a channel's residual without noise, up to scale."""
         times = np.arange(len(matched))
         drift = np.exp(-np.abs(np.subtract.outer(times, times)) / self.time_lengthscale)
-        distances = euclidean_distances(matched, squared=True) / self.spread_
+        distances = euclidean_distances(matched, squared=True) / self.total_variance_
         poses = np.exp(-0.5 * distances / self.pose_lengthscale**2)
         return np.asarray(_CONSTANT + _DRIFT * drift + self.pose_variance * poses)
 

@@ -19,7 +19,7 @@ which a model inherits to declare that it has the ability:
 * `Informed` requires the generating process (the oracle);
 * `Misinformed` requires a process unrelated to the recordings (the negative control).
 
-Numbers of shapes: N frames, D channels, K recordings, M states of a cycle, C styles, Q components,
+Symbols in shapes: N frames, D channels, K recordings, M states of a cycle, C styles, Q components,
 d latent dimensions, n samples.
 """
 
