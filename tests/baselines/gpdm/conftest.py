@@ -6,7 +6,7 @@ import pytest
 from mocapbench.baselines.gpdm.conditional import Conditional
 from mocapbench.baselines.gpdm.dynamics import Markov, Static
 from mocapbench.baselines.gpdm.kernels import LinearKernel, RBFKernel, ScaledKernel, SumKernel
-from mocapbench.baselines.gpdm.posterior import JointPosterior, PointEstimate
+from mocapbench.baselines.gpdm.posterior import KAPPA, JointPosterior, PointEstimate
 from mocapbench.baselines.gpdm.process import Process
 
 LENGTHS = (7, 5)
@@ -78,3 +78,20 @@ def smooth_posterior(dynamics):
     posterior = JointPosterior(Process(RBFKernel()), dynamics, y, LENGTHS, weight=2.0)
     start = Process(RBFKernel()).start
     return posterior, PointEstimate(x, dynamics.start, start, np.ones(4))
+
+
+def objective(posterior, estimate):
+    """Return the negative log-posterior, the terms in the scales alone included."""
+    scales = estimate.scales
+    prior = 0.5 * (scales**2).sum() / KAPPA**2 - len(posterior.y) * np.log(scales).sum()
+    return posterior.value_and_gradients(estimate).value + prior
+
+
+@pytest.fixture
+def posterior():
+    return smooth_posterior(DYNAMICS["linear+rbf"])[0]
+
+
+@pytest.fixture
+def start():
+    return smooth_posterior(DYNAMICS["linear+rbf"])[1]

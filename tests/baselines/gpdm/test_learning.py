@@ -5,43 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
 from mocapbench.baselines.gpdm.learning import (
     Balanced,
     FixedDynamics,
     MaximumAPosteriori,
     with_best_scales,
 )
-from mocapbench.baselines.gpdm.posterior import KAPPA
-from mocapbench.baselines.gpdm.two_stage import TwoStage, optimise_latents
 
-from .conftest import DYNAMICS, smooth_posterior
+from .conftest import DYNAMICS, objective, smooth_posterior
 
 ALPHA = (0.009, 0.2, 0.001, 1e6)
-SAMPLER = HybridMonteCarlo(n_samples=3, n_burn=1, n_leaps=3, step=3e-3)
 ALGORITHMS = {
     "map": MaximumAPosteriori(5, 5),
     "balanced": Balanced(5, 5),
     "fixed dynamics": FixedDynamics(5, 5, ALPHA),
-    "two-stage": TwoStage(SAMPLER, n_rounds=1, n_turns=1, n_steps=3, n_last=5),
 }
-
-
-@pytest.fixture
-def posterior():
-    return smooth_posterior(DYNAMICS["linear+rbf"])[0]
-
-
-@pytest.fixture
-def start():
-    return smooth_posterior(DYNAMICS["linear+rbf"])[1]
-
-
-def objective(posterior, estimate):
-    """Return the negative log-posterior, the terms in the scales alone included."""
-    scales = estimate.scales
-    prior = 0.5 * (scales**2).sum() / KAPPA**2 - len(posterior.y) * np.log(scales).sum()
-    return posterior.value_and_gradients(estimate).value + prior
 
 
 @pytest.mark.parametrize("name", ALGORITHMS)
@@ -67,14 +45,6 @@ def test_the_best_scales_lower_the_objective(posterior, start):
         assert objective(posterior, best) < objective(posterior, other)
 
 
-def test_optimised_positions_lower_the_objective_and_keep_the_rest(posterior, start):
-    ends = [optimise_latents(posterior, start, n_steps) for n_steps in (1, 3, 10)]
-    values = [objective(posterior, end) for end in (start, *ends)]
-    assert (np.diff(values) <= 1e-9).all()
-    for name in ("alpha", "beta", "scales"):
-        np.testing.assert_array_equal(getattr(ends[-1], name), getattr(start, name))
-
-
 def test_only_the_balanced_model_weighs_the_dynamics():
     weights = {name: learning.weight(12, 3) for name, learning in ALGORITHMS.items()}
     assert weights.pop("balanced") == 4.0
@@ -90,11 +60,3 @@ def test_fixed_dynamics_need_as_many_parameters(start):
     posterior, start = smooth_posterior(DYNAMICS["rbf"])
     with pytest.raises(ValueError, match="expected dynamics with 4 parameters"):
         ALGORITHMS["fixed dynamics"].learn(posterior, start, np.random.default_rng(0))
-
-
-def test_two_stage_learning_is_seeded(posterior, start):
-    def learn(seed):
-        return ALGORITHMS["two-stage"].learn(posterior, start, np.random.default_rng(seed)).x
-
-    np.testing.assert_array_equal(learn(1), learn(1))
-    assert not np.array_equal(learn(1), learn(2))
