@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis.extra.numpy import arrays
 
 from mocapbench.reports import HeatMap, HeatMaps, render
+from mocapbench.reports.figures.cells import levels_of, rectangles
 from mocapbench.reports.figures.draw import draw
-from mocapbench.reports.figures.heat_maps import _rectangles, levels_of
 
 SMALL = HeatMaps(
     task="toy-interpolation-1",
@@ -42,7 +42,7 @@ def test_levels_are_nine_of_equal_width_and_what_lies_beyond_is_in_the_outermost
 
 @given(chosen=arrays(bool, (4, 6)))
 def test_the_rectangles_are_the_chosen_cells(chosen):
-    path, drawn = _rectangles(chosen), np.zeros((4, 6), dtype=int)
+    path, drawn = rectangles(chosen), np.zeros((4, 6), dtype=int)
     for (left, top), _, (right, bottom), *_ in path.vertices.reshape(-1, 5, 2).astype(int):
         drawn[top:bottom, left:right] += 1
     np.testing.assert_array_equal(drawn, chosen)
