@@ -103,7 +103,7 @@ def test_the_page_has_a_colour_for_each_level_by_day_and_by_night(page):
     assert [page.count(f"--level-{level}: #") for level in range(9)] == [2] * 9
 
 
-def test_what_is_refused():
+def test_invalid_heat_maps_are_refused():
     with pytest.raises(ValueError, match=r"3 rows and columns, as many as labels, got .*\(2, 2\)"):
         replace(SMALL, maps=(HeatMap("", np.eye(2)),))
     with pytest.raises(ValueError, match=r"got shapes \[\]"):
