@@ -21,9 +21,7 @@ import pandas as pd
 
 from mocapbench.baselines.lmc_independent import LMCIndependent
 from mocapbench.baselines.moa import MOA
-from mocapbench.benchmark.problems.impute import ImputeProblem, Unit
-from mocapbench.benchmark.registry import METRICS, TASKS
-from mocapbench.benchmark.tasks.seeds import Seeds
+from mocapbench.benchmark import METRICS, TASKS, Address, Case, ImputeProblem, Seeds, Task, Unit
 from mocapbench.datasets import Recording, open_archive
 
 MODELS = {"pooled": MOA, "independent": LMCIndependent}
@@ -40,20 +38,26 @@ class OneDataset(Seeds):
     def generator(self, stream: str) -> np.random.Generator:
         """Return the generator of a stream; that of the data is the same in every fold."""
         fold = self.dataset if stream == "data" else self.fold
-        return np.random.default_rng(replace(self, fold=fold).sequence(stream))
+        return Seeds(self.root, self.address._replace(fold=fold)).generator(stream)
 
 
 def problem(task: str, case: str, dataset: int, mask: int) -> ImputeProblem:
     """Return the problem of a toy case with a given dataset and mask."""
     known = TASKS.get(task)
-    seeds = OneDataset(0, known.name, known.version, case, mask, dataset=dataset)
-    return known.problem(known.case(case), seeds, open_archive())
+    address = Address(known.name, known.version, case, mask)
+    return known.case(case).problem(OneDataset(0, address, dataset), open_archive())
 
 
-def scores(posed: ImputeProblem, name: str, **settings: object) -> dict[str, float]:
+def posed(task: Task, case: Case, fold: int, name: str = "") -> ImputeProblem:
+    """Return the problem of a case, drawn by the seeds of the case called ``name`` or its own."""
+    address = Address(task.name, task.version, name or case.name, fold)
+    return case.problem(Seeds(0, address), open_archive())
+
+
+def scores(problem: ImputeProblem, name: str, **settings: object) -> dict[str, float]:
     """Return the scores of a model on a problem."""
-    model = MODELS[name](random_state=0, **settings).fit(posed.train)
-    outcome = posed.outcome(posed.solve(model, 0))
+    model = MODELS[name](random_state=0, **settings).fit(problem.train)
+    outcome = problem.outcome(problem.solve(model, 0))
     return {title: METRICS.get(metric)(outcome).value for metric, title in SCORES.items()}
 
 
@@ -95,35 +99,34 @@ def visible() -> pd.DataFrame:
 def _shown(name: str, missing: str, n_visible: int, fold: int) -> ImputeProblem:
     """Return the problem of a case, on the data of the case with 10 visible points."""
     task = TASKS.get(name)
-    settings = {"visible": n_visible, "missing in": missing}
-    (case,) = (case for case in task.cases if dict(case.settings) == settings)
-    (ten,) = (case for case in task.cases if dict(case.settings) == settings | {"visible": 10})
-    return task.problem(case, Seeds(0, task.name, task.version, ten.name, fold), open_archive())
+    columns = {"visible": n_visible, "missing in": missing}
+    (case,) = (case for case in task.cases if case.columns == columns)
+    (ten,) = (case for case in task.cases if case.columns == columns | {"visible": 10})
+    return posed(task, case, fold, ten.name)
 
 
 def walking(n_folds: int) -> pd.DataFrame:
     """Return Table 11 with each walk mapped to [0, 1] by its own range before training."""
     task = TASKS.get("walking-interpolation")
     rows = [
-        {"visible": case.settings["visible frames"], "model": name}
-        | scores(_in_own_range(task.problem(case, seeds, open_archive())), name, max_iter=500)
+        {"visible": case.columns["visible frames"], "model": name}
+        | scores(_in_own_range(posed(task, case, fold)), name, max_iter=500)
         for case in task.cases
         if not case.synthetic
         for fold in range(n_folds)
-        for seeds in [Seeds(0, task.name, task.version, case.name, fold)]
         for name in MODELS
     ]
     return pd.DataFrame(rows).groupby(["visible", "model"], sort=False).mean()
 
 
-def _in_own_range(posed: ImputeProblem) -> ImputeProblem:
+def _in_own_range(problem: ImputeProblem) -> ImputeProblem:
     """Return the problem with every recording mapped to [0, 1] by its own complete range."""
-    (given,), (truth,) = posed.given, posed.truth
-    unit = posed.unit
+    (given,), (truth,) = problem.given, problem.truth
+    unit = problem.unit
     first = given.with_values(unit.of(given.values))
     return replace(
-        posed,
-        train=(first, *map(_normalised, posed.train[1:])),
+        problem,
+        train=(first, *map(_normalised, problem.train[1:])),
         given=(first,),
         truth=(unit.of(truth),),
         unit=Unit.natural(truth.shape[1]),

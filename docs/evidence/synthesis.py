@@ -27,9 +27,16 @@ from sklearn.preprocessing import minmax_scale
 from mocapbench.baselines.gp.trended import TrendedProcess
 from mocapbench.baselines.moa import MOA
 from mocapbench.baselines.mohgp import MOHGP
-from mocapbench.benchmark.registry import METRICS
-from mocapbench.benchmark.tasks.mocap_synthesis import KICKS, N_SAMPLES, WALKS
-from mocapbench.benchmark.tasks.thesis_recordings import EVALUATION, TRAINING, Window, read_excerpt
+from mocapbench.benchmark import METRICS
+from mocapbench.benchmark.tasks.mocap_synthesis import N_SAMPLES
+from mocapbench.benchmark.tasks.thesis_recordings import (
+    EVALUATION,
+    KICKS,
+    TRAINING,
+    WALKS,
+    Window,
+    read_excerpt,
+)
 from mocapbench.datasets import Recording, open_archive
 from mocapbench.metrics import Synthesis
 
