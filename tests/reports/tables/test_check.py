@@ -3,8 +3,8 @@ from dataclasses import replace
 import pytest
 
 from mocapbench.reports import RegressionCheck, render
+from mocapbench.reports.page.downloads import to_csv
 from mocapbench.reports.tables.check import LIMIT, check_table
-from mocapbench.reports.tables.downloads import to_csv
 
 
 def _finding(verdict, label="knn", **more):
