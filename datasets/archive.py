@@ -97,7 +97,7 @@ class Archive:
         return library.skeleton(key)
 
     def read(self, uri: str) -> Motion:
-        """Return the motion behind a recording of ``cmu`` or ``gait``."""
+        """Return the motion behind a recording; only libraries of Acclaim files have motions."""
         library, key = self._here(uri)
         return cast("CMULibrary | GaitLibrary", library).motion(key)
 
