@@ -41,7 +41,7 @@ CMU_ACKNOWLEDGEMENT = (
 
 
 def registered_digests() -> dict[str, str]:
-    """Return the SHA-256 of files that ship with the package, by path below the database's root."""
+    """Return the known SHA-256 of the database's files, by path below its root."""
     return read_digests(Path(__file__).with_name("cmu_digests.tsv"))
 
 

@@ -179,7 +179,7 @@ class Metric(Generic[OutcomeT]):
     former_names: tuple[str, ...] = ()
 
     def applies(self, outcome: object) -> bool:
-        """Return whether the metric is defined for ``outcome``, whatever its kind."""
+        """Return whether the metric is defined for ``outcome``, which may be of any kind."""
         probabilistic = getattr(outcome, "variance", None) is not None
         return (
             isinstance(outcome, self.outcome)

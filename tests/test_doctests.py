@@ -9,10 +9,8 @@ import re
 
 import pytest
 
-from mocapbench.baselines import Imputer, Prediction, Synthesiser
+from mocapbench import baselines, benchmark, datasets
 from mocapbench.benchmark.registry import METRICS, MODELS
-from mocapbench.benchmark.tasks.base import Task
-from mocapbench.datasets import Recording, open_archive, read_motion, read_skeleton
 
 OPTIONS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 
@@ -46,13 +44,27 @@ MODEL_CLASSES = {name: MODELS.get(name) for name in MODELS.names()}
 EXEMPLIFIED = {
     **MODEL_CLASSES,
     **{name: _statistic(name) for name in METRICS.names()},
-    **{thing.__name__: thing for thing in (Imputer, Prediction, Recording, Synthesiser, Task)},
-    **{reader.__name__: reader for reader in (open_archive, read_motion, read_skeleton)},
+    **{name: getattr(baselines, name) for name in ("Imputer", "Prediction", "Synthesiser")},
+    **{name: getattr(benchmark, name) for name in ("Seeds", "Task")},
+    **{
+        name: getattr(datasets, name)
+        for name in (
+            *("Archive", "CMULibrary", "GaitLibrary", "Library", "Recording", "ToyProcess"),
+            *("gpdm_features", "hlm_features", "open_archive", "read_motion", "read_skeleton"),
+        )
+    },
 }
 
 
+@pytest.fixture
+def nothing_here(tmp_path, monkeypatch):
+    """Examples need no recordings of the user's."""
+    monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
+    monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path))
+
+
 @pytest.mark.parametrize("name", WITH_EXAMPLES)
-def test_the_examples_of_a_module_give_what_they_print(name):
+def test_the_examples_of_a_module_give_what_they_print(name, nothing_here):
     results = doctest.testmod(importlib.import_module(name), optionflags=OPTIONS)
     assert results.attempted > 0
     assert results.failed == 0
@@ -61,6 +73,13 @@ def test_the_examples_of_a_module_give_what_they_print(name):
 @pytest.mark.parametrize("name", EXEMPLIFIED)
 def test_what_users_meet_first_has_examples(name):
     assert _has_section(EXEMPLIFIED[name], "Examples")
+
+
+@pytest.mark.parametrize("name", METRICS.names())
+def test_the_example_of_a_metric_names_it(name):
+    documented = inspect.getdoc(_statistic(name))
+    assert "mocapbench.metrics import" in documented
+    assert f"``{name}``" in documented
 
 
 @pytest.mark.parametrize("name", MODEL_CLASSES)
