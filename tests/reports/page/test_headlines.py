@@ -25,7 +25,7 @@ def test_the_best_entrant_of_each_case_is_named(small):
     assert {headline.subject for headline in headlines} == {"mohgp-3", "gp-independent"}
     texts = {headline.subject: headline.text for headline in headlines}
     assert texts["mohgp-3"] == (
-        "has the best mean MSE in 1 of 2 cases (observed 40): "
+        "is best in 1 of 2 cases (observed 40) by MSE: "
         "0.10 on average, next best 0.15. Not tested: one fold."
     )
 
