@@ -73,12 +73,19 @@ class Registry(Generic[T]):
         UnknownNameError
             If nothing is or was.
         """
+        current = self.renamed(name)
+        if current not in self.names():
+            raise UnknownNameError(self.kind, name, self.names())
+        return current
+
+    def renamed(self, name: str) -> str:
+        """Return today's name of what was formerly called ``name``; any other stays as it is."""
         if name in self.names():
             return name
         for current in self.names():
             if name in getattr(self.get(current), "former_names", ()):
                 return current
-        raise UnknownNameError(self.kind, name, self.names())
+        return name
 
     def _load(self, name: str) -> T:
         if name not in self._points:

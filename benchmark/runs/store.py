@@ -20,7 +20,7 @@ import json
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from filelock import FileLock, Timeout
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.fit import Fit
 from mocapbench.benchmark.runs.record import Record, RecordError
 
@@ -128,7 +129,7 @@ class Store:
         if not path.is_file():
             return None
         try:
-            record = Record.from_json(path.read_text(encoding="utf-8"))
+            record = _with_current_names(Record.from_json(path.read_text(encoding="utf-8")))
             if record.key != key:
                 raise RecordError(f"it holds the record {record.key}")
         except (OSError, UnicodeDecodeError, RecordError) as error:
@@ -233,3 +234,12 @@ class Store:
 
     def _fit_path(self, key: str) -> Path:
         return self.path / "predictions" / f"{key}.npz"
+
+
+def _with_current_names(record: Record) -> Record:
+    """Return a record, perhaps of an earlier version, under the names that metrics have today."""
+    scores, parts, left_out = (
+        {METRICS.renamed(name): value for name, value in by_metric.items()}
+        for by_metric in (record.scores, record.parts, record.left_out)
+    )
+    return replace(record, scores=scores, parts=parts, left_out=left_out)
