@@ -238,8 +238,9 @@ class Store:
 
 def _with_current_names(record: Record) -> Record:
     """Return a record, perhaps of an earlier version, under the names that metrics have today."""
-    scores, parts, left_out = (
-        {METRICS.renamed(name): value for name, value in by_metric.items()}
-        for by_metric in (record.scores, record.parts, record.left_out)
+    return replace(
+        record,
+        scores={METRICS.renamed(name): value for name, value in record.scores.items()},
+        parts={METRICS.renamed(name): parts for name, parts in record.parts.items()},
+        left_out={METRICS.renamed(name): count for name, count in record.left_out.items()},
     )
-    return replace(record, scores=scores, parts=parts, left_out=left_out)
