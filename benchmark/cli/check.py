@@ -124,8 +124,8 @@ def _refuse_to_update(
         raise UsageError(f"--update: expected a .csv file or a folder, got the file {reference}")
     if len(records) < n_planned:
         raise UsageError(
-            f"--update: {n_planned - len(records)} jobs of the run have no whole record, so the reference would "
-            "lack them; resume it with `mocapbench run`"
+            f"--update: {n_planned - len(records)} jobs of the run have no whole record, so the "
+            "reference would lack them; resume it with `mocapbench run`"
         )
     failed = [record for record in records if record.status.broken]
     if failed and not allow_failures:
