@@ -7,9 +7,9 @@ import time
 import pandas as pd
 import pytest
 
-from mocapbench.benchmark.cli import check as cli_check
+from mocapbench.benchmark import gate
 from mocapbench.benchmark.cli.main import main
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.registry import REGISTRIES
 from mocapbench.benchmark.runs.store import Store
 
 TOY = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
@@ -174,10 +174,11 @@ def test_a_dry_run_writes_nothing(cli, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("kind", "registry"), [("tasks", TASKS), ("models", MODELS), ("metrics", METRICS)]
+    ("kind", "registry"), zip(["models", "tasks", "metrics", "libraries"], REGISTRIES, strict=True)
 )
 def test_list_names_everything(cli, kind, registry):
     assert cli("list", kind) == 0
+    assert registry.names()
     assert all(name in cli.printed for name in registry.names())
 
 
@@ -217,10 +218,10 @@ def test_a_report_into_a_folder_that_is_not_there_exits_with_2(cli, tmp_path):
 
 
 def test_a_defect_is_told_from_a_worse_metric(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(cli_check, "read_baseline", lambda path: 1 / 0)
+    monkeypatch.setattr(gate, "read_reference", lambda path: 1 / 0, raising=False)
     Store.create(tmp_path).save_plan({"keys": [], "provenance": {}})
     with pytest.raises(SystemExit) as ended:
-        main(["check", str(tmp_path), "--baseline", "b.csv"])
+        main(["check", str(tmp_path), "--reference", "b.csv"])
     assert ended.value.code == 70
     printed = capsys.readouterr().err
     assert "ZeroDivisionError" in printed

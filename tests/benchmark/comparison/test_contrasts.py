@@ -5,6 +5,7 @@ import pytest
 
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.tasks.address import Address
 
 TOY, FRAMES = "toy-interpolation-1", "missing-frames"
 GOOD = {"test 1": [1.0, 1.2, 0.9, 1.1, 1.0], "test 2": [2.0, 2.2, 1.9, 2.1, 2.0]}
@@ -16,12 +17,8 @@ def records(label, cases, task=TOY, metric="mse", **fields):
         Record(
             key=f"{task}{case}{label}{fold}".encode().hex(),
             fit_key="",
-            task=task,
-            version=1,
-            case=case,
-            fold=fold,
+            address=Address(task, 1, case, fold, label),
             seed=0,
-            label=label,
             model=label,
             parameters={},
             status=Status.OK,
@@ -139,7 +136,7 @@ def test_generated_motion_is_not_pooled_with_recordings(cli, run, tmp_path):
 
 def test_folds_that_only_one_side_has_and_undefined_scores_are_left_out(cli, run, tmp_path):
     fewer = records("nn", {"test 1": [2.0, float("nan"), 2.5]})
-    fewer[2] = fewer[2].ended(Status.FAILED, "it broke")
+    fewer[2] = replace(fewer[2], status=Status.FAILED, message="it broke")
     rows = compared(cli, tmp_path, run("run", records("knn", GOOD), fewer), "--models", "knn,nn")
     assert rows["n"].to_dict() == {"test 1": 1}
 
@@ -153,6 +150,10 @@ def test_markdown_holds_every_row_and_the_notes(cli, run, tmp_path):
     assert "cannot go below p = 0.0625" in text
 
 
+def _changed(record, version=1, **fields):
+    return replace(record, address=record.address._replace(version=version), **fields)
+
+
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
@@ -163,7 +164,7 @@ def test_markdown_holds_every_row_and_the_notes(cli, run, tmp_path):
     ],
 )
 def test_what_is_not_paired_is_refused_with_the_reason(cli, run, change, reason):
-    changed = [replace(record, **change) for record in records("knn", GOOD)]
+    changed = [_changed(record, **change) for record in records("knn", GOOD)]
     assert cli("compare", run("one", records("knn", GOOD)), run("other", changed)) == 2
     assert "do not solve the same problems" in cli.printed
     assert reason in cli.printed

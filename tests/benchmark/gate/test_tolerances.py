@@ -1,7 +1,8 @@
 import pytest
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.gate.rule import Environment, Tolerance
+from mocapbench.benchmark.gate.environment import Environment
+from mocapbench.benchmark.gate.rule import Tolerance
 from mocapbench.benchmark.gate.tolerances import read_tolerances
 
 
