@@ -81,6 +81,13 @@ class Registry(Generic[T]):
                 return current
         raise UnknownNameError(self.kind, name, self.names())
 
+    def renamed(self, name: str) -> str:
+        """Return the current name of what stored values call ``name``; ``name`` if it is gone."""
+        try:
+            return self.current_name(name)
+        except UnknownNameError:
+            return name
+
     def _was_called(self, name: str, current: str) -> bool:
         return name in getattr(self.get(current), "former_names", ())
 

@@ -20,7 +20,7 @@ import json
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from filelock import FileLock, Timeout
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.fit import Fit
 from mocapbench.benchmark.runs.record import Record, RecordError
 
@@ -134,7 +135,8 @@ class Store:
         except (OSError, UnicodeDecodeError, RecordError) as error:
             self.damaged.append(f"{path}: {error}")
             return None
-        return record
+        by_metric = ("scores", "parts", "left_out")
+        return replace(record, **{name: _renamed(getattr(record, name)) for name in by_metric})
 
     def save(self, record: Record) -> None:
         """Write ``record`` whole or not at all."""
@@ -233,3 +235,8 @@ class Store:
 
     def _fit_path(self, key: str) -> Path:
         return self.path / "predictions" / f"{key}.npz"
+
+
+def _renamed(by_metric: Mapping[str, Any]) -> dict[str, Any]:
+    """Return ``by_metric`` under today's names: earlier versions wrote former ones."""
+    return {METRICS.renamed(name): value for name, value in by_metric.items()}
