@@ -115,8 +115,8 @@ def _check_name(path: Path, registry: Registry[Any], name: object, value: Any) -
         )
     if not isinstance(value, type) and value.name != name:
         raise UsageError(
-            f"{path}: expected the {registry.kind} under its own name {value.name!r}, got {name!r}; "
-            "rename one of the two"
+            f"{path}: expected the {registry.kind} under its own name {value.name!r}, got "
+            f"{name!r}; rename one of the two"
         )
     _check_constructor(path, name, value)
 
