@@ -113,7 +113,7 @@ def test_what_other_files_define_can_be_used_by_pickle(load):
 
 ABSTRACT = "from mocapbench.baselines import Imputer\n"
 WRONG = {
-    "MODELS = {'a': int}": "expected MODELS to map one or more names to subclasses of mocapbench.baselines.",
+    "MODELS = {'a': int}": "expected MODELS to map one or more names to subclasses of mocapbench.",
     "MODELS = {'a': Mine()}": "MODELS to map one or more names to subclasses",
     "MODELS = {}": "MODELS to map one or more names to subclasses of .*, got {}",
     "MODELS = [Mine]": r"MODELS to map one or more names to subclasses of .*, got \[<class",

@@ -2,10 +2,13 @@ from dataclasses import replace
 
 import pandas as pd
 import pytest
+from typer.main import get_command
 
+from mocapbench.benchmark.cli.compare import app
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
+from mocapbench.metrics.statistics import ROPE
 
 TOY, FRAMES = "toy-interpolation-1", "missing-frames"
 GOOD = {"test 1": [1.0, 1.2, 0.9, 1.1, 1.0], "test 2": [2.0, 2.2, 1.9, 2.1, 2.0]}
@@ -148,6 +151,28 @@ def test_markdown_holds_every_row_and_the_notes(cli, run, tmp_path):
     assert text.count("| knn: ") == 3
     assert "a\\|b better" in text
     assert "cannot go below p = 0.0625" in text
+
+
+def test_a_metric_may_be_given_by_its_former_name(cli, run, tmp_path):
+    given = {"task": "toy-synthesis", "metric": "variance_ratio"}
+    both = run("run", records("moa", GOOD, **given), records("mohgp", BAD, **given))
+    chosen = ("--models", "moa,mohgp", "--metrics")
+    former = compared(cli, tmp_path, both, *chosen, "spread")
+    assert set(former["metric"]) == {"variance_ratio"}
+    for names in ("variance_ratio", "variance_ratio,spread"):
+        pd.testing.assert_frame_equal(former, compared(cli, tmp_path, both, *chosen, names))
+
+
+def test_equivalence_begins_where_the_statistics_say_unless_told_otherwise(cli, run, tmp_path):
+    (rope,) = (p for p in get_command(app).params if p.name == "rope")
+    assert rope.default == ROPE
+    one, other = run("good", records("knn", GOOD)), run("bad", records("knn", BAD))
+    default, given, wide = (
+        compared(cli, tmp_path, one, other, *options)
+        for options in ((), ("--rope", ROPE), ("--rope", 0.5))
+    )
+    pd.testing.assert_frame_equal(default, given)
+    assert (wide["equivalent"] > default["equivalent"]).any()
 
 
 def _changed(record, version=1, **fields):
