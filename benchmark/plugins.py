@@ -97,7 +97,8 @@ def _check(path: Path, attribute: str, values: object) -> None:
     door = _DOORS[attribute]
     if not (isinstance(values, dict) and values and all(map(door.fits, values.values()))):
         raise UsageError(
-            f"{path}: expected {attribute} to map names to {door.expected}, got {values!r}"
+            f"{path}: expected {attribute} to map one or more names to {door.expected}, got "
+            f'{values!r}; write {attribute} = {{"name": …}}'
         )
     for name, value in values.items():
         _check_name(path, door.registry, name, value)
@@ -114,7 +115,8 @@ def _check_name(path: Path, registry: Registry[Any], name: object, value: Any) -
         )
     if not isinstance(value, type) and value.name != name:
         raise UsageError(
-            f"{path}: expected the {registry.kind} under its own name {value.name!r}, got {name!r}"
+            f"{path}: expected the {registry.kind} under its own name {value.name!r}, got "
+            f"{name!r}; rename one of the two"
         )
     _check_constructor(path, name, value)
 
@@ -126,14 +128,17 @@ def _check_constructor(path: Path, name: str, value: object) -> None:
         value()
     except TypeError as error:
         raise UsageError(
-            f"{path}: expected a class that can be built without arguments, got {name!r}: {error}"
+            f"{path}: expected a class that can be built without arguments, got {name!r}: {error}; "
+            "give every parameter a default and define every abstract method"
         ) from error
 
 
 def _execute(path: Path) -> ModuleType:
     """Run a Python file as a module whose name follows from its content."""
     if not path.is_file():
-        raise UsageError(f"--plugin: expected a Python file, got {str(path)!r}")
+        raise UsageError(
+            f"--plugin: expected a Python file, got {str(path)!r}; name one that exists"
+        )
     name = f"mocapbench_plugin_{hashlib.sha256(path.read_bytes()).hexdigest()[:16]}"
     loader = SourceFileLoader(name, str(path))
     module = ModuleType(name)
@@ -143,5 +148,7 @@ def _execute(path: Path) -> ModuleType:
         loader.exec_module(module)
     except (Exception, SystemExit) as error:
         del sys.modules[name]
-        raise UsageError(f"{path} cannot be run: {type(error).__name__}: {error}") from error
+        raise UsageError(
+            f"{path} cannot be run: {type(error).__name__}: {error}; `python {path}` shows where"
+        ) from error
     return module

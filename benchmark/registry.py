@@ -7,6 +7,7 @@ file of the user's own adds to any of them for one run (`mocapbench.benchmark.pl
 
 from __future__ import annotations
 
+from functools import partial
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Generic, TypeVar, cast
 
@@ -48,8 +49,8 @@ class Registry(Generic[T]):
         self._added[name] = value
 
     def is_installed(self, name: str) -> bool:
-        """Return whether an installed package registers ``name``."""
-        return name in self._points
+        """Return whether an installed package registers ``name``, or did so formerly."""
+        return name in self._points or any(map(partial(self._was_called, name), self._points))
 
     def get(self, name: str) -> T:
         """Return the object called ``name``.
@@ -83,9 +84,19 @@ class Registry(Generic[T]):
         if name in self.names():
             return name
         for current in self.names():
-            if name in getattr(self.get(current), "former_names", ()):
+            if self._was_called(name, current):
                 return current
         return name
+
+    def renamed(self, name: str) -> str:
+        """Return the current name of what stored values call ``name``; ``name`` if it is gone."""
+        try:
+            return self.current_name(name)
+        except UnknownNameError:
+            return name
+
+    def _was_called(self, name: str, current: str) -> bool:
+        return name in getattr(self.get(current), "former_names", ())
 
     def _load(self, name: str) -> T:
         if name not in self._points:

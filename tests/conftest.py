@@ -1,7 +1,17 @@
 """Settings of all tests."""
 
+import pytest
 from hypothesis import settings
+
+from mocapbench.benchmark.registry import REGISTRIES
 
 # A deadline would assert a wall-clock time.
 settings.register_profile("no-clock", deadline=None)
 settings.load_profile("no-clock")
+
+
+@pytest.fixture(autouse=True)
+def registries(monkeypatch):
+    """Keep what one test registers from the others."""
+    for registry in REGISTRIES:
+        monkeypatch.setattr(registry, "_added", dict(registry._added))

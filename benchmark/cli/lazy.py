@@ -8,6 +8,8 @@ from typing import Any, ClassVar
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
+from mocapbench.benchmark.errors import UnknownNameError
+
 __all__ = ["DeferredCommand", "LazyGroup"]
 
 
@@ -49,3 +51,15 @@ class LazyGroup(TyperGroup):
         """Return the command without importing it; None if there is none of that name."""
         del ctx
         return self.commands_by_name.get(cmd_name)
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Return the command that ``args`` begin with.
+
+        Raises
+        ------
+        UnknownNameError
+            If there is none of that name; the message suggests the nearest.
+        """
+        if args[0] not in self.commands_by_name and not ctx.resilient_parsing:
+            raise UnknownNameError("command", args[0], list(self.commands_by_name))
+        return super().resolve_command(ctx, args)

@@ -80,10 +80,11 @@ def compare(
         raise UsageError("compare: the two have no scored (task, case, fold, entrant) in common")
     _require_same_problems([(one[address], other[address]) for address in common])
     names = list(dict.fromkeys(address.task for address in common))
+    chosen = list(dict.fromkeys(map(METRICS.current_name, metrics)))
     rows = [
         row
         for task in map(TASKS.get, names)
-        for metric in [METRICS.current_name(name) for name in metrics] or task.page.metrics
+        for metric in chosen or task.page.metrics
         for row in _rows(task, metric, _pairs(task, metric, one, other), rope)
     ]
     if not rows:

@@ -14,6 +14,7 @@ import json
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
+from types import MethodType
 from typing import Any
 
 import numpy as np
@@ -109,14 +110,20 @@ def _description(function: Callable[..., Any], within: tuple[str, ...]) -> list[
                 *_description(function.func, within),
                 *(part for name, value in bound for part in (str(name), *_value(value, within))),
             ]
+        case MethodType():
+            return [*_description(function.__func__, within), *_value(function.__self__, within)]
+        case _ if not hasattr(function, "__qualname__"):  # an object that can be called
+            return [_text(function), source_digest(type(function).__module__, within)]
         case _:
-            source = source_digest(function.__module__, within)
-            return [function.__qualname__, source]
+            return [function.__qualname__, source_digest(function.__module__, within)]
 
 
 def _value(value: object, within: tuple[str, ...]) -> list[str]:
-    if callable(value):
-        return _description(value, within)
+    return _description(value, within) if callable(value) else [_text(value)]
+
+
+def _text(value: object) -> str:
+    """Return a text that tells ``value`` apart from every other."""
     with np.printoptions(threshold=sys.maxsize, floatmode="unique"):
         text = repr(value)
     if " at 0x" in text:
@@ -124,7 +131,7 @@ def _value(value: object, within: tuple[str, ...]) -> list[str]:
             "expected arguments of a problem or a metric whose text tells them apart (numbers, "
             f"texts, tuples, dataclasses), got {text}; use a dataclass, or give it a __repr__"
         )
-    return [text]
+    return text
 
 
 def _digest(document: Mapping[str, Any]) -> str:

@@ -167,7 +167,7 @@ def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> It
     missing = tuple(uri for uri in case.recordings if not archive.available(uri))
     digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.recordings}
     seen, compared = ({uri: digests[uri] for uri in of} for of in (case.sources, case.references))
-    metrics = tuple(sorted(map(METRICS.current_name, request.metrics or METRICS.names())))
+    metrics = tuple(sorted(set(map(METRICS.current_name, request.metrics or METRICS.names()))))
     for entrant in _chosen_entrants(request, task):
         model = MODELS.get(entrant.model)
         parameters = _parameters(entrant, case, task.profile(request.profile))

@@ -11,17 +11,20 @@ from __future__ import annotations
 import ast
 import hashlib
 import importlib
-import sys
 from collections.abc import Iterator
 from functools import cache
+from importlib.machinery import EXTENSION_SUFFIXES
+from importlib.util import decode_source
 from pathlib import Path
 from types import ModuleType
+from typing import NamedTuple
 
 from mocapbench.reports.bundle.task_page import TaskPage
 
 __all__ = ["source_digest"]
 
 _OURS = "mocapbench"
+_COMPILED = {*EXTENSION_SUFFIXES, ".so", ".pyd"}
 
 
 @cache
@@ -45,11 +48,19 @@ def source_digest(module: str, within: tuple[str, ...]) -> str:
         name = pending.pop()
         if name not in reached:
             reached.add(name)
-            pending += [item for item in _imports(name) if _counts(item, within, module)]
+            near = (item for item in _read(name).imports if _near(item.module, within, module))
+            found = (_definer(item.module, item.name) for item in near)
+            pending += [item for item in found if _counts(item, within, module)]
     # The first goes without its name: a user's file has no lasting one as a module.
-    others = (f"\0{name}\0{_code(name)}" for name in sorted(reached - {module}))
-    message = "".join([_code(module), *others])
+    others = (f"\0{name}\0{_read(name).code}" for name in sorted(reached - {module}))
+    message = "".join([_read(module).code, *others])
     return hashlib.sha256(message.encode()).hexdigest()
+
+
+def _near(module: str, within: tuple[str, ...], root: str) -> bool:
+    """Return whether it is worth looking where the names of ``module`` come from."""
+    projects = {name.partition(".")[0] for name in (*within, root)}
+    return module.partition(".")[0] in projects or _neighbours(module, root)
 
 
 def _counts(module: str, within: tuple[str, ...], root: str) -> bool:
@@ -62,33 +73,34 @@ def _counts(module: str, within: tuple[str, ...], root: str) -> bool:
 
 def _neighbours(module: str, root: str) -> bool:
     """Return whether both are single files, in one folder: the helpers of a user's own file."""
+    if "." in root or "." in module:
+        return False
     file, home = _file(module), _file(root)
-    alone = "." not in root and "." not in module
-    return alone and file is not None and home is not None and file.parent == home.parent
+    return file is not None and home is not None and file.parent == home.parent
 
 
-def _file(module: str) -> Path | None:
-    name = getattr(sys.modules.get(module), "__file__", None)
-    return Path(name) if name else None
+class _Import(NamedTuple):
+    """A module that is imported, or a name that is imported from it."""
+
+    module: str
+    name: str = ""
 
 
-def _source(module: str) -> str:
-    importlib.import_module(module)
-    file = _file(module)
-    return file.read_text(encoding="utf-8") if file else ""
+class _Module(NamedTuple):
+    """A module's code without comments, docstrings and layout, and what it imports."""
+
+    code: str
+    imports: tuple[_Import, ...]
 
 
-def _tree(module: str) -> ast.Module:
-    return ast.parse(_source(module))
-
-
-def _code(module: str) -> str:
-    """Return a module's code without comments, docstrings and layout."""
-    tree = _tree(module)
+@cache
+def _read(module: str) -> _Module:
+    tree = ast.parse(_source(module))
+    imports = tuple(dict.fromkeys(_imports(module, tree)))
     for node in ast.walk(tree):
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
             node.body = [statement for statement in node.body if not _is_prose(statement)]
-    return ast.unparse(tree)
+    return _Module(ast.unparse(tree), imports)
 
 
 def _is_prose(statement: ast.stmt) -> bool:
@@ -100,46 +112,84 @@ def _is_prose(statement: ast.stmt) -> bool:
     )
 
 
-def _imports(module: str) -> Iterator[str]:
-    importer = sys.modules.get(module) or importlib.import_module(module)
-    for node in ast.walk(_tree(module)):
+def _source(module: str) -> str:
+    """Return the text of a module; of compiled code, its digest in the place of a text."""
+    file = _file(module)
+    if file is None:
+        return ""
+    content = file.read_bytes()
+    if file.suffix in _COMPILED:
+        return f"compiled = {hashlib.sha256(content).hexdigest()!r}"
+    return decode_source(content)
+
+
+def _file(module: str) -> Path | None:
+    name = getattr(_imported(module), "__file__", None)
+    return Path(name) if name else None
+
+
+def _imported(module: str) -> ModuleType | None:
+    """Return a module; None if it is an optional part that cannot be imported here."""
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        return None
+
+
+def _imports(module: str, tree: ast.Module) -> Iterator[_Import]:
+    """Yield what ``module`` imports, and what it offers lazily."""
+    values = vars(_imported(module)) if _imported(module) else {}
+    for node in (*ast.walk(tree), *_stub(module)):
         if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
+            yield from (_Import(alias.name) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            package = _absolute(node, importer)
+            origin = _absolute(node, module)
             yield from (
-                _definer(package, alias.name)
+                _Import(origin, alias.name)
                 for alias in node.names
-                if not isinstance(vars(importer).get(alias.asname or alias.name), TaskPage)
+                if not isinstance(values.get(alias.asname or alias.name), TaskPage)
             )
 
 
-def _absolute(node: ast.ImportFrom, importer: ModuleType) -> str:
-    """Return the full name of what ``from … import`` names, relative imports resolved."""
-    if not node.level:
-        return node.module or ""
-    parts = (importer.__package__ or "").split(".")
-    base = parts[: len(parts) - node.level + 1]
-    return ".".join([*base, node.module] if node.module else base)
-
-
-def _definer(package: str, name: str) -> str:
-    """Return the module that defines ``name``, which ``package`` may only pass on."""
-    if f"{package}.{name}" in sys.modules:
-        return f"{package}.{name}"
-    for node in _stub(package):
-        if any(name == (alias.asname or alias.name) for alias in node.names):
-            return f"{package}.{node.module}"
-    value = getattr(sys.modules.get(package), name, None)
-    return str(getattr(value, "__module__", package))
+@cache
+def _definer(module: str, name: str) -> str:
+    """Return the module that ``name`` comes from, if ``module`` is a package that passes it on."""
+    for node in _passed_on(module):
+        for alias in node.names:
+            if name == (alias.asname or alias.name):
+                return _definer(_absolute(node, module), alias.name)
+    submodule = f"{module}.{name}"
+    return submodule if name and _is_package(module) and _imported(submodule) else module
 
 
 @cache
-def _stub(package: str) -> tuple[ast.ImportFrom, ...]:
-    """Return the imports in the stub of a package that loads what it offers when asked for it."""
+def _passed_on(package: str) -> tuple[ast.ImportFrom, ...]:
+    """Return the imports by which a package offers what its modules define."""
+    if not _is_package(package):
+        return ()
+    nodes = (*_stub(package), *ast.walk(ast.parse(_source(package))))
+    return tuple(node for node in nodes if isinstance(node, ast.ImportFrom))
+
+
+@cache
+def _stub(package: str) -> tuple[ast.stmt, ...]:
+    """Return the stub of a package that loads what it offers when asked for it."""
     file = _file(package)
     stub = file.with_suffix(".pyi") if file else None
     if stub is None or not stub.is_file():
         return ()
-    tree = ast.parse(stub.read_text(encoding="utf-8"))
-    return tuple(node for node in tree.body if isinstance(node, ast.ImportFrom))
+    return tuple(ast.parse(decode_source(stub.read_bytes())).body)
+
+
+def _is_package(module: str) -> bool:
+    return hasattr(_imported(module), "__path__")
+
+
+def _absolute(node: ast.ImportFrom, importer: str) -> str:
+    """Return the full name of what ``from … import`` names, relative imports resolved."""
+    if not node.level:
+        return node.module or ""
+    above = node.level - _is_package(importer)
+    parts = importer.split(".")
+    base = parts[: len(parts) - above]
+    return ".".join([*base, node.module] if node.module else base)

@@ -6,7 +6,7 @@
         mocapbench.json             says that the folder is ours
         mocapbench.lock             held by a run that writes
         plan.json                   the keys of the last run, in table order
-        check.json                  the result of its last regression check
+        check.json                  what the last regression check of that run found
         records/<score key>.json
         predictions/<fit key>.npz
 
@@ -129,13 +129,14 @@ class Store:
         if not path.is_file():
             return None
         try:
-            record = _with_current_names(Record.from_json(path.read_text(encoding="utf-8")))
+            record = Record.from_json(path.read_text(encoding="utf-8"))
             if record.key != key:
                 raise RecordError(f"it holds the record {record.key}")
         except (OSError, UnicodeDecodeError, RecordError) as error:
             self.damaged.append(f"{path}: {error}")
             return None
-        return record
+        by_metric = ("scores", "parts", "left_out")
+        return replace(record, **{name: _renamed(getattr(record, name)) for name in by_metric})
 
     def save(self, record: Record) -> None:
         """Write ``record`` whole or not at all."""
@@ -183,13 +184,13 @@ class Store:
             np.savez_compressed(file, **arrays)
 
     def save_plan(self, plan: Mapping[str, Any]) -> None:
-        """Write the request of the last run; the check of an earlier one is dropped."""
+        """Write what the last run was asked to do; a check of an earlier one is dropped."""
         (self.path / _CHECK).unlink(missing_ok=True)
         with atomic_write(self.path / "plan.json") as file:
             file.write(json.dumps(plan, indent=1).encode())
 
     def load_plan(self) -> Mapping[str, Any]:
-        """Return the request of the last run.
+        """Return what the last run was asked to do.
 
         Raises
         ------
@@ -211,12 +212,12 @@ class Store:
         return plan
 
     def save_check(self, check: Mapping[str, Any]) -> None:
-        """Write the result of a regression check of the last run."""
+        """Write what a regression check of the last run found."""
         with atomic_write(self.path / _CHECK) as file:
             file.write(json.dumps(check, indent=1).encode())
 
     def load_check(self) -> Mapping[str, Any] | None:
-        """Return the result of the last run's check; None if there is none, or it is damaged."""
+        """Return what the last run's check found; None if it was not checked, or is damaged."""
         path = self.path / _CHECK
         if not path.is_file():
             return None
@@ -236,11 +237,6 @@ class Store:
         return self.path / "predictions" / f"{key}.npz"
 
 
-def _with_current_names(record: Record) -> Record:
-    """Return a record, perhaps of an earlier version, under the names that metrics have today."""
-    return replace(
-        record,
-        scores={METRICS.renamed(name): value for name, value in record.scores.items()},
-        parts={METRICS.renamed(name): parts for name, parts in record.parts.items()},
-        left_out={METRICS.renamed(name): count for name, count in record.left_out.items()},
-    )
+def _renamed(by_metric: Mapping[str, Any]) -> dict[str, Any]:
+    """Return ``by_metric`` under today's names: earlier versions wrote former ones."""
+    return {METRICS.renamed(name): value for name, value in by_metric.items()}

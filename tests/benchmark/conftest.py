@@ -4,7 +4,6 @@ from pathlib import Path
 import pytest
 
 from mocapbench.benchmark.cli.main import main
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 
 
 class CommandLine:
@@ -23,13 +22,6 @@ class CommandLine:
         self.printed = " ".join((captured.out + captured.err).split())
         assert "Traceback" not in self.printed
         return int(ended.value.code or 0)
-
-
-@pytest.fixture(autouse=True)
-def registries(monkeypatch):
-    """Keep what one test registers from the others."""
-    for registry in (METRICS, MODELS, TASKS):
-        monkeypatch.setattr(registry, "_added", dict(registry._added))
 
 
 @pytest.fixture

@@ -3,15 +3,26 @@ import re
 import pytest
 
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS, Registry, load_model_file
+from mocapbench.benchmark.registry import (
+    LIBRARIES,
+    METRICS,
+    MODELS,
+    REGISTRIES,
+    TASKS,
+    Registry,
+)
 
-TRIVIAL = "from mocapbench.baselines.trivial import Trivial\n"
 
-
-@pytest.mark.parametrize("registry", [METRICS, MODELS, TASKS], ids=lambda r: r.kind)
+@pytest.mark.parametrize("registry", REGISTRIES, ids=lambda registry: registry.kind)
 def test_every_registered_name_loads(registry):
     assert registry.names()
     assert all(registry.get(name) is not None for name in registry.names())
+    assert all(registry.is_installed(name) for name in registry.names())
+
+
+def test_there_are_four_registries():
+    assert REGISTRIES == (MODELS, TASKS, METRICS, LIBRARIES)
+    assert [registry.kind for registry in REGISTRIES] == ["model", "task", "metric", "library"]
 
 
 @pytest.mark.parametrize(
@@ -20,12 +31,14 @@ def test_every_registered_name_loads(registry):
         (MODELS, "cubic-splin", "cubic-spline"),
         (TASKS, "toy-interpolaton-1", "toy-interpolation-1"),
         (METRICS, "msl", "msll"),
+        (LIBRARIES, "giat", "gait"),
     ],
 )
-def test_an_unknown_name_suggests_the_nearest(registry, wrong, meant):
+@pytest.mark.parametrize("look_up", [Registry.get, Registry.current_name])
+def test_an_unknown_name_suggests_the_nearest(registry, wrong, meant, look_up):
     advice = re.escape(f"unknown {registry.kind} {wrong!r}: did you mean {meant}")
     with pytest.raises(UnknownNameError, match=advice):
-        registry.get(wrong)
+        look_up(registry, wrong)
 
 
 def test_a_name_like_no_other_lists_them_all():
@@ -34,7 +47,7 @@ def test_a_name_like_no_other_lists_them_all():
 
 
 def test_order_of_registration_means_nothing():
-    one, other = Registry("none"), Registry("none")
+    one, other = Registry("none", "mocapbench.none"), Registry("none", "mocapbench.none")
     for name in ("b", "a"):
         one.add(name, name)
     for name in ("a", "b"):
@@ -42,28 +55,40 @@ def test_order_of_registration_means_nothing():
     assert one.names() == other.names() == ("a", "b")
 
 
-@pytest.mark.parametrize(
-    ("source", "complaint"),
-    [
-        ("def", "cannot be run"),
-        ("raise RuntimeError('no')", "cannot be run: RuntimeError: no"),
-        ("x = 1", "expected MODELS"),
-        ("MODELS = {'a': int}", "expected MODELS"),
-        ("MODELS = {}", "expected MODELS"),
-        ("import sys; sys.exit(3)", "cannot be run: SystemExit"),
-        (f"{TRIVIAL}MODELS = {{'trivial': Trivial}}", "expected a name that no model"),
-        (f"{TRIVIAL}MODELS = {{'mohgp-3': Trivial}}", "expected a name that no model"),
-        (f"{TRIVIAL}MODELS = {{1: Trivial}}", "expected a name that no model"),
-        ("from mocapbench.baselines import Imputer\nMODELS = {'a': Imputer}", "can be built"),
-    ],
-)
-def test_a_model_file_that_is_no_good_says_why(tmp_path, source, complaint):
-    path = tmp_path / "models.py"
-    path.write_text(source)
-    with pytest.raises(UsageError, match=complaint):
-        load_model_file(path)
+def test_a_former_name_leads_to_the_current_one():
+    assert METRICS.current_name("spread") == "variance_ratio"
+    assert METRICS.get("variance_ratio").former_names == ("spread",)
+    assert METRICS.current_name("variance_ratio") == "variance_ratio"
+    assert all(METRICS.current_name(name) == name for name in METRICS.names())
+    with pytest.raises(UnknownNameError, match="unknown metric 'spread'"):
+        METRICS.get("spread")
 
 
-def test_a_model_file_that_is_not_there(tmp_path):
-    with pytest.raises(UsageError, match="expected a Python file"):
-        load_model_file(tmp_path / "absent.py")
+@pytest.mark.parametrize("registry", REGISTRIES, ids=lambda registry: registry.kind)
+def test_no_name_is_the_former_one_of_something_else(registry):
+    former = [
+        name
+        for value in map(registry.get, registry.names())
+        for name in getattr(value, "former_names", ())
+    ]
+    assert len(set(former)) == len(former)
+    assert set(former) & set(registry.names()) == set()
+
+
+class _Point:
+    value = "no_such_package.module:Model"
+
+    @staticmethod
+    def load():
+        raise ModuleNotFoundError("No module named 'no_such_package'")
+
+
+def test_an_entry_point_that_cannot_be_imported_says_so():
+    registry = Registry("model", "mocapbench.none")
+    registry._points["mine"] = _Point
+    expected = (
+        "model 'mine' is registered as 'no_such_package.module:Model', which cannot be imported: "
+        "No module named 'no_such_package'"
+    )
+    with pytest.raises(UsageError, match=re.escape(expected)):
+        registry.get("mine")

@@ -1,6 +1,6 @@
 """False alarms and power of the regression gate: `python gate.py [PAGE]`.
 
-A simulated run is n paired folds. Fold i has the value exp(s a_i + u b_i / √2) in the baseline and
+A simulated run is n paired folds. Fold i has the value exp(s a_i + u b_i / √2) in the reference and
 f exp(s a_i + u c_i / √2) in the run, with a, b, c standard normal. s is the variation between
 folds, u the variation that pairing does not cancel, and f is 1 for an equally good run. s and u are
 the standard deviations that `noise.py` measures.
@@ -19,7 +19,8 @@ from pathlib import Path
 import numpy as np
 from scipy import stats
 
-from mocapbench.benchmark.gate.rule import Environment, Tolerance, Verdict, judge
+from mocapbench.benchmark.gate.environment import Environment
+from mocapbench.benchmark.gate.rule import DEFAULT_TOLERANCES, FAILING, Tolerance, Verdict, judge
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "speed"))
 from page import place, table
@@ -50,7 +51,7 @@ class Gate:
     failing: frozenset[Verdict]
 
 
-SAME, CROSS = (Gate(e.value, e.tolerance, e.failing) for e in Environment)
+SAME, CROSS = (Gate(e.value, DEFAULT_TOLERANCES[e], FAILING[e]) for e in Environment)
 GATES = (SAME, CROSS, Gate("cross, k = 2", Tolerance(k=2.0, relative=0.02), CROSS.failing))
 SCENARIOS = (
     Scenario("repeated exactly", 0.5, 0.0),
@@ -74,8 +75,8 @@ def failing(scenario: Scenario, n_folds: int, factor: float) -> Mapping[str, flo
     rng = np.random.default_rng([SEED, n_folds])
     a, b, c = rng.standard_normal((3, N_RUNS, n_folds))
     s, u = scenario.uneven, scenario.unpaired / math.sqrt(2.0)
-    baseline, run = np.exp(s * a + u * b), factor * np.exp(s * a + u * c)
-    pairs = list(zip(baseline.tolist(), run.tolist(), strict=True))
+    reference, run = np.exp(s * a + u * b), factor * np.exp(s * a + u * c)
+    pairs = list(zip(reference.tolist(), run.tolist(), strict=True))
     return {
         gate.name: np.mean(
             [judge(*pair, float, gate.tolerance).verdict in gate.failing for pair in pairs]

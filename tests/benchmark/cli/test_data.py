@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from mocapbench.datasets import GaitLibrary, archive, format_motion, format_skeleton
+from mocapbench.benchmark.registry import LIBRARIES
+from mocapbench.datasets import CMULibrary, GaitLibrary, format_motion, format_skeleton
 
 NOBODY = "http://127.0.0.1:9/"
 
@@ -20,8 +21,7 @@ def database(tmp_path, monkeypatch):
     (folder / "99_01.amc").write_text(format_motion(motion))
     monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
     monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path / "cache"))
-    unreachable = partial(archive.CMULibrary, base_url=NOBODY, retries=0)
-    monkeypatch.setattr(archive, "CMULibrary", unreachable)
+    LIBRARIES.add("cmu", partial(CMULibrary, base_url=NOBODY, retries=0))
     return tmp_path / "database"
 
 

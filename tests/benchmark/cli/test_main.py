@@ -1,3 +1,4 @@
+import importlib
 import os
 import signal
 import subprocess
@@ -6,10 +7,15 @@ import time
 
 import pandas as pd
 import pytest
+from typer.main import get_command
 
-from mocapbench.benchmark.cli import check as cli_check
-from mocapbench.benchmark.cli.main import main
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+import mocapbench
+from mocapbench.benchmark import gate
+from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.cli.main import COMMANDS, main
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.registry import REGISTRIES
+from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.runs.store import Store
 
 TOY = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
@@ -76,7 +82,7 @@ def test_scores_do_not_depend_on_the_order_of_registration(cli, records, tmp_pat
         path = tmp_path / f"{name}.py"
         path.write_text(f"{source}MODELS = {{{', '.join(order)}}}\n")
         out = tmp_path / name
-        arguments = ("--models", "my-a,my-b", "--folds", 1, "--model-file", path, "--out", out)
+        arguments = ("--models", "my-a,my-b", "--folds", 1, "--plugin", path, "--out", out)
         assert cli(*TOY, *arguments) == 0
         found.append(_scores(records(out)))
     assert found[0] == found[1]
@@ -122,6 +128,7 @@ def test_a_damaged_record_is_reported_and_computed_again(cli, records, tmp_path)
         (("--profile", "quik"), "did you mean quick"),
         (("--tasks", "toy-interpolation-1", "--cases", "test 11"), "did you mean test 1"),
         (("--tasks", "missing-frames", "--models", "mohgp"), "nothing to run"),
+        (("--plugin", "absent.py"), "expected a Python file"),
         (("--model-file", "absent.py"), "expected a Python file"),
         (("--data-dir", "absent"), "absent"),
         (("--folds", "0"), "folds"),
@@ -174,10 +181,12 @@ def test_a_dry_run_writes_nothing(cli, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("kind", "registry"), [("tasks", TASKS), ("models", MODELS), ("metrics", METRICS)]
+    ("kind", "registry"),
+    [*zip(["models", "tasks", "metrics", "libraries"], REGISTRIES, strict=True)],
 )
 def test_list_names_everything(cli, kind, registry):
     assert cli("list", kind) == 0
+    assert registry.names()
     assert all(name in cli.printed for name in registry.names())
 
 
@@ -217,14 +226,100 @@ def test_a_report_into_a_folder_that_is_not_there_exits_with_2(cli, tmp_path):
 
 
 def test_a_defect_is_told_from_a_worse_metric(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(cli_check, "read_baseline", lambda path: 1 / 0)
+    monkeypatch.setattr(gate, "read_reference", lambda path: 1 / 0, raising=False)
     Store.create(tmp_path).save_plan({"keys": [], "provenance": {}})
     with pytest.raises(SystemExit) as ended:
-        main(["check", str(tmp_path), "--baseline", "b.csv"])
+        main(["check", str(tmp_path), "--reference", "b.csv"])
     assert ended.value.code == 70
     printed = capsys.readouterr().err
     assert "ZeroDivisionError" in printed
     assert "a defect of mocapbench or an added package" in printed
+
+
+def test_the_version_is_shown(cli):
+    assert cli("--version") == 0
+    assert cli.printed == f"mocapbench {mocapbench.__version__}"
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_list_of_commands_says_of_each_what_it_says_itself(cli, name):
+    module = importlib.import_module(f"mocapbench.benchmark.cli.{name}")
+    command = get_command(module.app)
+    assert COMMANDS[name] == command.help.partition("\n")[0]
+    assert cli("--help") == 0
+    assert COMMANDS[name] in cli.printed
+    assert cli(name, "--help") == 0
+    assert COMMANDS[name] in cli.printed
+
+
+@pytest.mark.parametrize(("wrong", "meant"), [("rnu", "run"), ("compar", "compare")])
+def test_an_unknown_command_exits_with_2_and_names_the_nearest(cli, wrong, meant):
+    assert cli(wrong) == 2
+    assert cli.printed == f"error: unknown command {wrong!r}: did you mean {meant}?"
+
+
+def test_a_command_like_no_other_exits_with_2_and_lists_them(cli):
+    assert cli("@@@@") == 2
+    assert cli.printed == f"error: unknown command '@@@@': known: {', '.join(COMMANDS)}"
+
+
+def test_a_metric_may_be_given_by_its_former_name(cli, tmp_path):
+    synthesis = ("run", "--offline", "--dry-run", "--profile", "smoke", "--tasks", "toy-synthesis")
+    assert cli(*synthesis, "--metrics", "spread", "--out", tmp_path / "run") == 0
+    assert "jobs" in cli.printed
+    archive = archive_at(None)
+    old, new, both = (
+        plan(Request("smoke", ("toy-synthesis",), metrics=names), archive)
+        for names in (("spread",), ("variance_ratio",), ("spread", "variance_ratio"))
+    )
+    assert old == new == both
+    assert {job.metrics for job in old} == {("variance_ratio",)}
+
+
+def test_a_run_that_another_one_writes_to_is_refused(cli, tmp_path):
+    store = Store.create(tmp_path / "run")
+    with store.locked():
+        assert cli(*FAST, "--out", tmp_path / "run") == 2
+        assert "another run is writing to" in cli.printed
+        assert "wait for it or name another folder" in cli.printed
+        assert [*(tmp_path / "run" / "records").iterdir()] == []
+    assert cli(*FAST, "--models", "trivial", "--folds", 1, "--out", tmp_path / "run") == 0
+
+
+def test_the_lock_does_not_outlive_a_killed_process(tmp_path):
+    store = Store.create(tmp_path)
+    script = (
+        "import sys, time\n"
+        "from pathlib import Path\n"
+        "from mocapbench.benchmark.runs.store import Store\n"
+        "with Store.open(Path(sys.argv[1])).locked():\n"
+        "    print('locked', flush=True)\n"
+        "    time.sleep(600)\n"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", script, str(tmp_path)], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        assert process.stdout.readline() == "locked\n"
+        with pytest.raises(UsageError, match="another run is writing"), store.locked():
+            pass
+    finally:
+        process.kill()
+        process.communicate(timeout=60)
+    with store.locked():
+        pass
+
+
+def test_export_without_pyarrow_writes_csv_and_says_how_to_get_parquet(cli, tmp_path, monkeypatch):
+    assert cli(*FAST, "--out", tmp_path / "run") == 0
+    module = importlib.import_module("mocapbench.benchmark.cli.export")
+    monkeypatch.setattr(module, "find_spec", {}.get)
+    assert cli("export", "--out", tmp_path / "run", "--to", tmp_path / "tables") == 0
+    assert "pip install 'mocapbench[parquet]'" in cli.printed
+    assert "no Parquet files, which need pyarrow" in cli.printed
+    assert {path.name for path in (tmp_path / "tables").iterdir()} == {"scores.csv", "jobs.csv"}
+    assert len(pd.read_csv(tmp_path / "tables" / "jobs.csv")) == 4
+    assert "parquet:" not in cli.printed.lower().replace("mocapbench[parquet]", "")
 
 
 @pytest.mark.slow

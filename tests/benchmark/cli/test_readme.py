@@ -14,12 +14,13 @@ COMMANDS = [
 ]
 
 
-def test_its_model_runs(cli, records, tmp_path):
+@pytest.mark.parametrize("option", ["--plugin", "--model-file"])
+def test_its_model_runs(cli, records, tmp_path, option):
     (source,) = (block for block in BLOCKS if "MODELS" in block)
     path = tmp_path / "my_model.py"
     path.write_text(source)
     toy = ("--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
-    chosen = ("--models", "channel-mean", "--model-file", path)
+    chosen = ("--models", "channel-mean", option, path)
     assert cli("run", *toy, *chosen, "--out", tmp_path / "run") == 0
     assert all(record["scores"]["mse"] > 0 for record in records(tmp_path / "run").values())
 

@@ -2,9 +2,13 @@ from dataclasses import replace
 
 import pandas as pd
 import pytest
+from typer.main import get_command
 
+from mocapbench.benchmark.cli.compare import app
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.tasks.address import Address
+from mocapbench.metrics.statistics import ROPE
 
 TOY, FRAMES = "toy-interpolation-1", "missing-frames"
 GOOD = {"test 1": [1.0, 1.2, 0.9, 1.1, 1.0], "test 2": [2.0, 2.2, 1.9, 2.1, 2.0]}
@@ -16,12 +20,8 @@ def records(label, cases, task=TOY, metric="mse", **fields):
         Record(
             key=f"{task}{case}{label}{fold}".encode().hex(),
             fit_key="",
-            task=task,
-            version=1,
-            case=case,
-            fold=fold,
+            address=Address(task, 1, case, fold, label),
             seed=0,
-            label=label,
             model=label,
             parameters={},
             status=Status.OK,
@@ -139,7 +139,7 @@ def test_generated_motion_is_not_pooled_with_recordings(cli, run, tmp_path):
 
 def test_folds_that_only_one_side_has_and_undefined_scores_are_left_out(cli, run, tmp_path):
     fewer = records("nn", {"test 1": [2.0, float("nan"), 2.5]})
-    fewer[2] = fewer[2].ended(Status.FAILED, "it broke")
+    fewer[2] = replace(fewer[2], status=Status.FAILED, message="it broke")
     rows = compared(cli, tmp_path, run("run", records("knn", GOOD), fewer), "--models", "knn,nn")
     assert rows["n"].to_dict() == {"test 1": 1}
 
@@ -153,6 +153,32 @@ def test_markdown_holds_every_row_and_the_notes(cli, run, tmp_path):
     assert "cannot go below p = 0.0625" in text
 
 
+def test_a_metric_may_be_given_by_its_former_name(cli, run, tmp_path):
+    given = {"task": "toy-synthesis", "metric": "variance_ratio"}
+    both = run("run", records("moa", GOOD, **given), records("mohgp", BAD, **given))
+    chosen = ("--models", "moa,mohgp", "--metrics")
+    former = compared(cli, tmp_path, both, *chosen, "spread")
+    assert set(former["metric"]) == {"variance_ratio"}
+    for names in ("variance_ratio", "variance_ratio,spread"):
+        pd.testing.assert_frame_equal(former, compared(cli, tmp_path, both, *chosen, names))
+
+
+def test_equivalence_begins_where_the_statistics_say_unless_told_otherwise(cli, run, tmp_path):
+    (rope,) = (p for p in get_command(app).params if p.name == "rope")
+    assert rope.default == ROPE
+    one, other = run("good", records("knn", GOOD)), run("bad", records("knn", BAD))
+    default, given, wide = (
+        compared(cli, tmp_path, one, other, *options)
+        for options in ((), ("--rope", ROPE), ("--rope", 0.5))
+    )
+    pd.testing.assert_frame_equal(default, given)
+    assert (wide["equivalent"] > default["equivalent"]).any()
+
+
+def _changed(record, version=1, **fields):
+    return replace(record, address=record.address._replace(version=version), **fields)
+
+
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
@@ -163,7 +189,7 @@ def test_markdown_holds_every_row_and_the_notes(cli, run, tmp_path):
     ],
 )
 def test_what_is_not_paired_is_refused_with_the_reason(cli, run, change, reason):
-    changed = [replace(record, **change) for record in records("knn", GOOD)]
+    changed = [_changed(record, **change) for record in records("knn", GOOD)]
     assert cli("compare", run("one", records("knn", GOOD)), run("other", changed)) == 2
     assert "do not solve the same problems" in cli.printed
     assert reason in cli.printed

@@ -7,6 +7,7 @@ import pytest
 
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.tasks.address import Address
 
 ABOUT = {
     **{"profile": "smoke", "seed": "0", "machine": "m", "libc": "l", "BLAS": "b"},
@@ -21,7 +22,9 @@ def _record(label, fold, found, about, version):
     if isinstance(found, dict):
         fields = {"status": Status.OK, "scores": found}
     return Record(
-        *(key, key, TASK, version, CASE, fold, 0, label, label, {}), **fields, provenance=about
+        *(key, key, Address(TASK, version, CASE, fold, label), 0, label, {}),
+        **fields,
+        provenance=about,
     )
 
 
@@ -50,12 +53,12 @@ def _mse(*values):
 
 @pytest.fixture
 def check(cli, run, tmp_path):
-    """Return a function that holds one run against another, recorded as a baseline."""
+    """Return a function that holds one run against another, recorded as a reference."""
 
     def hold(before, after, *options):
-        baseline = tmp_path / "baseline.csv"
-        assert cli("check", run("before", before), "--baseline", baseline, "--update") == 0
-        return cli("check", run("after", after), "--baseline", baseline, *options)
+        reference = tmp_path / "reference.csv"
+        assert cli("check", run("before", before), "--reference", reference, "--update") == 0
+        return cli("check", run("after", after), "--reference", reference, *options)
 
     return hold
 
@@ -78,7 +81,7 @@ def test_better_is_told_and_strict_wants_it_recorded(check, cli, run, tmp_path):
     assert check(before, after) == 0
     assert "1 better" in cli.printed
     assert check(before, after, "--strict") == 1
-    arguments = ("check", tmp_path / "after", "--baseline", tmp_path / "baseline.csv")
+    arguments = ("check", tmp_path / "after", "--reference", tmp_path / "reference.csv")
     assert cli(*arguments, "--update") == 0
     assert "1 better" in cli.printed
     assert cli(*arguments, "--strict") == 0
@@ -113,7 +116,7 @@ def test_what_is_lost_is_no_silence(check, cli, tmp_path, after):
 def test_another_version_of_a_task_is_another_problem(check, cli, run, tmp_path):
     assert check({"knn": _mse(1.0)}, {"knn": _mse(1.0)}) == 0
     newer = run("newer", {"knn": _mse(1.0)}, version=2)
-    assert cli("check", newer, "--baseline", tmp_path / "baseline.csv") == 1
+    assert cli("check", newer, "--reference", tmp_path / "reference.csv") == 1
     assert "1 lost, 1 new" in cli.printed
 
 
@@ -125,7 +128,7 @@ def test_a_failed_job_is_3(check, cli, status, known):
     assert f"{status}: no | luck" in cli.printed
 
 
-def test_a_failed_fold_that_the_baseline_lacks_is_3_too(check):
+def test_a_failed_fold_that_the_reference_lacks_is_3_too(check):
     assert check({"knn": _mse(1.0)}, {"knn": [{"mse": 1.0}, Status.FAILED]}) == 3
 
 
@@ -134,14 +137,14 @@ def test_worse_comes_before_broken(check):
     assert check(before, {"knn": _mse(1.1), "nn": [Status.FAILED]}) == 1
 
 
-def test_missing_data_are_skipped_and_stay_in_the_baseline(check, cli, tmp_path):
+def test_missing_data_are_skipped_and_stay_in_the_reference(check, cli, tmp_path):
     before = {"knn": _mse(1.0), "nn": _mse(1.0)}
     assert check(before, {"knn": _mse(1.0), "nn": [Status.DATA_MISSING]}) == 0
     assert "1 data missing, 1 same" in cli.printed
-    baseline = tmp_path / "baseline.csv"
-    kept = baseline.read_text()
-    assert cli("check", tmp_path / "after", "--baseline", baseline, "--update") == 0
-    assert baseline.read_text() == kept
+    reference = tmp_path / "reference.csv"
+    kept = reference.read_text()
+    assert cli("check", tmp_path / "after", "--reference", reference, "--update") == 0
+    assert reference.read_text() == kept
 
 
 def test_a_run_that_was_compared_to_nothing_is_4(check, cli):
@@ -149,20 +152,30 @@ def test_a_run_that_was_compared_to_nothing_is_4(check, cli):
     assert "nothing was compared: expected values that both" in cli.printed
 
 
-def test_a_baseline_that_is_not_there_is_4(cli, run, tmp_path):
+def test_a_reference_that_is_not_there_is_4(cli, run, tmp_path):
     path = run("run", {"knn": _mse(1.0)})
-    assert cli("check", path, "--baseline", tmp_path / "absent") == 4
-    assert "write one with --update" in cli.printed
+    assert cli("check", path, "--reference", tmp_path / "absent") == 4
+    assert "write some with --update" in cli.printed
 
 
 def test_another_environment_is_seen_and_held_less_tightly(check, cli, run, tmp_path):
     assert check({"knn": _mse(1.0)}, {"knn": _mse(1.0)}) == 0
-    arguments = ("--baseline", tmp_path / "baseline.csv")
+    arguments = ("--reference", tmp_path / "reference.csv")
     other = ABOUT | {"BLAS": "another"}
     assert cli("check", run("near", {"knn": _mse(1.01)}, other), *arguments) == 0
     assert "cross environment (BLAS differ)" in cli.printed
     assert cli("check", run("far", {"knn": _mse(1.03)}, other), *arguments) == 1
     assert cli("check", tmp_path / "near", *arguments, "--environment", "same") == 1
+
+
+@pytest.mark.parametrize("option", ["--reference", "--baseline"])
+def test_the_former_name_of_the_option_still_works(cli, run, tmp_path, option):
+    stored = tmp_path / "stored.csv"
+    before, after = run("before", {"knn": _mse(1.0)}), run("after", {"knn": _mse(1.1)})
+    assert cli("check", before, option, stored, "--update") == 0
+    assert cli("check", before, option, stored) == 0
+    assert cli("check", after, option, stored) == 1
+    assert "check: 1 worse" in cli.printed
 
 
 def test_a_file_of_tolerances_decides(check, tmp_path):
@@ -172,45 +185,45 @@ def test_a_file_of_tolerances_decides(check, tmp_path):
     assert check(before, after, "--tolerances", tmp_path / "t.toml") == 0
 
 
-def test_a_run_directory_is_a_baseline_but_not_one_to_write(cli, run):
+def test_a_run_directory_is_a_reference_but_not_one_to_write(cli, run):
     before, after = run("before", {"knn": _mse(1.0)}), run("after", {"knn": _mse(1.1)})
-    assert cli("check", after, "--baseline", before) == 1
-    assert cli("check", after, "--baseline", before, "--update") == 2
+    assert cli("check", after, "--reference", before) == 1
+    assert cli("check", after, "--reference", before, "--update") == 2
     assert "is a run directory" in cli.printed
 
 
 def test_a_file_that_is_read_whatever_its_name_is_not_written(cli, run, tmp_path):
     path, csv, text = (tmp_path / name for name in ("run", "b.csv", "b.txt"))
-    assert cli("check", run("run", {"knn": _mse(1.0)}), "--baseline", csv, "--update") == 0
+    assert cli("check", run("run", {"knn": _mse(1.0)}), "--reference", csv, "--update") == 0
     csv.rename(text)
-    assert cli("check", path, "--baseline", text) == 0
-    assert cli("check", path, "--baseline", text, "--update") == 2
+    assert cli("check", path, "--reference", text) == 0
+    assert cli("check", path, "--reference", text, "--update") == 2
     assert "expected a .csv file or a folder" in cli.printed
 
 
-def test_half_a_run_is_no_baseline(cli, run, tmp_path):
+def test_half_a_run_is_no_reference(cli, run, tmp_path):
     whole, cut = (run(name, {"knn": _mse(1.0), "nn": _mse(1.0)}) for name in ("whole", "cut"))
     record = cut / "records" / "nn-0-1.json"
     record.write_text(record.read_text()[:50])
-    assert cli("check", whole, "--baseline", cut) == 2
+    assert cli("check", whole, "--reference", cut) == 2
     assert "cut holds a damaged record" in cli.printed
     record.unlink()
-    assert cli("check", cut, "--baseline", tmp_path / "b.csv", "--update") == 2
+    assert cli("check", cut, "--reference", tmp_path / "b.csv", "--update") == 2
     assert "1 jobs of the run have no whole record" in cli.printed
     assert not (tmp_path / "b.csv").exists()
 
 
-def test_failed_jobs_are_no_baseline_unless_asked(cli, run, tmp_path):
-    baseline = tmp_path / "baseline"
+def test_failed_jobs_are_no_reference_unless_asked(cli, run, tmp_path):
+    reference = tmp_path / "reference"
     good = run("good", {"knn": _mse(1.0), "nn": _mse(1.0)})
-    assert cli("check", good, "--baseline", baseline, "--update") == 0
+    assert cli("check", good, "--reference", reference, "--update") == 0
     bad = run("bad", {"knn": _mse(2.0), "nn": [Status.FAILED]})
-    kept = (baseline / f"{TASK}.csv").read_text()
-    assert cli("check", bad, "--baseline", baseline, "--update") == 2
+    kept = (reference / f"{TASK}.csv").read_text()
+    assert cli("check", bad, "--reference", reference, "--update") == 2
     assert "--allow-failures" in cli.printed
-    assert (baseline / f"{TASK}.csv").read_text() == kept
-    assert cli("check", bad, "--baseline", baseline, "--update", "--allow-failures") == 0
-    text = (baseline / f"{TASK}.csv").read_text()
+    assert (reference / f"{TASK}.csv").read_text() == kept
+    assert cli("check", bad, "--reference", reference, "--update", "--allow-failures") == 0
+    text = (reference / f"{TASK}.csv").read_text()
     assert "knn,mse,2.0" in text
     assert "nn,mse,1.0" in text
 
@@ -220,17 +233,17 @@ def test_runs_that_cannot_be_paired_are_refused(check, cli, run, tmp_path, name)
     assert check({"knn": _mse(1.0)}, {"knn": _mse(1.0)}) == 0
     other = run("other", {"knn": _mse(1.0)}, ABOUT | {name: "7"})
     for options in ((), ("--update",)):
-        assert cli("check", other, "--baseline", tmp_path / "baseline.csv", *options) == 2
+        assert cli("check", other, "--reference", tmp_path / "reference.csv", *options) == 2
         assert f"expected a run of the {name}" in cli.printed
 
 
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ((), "choose --baseline"),
-        (("--baseline", "b.csv", "--junit", "no/such/folder.xml"), "in a folder that exists"),
-        (("--baseline", "b.csv", "--markdown", "/"), "in a folder that exists"),
-        (("--baseline", "b.csv", "--environment", "near"), "near"),
+        ((), "choose --reference"),
+        (("--reference", "b.csv", "--junit", "no/such/folder.xml"), "in a folder that exists"),
+        (("--reference", "b.csv", "--markdown", "/"), "in a folder that exists"),
+        (("--reference", "b.csv", "--environment", "near"), "near"),
         (("--controls", "--junit", "j.xml"), "--controls: expected no other option"),
         (("--controls", "--strict"), "--controls: expected no other option"),
     ],
@@ -241,7 +254,7 @@ def test_bad_requests_are_2(cli, run, arguments, complaint):
 
 
 def test_a_folder_that_is_no_run_is_2(cli, tmp_path):
-    assert cli("check", tmp_path, "--baseline", tmp_path / "b.csv") == 2
+    assert cli("check", tmp_path, "--reference", tmp_path / "b.csv") == 2
     assert "is not a mocapbench run" in cli.printed
 
 

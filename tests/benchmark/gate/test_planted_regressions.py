@@ -10,15 +10,15 @@ import pytest
 from mocapbench.baselines import Imputer, Prediction
 from mocapbench.baselines.gp.prior.kernels import RBF
 from mocapbench.baselines.oracle import Oracle
+from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.problems.masks import hide_all_but
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.runs.evaluate import evaluate
-from mocapbench.benchmark.runs.job import Settings
+from mocapbench.benchmark.runs.job import WorkerConfig
 from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.runs.provenance import provenance
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks import toy_interpolation
-from mocapbench.datasets import open_archive
 
 N_FOLDS = 20
 
@@ -47,11 +47,11 @@ def run(tmp_path):
         store = Store.create(tmp_path / name)
         about = {**provenance(["test"], threads=1), "profile": "smoke", "seed": "0"}
         unlimited = resource.RLIM_INFINITY
-        settings = Settings(store.path, None, (), 60.0, unlimited, 1, about)
+        config = WorkerConfig(store.path, None, (), 60.0, unlimited, 1, about)
         request = Request("smoke", ("toy-interpolation-1",), (model,), folds=n_folds)
-        jobs = plan(request, open_archive())
+        jobs = plan(request, archive_at(None))
         for job in jobs:
-            record = evaluate(job, settings)
+            record = evaluate(job, config)
             assert not record.message
             store.save(record)
         store.save_plan({"keys": [job.key for job in jobs], "provenance": about})
@@ -66,10 +66,10 @@ def failing(cli, run, tmp_path):
 
     def failing(model, plant, n_folds=N_FOLDS):
         before = run("before", model, n_folds)
-        assert cli("check", run("again", model, n_folds), "--baseline", before) == 0
+        assert cli("check", run("again", model, n_folds), "--reference", before) == 0
         plant()
         after = run("after", model, n_folds)
-        code = cli("check", after, "--baseline", before)
+        code = cli("check", after, "--reference", before)
         found = json.loads((after / "check.json").read_text())["findings"]
         metrics = {each["metric"] for each in found if each["fails"]}
         assert (code == 1) is bool(metrics)

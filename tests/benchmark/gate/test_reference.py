@@ -1,40 +1,49 @@
-"""Baselines are text that holds every bit, as a file and as a folder."""
+"""Reference values are text that holds every bit, as a file and as a folder."""
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.gate.reference import Address, Baseline, read_baseline, write_baseline
+from mocapbench.benchmark.gate.reference import Reference, Series
+from mocapbench.benchmark.gate.reference_files import read_reference, write_reference
+from mocapbench.benchmark.tasks.address import Address
 
 ABOUT = {"profile": "smoke", "seed": "0", "machine": "m", "libc": "l", "BLAS": "b"} | {
     f"{name} version": "1" for name in ("numpy", "scipy", "scikit-learn")
 }
 names = st.text("ab#\", '", min_size=1, max_size=5)
-addresses = st.builds(Address, st.sampled_from(["t", "u"]), st.integers(1, 3), names, names, names)
+addresses = st.builds(
+    Address, st.sampled_from(["t", "u"]), st.integers(1, 3), names, st.none(), names
+)
+series = st.builds(Series, addresses, names)
 by_fold = st.dictionaries(
     st.integers(0, 4), st.floats(allow_nan=False, allow_infinity=False), min_size=1
 )
 
 
-@pytest.mark.parametrize("name", ["baseline.csv", "folder"])
-@given(values=st.dictionaries(addresses, by_fold, min_size=1))
+def _series(task="t", label="l", metric="mse"):
+    return Series(Address(task, 1, "c", label=label), metric)
+
+
+@pytest.mark.parametrize("name", ["reference.csv", "folder"])
+@given(values=st.dictionaries(series, by_fold, min_size=1))
 def test_what_is_written_is_read(tmp_path_factory, name, values):
-    path = tmp_path_factory.mktemp("baseline") / name
-    write_baseline(path, Baseline(values, ABOUT))
-    assert read_baseline(path) == Baseline(values, ABOUT)
+    path = tmp_path_factory.mktemp("reference") / name
+    write_reference(path, Reference(values, ABOUT))
+    assert read_reference(path) == Reference(values, ABOUT)
 
 
 def test_a_task_that_is_gone_takes_its_file_along(tmp_path):
-    one, two = (Address(task, 1, "c", "l", "mse") for task in "tu")
-    write_baseline(tmp_path, Baseline({one: {0: 1.0}, two: {0: 2.0}}, ABOUT))
-    write_baseline(tmp_path, Baseline({two: {0: 2.0}}, ABOUT))
+    one, two = (_series(task=task) for task in "tu")
+    write_reference(tmp_path, Reference({one: {0: 1.0}, two: {0: 2.0}}, ABOUT))
+    write_reference(tmp_path, Reference({two: {0: 2.0}}, ABOUT))
     assert [path.name for path in tmp_path.iterdir()] == ["u.csv"]
 
 
 def test_a_value_takes_one_line_and_lines_are_sorted(tmp_path):
-    values = {Address("t", 1, "c", label, "mse"): {0: 0.1, 2: 1 / 3} for label in "ba"}
-    write_baseline(tmp_path / "b.csv", Baseline(values, ABOUT))
+    values = {_series(label=label): {0: 0.1, 2: 1 / 3} for label in "ba"}
+    write_reference(tmp_path / "b.csv", Reference(values, ABOUT))
     lines = (tmp_path / "b.csv").read_text().splitlines()
     assert lines[-3:] == [
         "task,version,case,label,metric,fold 0,fold 1,fold 2",
@@ -43,9 +52,23 @@ def test_a_value_takes_one_line_and_lines_are_sorted(tmp_path):
     ]
 
 
-def test_nothing_there_is_no_baseline(tmp_path):
-    assert read_baseline(tmp_path) is None
-    assert read_baseline(tmp_path / "absent.csv") is None
+def test_nothing_there_holds_no_values(tmp_path):
+    assert read_reference(tmp_path) is None
+    assert read_reference(tmp_path / "absent.csv") is None
+
+
+def test_a_metric_that_was_renamed_is_read_under_its_name(tmp_path):
+    values = {_series(metric="spread"): {0: 1.0}, _series(metric="gone"): {0: 2.0}}
+    write_reference(tmp_path / "r.csv", Reference(values, ABOUT))
+    read = read_reference(tmp_path / "r.csv").values
+    assert read == {_series(metric="variance_ratio"): {0: 1.0}, _series(metric="gone"): {0: 2.0}}
+
+
+def test_a_metric_under_both_of_its_names_has_two_rows(tmp_path):
+    values = {_series(metric=name): {0: 1.0} for name in ("spread", "variance_ratio")}
+    write_reference(tmp_path / "r.csv", Reference(values, ABOUT))
+    with pytest.raises(UsageError, match="t, 1, c, l, variance_ratio has two rows; keep one"):
+        read_reference(tmp_path / "r.csv")
 
 
 @pytest.mark.parametrize(
@@ -66,30 +89,30 @@ def test_nothing_there_is_no_baseline(tmp_path):
 )
 def test_a_file_that_is_none_is_refused(tmp_path, text):
     (tmp_path / "b.csv").write_text(text)
-    with pytest.raises(UsageError, match=r"b\.csv is not a baseline .*--update"):
-        read_baseline(tmp_path)
+    with pytest.raises(UsageError, match=r"b\.csv holds no reference values .*--update"):
+        read_reference(tmp_path)
 
 
 def test_a_file_and_its_copy_do_not_belong_together(tmp_path):
     for name in ("one.csv", "copy.csv"):
-        address = Address("t", 1, "c", "l", "mse")
-        write_baseline(tmp_path / name, Baseline({address: {0: 1.0}}, ABOUT))
+        write_reference(tmp_path / name, Reference({_series(): {0: 1.0}}, ABOUT))
     with pytest.raises(UsageError, match="t, 1, c, l, mse has two rows; keep one"):
-        read_baseline(tmp_path)
+        read_reference(tmp_path)
 
 
 def test_a_folder_may_be_called_like_a_file(tmp_path):
     path = tmp_path / "folder.csv"
     path.mkdir()
-    baseline = Baseline({Address("t", 1, "c", "l", "mse"): {0: 1.0}}, ABOUT)
-    write_baseline(path, baseline)
-    assert read_baseline(path) == baseline
+    reference = Reference({_series(): {0: 1.0}}, ABOUT)
+    write_reference(path, reference)
+    assert read_reference(path) == reference
 
 
 def test_files_of_two_profiles_do_not_belong_together(tmp_path):
     for profile in ("smoke", "quick"):
-        address = Address(profile, 1, "c", "l", "mse")
         about = ABOUT | {"profile": profile}
-        write_baseline(tmp_path / f"{profile}.csv", Baseline({address: {0: 1.0}}, about))
+        write_reference(
+            tmp_path / f"{profile}.csv", Reference({_series(task=profile): {0: 1.0}}, about)
+        )
     with pytest.raises(UsageError, match=r"expected one profile .* got quick and smoke"):
-        read_baseline(tmp_path)
+        read_reference(tmp_path)

@@ -1,8 +1,8 @@
 import pytest
 
+from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.plan import Request, plan, required_sources
-from mocapbench.datasets import open_archive
 
 
 def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
@@ -13,25 +13,27 @@ def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
 
 
 @pytest.mark.parametrize("profile", ["smoke", "quick", "paper"])
-def test_every_job_of_a_profile_has_a_key_of_its_own_and_every_question_a_fit(profile):
-    jobs = plan(Request(profile), open_archive())
+def test_every_job_of_a_profile_has_a_key_of_its_own_and_every_problem_a_fit(profile):
+    jobs = plan(Request(profile), archive_at(None))
     assert len({job.key for job in jobs}) == len(jobs)
-    assert len({job.fit_key for job in jobs}) == len({(job.seeds, job.label) for job in jobs})
+    assert len({job.fit_key for job in jobs}) == len(
+        {(job.seeds, job.address.label) for job in jobs}
+    )
 
 
 def test_a_profile_leaves_out_what_runs_only_when_asked_for():
-    archive = open_archive()
-    quick = {job.label for job in plan(Request(tasks=("missing-frames",)), archive)}
+    archive = archive_at(None)
+    quick = {job.address.label for job in plan(Request(tasks=("missing-frames",)), archive)}
     asked = Request(tasks=("missing-frames",), models=("gpdm-two-stage-window",))
     assert "gpdm-two-stage-window" not in quick
-    assert {job.label for job in plan(asked, archive)} == {"gpdm-two-stage-window"}
+    assert {job.address.label for job in plan(asked, archive)} == {"gpdm-two-stage-window"}
 
 
 @pytest.mark.parametrize("name", TASKS.names())
 def test_generated_gait_stands_in_for_recordings_but_not_among_the_rows_of_the_papers(name):
     task = TASKS.get(name)
     of_paper = {case.name for case in task.cases if not case.synthetic}
-    assert set(task.selection("paper").cases) == of_paper
+    assert set(task.profile("paper").cases) == of_paper
     for profile in ("smoke", "quick"):
-        chosen = [task.case(case) for case in task.selection(profile).cases]
-        assert any(case.synthetic or not case.needs for case in chosen)
+        chosen = [task.case(case) for case in task.profile(profile).cases]
+        assert any(case.synthetic or not case.recordings for case in chosen)

@@ -25,7 +25,7 @@ ENDINGS = {
 def arguments(tmp_path, broken_models):
     return [
         *("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--folds", 1),
-        *("--model-file", broken_models, "--out", tmp_path / "run", "--offline", "--jobs", 2),
+        *("--plugin", broken_models, "--out", tmp_path / "run", "--offline", "--jobs", 2),
     ]
 
 
@@ -54,7 +54,7 @@ def test_a_parameter_that_is_no_plain_value_is_refused(cli, tmp_path, arguments)
         "MODELS = {'with-object': M}\n"
     )
     (tmp_path / "models.py").write_text(source)
-    chosen = ("--models", "with-object", "--model-file", tmp_path / "models.py")
+    chosen = ("--models", "with-object", "--plugin", tmp_path / "models.py")
     assert cli(*arguments, *chosen) == 2
     assert "expected parameters that JSON can hold" in cli.printed
 

@@ -1,5 +1,6 @@
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,8 +9,10 @@ from hypothesis import strategies as st
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.runs.fit import Fit
 from mocapbench.benchmark.runs.record import Record, RecordError, Status
-from mocapbench.benchmark.runs.store import Fit, Store
+from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.tasks.address import Address
 
 TEXT = st.text(max_size=20)
 FLOATS = st.floats(allow_infinity=False)
@@ -17,12 +20,8 @@ RECORDS = st.builds(
     Record,
     key=st.text("0123456789abcdef", min_size=64, max_size=64),
     fit_key=TEXT,
-    task=TEXT,
-    version=st.integers(1, 9),
-    case=TEXT,
-    fold=st.integers(0, 9),
+    address=st.builds(Address, TEXT, st.integers(1, 9), TEXT, st.integers(0, 9), TEXT),
     seed=st.integers(0, 9),
-    label=TEXT,
     model=TEXT,
     parameters=st.dictionaries(TEXT, st.integers() | TEXT),
     status=st.sampled_from(Status),
@@ -43,7 +42,7 @@ def store(tmp_path):
 
 @pytest.fixture
 def record():
-    return Record("k" * 64, "f", "t", 1, "c", 0, 0, "label", "model", {}, Status.OK)
+    return Record("k" * 64, "f", Address("t", 1, "c", 0, "label"), 0, "model", {}, Status.OK)
 
 
 @given(RECORDS)
@@ -75,6 +74,18 @@ def test_what_is_saved_is_loaded(store, record):
     assert store.damaged == []
 
 
+def test_scores_of_a_metric_that_was_renamed_are_loaded_under_its_name(store, record):
+    old = {"spread": 1.0, "mse": 2.0, "of a package that is gone": 3.0}
+    parts = {"spread": {"output": [1.0]}}
+    store.save(replace(record, scores=old, parts=parts, left_out={"spread": 1}))
+    back = store.load(record.key)
+    assert back.scores == {"variance_ratio": 1.0, "mse": 2.0, "of a package that is gone": 3.0}
+    assert (back.parts, back.left_out) == (
+        {"variance_ratio": {"output": [1.0]}},
+        {"variance_ratio": 1},
+    )
+
+
 def test_a_damaged_record_is_reported_and_not_trusted(store, record):
     store.save(record)
     path = store.path / "records" / f"{record.key}.json"
@@ -99,7 +110,7 @@ def test_predictions_survive_and_truncated_ones_are_reported(store, data):
     )
     store.save_fit("key", fit)
     back = store.load_fit("key")
-    np.testing.assert_array_equal(back.solution["mean-0"], fit.solution["mean-0"])
+    np.testing.assert_array_equal(back.arrays["mean-0"], fit.arrays["mean-0"])
     assert (back.fit_seconds, back.iterations, back.engine) == (1.5, 7, "dense")
     assert back.warnings == ("careful",)
     path = store.path / "predictions" / "key.npz"

@@ -1,0 +1,85 @@
+"""The command line answers at once where it computes nothing."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = ("matplotlib", "numpy", "pandas", "scipy", "seaborn", "sklearn")
+SCRIPT = f"""
+import atexit, json, sys
+sys.argv = ["mocapbench", *sys.argv[1:]]
+loaded = lambda: json.dumps([name for name in {HEAVY!r} if name in sys.modules])
+atexit.register(lambda: print(loaded(), file=sys.stderr))
+from mocapbench.benchmark.cli.main import main
+main()
+"""
+
+
+def _run(*arguments, **environment):
+    """Run the command line in a fresh process; return its code, its output and what it loaded."""
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT, *arguments],
+        env={**os.environ, "COLUMNS": "200", **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    *printed, loaded = done.stderr.splitlines()
+    assert "Traceback" not in done.stderr
+    return done.returncode, done.stdout + "\n".join(printed), json.loads(loaded)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "shown"),
+    [
+        (("--help",), "Set two runs, or two models of one run, against each other"),
+        (("--version",), "mocapbench "),
+        (("run", "--help"), "--dry-run"),
+        (("report", "--help"), "The HTML file to write"),
+        (("check", "--help"), "--reference"),
+        (("compare", "--help"), "--rope"),
+        (("data", "--help"), "verify"),
+        (("export", "--help"), "Folder of the files"),
+        (("list", "--help"), "libraries"),
+        (("info", "--help"), "how to cite"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else "",
+)
+def test_help_loads_no_numerical_library(arguments, shown):
+    code, printed, loaded = _run(*arguments)
+    assert code == 0
+    assert shown in printed
+    assert loaded == []
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("mocapbench ru", {"run"}),
+        ("mocapbench c", {"check", "compare"}),
+        ("mocapbench run --pro", {"--profile"}),
+        ("mocapbench check --refer", {"--reference"}),
+        ("mocapbench compare --ro", {"--rope"}),
+        ("mocapbench data ver", {"verify"}),
+    ],
+)
+def test_completion_in_a_shell_loads_no_numerical_library(words, expected):
+    position = str(len(words.split()) - 1)
+    code, printed, loaded = _run(
+        _MOCAPBENCH_COMPLETE="complete_bash", COMP_WORDS=words, COMP_CWORD=position
+    )
+    assert code == 0
+    assert set(printed.split()) == expected
+    assert loaded == []
+
+
+def test_what_computes_does_load_them():
+    """Else the tests above would prove nothing."""
+    code, printed, loaded = _run("list", "models")
+    assert code == 0
+    assert "cubic-spline" in printed
+    assert {"numpy", "scipy"} <= set(loaded)

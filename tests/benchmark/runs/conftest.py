@@ -1,0 +1,32 @@
+import pytest
+
+from mocapbench.benchmark.runs import sources
+
+
+@pytest.fixture
+def forget():
+    """Return a function after which digests are computed anew, as in a fresh process."""
+
+    def forget():
+        for value in vars(sources).values():
+            if hasattr(value, "cache_clear"):
+                value.cache_clear()
+
+    forget()
+    yield forget
+    forget()
+
+
+@pytest.fixture
+def append(monkeypatch, forget):
+    """Return a function that appends a line to one module, as digests read it."""
+    read = sources._source
+
+    def append(module, line="CHANGED = 1"):
+        def source(name):
+            return f"{read(name)}\n{line}\n" if name == module else read(name)
+
+        monkeypatch.setattr(sources, "_source", source)
+        forget()
+
+    return append

@@ -1,0 +1,290 @@
+"""Which code a digest covers, shown on small packages and files of a user."""
+
+import importlib
+import sys
+from types import ModuleType
+
+import pytest
+
+from mocapbench.benchmark.plugins import load_plugin
+from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.runs.sources import source_digest
+
+LAZY = (
+    "import lazy_loader\n"
+    "__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)\n"
+)
+ENGINE = '''\
+"""What the engine does."""
+
+from fractions import Fraction
+
+STEPS = 3
+
+
+class Engine:
+    """What it is."""
+
+    tolerance = 0.1
+    """What it is for."""
+
+    def solve(self, steps=STEPS):
+        """What it returns."""
+        return steps * self.tolerance  # as fast as can be
+
+
+solve = Engine().solve
+HALF = Fraction(1, 2)
+'''
+
+
+@pytest.fixture
+def project(tmp_path, monkeypatch, forget):
+    """Return a function from files by path to the digest of a module, in a fresh process."""
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    before = set(sys.modules)
+
+    def digest(files, module="walks.model", within=()):
+        for name in set(sys.modules) - before:
+            del sys.modules[name]
+        for path, text in files.items():
+            (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / path).write_text(text)
+        importlib.invalidate_caches()
+        forget()
+        importlib.import_module(module)
+        return source_digest(module, within)
+
+    yield digest
+    for name in set(sys.modules) - before:
+        del sys.modules[name]
+
+
+def _package(model, **others):
+    """Return the files of a package whose model imports its engine somehow."""
+    files = {"walks/__init__.py": "", "walks/model.py": model, "walks/engine.py": ENGINE}
+    return files | {"walks/other.py": "UNUSED = 1\n"} | others
+
+
+EAGER = {
+    "walks/__init__.py": "from .engine import HALF, solve as go\nfrom .other import UNUSED\n",
+}
+OFFERED = {
+    "walks/__init__.py": LAZY,
+    "walks/__init__.pyi": "from .engine import HALF, solve\nfrom .other import UNUSED\n",
+}
+DEEP = {
+    "walks/deep/__init__.py": "from .inner import solve\n",
+    "walks/deep/inner.py": "from ..engine import solve\n",
+}
+WAYS = {
+    "absolute": _package("from walks.engine import solve\n"),
+    "relative": _package("from .engine import solve\n"),
+    "module": _package("from . import engine\n"),
+    "module by its full name": _package("import walks.engine as e\n"),
+    "within a function": _package(
+        "def fit():\n    from .engine import solve\n    return solve()\n"
+    ),
+    "of a package": _package("from walks import go\n", **EAGER),
+    "a value of a package": _package("from walks import HALF\n", **EAGER),
+    "a value of a module": _package("from walks.engine import HALF\n"),
+    "of a lazy package": _package("from walks import solve\n", **OFFERED),
+    "a value of a lazy package": _package("from walks import HALF\n", **OFFERED),
+    "through modules": _package("from .deep.inner import solve\n", **DEEP),
+    "through a package": _package("from .deep import solve\n", **DEEP),
+    "everything": _package("from .engine import *\n"),
+}
+
+
+@pytest.mark.parametrize("files", WAYS.values(), ids=WAYS)
+def test_code_that_is_imported_from_the_same_package_counts(project, files):
+    before = project(files)
+    assert project(files) == before
+    assert project(files | {"walks/engine.py": ENGINE.replace("STEPS = 3", "STEPS = 4")}) != before
+
+
+@pytest.mark.parametrize("files", WAYS.values(), ids=WAYS)
+def test_code_that_is_not_imported_does_not_count(project, files):
+    before = project(files)
+    changed = {"walks/other.py": "UNUSED = 2\n", "walks/new.py": "UNUSED = 3\n"}
+    assert project(files | changed) == before
+
+
+@pytest.mark.parametrize("init", [EAGER, OFFERED], ids=["eager", "lazy"])
+@pytest.mark.parametrize("module", ["engine", "other"])
+def test_of_a_package_that_is_imported_whole_all_that_it_offers_counts(project, init, module):
+    files = _package("import walks\n", **init)
+    before = project(files)
+    path = f"walks/{module}.py"
+    assert project(files | {path: f"{files[path]}\nCHANGED = 1\n"}) != before
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('"""What the engine does."""\n', ""),
+        ('"""What the engine does."""', '"""What it did."""'),
+        ('"""What it is."""', '"""What it was."""'),
+        ('"""What it is for."""', '"""What it was for."""'),
+        ('"""What it returns."""', '"""What it returned."""'),
+        ("  # as fast as can be", ""),
+        ("STEPS = 3\n", "# Enough.\n\n\n\nSTEPS = 3\n"),
+        (
+            "def solve(self, steps=STEPS):",
+            "def solve(\n        self,\n        steps=STEPS,\n    ):",
+        ),
+        ("STEPS = 3", "STEPS = (3)"),
+    ],
+)
+def test_prose_and_layout_do_not_count(project, old, new):
+    files = WAYS["relative"]
+    assert old in ENGINE
+    changed = {"walks/engine.py": ENGINE.replace(old, new, 1)}
+    assert project(files | changed) == project(files)
+    assert project(changed, "walks.engine") == project({"walks/engine.py": ENGINE}, "walks.engine")
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("STEPS = 3", "STEPS = 3.0"),
+        ("steps=STEPS", "steps=2"),
+        ("tolerance = 0.1", "tolerance = 0.2"),
+        ("steps * self", "steps + self"),
+        ("solve = Engine().solve", "solve = lambda: 'solve'"),
+        ("    def solve", "    @staticmethod\n    def solve"),
+    ],
+)
+def test_code_counts(project, old, new):
+    assert old in ENGINE
+    before = project({"walks/__init__.py": "", "walks/engine.py": ENGINE}, "walks.engine")
+    after = project({"walks/engine.py": ENGINE.replace(old, new, 1)}, "walks.engine")
+    assert after != before
+
+
+def test_other_projects_count_only_if_they_are_named(project):
+    files = _package("import strides.step\n") | {
+        "strides/__init__.py": "",
+        "strides/step.py": "LENGTH = 1\n",
+    }
+    changed = files | {"strides/step.py": "LENGTH = 2\n"}
+    assert project(files) == project(changed)
+    within = ("strides",)
+    assert project(files, within=within) != project(changed, within=within)
+
+
+def test_a_module_is_known_by_its_name_too(project):
+    """Two helpers that exchange their content compute something else."""
+    files = _package("from . import a, b\n") | {"walks/a.py": "X = 1\n", "walks/b.py": "X = 2\n"}
+    exchanged = files | {"walks/a.py": "X = 2\n", "walks/b.py": "X = 1\n"}
+    assert project(files) != project(exchanged)
+
+
+def test_circular_imports_end(project):
+    files = _package("from . import engine\n") | {"walks/engine.py": "from . import model\n"}
+    assert project(files) != project(files | {"walks/engine.py": "from . import model\nX = 1\n"})
+
+
+def test_an_optional_module_counts_where_it_can_be_imported(project):
+    optional = "try:\n    import walks.fast\nexcept ImportError:\n    pass\n"
+    without = project(_package(optional))
+    assert project(_package(optional, **{"walks/fast.py": "import no_such_library\n"})) == without
+    assert project(_package(optional, **{"walks/fast.py": "SPEED = 2\n"})) != without
+
+
+def test_compiled_code_counts_by_its_bytes(project, tmp_path, forget):
+    def digest(content):
+        project(_package("import sys\n"))
+        (tmp_path / "walks" / "fast.so").write_bytes(content)
+        compiled = ModuleType("walks.fast")
+        compiled.__file__ = str(tmp_path / "walks" / "fast.so")
+        sys.modules["walks.fast"] = compiled
+        (tmp_path / "walks" / "model.py").write_text("import walks.fast\n")
+        forget()
+        return source_digest("walks.model", ())
+
+    one = digest(b"\x7fELF\xff\x00")
+    assert digest(b"\x7fELF\xff\x00") == one
+    assert digest(b"\x7fELF\xff\x01") != one
+
+
+def test_a_source_in_another_encoding_is_read(project):
+    path, text = "walks/engine.py", "# coding: latin-1\nNAME = 'Schr\xf6dinger'\n"
+    files = _package("from . import engine\n") | {path: ""}
+    project(files)
+    engine = importlib.import_module("walks.engine").__file__
+    with open(engine, "wb") as file:  # noqa: PTH123
+        file.write(text.encode("latin-1"))
+    del files[path]
+    before = project(files)
+    with open(engine, "wb") as file:  # noqa: PTH123
+        file.write(text.replace("\xf6", "oe").encode("latin-1"))
+    assert project(files) != before
+
+
+MODEL = "from mocapbench.baselines.trivial import Trivial\n"
+
+
+@pytest.fixture
+def plugin(tmp_path, monkeypatch, forget):
+    """Return a function from files, the first being the plugin, to the digest of its model."""
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+
+    def forget_helpers():
+        for name in [name for name in sys.modules if name.startswith("stride_")]:
+            del sys.modules[name]
+
+    def digest(files):
+        forget_helpers()
+        for path, text in files.items():
+            (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / path).write_text(text)
+        importlib.invalidate_caches()
+        forget()
+        load_plugin(tmp_path / next(iter(files)))
+        return source_digest(MODELS.get("mine").__module__, ("mocapbench.baselines",))
+
+    yield digest
+    forget_helpers()
+
+
+FILE = f"{MODEL}import stride_a\nclass Mine(Trivial):\n    pass\nMODELS = {{'mine': Mine}}\n"
+HELPERS = {
+    "stride_a.py": "import stride_b\n",
+    "stride_b.py": '"""Prose."""\nX = 1\n',
+    "stride_c.py": "",
+}
+
+
+def test_helpers_beside_a_users_file_count(plugin):
+    files = {"mine.py": FILE, **HELPERS}
+    before = plugin(files)
+    assert plugin(files | {"stride_b.py": '"""Prose."""\nX = 2\n'}) != before
+    assert plugin(files | {"stride_a.py": "import stride_b\nX = 2\n"}) != before
+    assert plugin(files | {"stride_b.py": "X = 1  # remark\n"}) == before
+    assert plugin(files | {"stride_c.py": "X = 2\n"}) == before
+
+
+def test_a_users_file_counts_by_its_code_and_not_by_its_name_or_prose(plugin):
+    before = plugin({"mine.py": FILE, **HELPERS})
+    assert plugin({"yours.py": FILE, **HELPERS}) == before
+    assert plugin({"mine.py": f'"""Mine."""\n\n{FILE}# That is all.\n', **HELPERS}) == before
+    assert plugin({"mine.py": f"{FILE}X = 1\n", **HELPERS}) != before
+
+
+def test_single_files_elsewhere_do_not_count(plugin, tmp_path, monkeypatch):
+    elsewhere = tmp_path / "elsewhere"
+    monkeypatch.syspath_prepend(elsewhere)
+    files = {"mine.py": f"import stride_d\n{FILE}", **HELPERS, "elsewhere/stride_d.py": "X = 1\n"}
+    assert plugin(files) == plugin(files | {"elsewhere/stride_d.py": "X = 2\n"})
+
+
+def test_what_a_users_file_takes_from_the_package_counts(plugin, append):
+    files = {"mine.py": FILE, **HELPERS}
+    before = plugin(files)
+    append("mocapbench.baselines.trivial")
+    assert plugin(files) != before
+    append("mocapbench.baselines.knn")
+    assert plugin(files) == before

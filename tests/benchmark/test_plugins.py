@@ -1,0 +1,199 @@
+"""A user's own Python file adds models, tasks, metrics and libraries, or nothing at all."""
+
+import re
+import sys
+
+import pytest
+
+from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.plugins import load_plugin
+from mocapbench.benchmark.registry import LIBRARIES, METRICS, MODELS, REGISTRIES, TASKS
+
+HEAD = """\
+from mocapbench.baselines import FrameImputer
+from mocapbench.baselines.trivial import Trivial
+from mocapbench.benchmark import Case, Profile, Task
+from mocapbench.datasets import GaitLibrary, Library
+from mocapbench.metrics import Direction, Imputation, Metric, Score
+from mocapbench.reports import TaskPage
+
+
+class Mine(Trivial):
+    pass
+
+
+class Gait(GaitLibrary):
+    pass
+
+
+def mine(name):
+    return Metric(name, "Mine", Direction.LOWER, Imputation, lambda outcome: Score(1.0, {}))
+
+
+def task(name):
+    return Task(
+        name=name,
+        version=1,
+        requires=(FrameImputer,),
+        cases=(Case("one", None),),
+        profiles={"quick": Profile(("one",), folds=1)},
+        page=TaskPage(title="Mine", reference="", description="Mine.", metrics=("mse",)),
+    )
+
+
+"""
+DOORS = {
+    "MODELS": "MODELS = {'my-model': Mine}\n",
+    "TASKS": "TASKS = {'my-task': task('my-task')}\n",
+    "METRICS": "METRICS = {'my-metric': mine('my-metric')}\n",
+    "LIBRARIES": "LIBRARIES = {'my-library': Gait}\n",
+}
+NAMES = {
+    "MODELS": "my-model",
+    "TASKS": "my-task",
+    "METRICS": "my-metric",
+    "LIBRARIES": "my-library",
+}
+REGISTRY = dict(zip(DOORS, REGISTRIES, strict=True))
+
+
+@pytest.fixture
+def load(tmp_path):
+    """Return a function that loads a file of this text, and what is added to fixed lines."""
+
+    def load(text, head=HEAD):
+        (tmp_path / "mine.py").write_text(head + text)
+        return load_plugin(tmp_path / "mine.py")
+
+    return load
+
+
+def _registered():
+    return [registry.names() for registry in REGISTRIES]
+
+
+@pytest.mark.parametrize("door", DOORS)
+def test_each_kind_can_be_added_alone(load, door):
+    before = {name: registry.names() for name, registry in REGISTRY.items()}
+    assert load(DOORS[door]) == (NAMES[door],)
+    for name, registry in REGISTRY.items():
+        added = {NAMES[door]} if name == door else set()
+        assert set(registry.names()) - set(before[name]) == added
+    assert REGISTRY[door].get(NAMES[door]) is not None
+    assert not REGISTRY[door].is_installed(NAMES[door])
+
+
+def test_all_kinds_can_be_added_together(load):
+    assert load("".join(DOORS.values())) == tuple(NAMES.values())
+    assert all(NAMES[door] in registry.names() for door, registry in REGISTRY.items())
+
+
+def test_several_of_a_kind_can_be_added(load):
+    assert load("MODELS = {'a': Mine, 'b': Trivial}\n") == ("a", "b")
+
+
+def test_a_library_that_is_added_is_part_of_the_archive(load):
+    load(DOORS["LIBRARIES"])
+    assert archive_at(None).available("my-library:01_01")
+
+
+def test_the_same_file_may_be_loaded_again_and_another_one_overrides_it(load):
+    load(DOORS["MODELS"])
+    load(DOORS["MODELS"])
+    load("MODELS = {'my-model': Trivial}\n")
+    assert MODELS.get("my-model").__name__ == "Trivial"
+
+
+def test_what_other_files_define_can_be_used_by_pickle(load):
+    load(DOORS["MODELS"])
+    model = MODELS.get("my-model")
+    assert getattr(sys.modules[model.__module__], "Mine") is model  # noqa: B009
+
+
+ABSTRACT = "from mocapbench.baselines import Imputer\n"
+WRONG = {
+    "MODELS = {'a': int}": "expected MODELS to map one or more names to subclasses of mocapbench.",
+    "MODELS = {'a': Mine()}": "MODELS to map one or more names to subclasses",
+    "MODELS = {}": "MODELS to map one or more names to subclasses of .*, got {}",
+    "MODELS = [Mine]": r"MODELS to map one or more names to subclasses of .*, got \[<class",
+    "TASKS = {'a': Task}": "TASKS to map one or more names to mocapbench.benchmark.Task objects",
+    "TASKS = None": "TASKS to map .* names to mocapbench.benchmark.Task objects, got None",
+    "METRICS = {'a': len}": "METRICS to map one or more names to mocapbench.metrics.Metric objects",
+    "LIBRARIES = {'a': dict}": "expected LIBRARIES to map .* subclasses of mocapbench.datasets.",
+    "LIBRARIES = {'a': Gait()}": "LIBRARIES to map one or more names to subclasses",
+    "MODELS = {'trivial': Mine}": "expected a name that no model or entrant has, got 'trivial'",
+    "MODELS = {'mohgp-3': Mine}": "expected a name that no model or entrant has, got 'mohgp-3'",
+    "MODELS = {1: Mine}": "expected a name that no model or entrant has, got 1; choose another",
+    "TASKS = {'missing-frames': task('missing-frames')}": "expected a name that no task .* has",
+    "METRICS = {'mse': mine('mse')}": "expected a name that no metric .* has, got 'mse'; choose",
+    "METRICS = {'spread': mine('spread')}": "expected a name that no metric .* has, got 'spread'",
+    "LIBRARIES = {'cmu': Gait}": "expected a name that no library .* has, got 'cmu'; choose",
+    "TASKS = {'a': task('b')}": "expected the task under its own name 'b', got 'a'",
+    "METRICS = {'a': mine('b')}": "expected the metric under its own name 'b', got 'a'",
+    "LIBRARIES = {'a': Library}": "a class that can be built without arguments, got 'a': .*abstra",
+    f"{ABSTRACT}MODELS = {{'a': Imputer}}": "that can be built without arguments, got 'a': .*abst",
+}
+
+
+@pytest.mark.parametrize(("text", "complaint"), WRONG.items(), ids=WRONG)
+def test_a_wrong_entry_says_what_was_expected_and_got(load, text, complaint):
+    with pytest.raises(UsageError, match=f"mine.py: .*{complaint}") as raised:
+        load(text)
+    message = str(raised.value)
+    advice = ("choose another", '= {"name": …}', "rename one of the two", "give every parameter")
+    assert [part in message for part in ("expected", ", got ")] == [True, True]
+    assert sum(part in message.rpartition("; ")[2] for part in advice) == 1
+
+
+@pytest.mark.parametrize("text", WRONG)
+@pytest.mark.parametrize("door", DOORS)
+def test_nothing_is_registered_if_something_is_wrong(load, text, door):
+    before = _registered()
+    right = "" if f"{door} =" in text else DOORS[door]
+    for order in ((right, text), (text, right)):
+        with pytest.raises(UsageError):
+            load("\n".join(order))
+        assert _registered() == before
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("def", "mine.py cannot be run: SyntaxError.*; `python .*mine.py` shows where"),
+        ("raise RuntimeError('no')", "cannot be run: RuntimeError: no"),
+        ("import sys; sys.exit(3)", "cannot be run: SystemExit: 3"),
+        ("import no_such_module", "cannot be run: ModuleNotFoundError: .*no_such_module"),
+        ("x = 1", "expected one or more of MODELS, TASKS, METRICS, LIBRARIES, each a mapping"),
+        ("", r"such as MODELS = {\"name\": ModelClass}, got none"),
+        ("models = {}", "got none"),
+    ],
+)
+def test_a_file_that_adds_nothing_says_why(load, text, complaint):
+    before, modules = _registered(), set(sys.modules)
+    with pytest.raises(UsageError, match=complaint):
+        load(text, head="")
+    assert _registered() == before
+    assert "cannot be run" not in complaint or not {
+        name for name in set(sys.modules) - modules if name.startswith("mocapbench_plugin")
+    }
+
+
+@pytest.mark.parametrize("name", ["absent.py", "."])
+def test_a_file_that_is_not_there(tmp_path, name):
+    path = re.escape(repr(str(tmp_path / name)))
+    with pytest.raises(UsageError, match=f"--plugin: expected a Python file, got {path}; name"):
+        load_plugin(tmp_path / name)
+
+
+@pytest.mark.parametrize("option", ["--plugin", "--model-file"])
+@pytest.mark.parametrize(
+    ("kind", "door"),
+    [("models", "MODELS"), ("tasks", "TASKS"), ("metrics", "METRICS"), ("libraries", "LIBRARIES")],
+)
+def test_what_a_file_adds_is_listed(cli, tmp_path, option, kind, door):
+    (tmp_path / "mine.py").write_text(HEAD + "".join(DOORS.values()))
+    assert cli("list", kind, option, tmp_path / "mine.py") == 0
+    assert NAMES[door] in cli.printed
+    others = {METRICS: "mse", MODELS: "knn", TASKS: "toy-synthesis", LIBRARIES: "gait"}
+    assert others[REGISTRY[door]] in cli.printed
