@@ -59,7 +59,10 @@ def check(
     ] = False,
     plugin: Plugins = None,
 ) -> None:
-    """Compare a run with reference values, fold by fold; exit code 1: a metric got worse."""
+    """Check that no metric of a run is worse than its reference value.
+
+    Values are paired by fold. Exit code 1 says that a metric got worse.
+    """
     load_plugins(plugin)
     if (reference is None) != controls:
         raise UsageError("expected something to check against: choose --reference or --controls")

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from mocapbench.benchmark.errors import UnknownNameError, UsageError
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.record import Record
@@ -185,15 +185,7 @@ def _row(row: Mapping[Any, Any]) -> tuple[Series, Folds]:
     }
     if not (values and all(map(math.isfinite, values.values()))):
         raise ValueError(f"expected finite values of {row['metric']}, got {values}")
-    return Series(address, _current(row["metric"])), values
-
-
-def _current(metric: str) -> str:
-    """Return the name of a metric that was perhaps renamed, or is no longer there."""
-    try:
-        return METRICS.current_name(metric)
-    except UnknownNameError:
-        return metric
+    return Series(address, METRICS.renamed(row["metric"])), values
 
 
 def write_reference(path: Path, reference: Reference) -> None:

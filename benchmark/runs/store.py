@@ -6,7 +6,7 @@
         mocapbench.json             says that the folder is ours
         mocapbench.lock             held by a run that writes
         plan.json                   the keys of the last run, in table order
-        check.json                  what the last regression check of that run found
+        check.json                  the result of its last regression check
         records/<score key>.json
         predictions/<fit key>.npz
 
@@ -20,7 +20,7 @@ import json
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from filelock import FileLock, Timeout
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.fit import Fit
 from mocapbench.benchmark.runs.record import Record, RecordError
 
@@ -128,7 +129,7 @@ class Store:
         if not path.is_file():
             return None
         try:
-            record = Record.from_json(path.read_text(encoding="utf-8"))
+            record = _with_current_names(Record.from_json(path.read_text(encoding="utf-8")))
             if record.key != key:
                 raise RecordError(f"it holds the record {record.key}")
         except (OSError, UnicodeDecodeError, RecordError) as error:
@@ -182,13 +183,13 @@ class Store:
             np.savez_compressed(file, **arrays)
 
     def save_plan(self, plan: Mapping[str, Any]) -> None:
-        """Write what the last run was asked to do; a check of an earlier one is dropped."""
+        """Write the request of the last run; the check of an earlier one is dropped."""
         (self.path / _CHECK).unlink(missing_ok=True)
         with atomic_write(self.path / "plan.json") as file:
             file.write(json.dumps(plan, indent=1).encode())
 
     def load_plan(self) -> Mapping[str, Any]:
-        """Return what the last run was asked to do.
+        """Return the request of the last run.
 
         Raises
         ------
@@ -210,12 +211,12 @@ class Store:
         return plan
 
     def save_check(self, check: Mapping[str, Any]) -> None:
-        """Write what a regression check of the last run found."""
+        """Write the result of a regression check of the last run."""
         with atomic_write(self.path / _CHECK) as file:
             file.write(json.dumps(check, indent=1).encode())
 
     def load_check(self) -> Mapping[str, Any] | None:
-        """Return what the last run's check found; None if it was not checked, or is damaged."""
+        """Return the result of the last run's check; None if there is none, or it is damaged."""
         path = self.path / _CHECK
         if not path.is_file():
             return None
@@ -233,3 +234,13 @@ class Store:
 
     def _fit_path(self, key: str) -> Path:
         return self.path / "predictions" / f"{key}.npz"
+
+
+def _with_current_names(record: Record) -> Record:
+    """Return a record, perhaps of an earlier version, under the names that metrics have today."""
+    return replace(
+        record,
+        scores={METRICS.renamed(name): value for name, value in record.scores.items()},
+        parts={METRICS.renamed(name): parts for name, parts in record.parts.items()},
+        left_out={METRICS.renamed(name): count for name, count in record.left_out.items()},
+    )

@@ -53,7 +53,7 @@ def _check_names(task: Task) -> None:
     _require_distinct("labels of entrants", labels)
     require(task.version >= 1, "a version from 1", task.version, "raise it when problems change")
     require(task.page.metrics, "metrics to show", "none", "name at least one")
-    abilities = all(issubclass(each, Model) for each in task.requires)
+    abilities = all(issubclass(ability, Model) for ability in task.requires)
     require(abilities, "abilities from mocapbench.baselines", task.requires, "say what is needed")
     _require_among("metrics", task.page.metrics, METRICS.names())
     _require_among("published_models", task.page.published_models, labels)
