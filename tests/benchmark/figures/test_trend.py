@@ -41,7 +41,7 @@ def test_each_channel_and_each_entrant_has_a_panel(toy, internals):
     np.testing.assert_array_equal(last.curves[1].y, internals.trend.mean[:, 2])
 
 
-def test_no_trend_is_shown_where_the_parent_is_unknown_or_nobody_infers_one(posed, toy, internals):
+def test_there_is_no_picture_without_a_known_parent_or_without_a_trend(posed, toy, internals):
     walking = posed("walking-interpolation", "synthetic observed 40")
     assert FIGURE.pictures(Solved("walking", walking, {}, {"mohgp-3": internals})) == ()
     assert FIGURE.pictures(Solved("toy", toy, {}, {"trivial": Internals()})) == ()

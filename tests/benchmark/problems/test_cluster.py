@@ -13,7 +13,7 @@ NOBODY = Skeleton("nobody", 1.0, ())
 
 
 class Fixed(Clusterer):
-    """Answers whatever it was built with."""
+    """Returns the labels that it was built with."""
 
     def __init__(self, labels=(0, 0, 1)):
         self.labels = labels

@@ -14,7 +14,7 @@ def _value(outcome):
     return Score(1.0)
 
 
-def test_what_is_no_metric_is_told_so():
+def test_what_is_no_metric_is_refused():
     with pytest.raises(ConformanceError, match=r"expected a mocapbench\.metrics\.Metric"):
         check_metric(_value)
 
@@ -69,6 +69,6 @@ def test_a_metric_that_conforms_passes():
         ({"outcome": int}, "expected an outcome among"),
     ],
 )
-def test_a_metric_that_does_not_conform_is_told_why(changes, complaint):
+def test_the_fault_of_a_metric_is_named(changes, complaint):
     with pytest.raises(ConformanceError, match=rf"^metric m: .*{complaint}"):
         check_metric(replace(GOOD, **changes))

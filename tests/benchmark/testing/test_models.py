@@ -13,8 +13,8 @@ NONCONFORMING = runpy.run_path(str(Path(__file__).parents[1] / "broken_models.py
 
 
 @pytest.mark.parametrize("model", NONCONFORMING, ids=lambda model: model.__name__)
-def test_a_model_that_does_not_conform_is_told_why(model):
-    """Each of its checks is asked: another may be the first that fails."""
+def test_the_fault_of_a_model_is_named(model):
+    """Every check is run: another than the one concerned may be the first that fails."""
     messages = []
     for check in model_checks(model):
         try:
@@ -31,7 +31,7 @@ def test_parameters_reach_the_model():
         check_model(MOHGP, n_components=-1)
 
 
-def test_parameters_that_the_model_has_not_are_no_silence():
+def test_a_parameter_that_the_model_does_not_have_is_an_error():
     with pytest.raises(ConformanceError, match="max_itr"):
         check_model(Trivial, max_itr=20)
 
@@ -44,6 +44,6 @@ class _Unable(Model):
 
 
 @pytest.mark.parametrize("model", [Trivial(), "trivial", int, _Unable])
-def test_what_is_no_model_is_told_so(model):
+def test_what_is_no_model_is_refused(model):
     with pytest.raises(ConformanceError, match=r"expected a .*: pass the class itself"):
         check_model(model)

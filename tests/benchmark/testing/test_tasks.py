@@ -14,7 +14,7 @@ TASK = TASKS.get("toy-interpolation-1")
 
 
 @pytest.mark.parametrize("task", [Task, "toy-interpolation-1"])
-def test_what_is_no_task_is_told_so(task):
+def test_what_is_no_task_is_refused(task):
     with pytest.raises(ConformanceError, match=r"expected a mocapbench\.benchmark\.Task"):
         check_task(task)
 
@@ -53,7 +53,7 @@ def _unposable(pose, seeds, archive):
     ],
     ids=lambda value: getattr(value, "__name__", ""),
 )
-def test_a_task_whose_problems_are_wrong_is_told_why(fault, complaint):
+def test_the_fault_of_a_problem_is_named(fault, complaint):
     cases = tuple(replace(case, problem=partial(fault, case.problem)) for case in TASK.cases)
     with pytest.raises(ConformanceError, match=complaint):
         check_task(replace(TASK, cases=cases))
@@ -76,7 +76,7 @@ def _case(name):
         ("max_folds", 1, "expected 1 to 1 folds in profile smoke, got 2"),
     ],
 )
-def test_a_task_that_is_not_consistent_is_told_why(field, value, complaint):
+def test_the_fault_of_a_task_is_named(field, value, complaint):
     with pytest.raises(ConformanceError, match=complaint):
         check_task(replace(TASK, **{field: value}))
 
@@ -92,12 +92,12 @@ def test_a_task_that_is_not_consistent_is_told_why(field, value, complaint):
         ("illustrated", ("test 0",), r"illustrated cases among .* got \['test 0'\]"),
     ],
 )
-def test_a_task_whose_page_names_what_it_has_not_is_told_why(field, value, complaint):
+def test_a_name_on_the_page_that_the_task_does_not_have_is_named(field, value, complaint):
     with pytest.raises(ConformanceError, match=complaint):
         check_task(replace(TASK, page=replace(TASK.page, **{field: value})))
 
 
-def test_a_task_that_cannot_be_tried_without_recordings_is_told_so(tmp_path, monkeypatch):
+def test_a_task_that_cannot_be_tried_without_recordings_is_refused(tmp_path, monkeypatch):
     monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path))
     case = Case("test 1", TASK.cases[0].problem, sources=("cmu:02_01",))
     profiles = {"smoke": Profile(("test 1",), 1)}
