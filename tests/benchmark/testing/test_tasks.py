@@ -59,6 +59,17 @@ def test_the_fault_of_a_problem_is_named(fault, complaint):
         check_task(replace(TASK, cases=cases))
 
 
+def test_references_that_no_seed_decides_are_a_fault():
+    def other_references(pose, seeds, archive):
+        problem = pose(seeds, archive)
+        return replace(problem, references=np.random.default_rng().random((2, 30, 3)))
+
+    task = TASKS.get("toy-synthesis")
+    cases = tuple(replace(c, problem=partial(other_references, c.problem)) for c in task.cases)
+    with pytest.raises(ConformanceError, match="the same problem again at the same address"):
+        check_task(replace(task, cases=cases))
+
+
 def _case(name):
     return replace(TASK.cases[0], name=name)
 
