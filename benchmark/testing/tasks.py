@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import joblib
 import numpy as np
 
 from mocapbench.baselines import FrameImputer, Imputer, Model
@@ -85,6 +86,9 @@ def _check_problems(task: Task, archive: Archive) -> None:
         _check_masks(one, two)
         if task.max_folds != 1:
             _check_folds(one, _posed(task, case, 1, archive))
+    # What no model sees counts too: the truth, the references and the process.
+    same = joblib.hash(one) == joblib.hash(two)
+    require(same, "the same problem again at the same address", "another", advice)
 
 
 def _check_masks(one: Any, two: Any) -> None:
