@@ -1,6 +1,6 @@
 """Models, tasks, metrics and libraries of recordings by name: four doors, alike.
 
-Ours and those of other packages are found in the same way: by entry points of the groups
+Ours and third parties' are found in the same way: by entry points of the groups
 ``mocapbench.models``, ``mocapbench.tasks``, ``mocapbench.metrics`` and ``mocapbench.libraries``. A
 file of the user's own adds to any of them for one run (`mocapbench.benchmark.plugins`).
 """
@@ -74,19 +74,12 @@ class Registry(Generic[T]):
         UnknownNameError
             If nothing is or was.
         """
-        current = self.renamed(name)
-        if current not in self.names():
-            raise UnknownNameError(self.kind, name, self.names())
-        return current
-
-    def renamed(self, name: str) -> str:
-        """Return today's name of what was formerly called ``name``; any other stays as it is."""
         if name in self.names():
             return name
         for current in self.names():
             if self._was_called(name, current):
                 return current
-        return name
+        raise UnknownNameError(self.kind, name, self.names())
 
     def renamed(self, name: str) -> str:
         """Return the current name of what stored values call ``name``; ``name`` if it is gone."""
