@@ -135,8 +135,12 @@ class Store:
         except (OSError, UnicodeDecodeError, RecordError) as error:
             self.damaged.append(f"{path}: {error}")
             return None
-        by_metric = ("scores", "parts", "left_out")
-        return replace(record, **{name: _renamed(getattr(record, name)) for name in by_metric})
+        return replace(
+            record,
+            scores=_renamed(record.scores),
+            parts=_renamed(record.parts),
+            left_out=_renamed(record.left_out),
+        )
 
     def save(self, record: Record) -> None:
         """Write ``record`` whole or not at all."""
