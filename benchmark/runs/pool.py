@@ -38,7 +38,7 @@ def execute(jobs: Sequence[Job], config: WorkerConfig, n_workers: int) -> Iterat
     Parameters
     ----------
     jobs : sequence of Job
-    config : Settings
+    config : WorkerConfig
     n_workers : int
         How many jobs run at once.
     """
