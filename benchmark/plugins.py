@@ -139,15 +139,17 @@ def _execute(path: Path) -> ModuleType:
         raise UsageError(
             f"--plugin: expected a Python file, got {str(path)!r}; name one that exists"
         )
-    name = f"mocapbench_plugin_{hashlib.sha256(path.read_bytes()).hexdigest()[:16]}"
-    loader = SourceFileLoader(name, str(path))
+    file, search_path = path.resolve(), [*sys.path]
+    name = f"mocapbench_plugin_{hashlib.sha256(file.read_bytes()).hexdigest()[:16]}"
     module = ModuleType(name)
-    module.__file__ = str(path)
+    module.__file__ = str(file)
     sys.modules[name] = module  # where pickle and the source digest look for it
+    sys.path.append(str(file.parent))  # so that the file can import helpers that lie beside it
     try:
-        loader.exec_module(module)
+        SourceFileLoader(name, str(file)).exec_module(module)
     except (Exception, SystemExit) as error:
         del sys.modules[name]
+        sys.path[:] = search_path
         raise UsageError(
             f"{path} cannot be run: {type(error).__name__}: {error}; `python {path}` shows where"
         ) from error

@@ -1,5 +1,7 @@
 """Settings of all tests."""
 
+import sys
+
 import pytest
 from hypothesis import settings
 
@@ -12,6 +14,7 @@ settings.load_profile("no-clock")
 
 @pytest.fixture(autouse=True)
 def registries(monkeypatch):
-    """Keep what one test registers from the others."""
+    """Keep what one test registers from the others, and the folders of its plugins."""
+    monkeypatch.setattr(sys, "path", [*sys.path])
     for registry in REGISTRIES:
         monkeypatch.setattr(registry, "_added", dict(registry._added))

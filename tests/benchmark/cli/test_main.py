@@ -226,7 +226,7 @@ def test_a_report_into_a_folder_that_is_not_there_exits_with_2(cli, tmp_path):
 
 
 def test_a_defect_is_told_from_a_worse_metric(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(gate, "read_reference", lambda path: 1 / 0, raising=False)
+    monkeypatch.setattr(gate, "read_reference", lambda path: 1 / 0)
     Store.create(tmp_path).save_plan({"keys": [], "provenance": {}})
     with pytest.raises(SystemExit) as ended:
         main(["check", str(tmp_path), "--reference", "b.csv"])
@@ -319,7 +319,8 @@ def test_export_without_pyarrow_writes_csv_and_says_how_to_get_parquet(cli, tmp_
     assert "no Parquet files, which need pyarrow" in cli.printed
     assert {path.name for path in (tmp_path / "tables").iterdir()} == {"scores.csv", "jobs.csv"}
     assert len(pd.read_csv(tmp_path / "tables" / "jobs.csv")) == 4
-    assert "parquet:" not in cli.printed.lower().replace("mocapbench[parquet]", "")
+    assert "scores.csv" in cli.printed
+    assert ".parquet" not in cli.printed
 
 
 @pytest.mark.slow

@@ -3,7 +3,9 @@
 import dataclasses
 import functools
 import importlib.metadata
+import os
 import pkgutil
+import subprocess
 import sys
 
 import numpy as np
@@ -451,3 +453,25 @@ def test_the_order_of_metrics_changes_no_key():
         for metrics in (("mse", "smse"), ("smse", "mse"))
     )
     assert one == other
+
+
+@pytest.mark.slow
+def test_keys_are_the_same_in_every_process():
+    script = (
+        "from mocapbench.benchmark import Request, archive_at, plan\n"
+        f"request = Request('smoke', tasks=({TASK.name!r}, 'toy-synthesis'))\n"
+        "print(*((job.key, job.fit_key) for job in plan(request, archive_at(None))))\n"
+    )
+    printed = {
+        subprocess.run(
+            [sys.executable, "-c", script],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=120,
+        ).stdout
+        for seed in ("1", "2")
+    }
+    assert len(printed) == 1
+    assert printed.pop().count("(") > 10

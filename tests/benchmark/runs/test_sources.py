@@ -181,6 +181,22 @@ def test_a_module_is_known_by_its_name_too(project):
     assert project(files) != project(exchanged)
 
 
+PAGE = """\
+from mocapbench.reports import TaskPage
+
+PAGE = TaskPage(title="Waves", reference="", description="A gap.", metrics=("mse",))
+"""
+
+
+def test_how_a_task_is_presented_does_not_count(project):
+    files = _package("from .page import PAGE\nfrom .engine import solve\n") | {
+        "walks/page.py": PAGE,
+    }
+    before = project(files)
+    assert project(files | {"walks/page.py": PAGE.replace("A gap.", "A wide gap.")}) == before
+    assert project(files | {"walks/engine.py": f"{ENGINE}\nX = 1\n"}) != before
+
+
 def test_circular_imports_end(project):
     files = _package("from . import engine\n") | {"walks/engine.py": "from . import model\n"}
     assert project(files) != project(files | {"walks/engine.py": "from . import model\nX = 1\n"})
@@ -229,7 +245,6 @@ MODEL = "from mocapbench.baselines.trivial import Trivial\n"
 @pytest.fixture
 def plugin(tmp_path, monkeypatch, forget):
     """Return a function from files, the first being the plugin, to the digest of its model."""
-    monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setattr(sys, "dont_write_bytecode", True)
 
     def forget_helpers():
