@@ -36,7 +36,7 @@ def _run(*arguments, **environment):
 @pytest.mark.parametrize(
     ("arguments", "shown"),
     [
-        (("--help",), "Set two runs, or two models of one run, against each other"),
+        (("--help",), "Compare two runs, or two models of one run"),
         (("--version",), "mocapbench "),
         (("run", "--help"), "--dry-run"),
         (("report", "--help"), "The HTML file to write"),

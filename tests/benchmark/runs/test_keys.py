@@ -136,6 +136,7 @@ FIT_PATH = [
     ("datasets.features", "missing-frames", "trivial"),
     ("baselines.protocols", "toy-interpolation-1", "trivial"),
     ("baselines.trivial", "toy-interpolation-1", "trivial"),
+    ("baselines.common.cholesky", "toy-interpolation-1", "mohgp"),
     ("baselines.common.gaps", "missing-frames", "knn"),
     ("baselines.common.lapack", "toy-interpolation-1", "mohgp"),
     ("baselines.common.recordings", "toy-interpolation-1", "trivial"),
