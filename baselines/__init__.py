@@ -1,4 +1,4 @@
-"""The models, one module each, behind the abilities of `mocapbench.baselines.protocols`."""
+"""The models, one module each. Their abilities are declared in `mocapbench.baselines.protocols`."""
 
 import lazy_loader
 

@@ -1,8 +1,8 @@
-"""The best-matching stretches of training motion, stretched in time and averaged.
+"""The best-matching windows of training motion, stretched in time and averaged.
 
-Motions of one kind repeat: what happens in a gap has happened in training, a little faster or
-slower. So every stretch of every training recording is laid over the gap at several tempi, and
-the stretches that agree with the frames beside the gap fill it.
+Motions of one kind repeat: the motion in a gap occurs in training too, a little faster or slower.
+Every window of every training recording is therefore compared, at several speeds, with the visible
+frames beside the gap, and the best-matching windows fill it.
 """
 
 from __future__ import annotations
@@ -31,18 +31,26 @@ _N_CONTEXT = 3
 
 @dataclass(frozen=True, eq=False)
 class _Tempo:
-    """A training run (n, D) read at ``offsets`` (L,) frames from each possible first frame."""
+    """The windows of one training stretch at one speed.
+
+    Parameters
+    ----------
+    run : ndarray of shape (n, D)
+        The stretch of complete frames.
+    offsets : ndarray of shape (L,)
+        Where a window's frames lie, in training frames after its first one.
+    """
 
     run: FrameByChannel
     offsets: Array
 
     @property
     def starts(self) -> Index:
-        """(A,) the first frames from which the window stays within the run; maybe none."""
+        """(A,) the first frames of all windows within the stretch; there may be none."""
         return np.arange(len(self.run) - int(np.ceil(self.offsets[-1])))
 
     def at(self, starts: Index, rows: Index) -> Array:
-        """Return ``rows`` (k,) of the windows from ``starts`` (A,), by linear interpolation."""
+        """Return ``rows`` (k,) of the windows from ``starts`` (A,), interpolated: (A, k, D)."""
         places = starts[:, None] + self.offsets[rows]
         before, after = np.floor(places).astype(np.intp), np.ceil(places).astype(np.intp)
         weight = (places - before)[:, :, None]
@@ -56,17 +64,18 @@ class _Tempo:
 class AlignedWindow(FrameImputer, Inductive):
     """Fill a gap with the mean of the training windows that match the frames beside it.
 
-    A window spans the gap and up to three frames on each side, at 0.75, 0.80 … 1.35 training
-    frames per frame, from every training frame, linearly interpolated. Its error is the sum of
-    squares over the visible ones of those frames beside the gap: of one side only where the gap
-    touches an end of the recording. The unweighted mean of the best windows is the fill; values
-    are neither shifted nor scaled. Gaps are filled apart. Time is counted in frames, so that all
-    recordings should have one frame rate. There is no predictive distribution.
+    A window spans the gap and up to three frames on each side. Windows start at every training
+    frame, are read at 0.75, 0.80 … 1.35 training frames per frame, and are interpolated linearly.
+    The error of a window is the sum of squared differences at the visible frames beside the gap;
+    where the gap touches an end of the recording, these lie on one side only. The fill is the
+    unweighted mean of the best windows, neither shifted nor scaled. Gaps are filled independently.
+    Time is counted in frames, so that all recordings should have the same frame rate. There is no
+    predictive distribution.
 
     Parameters
     ----------
     n_windows : int, default=5
-        How many of the best windows are averaged.
+        Number of best windows that are averaged.
 
     Attributes
     ----------
@@ -74,6 +83,26 @@ class AlignedWindow(FrameImputer, Inductive):
         The channels of the recordings given to `fit`.
     runs_ : list of ndarray (n, D)
         The stretches of frames without hidden entries.
+
+    References
+    ----------
+    Not from a publication. The task for which it was written is that of J. M. Wang, D. J. Fleet and
+    A. Hertzmann (2008), Gaussian Process Dynamical Models for Human Motion, IEEE TPAMI 30(2),
+    Table 2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import AlignedWindow
+    >>> from mocapbench.datasets import Recording
+    >>> times = np.arange(40) / 10
+    >>> knee = np.sin(2 * np.pi * times)[:, None]
+    >>> walk = Recording("walk", times, knee, ("knee",), ("deg",))
+    >>> gap = (np.arange(40) >= 15) & (np.arange(40) < 20)
+    >>> model = AlignedWindow(n_windows=2).fit([walk])
+    >>> (prediction,) = model.impute([walk.hide(gap[:, None])])
+    >>> bool(np.allclose(prediction.mean, knee))
+    True
     """
 
     def __init__(self, n_windows: int = 5) -> None:
@@ -127,7 +156,7 @@ class AlignedWindow(FrameImputer, Inductive):
         return filled
 
     def _best(self, beside: NDArray[np.bool_], values: FrameByChannel) -> FrameByChannel:
-        """Return the mean (L, D) of the windows that fit ``values`` where ``beside`` (L,)."""
+        """Return the mean (L, D) of the windows nearest to ``values`` at frames ``beside`` (L,)."""
         tempi = self._tempi(len(beside))
         context = np.flatnonzero(beside)
         errors = np.concatenate([tempo.errors(context, values) for tempo in tempi])
@@ -139,8 +168,8 @@ class AlignedWindow(FrameImputer, Inductive):
         return np.asarray(np.mean(windows, axis=0))
 
     def _tempi(self, length: int) -> list[_Tempo]:
-        """Return the runs at all tempi at which they hold a window of ``length`` frames."""
-        # Rounded so that 0.8 · 5 is the frame 4, not something just above it.
+        """Return each stretch at each speed at which it contains a window of ``length`` frames."""
+        # Rounded so that 0.8 · 5 is exactly frame 4.
         offsets = np.round(np.outer(_SCALES, np.arange(length)), 9)
         tempi = [_Tempo(run, row) for row in offsets for run in self.runs_]
         long_enough = [tempo for tempo in tempi if len(tempo.starts)]

@@ -1,7 +1,9 @@
-r"""What no resemblance scores: samples of a process that generated none of the recordings.
+"""Negative control: samples of an unrelated process.
 
-A measure of similarity makes sense only if such samples score worse than those of a model that has
-learnt something (thesis §A.4.1).
+A similarity measure is meaningful only if samples of a process that generated none of the
+recordings score worse than samples of a fitted model: §A.4.1 of J. D. Gil López, *Hierarchical
+Multiple Output Gaussian Processes for Human Motion Data*, MSc thesis, Universidad Tecnológica de
+Pereira, 2017.
 """
 
 from __future__ import annotations
@@ -21,21 +23,40 @@ __all__ = ["Control"]
 
 
 class Control(Synthesiser, Misinformed):
-    """Draw children of an unrelated process, each of a parent of its own.
+    """Draw recordings from an unrelated process, each with a new parent function.
 
     Attributes
     ----------
     process_ : ToyProcess
-        The process that it was told.
+        The process given to `misinform`.
+
+    References
+    ----------
+    J. D. Gil López (2017), Hierarchical Multiple Output Gaussian Processes for Human Motion Data,
+    MSc thesis, Universidad Tecnológica de Pereira, §A.4.1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import Control
+    >>> from mocapbench.datasets import ToyProcess
+    >>> process, unrelated = (
+    ...     ToyProcess.random(np.random.default_rng(seed), n_outputs=2, noise=0.01)
+    ...     for seed in (0, 1)
+    ... )
+    >>> times = np.linspace(0.0, 6.0, 20)
+    >>> children = process.draw(np.random.default_rng(2), times, 3)
+    >>> Control().misinform(unrelated).fit(children).sample(times, 4, random_state=0).shape
+    (4, 20, 2)
     """
 
     def misinform(self, process: ToyProcess) -> Self:
-        """Take a process that generated none of the recordings."""
+        """Set the process, which generated none of the recordings."""
         self.process_ = process
         return self
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
-        """Learn nothing.
+        """Check the recordings; nothing is learnt from them.
 
         Raises
         ------
@@ -49,7 +70,7 @@ class Control(Synthesiser, Misinformed):
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Return ``n_samples`` children of as many parents, noise included: (n, N, D)."""
+        """Return ``n_samples`` recordings of as many parents, noise included: (n, N, D)."""
         check_is_fitted(self, "process_")
         rng = np.random.default_rng(random_state)
         curves = draw_gaussian(rng, self.process_.covariance(np.asarray(times)), n_samples)

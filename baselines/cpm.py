@@ -1,4 +1,4 @@
-"""One latent cycle to which every recording is aligned: the continuous profile model on a ring."""
+"""The continuous profile model on a ring: one latent cycle to which every recording is aligned."""
 
 from __future__ import annotations
 
@@ -17,50 +17,71 @@ __all__ = ["CPM"]
 
 
 class CPM(CycleAligner):
-    r"""A latent trace of one cycle; recordings are noisy, warped copies of it, by EM.
+    r"""A latent trace of one cycle, learnt by EM; recordings are noisy, time-warped copies of it.
 
-    The cyclic left-to-right Markov chain and the noise are those of `CyclicAlignment`; there is one
-    trace, a point estimate, and one noise variance a channel. The original's factors of amplitude,
-    made for abundances, are left out. The model works on channels of zero mean and unit variance.
+    The cyclic left-to-right Markov chain and the noise are those of `CyclicAlignment`. There is one
+    trace, a point estimate, and one noise variance for each channel. The amplitude factors of the
+    original model, meant for abundances, are left out. The model works on channels of zero mean and
+    unit variance.
 
     Parameters
     ----------
     n_states : int or None, default=None
-        Number M of states; None stands for two for each frame of a cycle, whose length is estimated
-        by autocorrelation. At least ``2 * max_jump + 1``.
+        Number M of states, at least ``2 * max_jump + 1``. None means two for each frame of a
+        cycle, whose length is estimated by autocorrelation.
     max_jump : int, default=3
-        Most states J by which one frame can be ahead of the one before.
+        Largest number J of states between consecutive frames.
     n_restarts : int, default=1
-        Number of runs of EM, each from a random recording; the one of highest likelihood is kept.
+        Number of runs of EM, each from a random recording; the one with the highest likelihood is
+        kept.
     max_iter : int, default=60
         Largest number of iterations of a run.
     tolerance : float, default=1e-5
-        A run has converged when an iteration raises the penalised log-likelihood by less than this
-        per visible entry.
+        A run has converged when an iteration raises the penalised log-likelihood by less than
+        ``tolerance`` per visible entry.
     regularisation : float, default=0.1
-        :math:`\eta` of the trace's roughness and of the Dirichlet prior of the jumps.
+        Weight :math:`\eta` of the penalty on the trace's squared steps and of the Dirichlet prior
+        of the jumps.
     random_state : int, numpy.random.Generator or None, default=None
         Seed of the starts.
 
     Attributes
     ----------
     path_ : tuple of ndarray of int, each of shape (N_k,)
-        The likeliest state of each frame of each recording, jointly (Viterbi).
+        The most likely state sequence of each recording (Viterbi).
     cycle_length_ : int
         Number M of states.
     trace_ : ndarray of shape (M, D)
         The latent trace.
     prototypes_ : ndarray of shape (K, M, D)
-        Each recording's own cycle, warped by its path and averaged over its cycles.
+        Each recording warped onto the cycle by its path, and averaged over its cycles.
     log_likelihood_ : ndarray of shape (n_iterations_ + 1,)
         The penalised log-likelihood at the start and after each iteration.
     n_iterations_ : int
+        Iterations of the run that was kept.
     converged_ : bool
+        Whether that run converged.
 
     References
     ----------
-    Listgarten, Neal, Roweis and Emili (2005), Multiple alignment of continuous time series, NIPS
-    17; made cyclic as in HLM §4, "CPM".
+    J. Listgarten, R. M. Neal, S. T. Roweis and A. Emili (2005), Multiple Alignment of Continuous
+    Time Series, NIPS 17.
+
+    W. Pan and L. Torresani (2009), Unsupervised Hierarchical Modeling of Locomotion Styles, ICML,
+    §4, "CPM": the cyclic version.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import CPM
+    >>> from mocapbench.datasets import Recording
+    >>> def walk(name, n_frames, period):
+    ...     angle = 2 * np.pi * np.arange(n_frames) / period
+    ...     values = np.column_stack([np.sin(angle), np.cos(angle)])
+    ...     return Recording(name, np.arange(n_frames) / 30, values, ("hip", "knee"), ("deg",) * 2)
+    >>> model = CPM(n_states=16, random_state=0).fit([walk("slow", 40, 10), walk("fast", 30, 8)])
+    >>> model.trace_.shape, [len(path) for path in model.path_]
+    ((16, 2), [40, 30])
     """
 
     def __init__(

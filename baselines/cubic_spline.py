@@ -19,21 +19,37 @@ __all__ = ["CubicSplineImputer"]
 class CubicSplineImputer(Imputer, Inductive):
     """Interpolate each channel with a not-a-knot cubic spline over time.
 
-    Below four visible frames the order is lower: a parabola through three, a line through two, a
-    constant at one. Outside the visible frames the nearest visible value holds. A channel with
-    none takes its mean over the recordings given to `fit`. There is no predictive distribution.
+    With fewer than four visible frames the order is lower: a parabola through three, a line
+    through two, a constant at one. Before the first and after the last visible frame the nearest
+    visible value is held. A channel without a visible frame takes its mean over the recordings
+    given to `fit`. There is no predictive distribution.
 
     Attributes
     ----------
     channels_ : tuple of D str
         The channels of the recordings given to `fit`.
     mean_ : ndarray of shape (D,)
-        Mean of each channel's visible entries, NaN without any.
+        Mean of each channel's visible entries; NaN if it has none.
 
     References
     ----------
-    Wang, Fleet and Hertzmann (2008), Gaussian process dynamical models for human motion, Table 2,
-    column "Spline".
+    C. de Boor (2001), A Practical Guide to Splines, revised edition, Springer, chapter IV.
+
+    J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical Models for Human
+    Motion, IEEE TPAMI 30(2),
+    Table 2, column "Spline".
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import CubicSplineImputer
+    >>> from mocapbench.datasets import Recording
+    >>> times = np.arange(8.0)
+    >>> cubic = Recording("cubic", times, times[:, None] ** 3, ("x",), ("cm",))
+    >>> hidden = np.isin(times, [3.0, 4.0])[:, None]
+    >>> (prediction,) = CubicSplineImputer().fit([cubic]).impute([cubic.hide(hidden)])
+    >>> np.round(prediction.mean[3:5, 0], 6)
+    array([27., 64.])
     """
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
@@ -55,7 +71,8 @@ class CubicSplineImputer(Imputer, Inductive):
         Raises
         ------
         ValueError
-            If channels differ, or one is hidden in a whole recording and in all given to `fit`.
+            If channels differ, or a channel has no visible entry in a recording and none in those
+            given to `fit`.
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
@@ -67,8 +84,8 @@ class CubicSplineImputer(Imputer, Inductive):
         if np.isnan(curves).any():
             channels = [recording.channels[d] for d in np.flatnonzero(np.isnan(curves).any(axis=0))]
             raise ValueError(
-                f"recording {recording.name!r}: channels {channels} have no visible entry here nor "
-                "in the recordings given to fit; show one or drop them"
+                f"recording {recording.name!r}: expected a visible entry of every channel here or "
+                f"in the recordings given to fit, got none of {channels}; leave these channels out"
             )
         return curves
 

@@ -1,4 +1,8 @@
-"""Styles of cyclic motion, found and aligned without labels: the hierarchical model of HLM."""
+"""Styles of cyclic motion, clustered and aligned without labels.
+
+The model is that of W. Pan and L. Torresani (2009), *Unsupervised Hierarchical Modeling of
+Locomotion Styles*, ICML, cited as HLM.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +14,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.em import Run
 from mocapbench.baselines.alignment.estimator import CycleAligner
-from mocapbench.baselines.alignment.fitting import Settings, best_fit
+from mocapbench.baselines.alignment.fitting import EMSettings, best_fit
 from mocapbench.baselines.alignment.inference import moments, refine
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
@@ -29,53 +33,57 @@ __all__ = ["CyclicAlignment"]
 
 
 class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
-    r"""Cycles of C latent styles with a common parent, warped in time, by variational EM.
+    r"""Cycles of C latent styles with a common parent, warped in time, learnt by variational EM.
 
-    A recording is of one style; its frames follow that style's cycle of M states through a cyclic
-    left-to-right Markov chain, each frame 1 to J states on, and add noise of the style's own
-    variance per channel. The styles' cycles are smooth Gaussian deviations from their parent.
-    Hidden entries are integrated out. The model works on channels of zero mean and unit variance.
+    Each recording has one style. Its frames follow that style's cycle of M states through a cyclic
+    left-to-right Markov chain, which advances by 1 to J states a frame. The noise has one variance
+    for each style and channel. The styles' cycles are smooth Gaussian deviations from a common
+    parent cycle. Hidden entries are integrated out. The model works on channels of zero mean and
+    unit variance.
 
     Parameters
     ----------
     n_styles : int, default=20
-        Number C of styles; EM leaves empty the ones for which it has no use.
+        Number C of styles; EM may leave some of them empty.
     n_states : int or None, default=None
-        Number M of states of a cycle; None stands for two for each frame of a cycle, whose length
-        is estimated by autocorrelation. At least ``2 * max_jump + 1``.
+        Number M of states of a cycle, at least ``2 * max_jump + 1``. None means two for each frame
+        of a cycle, whose length is estimated by autocorrelation.
     max_jump : int, default=3
-        Most states J by which one frame can be ahead of the one before.
+        Largest number J of states between consecutive frames.
     n_restarts : int, default=3
         Number of runs of EM from random starts; the one with the highest bound is kept.
     max_iter : int, default=40
         Largest number of iterations of a run.
     tolerance : float, default=1e-5
-        A run has converged when an iteration raises the bound by less than this per visible entry.
+        A run has converged when an iteration raises the bound by less than ``tolerance`` per
+        visible entry.
     n_inner : int, default=3
         Sweeps of the E-step in an iteration.
     regularisation : float, default=0.1
-        :math:`\eta` of the parent's roughness and of the Dirichlet priors of styles and jumps.
+        Weight :math:`\eta` of the penalty on the parent's squared steps and of the Dirichlet priors
+        of styles and jumps.
     closeness : float, default=0.01
-        Precision :math:`\lambda_{\bar z}` of a cycle about its parent, where it starts.
+        Precision :math:`\lambda_{\bar z}` of a cycle about its parent; the initial value if it is
+        learnt.
     learn_closeness : bool, default=False
         Whether :math:`\lambda_{\bar z}` is learnt; the paper keeps it fixed.
     smoothness : float, default=0.1
-        Precision :math:`\lambda_s` of a cycle's steps, where it starts; it is learnt.
+        Initial precision :math:`\lambda_s` of a cycle's steps; it is learnt.
     prior : {"normalised", "centred", "paper"}, default="normalised"
-        The prior of a cycle: HLM's, normalised; one about the parent, from which a cycle deviates
-        smoothly; or HLM's as the paper has it, which is not a density.
+        The prior of a cycle: HLM's with the normaliser of a Gaussian; one whose deviations from the
+        parent are smooth; or HLM's as printed, which is not normalised.
     refine_iter : int, default=10
-        Iterations of EM, from where `fit` ended, that `impute` gives to a recording together with
-        the fitted ones.
+        Iterations of EM, continued from `fit`, that `impute` runs on a recording together with the
+        fitted ones.
     random_state : int, numpy.random.Generator or None, default=None
         Seed of the starts.
 
     Attributes
     ----------
     labels_ : ndarray of int, shape (K,)
-        The likeliest style of each recording.
+        The most likely style of each recording.
     path_ : tuple of ndarray of int, each of shape (N_k,)
-        The likeliest state of each frame of each recording, jointly (Viterbi).
+        The most likely state sequence of each recording (Viterbi).
     cycle_length_ : int
         Number M of states.
     cycles_ : ndarray of shape (C, M, D)
@@ -85,15 +93,36 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
     bound_ : ndarray of shape (n_iterations_ + 1,)
         The variational bound at the start and after each iteration, for standardised channels.
     restart_bounds_ : ndarray of shape (n_restarts,)
-        The bound at which each run ended.
+        The final bound of each run.
     n_iterations_ : int
-        Iterations of the run that is kept.
+        Iterations of the run that was kept.
     converged_ : bool
-        Whether it converged.
+        Whether that run converged.
 
     References
     ----------
-    Pan and Torresani (2009), Unsupervised hierarchical modeling of locomotion styles, ICML.
+    W. Pan and L. Torresani (2009), Unsupervised Hierarchical Modeling of Locomotion Styles, ICML:
+    the model §2, variational EM §3, blending §4.2, missing data §4.3. ``docs/alignment.md`` lists
+    the corrections to its formulas.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import CyclicAlignment
+    >>> from mocapbench.datasets import Recording
+    >>> def walk(name, n_frames, period):
+    ...     angle = 2 * np.pi * np.arange(n_frames) / period
+    ...     values = np.column_stack([np.sin(angle), np.cos(angle)])
+    ...     return Recording(name, np.arange(n_frames) / 30, values, ("hip", "knee"), ("deg",) * 2)
+    >>> walks = [walk("slow", 40, 10), walk("fast", 30, 8)]
+    >>> model = CyclicAlignment(n_styles=2, n_states=16, n_restarts=1, random_state=0).fit(walks)
+    >>> model.cycles_.shape, bool((np.diff(model.bound_) >= -1e-6).all())
+    ((2, 16, 2), True)
+    >>> hidden = np.zeros((30, 2), dtype=bool)
+    >>> hidden[10:15, 0] = True
+    >>> (prediction,) = model.impute([walks[1].hide(hidden)])
+    >>> bool(np.abs(prediction.mean - walks[1].values).max() < 0.5)
+    True
     """
 
     def __init__(
@@ -130,11 +159,12 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         self.random_state = random_state
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the mixture over styles and states at the hidden entries of each recording.
+        """Return mean and variance of the mixture over styles and states at hidden entries.
 
-        A recording joins the fitted ones, in place of one that has its name, for some iterations of
-        EM: from the style that suits it best and, if one is empty, from a style of its own. The
-        higher bound decides.
+        A recording joins the fitted ones, replacing one of the same name, for ``refine_iter``
+        iterations of EM. These start from the style with the highest bound and, if a style is
+        empty, also from a new style for this recording alone; the run with the higher bound is
+        kept.
 
         Raises
         ------
@@ -147,9 +177,10 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Draw recordings of any length at the frame rate of the fitted ones, noise included.
+        """Draw recordings at the frame rate of the fitted ones, noise included: (n, N, D).
 
-        Each in the style and at the pace of a fitted recording, with a new cycle of that style.
+        Each has the style and the pace of a random fitted recording, and a new cycle of that style.
+        Of ``times`` (N,) only the number counts.
         """
         check_is_fitted(self)
         rng = np.random.default_rng(random_state)
@@ -166,7 +197,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
     def blend(self, weights: ArrayLike) -> FrameByChannel:
         """Return the styles' mean cycles mixed by weights (N, C) that vary from frame to frame.
 
-        HLM §4.2. The frames start at state 0 and go on at the mean pace of the fitted recordings.
+        HLM §4.2. The frames start at state 0 and advance at the mean pace of the fitted recordings.
 
         Raises
         ------
@@ -180,7 +211,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         return Hyperparameters(self.regularisation, PRIORS[self.prior])
 
     def _learn(self, rng: np.random.Generator) -> Run:
-        self.settings_ = Settings(
+        self.settings_ = EMSettings(
             n_styles=self.n_styles,
             n_states=self.cycle_length_,
             max_jump=self.max_jump,

@@ -1,7 +1,8 @@
-"""One Gaussian process a channel: no sharing between channels, nor between recordings.
+r"""One Gaussian process for each channel, with nothing shared between channels or recordings.
 
-The kernel's parameters are learnt from all recordings, as independent draws; a prediction rests on
-the recording itself. A model that cannot beat it has learnt nothing from the others.
+The parameters of a channel are learnt from all recordings, as independent draws. The prediction of
+a recording uses that recording alone. A model that does not outperform it gains nothing from other
+channels or recordings.
 """
 
 from __future__ import annotations
@@ -13,10 +14,68 @@ __all__ = ["GPIndependent"]
 
 
 class GPIndependent(Channelwise[LMCIndependent]):
-    """A Gaussian process and noise for each channel on its own.
+    """A Gaussian process with noise for each channel on its own.
 
-    A mapping ``n_components`` has the one key ``"child"``. Parameters and attributes are those of
-    `Channelwise`.
+    Parameters
+    ----------
+    n_components : int or mapping of str to int, default=1
+        Number of kernels that are added in each channel; a mapping has the one key ``"child"``.
+    kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
+        The kernel of every component.
+    n_restarts : int, default=1
+        Number of searches for each channel; the first starts from the data.
+    max_iter : int, default=1000
+        Largest number of iterations of a search.
+    tol : float, default=1e-7
+        A search has converged when an iteration gains less than this fraction of the
+        log-likelihood.
+    max_seconds : float or None, default=None
+        Time limit for all channels together, divided equally; None sets no limit.
+    warm_start : bool, default=False
+        Whether `fit` starts from the parameters of the previous one, if there was one.
+    verbose : bool, default=False
+        Whether `fit` prints a line for every iteration.
+    solver : {"auto", "dense", "latent-split", "state-space"}, default="auto"
+        How the likelihood is computed; "auto" takes the solver with the least work.
+    random_state : int, numpy.random.Generator or None, default=None
+        Seed of the random starts.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    models_ : tuple of D LMCIndependent
+        The model of each channel.
+    log_likelihood_ : float
+        Log-likelihood of the recordings in their own units.
+    converged_ : bool
+        Whether every channel's search converged.
+    n_iterations_, n_evaluations_ : int
+        Totals over the channels.
+    solver_ : str
+        The solvers that were used.
+
+    References
+    ----------
+    C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for Machine Learning, MIT
+    Press: prediction eq. (2.25) and (2.26), training eq. (5.8) and (5.9).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import GPIndependent
+    >>> from mocapbench.datasets import ToyProcess
+    >>> rng = np.random.default_rng(0)
+    >>> process = ToyProcess.random(rng, n_outputs=2, noise=0.01)
+    >>> times = np.linspace(0.0, 6.0, 20)
+    >>> children = process.draw(rng, times, 3)
+    >>> hidden = np.zeros((20, 2), dtype=bool)
+    >>> hidden[8:12] = True
+    >>> incomplete = children[0].hide(hidden)
+    >>> model = GPIndependent(kernel="rbf", max_iter=20).fit([incomplete, *children[1:]])
+    >>> (prediction,) = model.impute([incomplete])
+    >>> prediction.mean.shape, bool((prediction.variance[hidden] > 0).all())
+    ((20, 2), True)
     """
 
     @staticmethod

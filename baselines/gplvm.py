@@ -14,22 +14,64 @@ __all__ = ["GPLVM"]
 class GPLVM(LatentVariableModel):
     """Poses as smooth functions of latent positions that are independent of each other.
 
-    What `GPDM` would be if it knew no time: hidden frames are filled in the same way.
+    It is `GPDM` without dynamics: the positions are independent standard normal, and hidden frames
+    are filled in the same way.
 
     Parameters
     ----------
-    n_latent, start, subject_offset, max_iter, n_steps, fill_iter, random_state
-        As of `GPDM`; the default start is ``"linear"``, since no dynamics lead through a gap.
+    n_latent : int, default=3
+        Number of latent dimensions; the rank of the data, if that is smaller.
+    start : {"linear", "mean-prediction", "window", "viterbi"}, default="linear"
+        Initial latent trajectory of a sequence to fill.
+    subject_offset : float, default=0.0
+        The fraction, from 0 to 1, of the mean residual of `PoseViterbi` at the visible frames that
+        is subtracted before filling and added afterwards.
+    max_iter : int, default=100
+        Rounds of learning.
+    n_steps : int, default=10
+        Iterations of L-BFGS in a round.
+    fill_iter : int, default=100
+        Iterations of L-BFGS on the trajectory of a sequence to fill.
+    random_state : int, numpy.random.Generator or None, default=None
+        Not used; the estimator is deterministic.
 
     Attributes
     ----------
-    channels_, sequences_, estimate_, conditional_, kernel_properties_, matcher_, frame_seconds_
-        As of `GPDM`.
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    sequences_ : TrainingSequences
+        The training frames.
+    estimate_ : PointEstimate
+        Latent positions and parameters.
+    conditional_ : Conditional
+        The distribution of a further sequence.
+    kernel_properties_ : dict of str to float
+        Signal-to-noise ratio and characteristic lengthscale of the mapping to poses.
+    matcher_ : PoseViterbi
+        The model from which the subject's offset is computed.
+    frame_seconds_ : float
+        The time between training frames.
 
     References
     ----------
     N. D. Lawrence (2005), Probabilistic Non-linear Principal Component Analysis with Gaussian
-    Process Latent Variable Models, JMLR 6; GPDM Figs. 3b and 5a.
+    Process Latent Variable Models, JMLR 6.
+
+    J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical Models for Human
+    Motion, IEEE TPAMI 30(2),
+    Figs. 3b and 5a.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import GPLVM
+    >>> from mocapbench.datasets import Recording
+    >>> angle = 2 * np.pi * np.arange(20) / 10
+    >>> values = np.column_stack([np.sin(angle), np.cos(angle)])
+    >>> walk = Recording("walk", np.arange(20) / 30, values, ("hip", "knee"), ("deg",) * 2)
+    >>> model = GPLVM(n_latent=2, max_iter=2).fit([walk])
+    >>> model.latent_paths()[0].shape, model.poses(np.zeros((1, 2))).shape
+    ((20, 2), (1, 2))
     """
 
     def __init__(

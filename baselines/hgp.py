@@ -1,9 +1,12 @@
-r"""The hierarchical Gaussian process of Hensman et al., one a channel (thesis §3.1.2).
+r"""The hierarchical Gaussian process of Hensman et al., one for each channel (thesis §3.1.2).
 
 Every recording is a child of one parent: :math:`g \sim \mathcal{GP}(0, k_g)`,
 :math:`f_r \sim \mathcal{GP}(g, k_f)`, :math:`y_r = f_r + \varepsilon_r` (thesis eq. 5), or of a
-group that is a child of it (eq. 8). Channels share nothing: what it lacks beside `MOHGP` is
+group that is a child of the parent (eq. 8). Channels share nothing; unlike `MOHGP` it has no
 coregionalisation.
+
+J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+thesis, Universidad Tecnológica de Pereira, 2017, is cited as the thesis.
 """
 
 from __future__ import annotations
@@ -23,30 +26,74 @@ __all__ = ["HGP"]
 
 
 class HGP(Channelwise[MOHGP], Trended):
-    """A hierarchy and noise for each channel on its own.
-
-    Parameters and attributes are those of `Channelwise` and one more.
+    """A hierarchy of Gaussian processes with noise for each channel on its own.
 
     Parameters
     ----------
     tree : mapping of str to sequence of str or None, default=None
-        For the name of each recording the groups that it is in, as in `MOHGP`.
+        For the name of each recording its groups, as in `MOHGP`.
+    n_components : int or mapping of str to int, default=1
+        Number of kernels that are added in every layer of a channel, or in each layer by its name,
+        such as ``{"parent": 2, "child": 1}``.
+    kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
+        The kernel of every component.
+    n_restarts : int, default=1
+        Number of searches for each channel; the first starts from the data.
+    max_iter : int, default=1000
+        Largest number of iterations of a search.
+    tol : float, default=1e-7
+        A search has converged when an iteration gains less than this fraction of the
+        log-likelihood.
+    max_seconds : float or None, default=None
+        Time limit for all channels together, divided equally; None sets no limit.
+    warm_start : bool, default=False
+        Whether `fit` starts from the parameters of the previous one, if there was one.
+    verbose : bool, default=False
+        Whether `fit` prints a line for every iteration.
+    solver : {"auto", "dense", "latent-split", "state-space"}, default="auto"
+        How the likelihood is computed; "auto" takes the solver with the least work.
     sampled_trend : {"mean", "posterior"}, default="mean"
-        The trends that `sample` draws new recordings around, as in `GaussianProcess`.
+        The trend around which `sample` draws new recordings: its posterior mean, as in the thesis
+        (§5.2), or one draw from its posterior, shared by all recordings of a call.
+    random_state : int, numpy.random.Generator or None, default=None
+        Seed of the random starts.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    models_ : tuple of D MOHGP
+        The model of each channel.
+    log_likelihood_ : float
+        Log-likelihood of the recordings in their own units.
+    converged_ : bool
+        Whether every channel's search converged.
+    n_iterations_, n_evaluations_ : int
+        Totals over the channels.
+    solver_ : str
+        The solvers that were used.
 
     References
     ----------
-    Hensman, Lawrence and Rattray (2013), Hierarchical Bayesian modelling of gene expression time
-    series across irregularly sampled replicates and clusters, BMC Bioinformatics 14.
+    J. Hensman, N. D. Lawrence and M. Rattray (2013), Hierarchical Bayesian Modelling of Gene
+    Expression Time Series across Irregularly Sampled Replicates and Clusters, BMC Bioinformatics
+    14.
+
+    J. D. Gil López (2017), Hierarchical Multiple Output Gaussian Processes for Human Motion Data,
+    MSc thesis, Universidad Tecnológica de Pereira, §3.1.2,
+    eq. (5) and (8).
 
     Examples
     --------
     >>> import numpy as np
+    >>> from mocapbench.baselines import HGP
     >>> from mocapbench.datasets import ToyProcess
     >>> rng = np.random.default_rng(0)
     >>> process = ToyProcess.random(rng, n_outputs=2, noise=0.01)
-    >>> children = process.draw(rng, np.linspace(0.0, 6.0, 20), 3)
-    >>> mean, variance = HGP(kernel="rbf").fit(children).trend(np.linspace(0.0, 6.0, 5))
+    >>> times = np.linspace(0.0, 6.0, 20)
+    >>> children = process.draw(rng, times, 3)
+    >>> model = HGP(kernel="rbf", max_iter=20).fit(children)
+    >>> mean, variance = model.trend(np.linspace(0.0, 6.0, 5))
     >>> mean.shape, variance.shape
     ((5, 2), (5, 2))
     """
@@ -88,7 +135,7 @@ class HGP(Channelwise[MOHGP], Trended):
         return MOHGP(rank=0)
 
     def trend(self, times: Frames, group: Path = ()) -> tuple[FrameByChannel, FrameByChannel]:
-        """Return the posterior mean and variance of g, or of a group, (N, D), as `MOHGP.trend`."""
+        """Return the posterior mean and variance of g or of a group, (N, D), as `MOHGP.trend`."""
         check_is_fitted(self)
         means, variances = zip(*(model.trend(times, group) for model in self.models_), strict=True)
         return np.hstack(means), np.hstack(variances)

@@ -1,4 +1,4 @@
-"""Styles as clusters of the cycles that the continuous profile model warps recordings to."""
+"""K-means on cycles that are aligned by the continuous profile model."""
 
 from __future__ import annotations
 
@@ -25,13 +25,22 @@ class KCPM(Clusterer, Aligner):
     Parameters
     ----------
     n_styles : int, default=4
-        Number of clusters; as many as there are recordings, if they are fewer.
-    n_states, max_jump, max_iter, tolerance, regularisation
-        As `CPM`.
+        Number of clusters; the number of recordings, if that is smaller.
+    n_states : int or None, default=None
+        Number M of states, at least ``2 * max_jump + 1``. None means two for each frame of a
+        cycle, whose length is estimated by autocorrelation.
+    max_jump : int, default=3
+        Largest number of states between consecutive frames.
     n_restarts : int, default=1
         Number of runs of CPM, and of K-means.
+    max_iter : int, default=60
+        Largest number of iterations of a run of CPM.
+    tolerance : float, default=1e-5
+        Convergence threshold of CPM, as in `CPM`.
+    regularisation : float, default=0.1
+        Weight of the penalties of CPM, as in `CPM`.
     random_state : int, numpy.random.Generator or None, default=None
-        Seed of both.
+        Seed of the starts of both.
 
     Attributes
     ----------
@@ -39,14 +48,31 @@ class KCPM(Clusterer, Aligner):
         The cluster of each recording.
     cycles_ : ndarray of shape (C, M, D)
         The mean cycle of each cluster, the style's prototype.
-    path_, cycle_length_ : tuple of ndarray of int, int
-        The alignment, as of `CPM`.
+    path_ : tuple of ndarray of int, each of shape (N_k,)
+        The most likely state sequence of each recording (Viterbi).
+    cycle_length_ : int
+        Number M of states.
     cpm_ : CPM
-        The model that aligns.
+        The fitted model of the alignment.
 
     References
     ----------
-    HLM §4, "K-CPM".
+    W. Pan and L. Torresani (2009), Unsupervised Hierarchical Modeling of Locomotion Styles, ICML,
+    §4, "K-CPM".
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import KCPM
+    >>> from mocapbench.datasets import Recording
+    >>> def walk(name, size):
+    ...     angle = 2 * np.pi * np.arange(40) / 10
+    ...     values = size * np.column_stack([np.sin(angle), np.cos(angle)])
+    ...     return Recording(name, np.arange(40) / 30, values, ("hip", "knee"), ("deg",) * 2)
+    >>> walks = [walk("a", 1.0), walk("b", 1.1), walk("c", 5.0)]
+    >>> model = KCPM(n_styles=2, n_states=16, random_state=0).fit(walks)
+    >>> bool(model.labels_[0] == model.labels_[1]), bool(model.labels_[0] == model.labels_[2])
+    (True, False)
     """
 
     def __init__(
@@ -97,7 +123,7 @@ class KCPM(Clusterer, Aligner):
         return self
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
-        """Return the likeliest path of each recording along the trace, as `CPM.align`.
+        """Return the most likely state sequence of each recording, as `CPM.align`.
 
         Raises
         ------

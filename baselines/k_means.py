@@ -1,4 +1,4 @@
-"""K-means on the first cycle of each recording, aligned by nothing."""
+"""K-means on the first cycle of each recording, without alignment."""
 
 from __future__ import annotations
 
@@ -24,22 +24,22 @@ Array = NDArray[np.float64]
 class KMeans(Clusterer):
     """Cluster recordings by the raw values of their first cycle.
 
-    The cycle's length is each recording's own, by its autocorrelation; a recording in which
-    nothing recurs counts as one cycle. Its frames are resampled to a fixed number by straight
-    lines, which bridge hidden entries too, and all channels together, in their own units, make one
-    point. Recordings start at any phase and nothing aligns them: what alignment gains is what a
-    model gains over this one.
+    The length of a cycle is estimated for each recording by its autocorrelation; a recording
+    without a recurrence counts as one cycle. The cycle is resampled to a fixed number of frames by
+    linear interpolation, which also fills hidden entries. All channels together, in their own
+    units, form one point. Recordings start at arbitrary phases and are not aligned, so that the
+    difference between this model and one that aligns measures the benefit of alignment.
 
     Parameters
     ----------
     n_styles : int, default=4
-        Number of clusters; as many as there are recordings, if they are fewer.
+        Number of clusters; the number of recordings, if that is smaller.
     n_frames : int, default=32
         Number of frames that a cycle is resampled to.
     n_restarts : int, default=10
-        Starts of K-means, of which the tightest clusters are kept.
-    random_state : int, Generator or None
-        Seeds the starts.
+        Number of starts of K-means; the clustering with the least sum of squares is kept.
+    random_state : int, numpy.random.Generator or None, default=None
+        Seed of the starts.
 
     Attributes
     ----------
@@ -47,6 +47,25 @@ class KMeans(Clusterer):
         The cluster of each recording.
     cycles_ : ndarray of shape (K, n_frames, D)
         The resampled cycles.
+
+    References
+    ----------
+    S. P. Lloyd (1982), Least Squares Quantization in PCM, IEEE Transactions on Information Theory
+    28(2), as implemented by scikit-learn.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import KMeans
+    >>> from mocapbench.datasets import Recording
+    >>> phase = 2 * np.pi * np.arange(40) / 10
+    >>> walks = [
+    ...     Recording(name, np.arange(40) / 10, size * np.sin(phase)[:, None], ("knee",), ("deg",))
+    ...     for name, size in [("a", 1.0), ("b", 1.1), ("c", 5.0)]
+    ... ]
+    >>> labels = KMeans(n_styles=2, random_state=0).fit(walks).labels_
+    >>> bool(labels[0] == labels[1]), bool(labels[0] == labels[2])
+    (True, False)
     """
 
     def __init__(
@@ -75,7 +94,7 @@ class KMeans(Clusterer):
         checked = check_recordings(recordings)
         check_visible(checked)
         mean, _ = visible_moments(checked)
-        self.cycles_ = np.stack([_cycle(each, self.n_frames, mean) for each in checked])
+        self.cycles_ = np.stack([_cycle(recording, self.n_frames, mean) for recording in checked])
         k_means = ScikitLearnKMeans(
             min(self.n_styles, len(checked)),
             n_init=self.n_restarts,
@@ -87,7 +106,7 @@ class KMeans(Clusterer):
 
 
 def _cycle(recording: Recording, n_frames: int, mean: Array) -> FrameByChannel:
-    """Return the first cycle at ``n_frames`` frames; a channel that is all hidden is its mean."""
+    """Return the first cycle at ``n_frames`` frames; a wholly hidden channel takes its mean."""
     period = cycle_length(Sequences.of([recording.values]))
     frames, places = np.arange(len(recording.times)), period * np.arange(n_frames) / n_frames
     curves = [

@@ -1,4 +1,4 @@
-"""Nearest neighbours: of frames where a part is hidden, of transitions where the whole is."""
+"""Nearest neighbours: of frames for partly hidden frames, of transitions for wholly hidden ones."""
 
 from __future__ import annotations
 
@@ -31,30 +31,49 @@ Array = NDArray[np.float64]
 class KNN(Imputer, Inductive):
     """Fill hidden entries from the nearest frames of all recordings.
 
-    A recording whose frames are all visible or all hidden as a whole has each gap filled by the
-    transition model: the path from one end of the gap to the other whose steps are nearest to the
-    mean steps of the training frames around it (`mocapbench.baselines.common.transitions`). Any
-    other recording goes through scikit-learn's `KNNImputer` on the stacked frames of all
-    recordings,
-    with time as one more column, in units that give it the median channel's spread.
+    If every frame of a recording is either visible or hidden as a whole, a transition model fills
+    each gap: the path from one end of the gap to the other whose steps are nearest, in least
+    squares, to the mean steps of the training frames near it
+    (`mocapbench.baselines.common.transitions`). Any other recording is filled by scikit-learn's
+    `KNNImputer` on the stacked frames of all recordings. Time is one more column, scaled to the
+    median standard deviation of the channels.
 
-    Both look at the recordings given to `fit` and at the recording to fill, whose visible entries
-    are training data too. There is no predictive distribution.
+    Both use the recordings given to `fit` and the visible entries of the recording to fill. There
+    is no predictive distribution.
 
     Parameters
     ----------
     n_neighbors : int, default=15
-        How many neighbours are averaged; all there are, if they are fewer.
+        Number of neighbours that are averaged; all frames, if there are fewer.
 
     Attributes
     ----------
     recordings_ : tuple of Recording
         The recordings given to `fit`.
 
-    Notes
-    -----
-    Wang, Fleet and Hertzmann (2008), Table 2, has a column "KNN-15" whose objective is not
-    printed; this model does not reproduce it.
+    References
+    ----------
+    O. Troyanskaya et al. (2001), Missing Value Estimation Methods for DNA Microarrays,
+    Bioinformatics 17(6): the method of `KNNImputer`.
+
+    J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical Models for Human
+    Motion, IEEE TPAMI 30(2),
+    Table 2, column "KNN-15": the paper does not state its objective, and this model does not
+    reproduce the column.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import KNN
+    >>> from mocapbench.datasets import Recording
+    >>> times = np.arange(6.0)
+    >>> values = np.column_stack([times, 2 * times])
+    >>> line = Recording("line", times, values, ("x", "y"), ("cm", "cm"))
+    >>> gap = np.isin(times, [2.0, 3.0])[:, None] & np.array([True, True])
+    >>> (prediction,) = KNN(n_neighbors=1).fit([line]).impute([line.hide(gap)])
+    >>> np.round(prediction.mean[2:4], 6)
+    array([[2., 4.],
+           [3., 6.]])
     """
 
     def __init__(self, n_neighbors: int = 15) -> None:
@@ -74,7 +93,7 @@ class KNN(Imputer, Inductive):
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return each recording filled, apart from the others given here.
+        """Return each recording filled, independently of the others given here.
 
         Raises
         ------
@@ -96,7 +115,7 @@ class KNN(Imputer, Inductive):
 def _fill_entries(
     recording: Recording, pooled: Sequence[Recording], n_neighbors: int
 ) -> FrameByChannel:
-    """Return the recording filled from frames that are near where both are visible."""
+    """Return the recording filled by `KNNImputer`: nearest over entries visible in both frames."""
     check_visible(pooled)
     _, variance = visible_moments(pooled)
     times = np.concatenate([other.times for other in pooled])
@@ -122,7 +141,7 @@ def _fill_frames(
 
 
 def _mean_steps(recordings: Sequence[Recording], n_neighbors: int) -> Steps:
-    """Return the function from frames to the mean step of the training frames nearest to them."""
+    """Return a function from frames to the mean step of the training frames nearest to each."""
     steps = np.concatenate([np.diff(recording.values, axis=0) for recording in recordings])
     frames = np.concatenate([recording.values[:-1] for recording in recordings])
     known = ~np.isnan(steps).any(axis=1)

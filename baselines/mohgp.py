@@ -1,9 +1,12 @@
-r"""The multiple-output hierarchical Gaussian process (thesis §4).
+r"""The multiple-output hierarchical Gaussian process (MOHGP; thesis §4).
 
 Every recording is a child of one parent: :math:`g \sim \mathcal{GP}(0, K_g)`,
 :math:`f_r \sim \mathcal{GP}(g, K_f)`, :math:`y_r = f_r + \varepsilon_r`, with a linear model of
 coregionalisation in both layers (thesis eq. 16 and 17). In a tree there are groups in between,
 :math:`e_i \sim \mathcal{GP}(g, K_e)`, :math:`f_{ir} \sim \mathcal{GP}(e_i, K_f)` (thesis eq. 8).
+
+J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+thesis, Universidad Tecnológica de Pereira, 2017, is cited as the thesis.
 """
 
 from __future__ import annotations
@@ -25,35 +28,94 @@ __all__ = ["MOHGP"]
 
 
 class MOHGP(TrendedProcess):
-    """Recordings vary around a common trend, or around those of the groups that they are in.
+    """Recordings vary around a common trend, or around the trends of their groups.
 
     `impute` gives the posterior of each child. `sample` follows the thesis: new children are
     drawn from K_f around the trend's posterior mean, or around a draw of the trend with
-    ``sampled_trend="posterior"``; in a tree, they are children of new groups. Parameters and
-    attributes are those of `GaussianProcess` and one more.
+    ``sampled_trend="posterior"``; in a tree, they are children of new groups.
 
     Parameters
     ----------
     tree : mapping of str to sequence of str or None, default=None
-        For the name of each recording the groups that it is in, from the largest to the smallest
-        and equally many for all, such as ``{"02_01": ("walk", "subject 2"), ...}``. Groups of
-        one name in different groups are different. The layers are then ``"parent"``,
-        ``"group-1"``, ``"group-2"`` and so on, ``"child"``. None makes every recording a child
-        of the trend.
+        For the name of each recording its groups, from the largest to the smallest and equally
+        many for all, such as ``{"02_01": ("walk", "subject 2"), ...}``. Groups with the same name
+        within different groups are different. The layers are then ``"parent"``, ``"group-1"``,
+        ``"group-2"`` and so on, ``"child"``. None makes every recording a child of the trend.
+    n_components : int or mapping of str to int, default=1
+        Number Q of components of every layer, or of each layer by its name, such as
+        ``{"parent": 3, "child": 1}``.
+    rank : int, default=1
+        Number of columns of each factor W_q; 0 makes the outputs independent.
+    kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
+        The kernel of every component.
+    n_restarts : int, default=1
+        Number of searches; the first starts from the data, the others at random around it.
+    max_iter : int, default=1000
+        Largest number of iterations of a search.
+    tol : float, default=1e-7
+        A search has converged when an iteration gains less than this fraction of the
+        log-likelihood.
+    max_seconds : float or None, default=None
+        Time limit for all searches together; None sets no limit. Results then depend on the
+        machine.
+    warm_start : bool, default=False
+        Whether `fit` starts from the parameters of the previous one, if there was one.
+    verbose : bool, default=False
+        Whether `fit` prints a line for every iteration.
+    solver : {"auto", "dense", "latent-split", "state-space", "kronecker"}, default="auto"
+        How the likelihood is computed; "auto" takes the solver with the least work.
+    sampled_trend : {"mean", "posterior"}, default="mean"
+        The trend around which `sample` draws new recordings: its posterior mean, as in the thesis
+        (§5.2), or one draw from its posterior, shared by all recordings of a call.
+    n_jobs : int or None, default=None
+        Number of threads over outputs; it does not affect results. None means 1, unless in a
+        ``joblib.parallel_config`` context; −1 means all processors.
+    random_state : int, numpy.random.Generator or None, default=None
+        Seed of the random starts.
+
+    Attributes
+    ----------
+    parameters_ : Parameters
+        Maximum-likelihood parameters, for outputs in standard units.
+    log_likelihood_ : float
+        Log-likelihood of the recordings in their own units.
+    bic_ : float
+        Schwarz's criterion, −2 log L + k log n for k parameters and n visible entries; lower is
+        better.
+    training_ : Training
+        The searches, with the log-likelihood after each iteration.
+    converged_, n_iterations_, n_evaluations_ : bool, int, int
+        Those of the best search.
+    solver_, engine_ : str
+        The solvers that were used, without and with their counted work.
+    coregionalisation_ : dict of str to ndarray of shape (Q, D, D)
+        The matrices B_q of each layer, in the outputs' own units.
+    noise_ : ndarray of shape (D,)
+        Noise variances, in the outputs' own units.
+
+    References
+    ----------
+    J. D. Gil López (2017), Hierarchical Multiple Output Gaussian Processes for Human Motion Data,
+    MSc thesis, Universidad Tecnológica de Pereira:
+    the model §4, eq. (16) and (17); training eq. (25); the tree eq. (8); synthesis §5.2.
 
     Examples
     --------
     >>> import numpy as np
+    >>> from mocapbench.baselines import MOHGP
     >>> from mocapbench.datasets import ToyProcess
     >>> rng = np.random.default_rng(0)
     >>> process = ToyProcess.random(rng, n_outputs=2, noise=0.01)
-    >>> children = process.draw(rng, np.linspace(0.0, 6.0, 20), 3)
+    >>> times = np.linspace(0.0, 6.0, 20)
+    >>> children = process.draw(rng, times, 3)
     >>> model = MOHGP(kernel="rbf", max_iter=20).fit(children)
     >>> mean, variance = model.trend(np.linspace(0.0, 6.0, 5))
     >>> mean.shape, variance.shape
     ((5, 2), (5, 2))
     >>> tree = {"child-1": ("slow",), "child-2": ("slow",), "child-3": ("fast",)}
     >>> model = MOHGP(tree=tree, kernel="rbf", max_iter=20).fit(children)
+    >>> model.layers
+    ('parent', 'group-1', 'child')
     >>> mean, variance = model.trend(np.linspace(0.0, 6.0, 5), group=("slow",))
     """
 
@@ -93,7 +155,7 @@ class MOHGP(TrendedProcess):
         self.tree = tree
 
     def grow(self, names: Sequence[str]) -> Tree:
-        """Return the draws of each layer that the recordings take part in.
+        """Return for each layer the draw that each recording depends on.
 
         Raises
         ------
@@ -108,14 +170,14 @@ class MOHGP(TrendedProcess):
         return hierarchical(replicates, self.tree_)
 
     def trend(self, times: Frames, group: Path = ()) -> tuple[FrameByChannel, FrameByChannel]:
-        """Return the posterior mean and variance of g, or of a group, at ``times`` (N,).
+        """Return the posterior mean and variance of g or of a group at ``times`` (N,).
 
         Parameters
         ----------
         times : ndarray of shape (N,)
             In seconds.
         group : sequence of str, default=()
-            The group as in ``tree``; () is the trend of all.
+            The group as in ``tree``; () is the common trend.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""The nearest training frame, copied where entries are hidden."""
+"""Nearest neighbour: hidden entries are copied from the nearest training frame."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ Array = NDArray[np.float64]
 
 
 class NN(Imputer, Inductive):
-    """Copy hidden entries from the training frame that is nearest over the visible ones.
+    """Copy hidden entries from the training frame that is nearest over the visible entries.
 
-    Nearest in squared Euclidean distance over the entries that both frames show, per entry. A
-    training frame donates only entries that it shows, so that frames of training which are hidden
-    in part serve too. A frame with nothing visible is matched by the straight line in time between
-    the visible entries of each channel. There is no predictive distribution.
+    The distance is the mean squared difference over the entries that are visible in both frames.
+    An entry is copied from the nearest training frame in which it is visible, so that partly hidden
+    training frames are used too. A wholly hidden frame is first interpolated linearly in time, and
+    the interpolated frame is matched. There is no predictive distribution.
 
     Attributes
     ----------
@@ -37,8 +37,24 @@ class NN(Imputer, Inductive):
 
     References
     ----------
-    HLM §4.3, "NN", after Taylor, Hinton and Roweis (2007), Modeling human motion using binary
-    latent variables.
+    W. Pan and L. Torresani (2009), Unsupervised Hierarchical Modeling of Locomotion Styles, ICML,
+    §4.3, "NN".
+
+    G. W. Taylor, G. E. Hinton and S. T. Roweis (2007), Modeling Human Motion Using Binary Latent
+    Variables, NIPS 19: the nearest-neighbour baseline that the former cite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import NN
+    >>> from mocapbench.datasets import Recording
+    >>> def poses(name, values):
+    ...     return Recording(name, np.arange(len(values)), values, ("hip", "knee"), ("deg",) * 2)
+    >>> training = poses("training", [[0.0, 10.0], [5.0, 20.0], [9.0, 30.0]])
+    >>> (prediction,) = NN().fit([training]).impute([poses("new", [[4.0, np.nan], [8.0, np.nan]])])
+    >>> prediction.mean
+    array([[ 4., 20.],
+           [ 8., 30.]])
     """
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
@@ -55,13 +71,13 @@ class NN(Imputer, Inductive):
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return each recording with what its frames lack copied from their nearest neighbours.
+        """Return each recording with hidden entries copied from the nearest training frames.
 
         Raises
         ------
         ValueError
-            If channels differ, or no training frame shows an entry that is hidden together with
-            one that is visible.
+            If channels differ, or a hidden entry's channel is visible in no training frame that
+            shares a visible channel with the frame to fill.
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
@@ -78,20 +94,24 @@ class NN(Imputer, Inductive):
         if (lacking := np.isnan(filled) & ~recording.visible).any():
             channels = [recording.channels[d] for d in np.flatnonzero(lacking.any(axis=0))]
             raise ValueError(
-                f"recording {recording.name!r}: no training frame shows {channels} together with "
-                "an entry that is visible here; train on more complete recordings"
+                f"recording {recording.name!r}: expected a training frame in which {channels} and "
+                "a channel visible here are both visible, got none; train on more complete "
+                "recordings"
             )
         return filled
 
 
 def _donated(distances: Array, channel: Array) -> Array:
-    """Return the visible values of a channel (M,) at the least distances (n, M); NaN if none."""
-    reach = np.where(np.isnan(channel), np.inf, distances)
-    return np.where(np.isinf(reach.min(axis=1)), np.nan, channel[reach.argmin(axis=1)])
+    """Return the values of a channel (M,) at the least of its ``distances`` (n, M): (n,).
+
+    Frames in which the channel is hidden are left out; NaN if no frame remains.
+    """
+    usable = np.where(np.isnan(channel), np.inf, distances)
+    return np.where(np.isinf(usable.min(axis=1)), np.nan, channel[usable.argmin(axis=1)])
 
 
 def _poses(recording: Recording) -> FrameByChannel:
-    """Return the values with frames that are hidden as a whole interpolated in time."""
+    """Return the values with wholly hidden frames interpolated linearly in time."""
     poses = recording.values.copy()
     blank = ~recording.visible.any(axis=1)
     for d in np.flatnonzero(recording.visible.any(axis=0)):

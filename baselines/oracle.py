@@ -1,10 +1,10 @@
-r"""The limit on toy data: the generating process with its true parameters.
+r"""The best possible model of toy data: the generating process with its true parameters.
 
 The children are :math:`y_r = g + (f_r - g) + \varepsilon_r` with blocks
-:math:`\operatorname{cov}(y_r, y_s) = K_g + \delta_{rs}(K_f + \sigma^2 I)`. Children that show the
-same entries form a *pattern*, of size :math:`R_p`. Their mean and the deviations from it are
-independent, and only the means know about :math:`g`, so the parent is inferred from one curve per
-pattern, with covariance :math:`K_g + \delta_{pq}(K_f + \sigma^2 I)/R_p`.
+:math:`\operatorname{cov}(y_r, y_s) = K_g + \delta_{rs}(K_f + \sigma^2 I)`. Children with the same
+visible entries form a *pattern*, of size :math:`R_p`. Their mean and the deviations from it are
+independent, and only the mean depends on :math:`g`. The parent is therefore inferred from one mean
+curve for each pattern, with covariance :math:`K_g + \delta_{pq}(K_f + \sigma^2 I)/R_p`.
 """
 
 from __future__ import annotations
@@ -39,42 +39,78 @@ Index = NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class _Pattern:
-    """Children that show the same ``entries`` (n,) of a curve; their ``values`` are (R_p, n)."""
+    """Children whose visible entries are the same.
+
+    Parameters
+    ----------
+    entries : ndarray of int, shape (n,)
+        Where the visible entries stand in a curve (D N,), outputs slowest.
+    values : ndarray of shape (R_p, n)
+        Their values, one row for each child.
+    """
 
     entries: Index
     values: Array
 
     @property
     def size(self) -> int:
+        """Number R_p of children."""
         return len(self.values)
 
     @property
     def mean(self) -> Array:
+        """(n,) their mean."""
         return np.asarray(self.values.mean(axis=0))
 
 
 class Oracle(Imputer, Synthesiser, Trended, Informed):
-    """Condition the true process on all that is visible.
+    """Condition the true process on all visible entries.
 
-    Exact mean and variance of the hidden observations, noise included, and exact draws of new
-    children, given the visible entries of all recordings in `fit`, which are children of one
-    parent.
+    The recordings given to `fit` are children of one parent. `impute` gives the exact mean and
+    variance of hidden observations, noise included, and `sample` exact draws of new children, both
+    given the visible entries of all recordings.
 
     Attributes
     ----------
     process_ : ToyProcess
-        The generating process.
+        The generating process, given to `inform`.
     times_ : ndarray of shape (N,)
         All times of the recordings; a curve on this grid is a vector (D N,), outputs slowest.
+
+    References
+    ----------
+    C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for Machine Learning, MIT
+    Press, eq. (2.23) and (2.24): the conditional mean and covariance.
+
+    J. D. Gil López (2017), Hierarchical Multiple Output Gaussian Processes for Human Motion Data,
+    MSc thesis, Universidad Tecnológica de Pereira, §5.1.1 and eq. (16): the process.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import Oracle
+    >>> from mocapbench.datasets import ToyProcess
+    >>> rng = np.random.default_rng(0)
+    >>> process = ToyProcess.random(rng, n_outputs=2, noise=0.01)
+    >>> children = process.draw(rng, np.linspace(0.0, 6.0, 20), 3)
+    >>> hidden = np.zeros((20, 2), dtype=bool)
+    >>> hidden[10] = True
+    >>> incomplete = children[0].hide(hidden)
+    >>> model = Oracle().inform(process).fit([incomplete, *children[1:]])
+    >>> (prediction,) = model.impute([incomplete])
+    >>> bool((np.abs(prediction.mean - children[0].values) < 0.5).all())
+    True
+    >>> bool((prediction.variance[10] > process.noise).all())
+    True
     """
 
     def inform(self, process: ToyProcess) -> Self:
-        """Take the process that generated the recordings."""
+        """Set the process that generated the recordings."""
         self.process_ = process
         return self
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
-        """Condition on the means of the patterns.
+        """Condition on the mean of each pattern.
 
         Raises
         ------
@@ -94,7 +130,7 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
         return self
 
     def _group(self, recordings: Sequence[Recording]) -> None:
-        """Find the patterns, and for each recording its pattern and its row there."""
+        """Store the patterns, and for each recording its pattern and its row there."""
         groups: dict[bytes, list[Recording]] = defaultdict(list)
         for recording in recordings:
             groups[self._entries(recording, recording.visible).tobytes()].append(recording)
@@ -152,9 +188,9 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Return new children of the one parent, a joint draw given all that is visible: (n, N, D).
+        """Return new children of the same parent, given all visible entries: (n, N, D).
 
-        The parent is drawn from its posterior, once for all of them; noise is included.
+        The parent is drawn once from its posterior and shared by all; noise is included.
         """
         check_is_fitted(self, "times_")
         rng = np.random.default_rng(random_state)
@@ -177,8 +213,7 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
     def _prediction(self, recording: Recording) -> Prediction:
         if recording.name not in self._places:
             raise ValueError(
-                f"recording {recording.name!r} was not given to fit; expected one of "
-                f"{sorted(self._places)}"
+                f"expected recordings given to fit, {sorted(self._places)}, got {recording.name!r}"
             )
         hidden = ~recording.visible
         mean, variance = np.zeros(hidden.shape), np.zeros(hidden.shape)
@@ -190,13 +225,13 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
     def _conditional(self, p: int, row: int, hidden: Index) -> tuple[Array, Array]:
         """Return mean and variance of the ``hidden`` entries of child ``row`` of pattern ``p``."""
         pattern = self._patterns[p]
-        own = self._within[np.ix_(hidden, self._seen)] * (self._owner == p)
-        cross = self._parent[np.ix_(hidden, self._seen)] + own / pattern.size
+        within = self._within[np.ix_(hidden, self._seen)] * (self._owner == p)
+        cross = self._parent[np.ix_(hidden, self._seen)] + within / pattern.size
         mean = cross @ self._weights
         variance = np.diag(self._parent)[hidden] + np.diag(self._within)[hidden]
         variance -= np.sum(cross * cho_solve(self._factor, cross.T).T, axis=1)
 
-        # What the child's deviation from its pattern's mean adds: nothing if it is alone.
+        # The contribution of the child's deviation from its pattern's mean; zero if R_p = 1.
         child = self._within[np.ix_(hidden, pattern.entries)]
         gain = np.linalg.solve(self._within[np.ix_(pattern.entries, pattern.entries)], child.T).T
         mean += gain @ (pattern.values[row] - pattern.mean)

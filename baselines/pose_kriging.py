@@ -1,10 +1,9 @@
-"""Each training walker's way through the recording, and what they miss as a function of pose.
+"""Matched training recordings, with Gaussian-process regression of the residuals on pose.
 
-A new subject does not move like any subject of training, but deviates from them in much the same
-way whenever the pose is much the same. So every training recording is matched with the new one by
-its cheapest path (`PoseViterbi`), the paths are averaged, and the residuals at visible frames are
-kriged: under a Gaussian process over the matched pose and time, they are known where the pose
-comes again.
+A new subject differs from the training subjects, but by similar amounts whenever the pose is
+similar. Every training recording is therefore matched with the new one by its cheapest path
+(`PoseViterbi`), and the paths are averaged. A Gaussian process over the matched pose and time then
+predicts the residuals at hidden frames from those at visible frames (kriging).
 """
 
 from __future__ import annotations
@@ -30,43 +29,67 @@ __all__ = ["PoseKriging"]
 Array = NDArray[np.float64]
 
 _CONSTANT, _DRIFT, _NOISE = 10.0, 1.0, 0.05
-"""Variances of the residual's constant part, its drift in time and its noise, up to scale."""
+"""Prior variances of the residual's constant, its drift in time and its noise, up to scale."""
 _LEAST_VARIANCE = 1e-12
-"""Of a channel that is never missed, as a share of the variance of training."""
+"""Least scale of a channel's residual, as a fraction of the total variance in training."""
 
 
 class PoseKriging(FrameImputer, Inductive):
-    r"""Fill frames from matched training recordings and a Gaussian process of the residual.
+    r"""Fill frames from matched training recordings and a Gaussian process of the residuals.
 
-    Recording k of training gives the poses :math:`m_k(t)` of its cheapest path, found after the
-    offset of a first path has been taken off. Their mean :math:`m`, with weights
-    :math:`\exp(-e_k / \min_j e_j)` by the mean squared residual :math:`e_k` at visible frames, is
-    corrected by the conditional mean of a Gaussian process: each channel of :math:`y - m` has
-    covariance :math:`\sigma_d^2 (10 + e^{-|t - t'| / \tau} + v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2
-    S} + 0.05\, \delta)`, S the total variance of training frames, :math:`\sigma_d^2` by maximum
-    likelihood. The variance is that of this process; the path's own uncertainty is not in it.
+    Training recording k contributes the poses :math:`m_k(t)` of its cheapest path. A first path
+    gives the subject's offset; it is subtracted before the path is found again. The poses are
+    averaged with weights :math:`\exp(-e_k / \min_j e_j)`, :math:`e_k` being the mean squared
+    residual at visible frames, to :math:`m(t)`. The conditional mean of a Gaussian process then
+    corrects it: each channel of :math:`y - m` has covariance :math:`\sigma_d^2 (10 + e^{-|t - t'| /
+    \tau} + v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2 S} + 0.05\, \delta)`, with S the total variance of
+    training frames and :math:`\sigma_d^2` by maximum likelihood. The predictive variance is that of
+    this process; it does not include the uncertainty of the path.
 
-    The defaults are those with the least error when each training walker of ``missing-frames`` is
-    held out in turn. Frames are counted, not seconds.
+    The defaults gave the least error when each training walker of ``missing-frames`` was held out
+    in turn. Time is counted in frames, not seconds.
 
     Parameters
     ----------
     smoothness : float, default=10.0
-        As of `PoseViterbi`.
+        The weight λ of jumps in `PoseViterbi`; positive.
     pose_lengthscale : float, default=1.0
-        h; positive.
+        The lengthscale h over poses, in units of the total standard deviation √S; positive.
     pose_variance : float, default=3.0
-        v; not negative.
+        The prior variance v of the part that depends on pose; not negative.
     time_lengthscale : float, default=4.0
-        τ in frames; positive.
+        The lengthscale τ over time, in frames; positive.
 
     Attributes
     ----------
     channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
     matchers_ : list of PoseViterbi
         One for each training recording with two consecutive complete frames.
-    spread_ : float
-        S, the sum of the channels' variances in training.
+    total_variance_ : float
+        The sum S of the channels' variances in training.
+
+    References
+    ----------
+    Not from a publication. The Gaussian-process regression is that of C. E. Rasmussen and C. K. I.
+    Williams (2006), Gaussian Processes for Machine Learning, MIT Press, eq. (2.25) and (2.26); the
+    task is that of J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical
+    Models for Human Motion, IEEE TPAMI 30(2), Table 2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import PoseKriging
+    >>> from mocapbench.datasets import Recording
+    >>> times = np.arange(30) / 30
+    >>> angle = 2 * np.pi * np.arange(30) / 15
+    >>> values = np.column_stack([np.sin(angle), np.cos(angle)])
+    >>> walk = Recording("walk", times, values, ("hip", "knee"), ("deg",) * 2)
+    >>> shifted = Recording("new", times, values + 0.3, ("hip", "knee"), ("deg",) * 2)
+    >>> gap = np.repeat(((times > 0.3) & (times < 0.5))[:, None], 2, axis=1)
+    >>> (prediction,) = PoseKriging().fit([walk]).impute([shifted.hide(gap)])
+    >>> bool(np.abs(prediction.mean - shifted.values).max() < 0.5)
+    True
     """
 
     def __init__(
@@ -101,11 +124,11 @@ class PoseKriging(FrameImputer, Inductive):
             raise ValueError("expected two consecutive complete frames in training, got none")
         self.matchers_ = [PoseViterbi(self.smoothness).fit([recording]) for recording in usable]
         frames = np.concatenate([matcher.frames_ for matcher in self.matchers_])
-        self.spread_ = float(frames.var(axis=0).sum()) or 1.0
+        self.total_variance_ = float(frames.var(axis=0).sum()) or 1.0
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return mean and variance of hidden frames.
+        """Return the mean and variance of hidden frames.
 
         Raises
         ------
@@ -126,8 +149,8 @@ class PoseKriging(FrameImputer, Inductive):
         for matcher in self.matchers_:
             moved = recording.with_values(recording.values - matcher.residual(recording))
             paths.append(matcher.match(moved))
-        missed = [(recording.values - path)[visible].var(axis=0).sum() for path in paths]
-        errors = np.asarray(missed) + np.finfo(float).tiny
+        residuals = [(recording.values - path)[visible].var(axis=0).sum() for path in paths]
+        errors = np.asarray(residuals) + np.finfo(float).tiny
         weights = np.exp(-errors / errors.min())
         return np.asarray(np.average(paths, axis=0, weights=weights))
 
@@ -141,17 +164,17 @@ class PoseKriging(FrameImputer, Inductive):
         factor = cho_factor(noisy, lower=True)
         residual = (recording.values - matched)[visible]
         dual = cho_solve(factor, residual)
-        scales = np.maximum((residual * dual).mean(axis=0), _LEAST_VARIANCE * self.spread_)
+        scales = np.maximum((residual * dual).mean(axis=0), _LEAST_VARIANCE * self.total_variance_)
         cross = prior[:, visible]
         explained = (cross * cho_solve(factor, cross.T).T).sum(axis=1)
         variance = np.diagonal(prior) + _NOISE - explained
         return matched + cross @ dual, np.outer(variance, scales)
 
     def _covariance(self, matched: FrameByChannel) -> Array:
-        """Return the covariance (N, N) of a residual without noise, up to scale."""
+        """Return the prior covariance (N, N) of a channel's residual without noise, up to scale."""
         times = np.arange(len(matched))
         drift = np.exp(-np.abs(np.subtract.outer(times, times)) / self.time_lengthscale)
-        distances = euclidean_distances(matched, squared=True) / self.spread_
+        distances = euclidean_distances(matched, squared=True) / self.total_variance_
         poses = np.exp(-0.5 * distances / self.pose_lengthscale**2)
         return np.asarray(_CONSTANT + _DRIFT * drift + self.pose_variance * poses)
 

@@ -1,9 +1,9 @@
-"""The cheapest path through the training frames, moved to where the new subject is.
+"""The cheapest path through the training frames, shifted by the subject's mean difference.
 
-Every frame of a recording is matched with a training frame, visible frames with one like them and
-each frame with one that may follow its predecessor's; the path that does both best is a dynamic
-programme. People of one kind move alike around poses of their own, so the mean of what the match
-misses at the visible frames is added to the whole.
+Every frame of a recording is matched with a training frame: visible frames with a similar one, and
+consecutive frames with ones that follow each other. Dynamic programming (Viterbi) finds the path
+that costs least. Subjects differ mainly by a constant in each channel, so that the mean residual at
+the visible frames is added to the whole path.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ class PoseViterbi(FrameImputer, Inductive):
     r"""Fill frames from the cheapest path :math:`s_1 \ldots s_T` through the training frames.
 
     Its cost is :math:`\sum_{t\ \text{visible}} \|y_t - Y_{s_t}\|^2 + \lambda \sum_t
-    \|Y_{s_t + 1} - Y_{s_{t+1}}\|^2`: to go on to the next frame of training is free, to jump
-    costs as much as the pose changes. The last frame of a stretch has no next one. Frames are
-    counted, not seconds, so that all recordings should have one frame rate. There is no
-    predictive distribution.
+    \|Y_{s_t + 1} - Y_{s_{t+1}}\|^2`. Going on to the next training frame is free; a jump costs the
+    squared difference between the frame that would follow and the frame jumped to. No jump leaves
+    the last frame of a stretch. Time is counted in frames, so that all recordings should have the
+    same frame rate. There is no predictive distribution.
 
     Parameters
     ----------
     smoothness : float, default=10.0
         The weight λ of jumps; positive.
     subject_offset : float, default=1.0
-        The share of the mean residual at the visible frames that is added to the fill: 1 moves
-        the training poses to the new subject's, 0 leaves them.
+        The fraction, from 0 to 1, of the mean residual at the visible frames that is added to the
+        fill: 1 shifts the training poses to the new subject's mean, 0 leaves them unchanged.
 
     Attributes
     ----------
@@ -50,7 +50,29 @@ class PoseViterbi(FrameImputer, Inductive):
     frames_ : ndarray of shape (S, D)
         The complete training frames.
     transition_ : ndarray of shape (S, S)
-        The cost of going from one to another.
+        The cost of going from frame (row) to frame (column); infinite where it is not allowed.
+
+    References
+    ----------
+    Not from a publication. The dynamic programme is that of G. D. Forney (1973), The Viterbi
+    Algorithm, Proceedings of the IEEE 61(3). The task is that of J. M. Wang, D. J. Fleet and
+    A. Hertzmann (2008), Gaussian Process Dynamical Models for Human Motion, IEEE TPAMI 30(2),
+    Table 2.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import PoseViterbi
+    >>> from mocapbench.datasets import Recording
+    >>> times = np.arange(30) / 30
+    >>> angle = 2 * np.pi * np.arange(30) / 15
+    >>> values = np.column_stack([np.sin(angle), np.cos(angle)])
+    >>> walk = Recording("walk", times, values, ("hip", "knee"), ("deg",) * 2)
+    >>> shifted = Recording("new", times, values + 0.3, ("hip", "knee"), ("deg",) * 2)
+    >>> gap = np.repeat(((times > 0.3) & (times < 0.5))[:, None], 2, axis=1)
+    >>> (prediction,) = PoseViterbi().fit([walk]).impute([shifted.hide(gap)])
+    >>> bool(np.abs(prediction.mean - shifted.values).max() < 0.5)
+    True
     """
 
     def __init__(self, smoothness: float = 10.0, subject_offset: float = 1.0) -> None:
@@ -58,7 +80,7 @@ class PoseViterbi(FrameImputer, Inductive):
         self.subject_offset = subject_offset
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
-        """Keep the complete frames of the recordings, and what it costs to jump between them.
+        """Keep the complete frames of the recordings, and the costs of jumps between them.
 
         Raises
         ------
@@ -77,7 +99,7 @@ class PoseViterbi(FrameImputer, Inductive):
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the frames of the cheapest path, moved by the subject's offset.
+        """Return the frames of the cheapest path, shifted by the subject's offset.
 
         Raises
         ------
@@ -89,7 +111,7 @@ class PoseViterbi(FrameImputer, Inductive):
         return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
 
     def residual(self, recording: Recording) -> NDArray[np.float64]:
-        """Return the mean (D,) of what the cheapest path misses at the visible frames.
+        """Return the mean residual (D,) of the cheapest path at the visible frames.
 
         Raises
         ------
@@ -124,8 +146,8 @@ def _mean_residual(recording: Recording, match: FrameByChannel) -> NDArray[np.fl
 
 
 def _jumps(frames: FrameByChannel, ends: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Return ‖Y_{s+1} − Y_{s'}‖² from frame s to s', infinite from the ends of stretches."""
+    """Return ‖Y_{s+1} − Y_{s'}‖² from frame s to s'; infinite where s ends a stretch."""
     costs = np.full((len(frames), len(frames)), np.inf)
-    going_on = np.setdiff1d(np.arange(len(frames)), ends)
-    costs[going_on] = euclidean_distances(frames[going_on + 1], frames, squared=True)
+    inner = np.setdiff1d(np.arange(len(frames)), ends)
+    costs[inner] = euclidean_distances(frames[inner + 1], frames, squared=True)
     return costs

@@ -1,22 +1,26 @@
-r"""What a model is, and what it may be able to do.
+r"""The interface of models, and the abilities that a model may have.
 
-A model learns from recordings, hidden entries included, and then has abilities. Each ability is
-an abstract base class, so that a model says what it can do by what it inherits:
+A model is fitted to recordings, hidden entries included. Each ability is an abstract base class,
+which a model inherits to declare that it has the ability:
 
-* `FrameImputer` fills whole hidden frames: the mean, and if the model has one the variance, of
-  :math:`p(y_{\text{hidden}} \mid y_{\text{visible}})` where every frame is visible or hidden
-  as a whole;
-* `Imputer` does so for any set of hidden entries, and is therefore a `FrameImputer`;
-* `Inductive` marks an imputer that also fills recordings which `fit` has not seen;
+* `FrameImputer` fills frames that are hidden as a whole: it gives the mean, and optionally the
+  variance, of :math:`p(y_{\text{hidden}} \mid y_{\text{visible}})`;
+* `Imputer` fills any set of hidden entries, and is therefore a `FrameImputer`;
+* `Inductive` marks an imputer that also fills recordings that were not given to `fit`;
 * `Synthesiser` draws new recordings from :math:`p(y_{\text{new}} \mid y_{\text{visible}})`;
-* `Clusterer` groups the recordings that it was fitted to;
+* `Clusterer` groups the recordings given to `fit`;
 * `Aligner` maps the frames of recordings of a cyclic motion onto the states of one cycle;
-* `Blender` mixes the styles that it has found;
-* `Trended` infers a trend that the recordings vary around;
-* `Layered` shows the covariance of each of its layers, and `Coregionalised` the matrices in it;
-* `Embedded` gives every frame a position in a latent space, and `Dynamical` walks through it;
-* `Informed` is told the generating process (the oracle);
-* `Misinformed` is told another process instead (the control).
+* `Blender` mixes the styles that it has learnt;
+* `Trended` infers a trend around which the recordings vary;
+* `Layered` gives the covariance of each layer of a hierarchy, `Coregionalised` also the
+  coregionalisation matrices;
+* `Embedded` gives every frame a position in a latent space, and `Dynamical` draws trajectories
+  through it;
+* `Informed` requires the generating process (the oracle);
+* `Misinformed` requires a process unrelated to the recordings (the negative control).
+
+Symbols in shapes: N frames, D channels, K recordings, M states of a cycle, C styles, Q components,
+d latent dimensions, n samples.
 """
 
 from __future__ import annotations
@@ -55,7 +59,7 @@ __all__ = [
 ]
 
 StatePath = NDArray[np.intp]
-"""(N,) the state of the common cycle, 0 … M − 1, that each frame of a recording is in."""
+"""(N,) the state 0 … M − 1 of the common cycle for each frame of a recording."""
 
 FrameByStyle = NDArray[np.float64]
 """(N, C) one row a frame, one column a style."""
@@ -71,10 +75,20 @@ class Prediction:
     Parameters
     ----------
     mean : ndarray of shape (N, D)
-        Visible entries are copied.
-    variance : ndarray of shape (N, D) or None
-        Variance of an observation, noise included, and 0 at visible entries. None says that the
-        model has no predictive distribution.
+        Predictive mean at hidden entries; visible entries are copied.
+    variance : ndarray of shape (N, D) or None, default=None
+        Predictive variance of an observation, noise included; 0 at visible entries. None means
+        that the model has no predictive distribution.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import Prediction
+    >>> from mocapbench.datasets import Recording
+    >>> recording = Recording("r", np.arange(3.0), [[1.0], [np.nan], [3.0]], ("knee",), ("deg",))
+    >>> prediction = Prediction.around(recording, np.full((3, 1), 2.0), np.full((3, 1), 0.5))
+    >>> prediction.mean[:, 0], prediction.variance[:, 0]
+    (array([1., 2., 3.]), array([0. , 0.5, 0. ]))
     """
 
     mean: FrameByChannel
@@ -84,7 +98,17 @@ class Prediction:
     def around(
         cls, recording: Recording, mean: FrameByChannel, variance: FrameByChannel | None = None
     ) -> Prediction:
-        """Return ``mean`` and ``variance`` at the hidden entries, the data at the visible ones."""
+        """Return a prediction with ``mean`` and ``variance`` at the hidden entries of a recording.
+
+        Parameters
+        ----------
+        recording : Recording
+            The recording to fill; its visible entries are copied, with variance 0.
+        mean : array_like that broadcasts to (N, D)
+            Predictive mean.
+        variance : array_like that broadcasts to (N, D), or None, default=None
+            Predictive variance, noise included.
+        """
         visible = recording.visible
         return cls(
             np.where(visible, recording.values, mean),
@@ -93,59 +117,157 @@ class Prediction:
 
 
 class Model(BaseEstimator, ABC):  # type: ignore[misc]
-    """A scikit-learn style estimator of motion: ``__init__`` stores, `fit` learns."""
+    """A scikit-learn estimator whose data are recordings.
+
+    As in scikit-learn, ``__init__`` only stores its parameters, `fit` validates them and learns,
+    and attributes that `fit` sets end with an underscore. Users implement the abilities below
+    rather than this class.
+    """
 
     @abstractmethod
     def fit(self, recordings: Sequence[Recording]) -> Self:
-        """Learn from recordings with the same channels, incomplete ones included."""
+        """Learn from recordings.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+            At least one; all have the same channels and distinct names. Hidden entries are NaN.
+
+        Returns
+        -------
+        Model
+            The model itself.
+
+        Raises
+        ------
+        ValueError
+            If a parameter or the recordings are invalid.
+        """
 
 
 class FrameImputer(Model):
-    """A model that fills frames which are hidden as a whole."""
+    """A model that fills frames that are hidden as a whole.
+
+    Every frame of a recording to fill is either visible or hidden in all channels. See `Imputer`
+    for an example of an implementation.
+    """
 
     @abstractmethod
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return one prediction per recording, in order.
+        """Return one prediction for each recording, in the given order.
 
-        Unless the model is `Inductive`, each recording must have been seen in `fit` under the
-        same name.
+        Parameters
+        ----------
+        recordings : sequence of Recording
+            With the channels of those given to `fit`. Unless the model is `Inductive`, each must
+            have been given to `fit` under the same name.
+
+        Returns
+        -------
+        list of Prediction
+
+        Raises
+        ------
+        ValueError
+            If a recording cannot be filled.
         """
 
 
 class Imputer(FrameImputer):
-    """A model that fills any set of hidden entries."""
+    """A model that fills any set of hidden entries.
+
+    Examples
+    --------
+    A model that fills hidden entries with the channel's mean over its training recordings:
+
+    >>> import numpy as np
+    >>> from mocapbench.baselines import Imputer, Inductive, Prediction
+    >>> from mocapbench.datasets import Recording
+    >>> class Mean(Imputer, Inductive):
+    ...     def fit(self, recordings):
+    ...         self.mean_ = np.nanmean(np.concatenate([r.values for r in recordings]), axis=0)
+    ...         return self
+    ...
+    ...     def impute(self, recordings):
+    ...         return [Prediction.around(recording, self.mean_) for recording in recordings]
+    >>> recording = Recording("r", np.arange(3.0), [[1.0], [np.nan], [3.0]], ("knee",), ("deg",))
+    >>> (prediction,) = Mean().fit([recording]).impute([recording])
+    >>> prediction.mean[:, 0]
+    array([1., 2., 3.])
+    """
 
 
 class Inductive(Model):
-    """Marks an imputer whose `impute` also takes recordings that `fit` has not seen."""
+    """Marks an imputer whose `impute` also takes recordings that were not given to `fit`.
+
+    It adds no method. See `Imputer` for an example.
+    """
 
 
 class Synthesiser(Model):
-    """A model that draws new recordings."""
+    """A model that draws new recordings.
+
+    Examples
+    --------
+    A model that draws white noise around the training mean:
+
+    >>> import numpy as np
+    >>> from mocapbench.baselines import Synthesiser
+    >>> from mocapbench.datasets import Recording
+    >>> class WhiteNoise(Synthesiser):
+    ...     def fit(self, recordings):
+    ...         values = np.concatenate([recording.values for recording in recordings])
+    ...         self.mean_, self.sd_ = np.nanmean(values, axis=0), np.nanstd(values, axis=0)
+    ...         return self
+    ...
+    ...     def sample(self, times, n_samples, random_state):
+    ...         rng = np.random.default_rng(random_state)
+    ...         size = (n_samples, len(times), len(self.mean_))
+    ...         return rng.normal(self.mean_, self.sd_, size)
+    >>> recording = Recording("r", np.arange(3.0), [[1.0], [2.0], [3.0]], ("knee",), ("deg",))
+    >>> WhiteNoise().fit([recording]).sample(np.arange(5.0), 2, random_state=0).shape
+    (2, 5, 1)
+    """
 
     @abstractmethod
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Return ``n_samples`` new recordings at ``times`` (N,), noise included: (n, N, D)."""
+        """Return new recordings, noise included.
+
+        Parameters
+        ----------
+        times : ndarray of shape (N,)
+            In seconds, increasing.
+        n_samples : int
+            Number n of recordings.
+        random_state : int or numpy.random.Generator
+            Seed of the draws.
+
+        Returns
+        -------
+        ndarray of shape (n, N, D)
+            In the units of the recordings given to `fit`.
+        """
 
 
 class Clusterer(Model):
-    """A model that groups the recordings it is fitted to.
+    """A model that groups the recordings given to `fit`.
 
-    Its constructor takes ``n_styles``, the number of clusters to find at most.
+    Its constructor takes ``n_styles``, the largest number of clusters.
 
     Attributes
     ----------
     labels_ : ndarray of int, shape (K,)
-        After `fit`, the cluster of each recording, in the order given; equal means together.
+        After `fit`, the cluster of each recording, in the order given. Recordings of the same
+        cluster have equal labels.
     """
 
     labels_: NDArray[np.intp]
 
 
 class Aligner(Model):
-    """A model that puts recordings of a cyclic motion on one common cycle.
+    """A model that aligns recordings of a cyclic motion to one common cycle.
 
     Attributes
     ----------
@@ -160,7 +282,18 @@ class Aligner(Model):
 
     @abstractmethod
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
-        """Return the path of each recording (N_k,) over the states 0 … M − 1, in order."""
+        """Return the state sequence of each recording.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+            With the channels of those given to `fit`.
+
+        Returns
+        -------
+        list of ndarray of int, each of shape (N_k,)
+            The state 0 … M − 1 of each frame, in the order of the recordings.
+        """
 
 
 class Blender(Clusterer):
@@ -168,17 +301,18 @@ class Blender(Clusterer):
 
     @abstractmethod
     def blend(self, weights: FrameByStyle) -> FrameByChannel:
-        """Return a motion whose frame i is the styles' mean poses mixed by row i of ``weights``.
+        """Return a motion whose frame i is the mean of the styles' poses, weighted by row i.
 
         Parameters
         ----------
         weights : array_like of shape (N, n_styles)
-            Non-negative, each row's sum 1; column c weighs the style that `labels_` calls c.
+            Non-negative, with rows that sum to 1; column c is the weight of the style with label c
+            in `labels_`.
 
         Returns
         -------
         ndarray of shape (N, D)
-            N frames at the pace and in the channels of the recordings given to `fit`.
+            N frames at the pace of the recordings given to `fit`, in their channels and units.
         """
 
 
@@ -187,20 +321,44 @@ class Trended(Model):
 
     @abstractmethod
     def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
-        """Return the trend's posterior mean and variance at ``times`` (N,): (N, D) each."""
+        """Return the posterior mean and variance of the trend.
+
+        Parameters
+        ----------
+        times : ndarray of shape (N,)
+            In seconds.
+
+        Returns
+        -------
+        mean, variance : ndarray of shape (N, D)
+            In the units of the recordings, noise left out.
+        """
 
 
 class Layered(Model):
-    """A model whose prior covariances can be looked at, one layer of its hierarchy at a time."""
+    """A model that gives the prior covariance of each layer of its hierarchy."""
 
     @property
     @abstractmethod
     def layers(self) -> tuple[str, ...]:
-        """After `fit`, the layers' names, outermost first; the last is that of each recording."""
+        """After `fit`, the names of the layers, from the trend down to the single recording."""
 
     @abstractmethod
     def covariance(self, layer: str, times: Frames) -> NDArray[np.float64]:
-        """Return a layer's covariance at ``times`` (N,), (D N, D N), outputs slowest, no noise."""
+        """Return the prior covariance of a layer, noise left out.
+
+        Parameters
+        ----------
+        layer : str
+            One of `layers`.
+        times : ndarray of shape (N,)
+            In seconds.
+
+        Returns
+        -------
+        ndarray of shape (D N, D N)
+            In the units of the recordings, outputs slowest.
+        """
 
 
 class Coregionalised(Layered):
@@ -215,7 +373,7 @@ class Coregionalised(Layered):
     @property
     @abstractmethod
     def coregionalisation_(self) -> Mapping[str, NDArray[np.float64]]:
-        """The matrices B_q of each layer."""
+        """The matrices B_q of each layer, (Q, D, D), by the name of the layer."""
 
 
 class Embedded(Model):
@@ -224,45 +382,73 @@ class Embedded(Model):
     Attributes
     ----------
     kernel_properties_ : mapping of str to float
-        After `fit`, what its parameters amount to, by name.
+        After `fit`, interpretable quantities of the kernels by name, such as lengthscales.
     """
 
     kernel_properties_: Mapping[str, float]
 
     @abstractmethod
     def latent_paths(self) -> list[NDArray[np.float64]]:
-        """Return the positions (N_p, d) of each stretch of training frames."""
+        """Return the latent positions of each stretch of training frames.
+
+        Returns
+        -------
+        list of ndarray, each of shape (N_p, d)
+        """
 
     @abstractmethod
     def confidence(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return −ln of the variance of poses at ``positions`` (n, d), on the model's scale."""
+        """Return −ln of the predictive variance of poses, on the model's scale.
+
+        Parameters
+        ----------
+        positions : ndarray of shape (n, d)
+
+        Returns
+        -------
+        ndarray of shape (n,)
+        """
 
 
 class Dynamical(Embedded):
-    """A model that moves through its latent space."""
+    """An embedded model with dynamics in its latent space."""
 
     @abstractmethod
     def latent_walks(
         self, n_frames: int, n_samples: int, random_state: int | np.random.Generator
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the mean trajectory (N, d) from where training starts, and samples (n, N, d)."""
+        """Return trajectories that start at the first training position.
+
+        Parameters
+        ----------
+        n_frames, n_samples : int
+            Numbers N of frames and n of samples.
+        random_state : int or numpy.random.Generator
+            Seed of the samples.
+
+        Returns
+        -------
+        mean : ndarray of shape (N, d)
+            The mean prediction.
+        samples : ndarray of shape (n, N, d)
+        """
 
     @abstractmethod
     def poses(self, positions: NDArray[np.float64]) -> FrameByChannel:
-        """Return the mean poses (N, D) at ``positions`` (N, d)."""
+        """Return the mean poses (N, D) at the latent ``positions`` (N, d)."""
 
 
 class Informed(Model):
-    """A model that is served only where the data have a known generating process."""
+    """A model that requires the process that generated the recordings."""
 
     @abstractmethod
     def inform(self, process: ToyProcess) -> Self:
-        """Take the process that generated the recordings; called before `fit`."""
+        """Set the process that generated the recordings; called before `fit`."""
 
 
 class Misinformed(Model):
-    """A model that is served only where there is a process unrelated to the recordings."""
+    """A model that requires a process unrelated to the recordings."""
 
     @abstractmethod
     def misinform(self, process: ToyProcess) -> Self:
-        """Take a process that generated none of the recordings; called before `fit`."""
+        """Set a process that generated none of the recordings; called before `fit`."""

@@ -1,4 +1,4 @@
-"""The trivial model: a Gaussian per channel that knows nothing of time."""
+"""The trivial model: one Gaussian for each channel, the same at all times."""
 
 from __future__ import annotations
 
@@ -25,14 +25,30 @@ _LEAST_VARIANCE = 1e-12
 class Trivial(Imputer, Inductive):
     """Predict each channel's visible mean and variance.
 
-    The Gaussian is that of the visible entries of all recordings given to `fit` and `impute`
-    (ddof 0), which is the yardstick of the mean standardised log loss: this model scores 0. A
-    constant channel gets variance 1e-12, because a predictive variance is positive.
+    They are those of the visible entries of all recordings given to `fit` and `impute` (ddof 0).
+    The mean standardised log loss (MSLL) is defined relative to this Gaussian, so that this model
+    has an MSLL of 0. The variance is at least 1e-12, because a predictive variance is positive.
 
     Attributes
     ----------
     recordings_ : tuple of Recording
         The recordings given to `fit`.
+
+    References
+    ----------
+    C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for Machine Learning, MIT
+    Press, §2.5: the trivial model of the standardised log loss.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import Trivial
+    >>> from mocapbench.datasets import Recording
+    >>> values = [[1.0], [3.0], [np.nan]]
+    >>> recording = Recording("short", np.arange(3.0), values, ("knee",), ("deg",))
+    >>> (prediction,) = Trivial().fit([recording]).impute([recording])
+    >>> prediction.mean[:, 0], prediction.variance[:, 0]
+    (array([1., 3., 2.]), array([0., 0., 1.]))
     """
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
@@ -41,7 +57,7 @@ class Trivial(Imputer, Inductive):
         Raises
         ------
         ValueError
-            If there is none, their channels differ, or a name repeats.
+            If there is no recording, channels differ, or a name repeats.
         """
         self.recordings_ = check_recordings(recordings)
         return self

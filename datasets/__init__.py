@@ -1,4 +1,4 @@
-"""Recordings and where they come from."""
+"""Recordings: reading, finding, generating and preparing them."""
 
 import lazy_loader
 

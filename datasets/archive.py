@@ -6,9 +6,8 @@ import shlex
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
-from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.cmu import CMULibrary
 from mocapbench.datasets.errors import RecordingUnavailable
@@ -53,7 +52,7 @@ class Archive:
     >>> from mocapbench.datasets import Archive, GaitLibrary
     >>> archive = Archive({"gait": GaitLibrary()})
     >>> archive.recording("gait:01_01").values.shape
-    (338, 62)
+    (331, 62)
     >>> archive.digest("gait:01_01")
     'gait-1:01_01'
     """
@@ -95,11 +94,6 @@ class Archive:
         """
         library, key = self._here(uri)
         return library.skeleton(key)
-
-    def read(self, uri: str) -> Motion:
-        """Return the motion behind a recording of ``cmu`` or ``gait``."""
-        library, key = self._here(uri)
-        return cast("CMULibrary | GaitLibrary", library).motion(key)
 
     def digest(self, uri: str) -> str:
         """Return what identifies the content of a recording, verified.
@@ -203,6 +197,6 @@ def open_archive(
     >>> from mocapbench.datasets import open_archive
     >>> walk = open_archive().recording("gait:01_01")
     >>> walk.name, len(walk.times), walk.channels[:3]
-    ('gait:01_01', 338, ('root.tx', 'root.ty', 'root.tz'))
+    ('gait:01_01', 331, ('root.tx', 'root.ty', 'root.tz'))
     """
     return Archive({"cmu": CMULibrary(data_dir, cache_dir), "gait": GaitLibrary()})

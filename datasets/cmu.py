@@ -1,7 +1,8 @@
 """The CMU Graphics Lab Motion Capture Database: in a folder, in the cache, or to be downloaded.
 
-The original Acclaim files lie as on the server: ``subjects/35/35.asf``, ``subjects/35/35_02.amc``.
-A folder that the user names comes before the cache, and only `CMULibrary.fetch` downloads.
+The original Acclaim files have the same paths as on the server, such as ``subjects/35/35.asf`` and
+``subjects/35/35_02.amc``. The user's folder is searched before the cache, and only
+`CMULibrary.fetch` downloads.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ CMU_ACKNOWLEDGEMENT = (
 
 
 def registered_digests() -> dict[str, str]:
-    """Return the digests that ship with the package, by path below the database's root."""
+    """Return the known SHA-256 of the database's files, by path below its root."""
     return read_digests(Path(__file__).with_name("cmu_digests.tsv"))
 
 
@@ -63,6 +64,15 @@ class CMULibrary(Library):
         Further tries after a failed download.
     backoff : float
         Seconds before the second retry, doubled for each further one.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from mocapbench.datasets import CMULibrary
+    >>> with TemporaryDirectory() as folder:
+    ...     CMULibrary(Path(folder), Path(folder)).where("35_02")
+    ''
     """
 
     def __init__(
@@ -130,14 +140,14 @@ class CMULibrary(Library):
         return sha256(b"".join(with_unix_line_ends(f.read_bytes()) for f in files)).hexdigest()
 
     def fetch(self, key: str) -> None:
-        """Download what is not here, or is wrong in the cache.
+        """Download the files that are not here, and those in the cache that are wrong.
 
         Raises
         ------
         FetchError
-            If the server does not deliver.
+            If the server does not deliver a file.
         DigestMismatch
-            If what it delivers, or a file in the user's folder, is not the right one.
+            If a downloaded file, or one in the user's folder, is not the registered one.
         """
         for path in _paths(key):
             self._discard_wrong_download(path)

@@ -1,4 +1,7 @@
-"""Digests of files, blind to line ends, and the registry that says which are right."""
+"""Digests of files and recordings, and the registry of the right ones.
+
+Digests of files do not depend on line ends.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +28,7 @@ _ROW = re.compile(r"^(\S+)\t([0-9a-f]{64})$", re.MULTILINE)
 
 
 class DigestMismatch(ValueError):  # noqa: N818
-    """A file that is not the one it should be.
+    """A file whose digest is not the expected one.
 
     Parameters
     ----------
@@ -59,7 +62,7 @@ def content_digest(recording: Recording) -> str:
 
 
 def with_unix_line_ends(data: bytes) -> bytes:
-    """Return the bytes with CRLF replaced by LF: copies of the database differ in that only."""
+    """Return the bytes with CRLF replaced by LF; copies of the database differ only in these."""
     return data.replace(b"\r\n", b"\n")
 
 
@@ -71,7 +74,7 @@ def read_digests(path: Path) -> dict[str, str]:
 
 
 class DigestRegistry:
-    """Known digests, and those pinned when a file without one was first seen.
+    """Known digests of files, and those recorded when a file without one was first seen.
 
     Parameters
     ----------
@@ -108,11 +111,11 @@ class DigestRegistry:
     def _pin(self, path: str, digest: str, file: str) -> None:
         warnings.warn(
             f"{file}: no digest is registered for {path}; accepted as {digest} "
-            f"and from now on held to it (in {self.pins})",
+            f"and from now on expected (recorded in {self.pins})",
             UnregisteredDigestWarning,
             stacklevel=2,
         )
-        with suppress(OSError):  # a cache that is not ours to write to cannot hold us to anything
+        with suppress(OSError):  # in a cache that is not writeable nothing can be pinned
             self.pins.parent.mkdir(parents=True, exist_ok=True)
             with self.pins.open("a", encoding="utf-8") as stream:
                 stream.write(f"{path}\t{digest}\n")

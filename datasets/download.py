@@ -1,4 +1,4 @@
-"""Downloads that are retried, checked before they are kept, and clear when they fail."""
+"""Downloads that are retried, and checked before they are stored."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Downloader:
     base_url : str
         Address of the tree.
     folder : Path
-        Where to put files; nothing is kept there under its final name before it was checked.
+        Where to put files; a file gets its final name only after it was checked.
     retries : int
         How often to try again after a lost connection or a status of 500, 502, 503 or 504.
     backoff : float
@@ -40,14 +40,14 @@ class Downloader:
         self.backoff = backoff
 
     def fetch(self, path: str, check: Callable[[bytes, str], None]) -> None:
-        """Download one file, passing its content and address to ``check`` before keeping it.
+        """Download one file; ``check`` gets its content and address before it is stored.
 
         Raises
         ------
         FetchError
             If the server has no such file, or does not deliver it.
         ServerUnreachable
-            If it does not answer.
+            If the server does not answer.
         """
         url = self.base_url + path
         content = self._get(url)
@@ -84,7 +84,7 @@ class Downloader:
             backoff_factor=self.backoff,
             status_forcelist=_OVERLOADED,
             raise_on_status=False,
-            # A server may ask for hours of patience.
+            # A server may set a delay of hours.
             respect_retry_after_header=False,
         )
         for scheme in ("http://", "https://"):

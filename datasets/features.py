@@ -1,4 +1,10 @@
-"""The channels of each paper's experiments, from the 62 of the CMU database."""
+"""Channels and frame rates of each paper's experiments, from the 62 channels of the CMU database.
+
+- Thesis: J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*,
+  MSc thesis, Universidad Tecnológica de Pereira, 2017.
+- GPDM: Wang, Fleet and Hertzmann, Gaussian process dynamical models for human motion, 2008.
+- HLM: Pan and Torresani, Unsupervised hierarchical modeling of locomotion styles, 2009.
+"""
 
 from __future__ import annotations
 
@@ -31,10 +37,11 @@ THESIS_CHANNELS = (
     "lfoot.rx", "lfoot.rz",
 )
 # fmt: on
-"""The 39 channels of every motion task of the thesis, which states how many, not which.
+"""The 39 channels of every motion task of the thesis.
 
-The `thesis_candidates` but for the five of least `smoothness`, averaged over the 90 resampled
-frames of 02_01, 02_02 and 07_02.
+The thesis states their number and the criterion, not their names. They are the `thesis_candidates`
+without the five of least `smoothness`, averaged over the 90 resampled frames of 02_01, 02_02 and
+07_02.
 """
 
 _THESIS_REJECTED = ("clavicle", "fingers", "wrist", "hand", "thumb", "toes")
@@ -45,8 +52,8 @@ _STEP = 4  # from 120 to the papers' 30 frames per second
 def smoothness(recording: Recording) -> NDArray[np.float64]:
     """Return log₁₀(var x / var Δx) of each channel (D,), variances with ddof 0.
 
-    The criterion by which the five noisiest channels are left out of the thesis's tasks; a constant
-    channel gives NaN.
+    The thesis leaves out the five channels with the lowest value, the noisiest. A constant channel
+    gives NaN.
     """
     variance = recording.values.var(axis=0)
     roughness = np.diff(recording.values, axis=0).var(axis=0)
@@ -61,27 +68,79 @@ def thesis_candidates(recording: Recording) -> Recording:
 
 
 def gpdm_features(recording: Recording) -> Recording:
-    """Return GPDM's 50 channels at every 4th frame from the first.
+    """Return the 50 channels of GPDM at every 4th frame, from the first.
 
-    44 joint angles (no fingers, thumbs, hands or toes), the root's three rotations, and its
-    translation as differences of the frames kept. Cut a segment out first: the last difference is
-    copied within it.
+    They are 44 joint angles (no fingers, thumbs, hands or toes), the root's three rotations, and
+    the differences of its translation between the frames kept. Cut out a part of a recording
+    before, not after: the last difference is a copy of the one before it.
+
+    Parameters
+    ----------
+    recording : Recording
+        N frames of the 62 channels of the CMU database, at 120 frames per second.
+
+    Returns
+    -------
+    Recording
+        ⌈N / 4⌉ frames of 50 channels, at 30 frames per second.
+
+    Raises
+    ------
+    ValueError
+        If a channel of the root's translation is missing, or fewer than two frames remain.
+
+    References
+    ----------
+    Wang, Fleet and Hertzmann (2008), Gaussian process dynamical models for human motion.
+
+    Examples
+    --------
+    >>> from mocapbench.datasets import gpdm_features, open_archive
+    >>> walk = open_archive().recording("gait:01_01")
+    >>> walk.values.shape, gpdm_features(walk).values.shape
+    ((331, 62), (83, 50))
     """
     kept = _without(_every_fourth(recording), _GPDM_REJECTED)
     return root_differences(kept)
 
 
 def hlm_features(recording: Recording) -> Recording:
-    """Return HLM's 62 channels at every 4th frame, the root's translation as differences.
+    """Return the 62 channels of HLM at every 4th frame, the root's translation as differences.
 
-    Joint angles are taken within half a turn of zero, as HLM §4 has them "parameterized so as to
-    avoid discontinuities": the right thumb of 08_01 makes three whole turns in a tenth of a second.
+    Joint angles are mapped to [−180, 180) degrees, because HLM §4 has them "parameterized so as to
+    avoid discontinuities": in the files, the right thumb of 08_01 makes three whole turns in a
+    tenth of a second.
+
+    Parameters
+    ----------
+    recording : Recording
+        N frames of the 62 channels of the CMU database, at 120 frames per second.
+
+    Returns
+    -------
+    Recording
+        ⌈N / 4⌉ frames of 62 channels, at 30 frames per second.
+
+    Raises
+    ------
+    ValueError
+        If a channel of the root's translation is missing, or fewer than two frames remain.
+
+    References
+    ----------
+    Pan and Torresani (2009), Unsupervised hierarchical modeling of locomotion styles, §4.
+
+    Examples
+    --------
+    >>> from mocapbench.datasets import hlm_features, open_archive
+    >>> hlm_features(open_archive().recording("gait:01_01")).channels[:3]
+    ('root.dtx', 'root.dty', 'root.dtz')
     """
     return root_differences(_within_half_a_turn(_every_fourth(recording)))
 
 
 def _within_half_a_turn(recording: Recording) -> Recording:
-    """Return the recording with its joint angles, the root's apart, in [−180, 180) degrees."""
+    """Return the recording with all joint angles but the root's in [−180, 180) degrees."""
     joint = np.array(
         [
             unit == "deg" and not name.startswith("root.")

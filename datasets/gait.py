@@ -1,7 +1,7 @@
 """Synthetic gait: recordings of a procedural walker, made on demand.
 
-They let every task run on a machine with no data and no network. What is computed on them must be
-labelled *synthetic*.
+With them every task runs on a machine that has no recordings and no network. Results computed on
+them must be labelled *synthetic*.
 """
 
 from __future__ import annotations
@@ -21,13 +21,21 @@ from mocapbench.datasets.recording import Recording
 __all__ = ["GAIT_VERSION", "GaitLibrary", "gait_style"]
 
 GAIT_VERSION = 1
-"""Raised whenever the same key would give another motion."""
+"""To be increased whenever a change of the code gives the same key another motion."""
 
 _STYLE_OF_TRIAL = ("walk", "walk", "slow walk", "stride", "run")
 
 
 def gait_style(key: str) -> str:
-    """Return the style of a recording: trials go through walk (twice), slow walk, stride, run."""
+    """Return the style of a recording: ``"walk"``, ``"slow walk"``, ``"stride"`` or ``"run"``.
+
+    The trials of a subject cycle through walk, walk, slow walk, stride and run.
+
+    Raises
+    ------
+    ValueError
+        If the key is malformed.
+    """
     _, trial = split_key(key)
     return _STYLE_OF_TRIAL[(int(trial) - 1) % len(_STYLE_OF_TRIAL)]
 
@@ -47,7 +55,7 @@ class GaitLibrary(Library):
     >>> library.where("03_05")
     'generated'
     >>> library.recording("03_05").values.shape
-    (312, 62)
+    (301, 62)
     """
 
     def where(self, key: str) -> str:

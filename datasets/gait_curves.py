@@ -1,7 +1,7 @@
 """Joint-angle curves of one cycle of human walking, as short Fourier series, and gait styles.
 
-The curves follow the sagittal norms of gait analysis (Perry & Burnfield, *Gait Analysis*, 2010) in
-round numbers. Phase 0 is the strike of the left heel, and a curve is
+The curves approximate the normal sagittal curves of gait analysis (Perry & Burnfield, *Gait
+Analysis*, 2010). Phase 0 is the strike of the left heel, and a curve is
 
     x(φ) = offset + Σ_k a_k cos(k φ + p_k).
 
@@ -68,7 +68,7 @@ CURVES: Mapping[str, Curve] = {
 
 @dataclass(frozen=True)
 class Style:
-    """How a gait departs from ordinary walking.
+    """How a gait differs from ordinary walking.
 
     Parameters
     ----------

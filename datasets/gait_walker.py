@@ -1,8 +1,8 @@
 """A procedural walker: joint angles from Fourier curves, the root's path from the feet.
 
-A subject has amplitudes, phases, cadence and posture of its own; a trial has a style, slow drifts
-and sensor noise. The feet stand on the floor, which gives the root's height, and the foot that
-bears the walker pushes it forward, which gives its path.
+Amplitudes, phases, cadence and posture vary between subjects; style, slow drifts and sensor noise
+vary between trials. The root's height follows from the lower foot standing on the floor, and its
+path from the supporting foot not sliding.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
 __all__ = ["walk"]
 
 _SOLE = {"tibia": 0.7, "foot": 0.1, "toes": 0.1}
-"""Height of a segment's end above the floor where it stands, in the skeleton's unit."""
+"""Height of a segment's end above the floor when the foot stands on it, in the skeleton's unit."""
 
 _ROOT_PATH = ("root.tx", "root.ty", "root.tz")
 
@@ -37,7 +37,7 @@ def walk(skeleton: Skeleton, style: Style, subject: int, trial: int) -> Motion:
     style : Style
         The gait.
     subject, trial : int
-        Seed the subject's habits and the trial's variation.
+        Seeds of what varies between subjects and between trials.
     """
     habits, rng = np.random.default_rng([subject]), np.random.default_rng([subject, trial])
     n_frames = int(rng.integers(300, 361))
@@ -74,7 +74,7 @@ def _angle(
 
 
 def _side(channel: str) -> tuple[str, float, float]:
-    """Return the curve's name, how far it is behind the left side, and its sign."""
+    """Return the curve's name, its lag behind the left side in radians, and its sign."""
     if channel in CURVES:
         return channel, 0.0, 1.0
     if channel[0] == "l":
@@ -87,7 +87,7 @@ def _root_path(
 ) -> FrameByChannel:
     """Return the root's translation (N, 3) in the skeleton's unit of length."""
     soles = _soles(skeleton, curves)
-    # The foot that bears the walker stays where it is, so the root gains what that foot recedes.
+    # The supporting foot does not slide: the root advances by as much as that foot recedes from it.
     balls = gaussian_filter1d(soles[:, 1::3, 2], 3, axis=0)
     pace = -np.gradient(balls, axis=0).min(axis=1)
     flight = style.flight * np.clip(np.cos(2 * phase + 0.6), 0.0, None)
@@ -96,7 +96,7 @@ def _root_path(
 
 
 def _soles(skeleton: Skeleton, curves: Mapping[str, Frames]) -> FrameByJointBy3:
-    """Return where heel, ball and toe of both soles are, the root being at the origin."""
+    """Return the positions of heel, ball and toe of both soles, with the root at the origin."""
     times = np.arange(len(curves["root.rx"])) / FRAME_RATE
     angles = Recording(
         "gait", times, np.column_stack(list(curves.values())), tuple(curves), ("deg",) * len(curves)
@@ -109,6 +109,6 @@ def _soles(skeleton: Skeleton, curves: Mapping[str, Frames]) -> FrameByJointBy3:
 
 
 def _smooth(rng: np.random.Generator, n_frames: int, width: float) -> Frames:
-    """Return smooth noise of about unit variance whose correlation falls over ``width`` frames."""
-    gain = np.sqrt(2 * width * np.sqrt(pi))  # of the Gaussian kernel's energy
+    """Return noise of about unit variance, smoothed by a Gaussian kernel of ``width`` frames."""
+    gain = np.sqrt(2 * width * np.sqrt(pi))  # undoes the loss of variance by smoothing
     return np.asarray(gain * gaussian_filter1d(rng.standard_normal(n_frames), width))

@@ -1,4 +1,4 @@
-"""Forward kinematics: where the joints are, given the angles.
+"""Forward kinematics: the positions of the joints, from the angles.
 
 A segment's rotation is stated in its own local frame: with C the rotation of the segment's axis and
 M that of its degrees of freedom, it turns by C M C⁻¹ within its parent, and its end lies at the
@@ -23,12 +23,13 @@ FrameByJointBy3 = NDArray[np.float64]
 def joint_positions(skeleton: Skeleton, recording: Recording) -> FrameByJointBy3:
     """Return the end of every segment in centimetres, in the order of ``skeleton.segments``.
 
-    The root's end is the root joint itself; ``skeleton.parents`` says which joints a bone joins.
+    The root's end is the root joint itself. ``skeleton.parents`` gives the joint at the other end
+    of each bone.
 
     Parameters
     ----------
     skeleton : Skeleton
-        Whose degrees of freedom the channels name.
+        Its degrees of freedom are the names of the channels.
     recording : Recording
         N complete frames. Degrees of freedom without a channel are zero: the rest pose.
 
@@ -77,7 +78,7 @@ def _rotation(segment: Segment, curves: dict[str, Frames]) -> Rotation:
     angles = np.column_stack(
         [curves.get(f"{segment.name}.r{axis.lower()}", rest) for axis in segment.order]
     )
-    # Lower case: about the fixed axes, the first named first, as the format has it.
+    # Lower case: about fixed axes, in the order of their names, as in the Acclaim format.
     moved = Rotation.from_euler(segment.order.lower(), angles, degrees=True)
     axis = Rotation.from_euler("xyz", segment.axis, degrees=True)
     return axis * moved * axis.inv()

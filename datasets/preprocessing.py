@@ -28,8 +28,9 @@ _ROOT_VELOCITY = ("root.dtx", "root.dty", "root.dtz")
 def zero_based_frames(recording: Recording, start: int, stop: int) -> Recording:
     """Return frames ``start`` to ``stop``, counted from 0 and without ``stop``, as Python counts.
 
-    The thesis's footnotes 5 to 7 state frames so. A window that goes beyond the end of the
-    recording is cut there.
+    The convention for windows of J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes
+    for Human Motion Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017, footnotes 5 to 7.
+    A window that goes beyond the end of the recording is cut there.
 
     Parameters
     ----------
@@ -56,10 +57,10 @@ def zero_based_frames(recording: Recording, start: int, stop: int) -> Recording:
 
 
 def one_based_frames(recording: Recording, first: int, last: int) -> Recording:
-    """Return frames ``first`` to ``last``, counted from 1 and with ``last``, as GPDM counts.
+    """Return frames ``first`` to ``last``, counted from 1 and with ``last``.
 
-    So Wang, Fleet and Hertzmann (2008), Gaussian process dynamical models for human motion
-    (GPDM), §5.4, state them.
+    The convention of Wang, Fleet and Hertzmann (2008), Gaussian process dynamical models for human
+    motion (GPDM), §5.4.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A recording: channels over time, with hidden entries."""
+"""A recording: channels over time, some entries of which may be hidden."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = ["FrameByChannel", "Frames", "Mask", "Recording"]
 
 Frames = NDArray[np.float64]
-"""(N,) one value a frame."""
+"""(N,) one value per frame."""
 FrameByChannel = NDArray[np.float64]
-"""(N, D) one row a frame, one column a channel."""
+"""(N, D) one row per frame, one column per channel."""
 Mask = NDArray[np.bool_]
-"""(N, D) truth values over the entries of a recording."""
+"""(N, D) True or False for each entry of a recording."""
 
 
 def _frozen(array: ArrayLike) -> NDArray[np.float64]:
-    """Return a copy that stands on immutable bytes, so that no model can unlock it."""
+    """Return a copy on immutable bytes, which no model can make writeable again."""
     copy = np.asarray(array, dtype=np.float64)
     return np.frombuffer(copy.tobytes(), dtype=np.float64).reshape(copy.shape)
 
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """An immutable multivariate time series.
+    """A multivariate time series that cannot be changed.
 
     Parameters
     ----------
     name : str
-        Identifies the recording within a problem.
+        Identifies the recording within a problem; an `Archive` uses the address.
     times : array_like of shape (N,)
         Strictly increasing times in seconds.
     values : array_like of shape (N, D)
@@ -39,13 +39,41 @@ class Recording:
     channels : sequence of D str
         Names such as ``lfemur.rx``, all different.
     units : sequence of D str
-        ``"deg"``, ``"cm"`` or ``""`` per channel.
+        Unit of each channel: ``"deg"`` for angles of the Acclaim format, ``""`` for its root
+        translations, which are in the skeleton's own unit of length; free text otherwise.
 
     Raises
     ------
     ValueError
-        If shapes disagree, a time is not finite or not increasing, an entry is infinite, or
+        If shapes disagree, times are not finite and strictly increasing, an entry is infinite, or
         channel names repeat.
+
+    See Also
+    --------
+    Archive.recording : Reads one by its address.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.datasets import Recording
+    >>> walk = Recording(
+    ...     name="walk",
+    ...     times=[0.0, 0.1, 0.2],
+    ...     values=[[10.0, 1.0], [20.0, 2.0], [30.0, 3.0]],
+    ...     channels=["knee.rx", "hip.rx"],
+    ...     units=["deg", "deg"],
+    ... )
+    >>> walk.select(["hip.rx"]).values.ravel()
+    array([1., 2., 3.])
+    >>> walk.frames([0, 2]).times
+    array([0. , 0.2])
+    >>> gap = walk.hide(np.array([[False, False], [True, True], [False, False]]))
+    >>> gap.values
+    array([[10.,  1.],
+           [nan, nan],
+           [30.,  3.]])
+    >>> gap.visible[1]
+    array([False, False])
     """
 
     name: str
@@ -90,7 +118,7 @@ class Recording:
         return ~np.isnan(self.values)
 
     def with_values(self, values: ArrayLike) -> Recording:
-        """Return the same frames and channels with other values, of shape (N, D)."""
+        """Return a recording with the same frames and channels and other values, (N, D)."""
         return replace(self, values=np.asarray(values, dtype=np.float64))
 
     def hide(self, hidden: ArrayLike) -> Recording:
@@ -117,6 +145,6 @@ class Recording:
         )
 
     def frames(self, index: ArrayLike) -> Recording:
-        """Return the frames that ``index`` (0-based integers) names, at their own times."""
+        """Return the frames of a list of 0-based indices; they keep their times."""
         rows = np.asarray(index, dtype=np.intp)
         return replace(self, times=self.times[rows], values=self.values[rows])

@@ -1,7 +1,7 @@
 """Metrics: pure functions of an outcome, one module per family.
 
-`BUILTIN` is the tuple of all of them. Formula, axis and ddof of each stand in the docstring of
-the function behind it.
+Each metric is a `Metric` object, such as `smse`. The docstring of the function that it calls
+(``help(smse.statistic)``) states formula, axis, ddof, unit and direction.
 """
 
 import lazy_loader

@@ -1,4 +1,4 @@
-"""What a metric is: a pure function of an outcome, with a direction."""
+"""Metrics, and the outcomes that they score."""
 
 from __future__ import annotations
 
@@ -16,14 +16,17 @@ Array = NDArray[np.float64]
 
 
 class Direction(Enum):
-    """Which way a metric improves."""
+    """Which values of a metric are better: lower, higher, or nearer to a target."""
 
     LOWER = "lower"
     HIGHER = "higher"
     TARGET = "target"
 
     def loss(self, value: float, target: float | None) -> float:
-        """Return how bad ``value`` is: lower is better whatever the direction."""
+        """Return ``value`` as a loss, of which lower is better.
+
+        The value itself, its opposite, or its distance from ``target``.
+        """
         return {
             Direction.LOWER: value,
             Direction.HIGHER: -value,
@@ -33,7 +36,7 @@ class Direction(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Imputation:
-    """What an imputation is judged by; recordings are concatenated along the frames.
+    """Truth and prediction of hidden entries; recordings are concatenated along the frames.
 
     Parameters
     ----------
@@ -60,7 +63,7 @@ class Imputation:
 
 @dataclass(frozen=True, eq=False)
 class Synthesis:
-    """What a synthesis is judged by.
+    """Sampled recordings, and the reference recordings to compare them with.
 
     Parameters
     ----------
@@ -76,14 +79,14 @@ class Synthesis:
 
 @dataclass(frozen=True, eq=False)
 class Clustering:
-    """What a clustering is judged by.
+    """Clusters of recordings, and their known classes.
 
     Parameters
     ----------
     truth : ndarray of int or str, shape (K,)
         The class of each recording.
     labels : ndarray of int, shape (K,)
-        The cluster of each recording; equal means together.
+        Number of the cluster of each recording; the order of the numbers has no meaning.
     """
 
     truth: NDArray[Any]
@@ -92,14 +95,14 @@ class Clustering:
 
 @dataclass(frozen=True, eq=False)
 class Recovery:
-    """What the recovery of a process's covariances is judged by.
+    """True and estimated covariances of the layers of a process.
 
     Parameters
     ----------
     truth : mapping of str to ndarray of shape (n, n)
         Covariance of the curves of each layer, ``"parent"`` and ``"child"``, without noise.
     estimate : mapping of str to ndarray of shape (n, n)
-        Those of the layers that the model has.
+        Estimated covariances, of the layers that the model has.
     noise : float
         Variance of the noise in which the curves were observed.
     """
@@ -111,7 +114,7 @@ class Recovery:
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """A metric's value and what it is the mean of.
+    """A metric's value, and the values of which it is the mean.
 
     Parameters
     ----------
@@ -149,7 +152,7 @@ class Metric(Generic[OutcomeT]):
     title : str
         Heading for people, for example ``"Mean squared error (MSE)"``.
     direction : Direction
-        Which way it improves.
+        Which values are better.
     outcome : type
         `Imputation`, `Synthesis`, `Clustering` or `Recovery`: the kind of outcome it takes.
     statistic : callable
@@ -159,7 +162,7 @@ class Metric(Generic[OutcomeT]):
     target : float or None
         The ideal value where the direction is ``TARGET``.
     defined : callable
-        Whether an outcome of that kind has what the metric judges.
+        From an outcome of that kind to whether the metric is defined for it.
     former_names : tuple of str
         Names that the metric had in earlier versions; stored values and options may still use
         them.
@@ -176,7 +179,7 @@ class Metric(Generic[OutcomeT]):
     former_names: tuple[str, ...] = ()
 
     def applies(self, outcome: object) -> bool:
-        """Return whether the metric is defined for ``outcome``, whatever its kind."""
+        """Return whether the metric is defined for ``outcome``, which may be of any kind."""
         probabilistic = getattr(outcome, "variance", None) is not None
         return (
             isinstance(outcome, self.outcome)
@@ -189,5 +192,5 @@ class Metric(Generic[OutcomeT]):
         return self.statistic(outcome)
 
     def loss(self, value: float) -> float:
-        """Return how bad ``value`` is: lower is better whatever the direction."""
+        """Return ``value`` as a loss, of which lower is better: see `Direction.loss`."""
         return self.direction.loss(value, self.target)

@@ -1,4 +1,4 @@
-"""Whether the predictive variance tells the truth: coverage, PIT, sharpness and CRPS.
+"""Quality of the predictive variance: coverage, PIT, sharpness and CRPS.
 
 All take the predictive distribution of an observation as Gaussian, N(μ, σ²).
 """
@@ -38,10 +38,44 @@ def _z_scores(outcome: Imputation) -> Array:
 
 
 def interval_coverage(outcome: Imputation, level: float) -> Score:
-    """Return the share of hidden entries in the central interval of probability ``level``.
+    """Return the share of hidden entries inside their central intervals of probability ``level``.
 
-    That is |y − μ| ≤ z σ with z the (1 + level) / 2 quantile of the standard normal
-    distribution. Parts: ``"output"``, ``"frame"``.
+    The metrics ``coverage_50``, ``coverage_80``, ``coverage_90`` and ``coverage_95``. An entry is
+    inside where |y − μ| ≤ z σ, with z the (1 + level) / 2 quantile of the standard normal
+    distribution. The target is ``level``; without unit.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames, and a predictive variance.
+    level : float
+        Probability between 0 and 1.
+
+    Returns
+    -------
+    Score
+        With parts ``"output"`` (D,) and ``"frame"`` (N,), the shares in each.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
+        variance is missing or not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, coverage_50, coverage_95
+    >>> outcome = Imputation(
+    ...     truth=np.array([[0.0, 1.0], [2.0, -3.0]]),
+    ...     mean=np.zeros((2, 2)),
+    ...     variance=np.ones((2, 2)),
+    ...     hidden=np.full((2, 2), True),
+    ...     visible_mean=np.zeros(2),
+    ...     visible_variance=np.ones(2),
+    ... )
+    >>> coverage_50(outcome).value, coverage_95(outcome).value
+    (0.25, 0.5)
     """
     inside = np.abs(_z_scores(outcome)) <= ndtri((1 + level) / 2)
     return average(inside.astype(np.float64), hidden_entries(outcome))
@@ -50,14 +84,48 @@ def interval_coverage(outcome: Imputation, level: float) -> Score:
 def pit_distance(outcome: Imputation) -> Score:
     """Return the distance of the PIT histogram from uniform, ½ Σ_b |f_b − 1/10|.
 
-    f_b is the share of hidden entries whose probability integral transform Φ((y − μ)/σ) falls in
-    the b-th of ten equal bins of [0, 1]; the distance (total variation) is 0 for calibrated
-    predictions in the limit of many entries and at most 0.9. Parts: ``"bin"``, the f_b.
+    The metric ``pit``. f_b is the share of hidden entries whose probability integral transform
+    (PIT) Φ((y − μ)/σ) falls in the b-th of ten equal bins of [0, 1]. The distance is the total
+    variation: near 0 for calibrated predictions of many entries, and at most 0.9. Lower is better;
+    without unit.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames, and a predictive variance.
+
+    Returns
+    -------
+    Score
+        With part ``"bin"`` (10,), the f_b.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
+        variance is missing or not positive.
 
     References
     ----------
     Gneiting, Balabdaoui and Raftery (2007), Probabilistic forecasts, calibration and sharpness,
     §3.1.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, pit
+    >>> outcome = Imputation(
+    ...     truth=np.array([[0.0, 1.0], [2.0, -3.0]]),
+    ...     mean=np.zeros((2, 2)),
+    ...     variance=np.ones((2, 2)),
+    ...     hidden=np.full((2, 2), True),
+    ...     visible_mean=np.zeros(2),
+    ...     visible_variance=np.ones(2),
+    ... )
+    >>> round(pit(outcome).value, 6)
+    0.6
+    >>> pit(outcome).parts["bin"]
+    array([0.25, 0.  , 0.  , 0.  , 0.  , 0.25, 0.  , 0.  , 0.25, 0.25])
     """
     transform = ndtr(_z_scores(outcome)[hidden_entries(outcome)])
     counts, _ = np.histogram(transform, bins=_PIT_BINS, range=(0.0, 1.0))
@@ -66,24 +134,88 @@ def pit_distance(outcome: Imputation) -> Score:
 
 
 def mean_deviation(outcome: Imputation) -> Score:
-    """Return the mean predictive standard deviation over the hidden entries.
+    """Return the mean predictive standard deviation of the hidden entries.
 
-    Lower is sharper; it is worth having only where the coverage is right. Parts: ``"output"``,
-    ``"frame"``.
+    The metric ``sharpness``. Lower is sharper, and better among models whose coverage is right; in
+    the unit of the outputs.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames, and a predictive variance.
+
+    Returns
+    -------
+    Score
+        With parts ``"output"`` (D,) and ``"frame"`` (N,), the means over the hidden entries of
+        each.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
+        variance is missing or not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, sharpness
+    >>> outcome = Imputation(
+    ...     truth=np.array([[0.0, 1.0], [2.0, -3.0]]),
+    ...     mean=np.zeros((2, 2)),
+    ...     variance=np.ones((2, 2)),
+    ...     hidden=np.full((2, 2), True),
+    ...     visible_mean=np.zeros(2),
+    ...     visible_variance=np.ones(2),
+    ... )
+    >>> sharpness(outcome).value
+    1.0
     """
     return average(deviations(outcome), hidden_entries(outcome))
 
 
 def gaussian_crps(outcome: Imputation) -> Score:
-    """Return the mean over hidden entries of the continuous ranked probability score.
+    """Return the mean continuous ranked probability score of the hidden entries.
 
-    For a Gaussian it is σ [z (2Φ(z) − 1) + 2φ(z) − 1/√π] with z = (y − μ)/σ, in the output's
-    unit. Parts: ``"output"``, ``"frame"``.
+    The metric ``crps``. For a Gaussian it is σ [z (2Φ(z) − 1) + 2φ(z) − 1/√π] with z = (y − μ)/σ.
+    Lower is better; in the unit of the outputs.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames, and a predictive variance.
+
+    Returns
+    -------
+    Score
+        With parts ``"output"`` (D,) and ``"frame"`` (N,), the means over the hidden entries of
+        each.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
+        variance is missing or not positive.
 
     References
     ----------
-    Gneiting and Raftery (2007), Strictly proper scoring rules, prediction, and estimation,
-    eq. (21), with the sign that makes lower better.
+    Gneiting and Raftery (2007), Strictly proper scoring rules, prediction, and estimation, eq.
+    (21), with the sign that makes lower better.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, crps
+    >>> outcome = Imputation(
+    ...     truth=np.array([[0.0, 1.0], [2.0, -3.0]]),
+    ...     mean=np.zeros((2, 2)),
+    ...     variance=np.ones((2, 2)),
+    ...     hidden=np.full((2, 2), True),
+    ...     visible_mean=np.zeros(2),
+    ...     visible_variance=np.ones(2),
+    ... )
+    >>> round(crps(outcome).value, 6)
+    1.181376
     """
     z = _z_scores(outcome)
     density = np.exp(-0.5 * z**2) / np.sqrt(2 * np.pi)

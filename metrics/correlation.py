@@ -1,7 +1,9 @@
 """Correlations between sampled and reference recordings, output by output.
 
-Every sample is compared with every reference: (S, M, D) correlations, of which the scores of
-`mocapbench.metrics.similarity` are means.
+Every sample is compared with every reference, which gives (S, M, D) correlations; the metrics of
+`mocapbench.metrics.similarity` are means of these. Thesis stands for J. D. Gil López, *Hierarchical
+Multiple Output Gaussian Processes for Human Motion Data*, MSc thesis, Universidad Tecnológica de
+Pereira, 2017.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ SampleByReferenceByOutput = NDArray[np.float64]
 
 
 def check_synthesis(outcome: Synthesis) -> None:
-    """Check that samples and references can be compared.
+    """Check that samples and references are comparable.
 
     Raises
     ------
@@ -46,9 +48,9 @@ def check_synthesis(outcome: Synthesis) -> None:
 def cross_correlation(outcome: Synthesis) -> SampleByReferenceByOutput:
     """Return max over all lags n of Σ_m y_ref[m] y_s[m + n], of sequences scaled to [0, 1].
 
-    Each output of each sequence has its own minimum and maximum. The sum runs over the frames
-    where both sequences exist, so that it grows with N and compares only at equal N. An output
-    that is constant in any sample or reference is NaN.
+    Each output of each sequence is scaled by its own minimum and maximum. The sum runs over the
+    frames where both sequences exist, so it grows with N: compare at equal N. An output that is
+    constant in any sample or reference is NaN.
 
     References
     ----------

@@ -1,4 +1,4 @@
-"""The hidden entries of an imputation: checked in one place, averaged in one way."""
+"""Checks of an imputation, and means and variances over its hidden entries."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 DEGENERATE = 1e-12
-"""An output whose variance is below this is left out of what divides by it."""
+"""An output whose variance is below this is left out of metrics that divide by it."""
 
 
 def hidden_entries(outcome: Imputation) -> Mask:
-    """Return the mask (N, D) of the entries to score, once the outcome is known to be sound.
+    """Return the mask (N, D) of the entries to score, after checking the outcome.
 
     Raises
     ------
@@ -93,10 +93,10 @@ def variance_over(values: Array, entries: Mask) -> Array:
 
 
 def average(values: Array, entries: Mask, left_out: int = 0) -> Score:
-    """Return the mean of ``values`` (N, D) over ``entries``, with its outputs and frames.
+    """Return the mean of ``values`` (N, D) over ``entries``, with the means per output and frame.
 
-    The value is the mean over all entries, which is the mean of the outputs wherever each output
-    hides as many entries as the next; NaN if there is no entry.
+    The value is the mean over all entries; it equals the mean over outputs if all outputs have
+    equally many. NaN if there is no entry.
     """
     parts = {
         "output": mean_over(values, entries, axis=0),

@@ -35,7 +35,40 @@ def _squared_error(outcome: Imputation) -> Array:
 def mean_squared_error(outcome: Imputation) -> Score:
     """Return the mean of (y − μ)² over the hidden entries.
 
-    Parts: ``"output"`` and ``"frame"``, the mean over the hidden entries of each.
+    The metric ``mse``. Lower is better; in the squared unit of the outputs.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames.
+
+    Returns
+    -------
+    Score
+        With parts ``"output"`` (D,) and ``"frame"`` (N,), the means over the hidden entries of
+        each.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, mse
+    >>> outcome = Imputation(
+    ...     truth=np.array([[1.0, 5.0], [3.0, 9.0]]),
+    ...     mean=np.array([[1.0, 5.0], [2.0, 5.0]]),
+    ...     variance=None,
+    ...     hidden=np.full((2, 2), True),
+    ...     visible_mean=np.zeros(2),
+    ...     visible_variance=np.ones(2),
+    ... )
+    >>> mse(outcome).value
+    4.25
+    >>> mse(outcome).parts["output"]
+    array([0.5, 8. ])
     """
     return average(_squared_error(outcome), hidden_entries(outcome))
 
@@ -43,13 +76,50 @@ def mean_squared_error(outcome: Imputation) -> Score:
 def standardised_error(outcome: Imputation) -> Score:
     """Return the mean over outputs of MSE_d / var_d.
 
-    MSE_d is the mean of (y − μ)² over the hidden entries of output d and var_d the variance
-    (ddof 0) of its hidden truth: 1 for the mean of what is to be predicted. Outputs whose visible
-    or hidden variance is below 1e-12 are left out; NaN if all are. Parts: ``"output"``.
+    The metric ``smse``. MSE_d is the mean of (y − μ)² over the hidden entries of output d, and
+    var_d the variance (ddof 0) of its true values there. Lower is better, without unit; predicting
+    the mean of the hidden values scores 1. Outputs whose visible or hidden variance is below 1e-12
+    are left out.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames.
+
+    Returns
+    -------
+    Score
+        NaN if all outputs are left out. With part ``"output"`` (D,), MSE_d / var_d.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
+
+    See Also
+    --------
+    pooled_standardised_error : One variance for all outputs.
 
     References
     ----------
     Rasmussen and Williams (2006), Gaussian Processes for Machine Learning, §2.5.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, smse
+    >>> outcome = Imputation(
+    ...     truth=np.array([[1.0, 5.0], [3.0, 9.0]]),
+    ...     mean=np.array([[1.0, 5.0], [2.0, 5.0]]),
+    ...     variance=None,
+    ...     hidden=np.full((2, 2), True),
+    ...     visible_mean=np.zeros(2),
+    ...     visible_variance=np.ones(2),
+    ... )
+    >>> smse(outcome).value
+    1.25
+    >>> smse(outcome).parts["output"]
+    array([0.5, 2. ])
     """
     hidden = hidden_entries(outcome)
     variance = variance_over(outcome.truth, hidden)
@@ -63,9 +133,45 @@ def standardised_error(outcome: Imputation) -> Score:
 def pooled_standardised_error(outcome: Imputation) -> Score:
     """Return MSE / var, both over the hidden entries of all outputs together.
 
-    One variance (ddof 0) around one mean: the ratio that the thesis tabulates as SMSE, as its
-    MSE columns show. Outputs whose visible variance is below 1e-12 are left out; NaN if no
-    variance remains. Parts: ``"output"`` and ``"frame"``, MSE over the same pooled variance.
+    The metric ``smse_pooled``: one variance (ddof 0) around one mean. The thesis (J. D. Gil López,
+    *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc thesis, Universidad
+    Tecnológica de Pereira, 2017) tabulates this ratio as SMSE, as its columns of MSE show. Lower is
+    better, without unit. Outputs whose visible variance is below 1e-12 are left out.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames.
+
+    Returns
+    -------
+    Score
+        NaN if no variance remains. With parts ``"output"`` (D,) and ``"frame"`` (N,), their MSE
+        over the same pooled variance.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
+
+    See Also
+    --------
+    standardised_error : One variance per output.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, smse_pooled
+    >>> outcome = Imputation(
+    ...     truth=np.array([[1.0, 5.0], [3.0, 9.0]]),
+    ...     mean=np.array([[1.0, 5.0], [2.0, 5.0]]),
+    ...     variance=None,
+    ...     hidden=np.full((2, 2), True),
+    ...     visible_mean=np.zeros(2),
+    ...     visible_variance=np.ones(2),
+    ... )
+    >>> round(smse_pooled(outcome).value, 6)
+    0.485714
     """
     hidden = hidden_entries(outcome)
     kept = outcome.visible_variance >= DEGENERATE
@@ -77,14 +183,47 @@ def pooled_standardised_error(outcome: Imputation) -> Score:
 
 
 def rms_error_per_frame(outcome: Imputation) -> Score:
-    """Return the mean over hidden frames of ‖y_t − μ_t‖, the norm over the frame's hidden entries.
+    """Return the mean over hidden frames of ‖y_t − μ_t‖.
 
-    A frame counts if any of its entries is hidden. Parts: ``"frame"``.
+    The metric ``rms_per_frame``. The norm is Euclidean, over the hidden entries of frame t; a frame
+    counts if any of its entries is hidden. Lower is better; in the unit of the outputs.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames.
+
+    Returns
+    -------
+    Score
+        With part ``"frame"`` (N,), the norms; NaN at frames without hidden entries.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
 
     References
     ----------
-    Wang, Fleet and Hertzmann (2008), Gaussian process dynamical models for human motion, Table 2,
-    whose "RMS error per frame" is this mean norm and not the root of a mean square.
+    Wang, Fleet and Hertzmann (2008), Gaussian process dynamical models for human motion (GPDM),
+    Table 2. Its "RMS error per frame" is this mean norm and not the root of a mean square.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, rms_per_frame
+    >>> outcome = Imputation(
+    ...     truth=np.array([[1.0, 5.0], [3.0, 9.0]]),
+    ...     mean=np.array([[1.0, 5.0], [2.0, 5.0]]),
+    ...     variance=None,
+    ...     hidden=np.full((2, 2), True),
+    ...     visible_mean=np.zeros(2),
+    ...     visible_variance=np.ones(2),
+    ... )
+    >>> round(rms_per_frame(outcome).value, 6)
+    2.061553
+    >>> rms_per_frame(outcome).parts["frame"].round(6)
+    array([0.      , 4.123106])
     """
     hidden = hidden_entries(outcome)
     norms = np.sqrt(np.where(hidden, _squared_error(outcome), 0.0).sum(axis=1))

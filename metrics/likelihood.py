@@ -19,17 +19,48 @@ def _log_loss(values: Array, mean: Array, variance: Array) -> Array:
 
 
 def mean_standardised_log_loss(outcome: Imputation) -> Score:
-    """Return the mean over hidden entries of the log loss, less that of the trivial Gaussian.
+    """Return the mean log loss of the hidden entries less that of a trivial model.
 
-    The loss of an entry is ½ log(2πσ²) + (y − μ)² / (2σ²), with σ² the predictive variance of an
-    observation, noise included. The trivial Gaussian has the mean and the variance (ddof 0) of
-    the output's visible entries: predicting it scores 0, and less is better. Outputs whose
-    visible variance is below 1e-12 are left out; NaN if all are. Parts: ``"output"``,
-    ``"frame"``.
+    The metric ``msll``. The loss of an entry is ½ log(2πσ²) + (y − μ)² / (2σ²), with σ² the
+    predictive variance of an observation, noise included. The trivial model is a Gaussian with the
+    mean and the variance (ddof 0) of the output's visible entries; it scores 0. Lower is better, in
+    nats. Outputs whose visible variance is below 1e-12 are left out.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames, and a predictive variance.
+
+    Returns
+    -------
+    Score
+        NaN if all outputs are left out. With parts ``"output"`` (D,) and ``"frame"`` (N,), the
+        means over the hidden entries of each.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
+        variance is missing or not positive.
 
     References
     ----------
     Rasmussen and Williams (2006), Gaussian Processes for Machine Learning, §2.5.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, msll
+    >>> outcome = Imputation(
+    ...     truth=np.array([[0.0, 1.0], [1.0, 0.0]]),
+    ...     mean=np.zeros((2, 2)),
+    ...     variance=np.full((2, 2), 0.5),
+    ...     hidden=np.full((2, 2), True),
+    ...     visible_mean=np.zeros(2),
+    ...     visible_variance=np.ones(2),
+    ... )
+    >>> round(msll(outcome).value, 6)
+    -0.096574
     """
     variance = deviations(outcome) ** 2
     kept = outcome.visible_variance >= DEGENERATE

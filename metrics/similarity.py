@@ -1,4 +1,4 @@
-"""Whether sampled recordings resemble reference recordings, and vary as they do."""
+"""Resemblance of sampled to reference recordings, and how much the samples vary."""
 
 from __future__ import annotations
 
@@ -35,14 +35,46 @@ Correlation = Callable[[Synthesis], SampleByReferenceByOutput]
 def mean_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
     """Return the mean correlation over samples, references and outputs.
 
-    An output that is constant in any sample or reference is left out; NaN if all are. Parts:
-    ``"output"`` (D,), ``"sample"`` (S,) and ``"reference"`` (M,), the means over the other axes,
-    and ``"reference_sd"`` (M,), the standard deviation (ddof 1) over samples that the thesis's
-    mean ± 2 sd speaks of, NaN for a single sample.
+    The metrics ``mcc`` (maximum cross-correlation; the thesis calls it mean cross correlation) and
+    ``mlc`` (mean linear correlation). Higher is better; without unit. An output that is constant in
+    any sample or reference is left out.
+
+    Parameters
+    ----------
+    outcome : Synthesis
+        With S samples and M references of D outputs over N frames.
+    correlation : callable
+        `cross_correlation` (MCC) or `linear_correlation` (MLC).
+
+    Returns
+    -------
+    Score
+        NaN if all outputs are left out. With parts ``"output"`` (D,), ``"sample"`` (S,) and
+        ``"reference"`` (M,), the means over the other axes, and ``"reference_sd"`` (M,), the
+        standard deviation (ddof 1) over samples, of which the thesis gives mean ± 2 sd; NaN for a
+        single sample.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, there is no sample or no reference, or a value is not finite.
 
     References
     ----------
-    Thesis §4.3.
+    J. D. Gil López (2017), Hierarchical Multiple Output Gaussian Processes for Human Motion Data,
+    MSc thesis, Universidad Tecnológica de Pereira, §4.3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Synthesis, mcc, mlc
+    >>> times = np.linspace(0.0, 6.0, 50)[:, None]
+    >>> references = np.stack([np.sin(times), np.cos(times)])
+    >>> outcome = Synthesis(samples=np.stack([np.sin(times)]), references=references)
+    >>> mlc(outcome).parts["reference"].round(3)
+    array([1.   , 0.008])
+    >>> round(mlc(outcome).value, 3), round(mcc(outcome).value, 3)
+    (0.504, 16.013)
     """
     values = correlation(outcome)
     pairs, left_out = _over_outputs(values)
@@ -58,14 +90,41 @@ def mean_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
 def best_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
     """Return the mean correlation with the best-matched reference.
 
-    Of the references' means over samples and outputs, the greatest: one reference for all
-    samples. NaN where there is but one, and nothing to choose from. Outputs are left out as in
-    `mean_similarity`. Parts: ``"sample"`` (S,), the correlation of each sample with that
-    reference.
+    The metrics ``mcc_best`` and ``mlc_best``. The best-matched reference is the one with the
+    greatest mean correlation over samples and outputs: one reference for all samples. Higher is
+    better; without unit. Outputs are left out as in `mean_similarity`.
+
+    Parameters
+    ----------
+    outcome : Synthesis
+        With S samples and M references of D outputs over N frames.
+    correlation : callable
+        `cross_correlation` (MCC) or `linear_correlation` (MLC).
+
+    Returns
+    -------
+    Score
+        NaN for a single reference, where there is no choice. With part ``"sample"`` (S,), the
+        correlation of each sample with the best-matched reference.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, there is no sample or no reference, or a value is not finite.
 
     References
     ----------
-    Thesis §A.4.2.
+    Gil López (2017), §A.4.2; see `mean_similarity`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Synthesis, mcc_best, mlc_best
+    >>> times = np.linspace(0.0, 6.0, 50)[:, None]
+    >>> references = np.stack([np.sin(times), np.cos(times)])
+    >>> outcome = Synthesis(samples=np.stack([np.sin(times)]), references=references)
+    >>> round(mlc_best(outcome).value, 3), round(mcc_best(outcome).value, 3)
+    (1.0, 18.993)
     """
     pairs, left_out = _over_outputs(correlation(outcome))
     if pairs.shape[1] == 1:
@@ -88,17 +147,35 @@ def _deviation(pairs: Array) -> Array:
 
 
 def marginal_variance_ratio(outcome: Synthesis) -> Score:
-    """Return the mean marginal variance of the samples over that of the references.
+    """Return the marginal variance of the samples over that of the references.
 
-    The variance (ddof 1) is taken over sequences at each frame of each output, around the
-    sequences' own mean there, and averaged over frames and outputs before the division. 1 is
-    right; a sampler that collapses to its trend has 0. Fewer than two samples or references have
-    no variance, and the ratio is NaN.
+    The metric ``variance_ratio``. The variance (ddof 1) is taken over sequences, at each frame of
+    each output, around the sequences' mean there; it is averaged over frames and outputs before the
+    division. The target is 1, without unit; samples that are all equal have 0.
+
+    Parameters
+    ----------
+    outcome : Synthesis
+        With S samples and M references of D outputs over N frames.
+
+    Returns
+    -------
+    Score
+        NaN for fewer than two samples or references. Without parts.
 
     Raises
     ------
     ValueError
-        If the references do not vary.
+        If shapes disagree, there is no sample or no reference, a value is not finite, or the
+        references are equal.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Synthesis, variance_ratio
+    >>> references = np.array([[[-1.0], [-1.0]], [[1.0], [1.0]]])
+    >>> variance_ratio(Synthesis(samples=0.5 * references, references=references)).value
+    0.25
     """
     check_synthesis(outcome)
     if min(len(outcome.samples), len(outcome.references)) < 2:

@@ -1,15 +1,49 @@
+"""What is declared to package indexes, and what the distributions hold."""
+
 import re
+import shutil
+import subprocess
+import sys
+import tarfile
 import tomllib
+import zipfile
 from pathlib import Path
+
+import pytest
 
 ROOT = Path(__file__).parents[1]
 FOLDERS = ("datasets", "metrics", "baselines", "reports", "benchmark")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+METADATA = PROJECT["project"]
+CACHES = shutil.ignore_patterns(
+    ".git", ".tox", ".venv", ".*_cache", "__pycache__", "*.egg-info", "build", "dist"
+)
+BUILD = "import sys; from setuptools import build_meta; build_meta.build_{}(sys.argv[1])"
 
 
 def test_the_lowest_versions_tested_are_the_lowest_declared():
-    declared = [line.replace(">=", "==") for line in PROJECT["project"]["dependencies"]]
+    needed = [*METADATA["dependencies"], *METADATA["optional-dependencies"]["parquet"]]
+    declared = [line.replace(">=", "==") for line in needed]
     assert (ROOT / "tests" / "lowest.txt").read_text().splitlines() == declared
+
+
+def test_the_tests_have_what_every_extra_needs():
+    extras = METADATA["optional-dependencies"]
+    assert {f"mocapbench[{name}]" for name in extras if name != "test"} <= set(extras["test"])
+
+
+def test_the_versions_of_python_declared_are_those_that_tox_runs():
+    lowest = METADATA["requires-python"].removeprefix(">=")
+    versions = re.findall(r"Python :: (3\.\d+)", " ".join(METADATA["classifiers"]))
+    (others,) = re.findall(r"\[testenv:\{(py\d+(?:,py\d+)*)\}\]", (ROOT / "tox.ini").read_text())
+    assert versions[0] == lowest
+    assert [f"py{version.replace('.', '')}" for version in versions[1:]] == others.split(",")
+
+
+def test_every_address_of_the_project_is_below_its_source():
+    urls = METADATA["urls"]
+    assert {"Homepage", "Documentation", "Changelog", "Issues", "Source"} <= set(urls)
+    assert all(url.startswith(urls["Source"]) for url in urls.values())
 
 
 def test_every_folder_with_modules_is_packaged():
@@ -27,9 +61,56 @@ def test_every_public_module_says_what_is_public():
         assert re.search(r"__all__ = ", source, re.MULTILINE) or "import" not in source, path
 
 
-def test_the_readme_tells_the_truth_about_names():
-    readme = (ROOT / "README.md").read_text()
-    points = PROJECT["project"]["entry-points"]
-    for group in ("mocapbench.models", "mocapbench.tasks"):
-        for name in points[group]:
-            assert f"`{name}`" in readme, name
+def files_below(root, *folders):
+    """Return the paths of all files below folders of ``root``, caches aside."""
+    paths = (path for folder in folders for path in (root / folder).rglob("*") if path.is_file())
+    return {path.relative_to(root).as_posix() for path in paths if path.suffix != ".pyc"}
+
+
+def left_out(folder, names):
+    """Return what a copy of the source tree lacks: caches, and what runs of the example leave."""
+    runs = {"results"} if Path(folder).name == "third-party" else set()
+    return {*CACHES(folder, names), *runs.intersection(names)}
+
+
+@pytest.fixture(scope="module")
+def tree(tmp_path_factory):
+    """Return a copy of the source tree, which building leaves files in."""
+    return shutil.copytree(ROOT, tmp_path_factory.mktemp("distributions") / "tree", ignore=left_out)
+
+
+def build(kind, tree):
+    """Return the one file that setuptools builds, without a network."""
+    target = tree.parent / kind
+    target.mkdir()
+    command = [sys.executable, "-c", BUILD.format(kind), target]
+    done = subprocess.run(
+        command, cwd=tree, capture_output=True, text=True, timeout=300, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    (path,) = target.iterdir()
+    return path
+
+
+@pytest.mark.slow
+def test_the_source_distribution_holds_what_its_tests_need(tree):
+    with tarfile.open(build("sdist", tree)) as archive:
+        held = {member.name.partition("/")[2] for member in archive if member.isfile()}
+    top = {"CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "LICENSE", "README.md", "tox.ini"}
+    needed = files_below(tree, *FOLDERS, "src", "tests", "docs", "examples", ".ci")
+    assert {*top, "pyproject.toml", *needed} - held == set()
+    assert {"tests/goldens/metrics/tolerances.toml", "tests/lowest.txt", ".ci/run"} <= held
+    generated = {"PKG-INFO", "setup.cfg", "MANIFEST.in", "pyproject.toml"}
+    assert {
+        name for name in held - needed - top - generated if not name.startswith("mocapbench.egg")
+    } == set()
+
+
+@pytest.mark.slow
+def test_the_wheel_holds_the_packages_and_their_data_alone(tree):
+    with zipfile.ZipFile(build("wheel", tree)) as archive:
+        held = {name for name in archive.namelist() if ".dist-info/" not in name}
+    packages = {f"mocapbench/{name}" for name in files_below(tree, *FOLDERS)}
+    assert held == packages | {"mocapbench/__init__.py", "mocapbench/py.typed"}
+    assert {"mocapbench/reports/page/report.html.j2", "mocapbench/metrics/__init__.pyi"} <= held
+    assert not any("/test_" in name for name in held)

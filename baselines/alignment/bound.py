@@ -1,4 +1,8 @@
-"""The variational bound of HLM, eq. (3) with the penalties of eq. (6), every term of it."""
+"""The variational bound of HLM: all terms of eq. (3), with the penalties of eq. (6).
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
+"""
 
 from __future__ import annotations
 
@@ -6,20 +10,20 @@ import numpy as np
 from scipy.special import entr
 
 from mocapbench.baselines.alignment.expectations import distance, log_likelihood, roughness
-from mocapbench.baselines.alignment.model import Hyperparameters, Parameters, State
+from mocapbench.baselines.alignment.model import CycleParameters, Hyperparameters, State
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 
 __all__ = ["bound", "sequence_bounds"]
 
 
 def bound(state: State, sequences: Sequences, hyper: Hyperparameters) -> float:
-    """Return the bound on log p(X, θ); it holds for any state, not only after an update."""
+    """Return the lower bound on log p(X, θ); valid for any state, not only after an update."""
     shared = _cycles(state, hyper) + hyper.regularisation * _penalty(state.parameters)
     return float(sequence_bounds(state, sequences, hyper).sum() + shared)
 
 
 def sequence_bounds(state: State, sequences: Sequences, hyper: Hyperparameters) -> Array:
-    """Return the share of each sequence, its label, path and jumps included: (K,)."""
+    """Return the terms of each sequence, with its label, path and jumps: (K,)."""
     theta, labels, paths = state.parameters, state.labels, state.paths
     label = (labels * np.log(theta.weights) + entr(labels)).sum(axis=1)
     data = (labels * log_likelihood(state, sequences)).sum(axis=1)
@@ -29,6 +33,7 @@ def sequence_bounds(state: State, sequences: Sequences, hyper: Hyperparameters) 
 
 
 def _cycles(state: State, hyper: Hyperparameters) -> float:
+    """Return the terms of the cycles: expected log-prior plus entropy of Q(Z)."""
     theta, cycles = state.parameters, state.cycles
     n_states, n_styles, n_channels = cycles.mean.shape
     normaliser = hyper.prior.log_normaliser(theta.smoothness, theta.closeness, n_states)
@@ -40,7 +45,7 @@ def _cycles(state: State, hyper: Hyperparameters) -> float:
     return float(n_cycles * normaliser - 0.5 * energy + entropy)
 
 
-def _penalty(theta: Parameters) -> float:
-    """Logarithm of the prior of the shared θ per unit of η: smooth parent, weights off zero."""
+def _penalty(theta: CycleParameters) -> float:
+    """Return the log-prior of parent and style weights, divided by η, without constants."""
     steps = np.roll(theta.parent, -1, axis=0) - theta.parent
     return float(np.log(theta.weights).sum() - (steps**2).sum())

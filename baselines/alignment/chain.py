@@ -1,11 +1,15 @@
 r"""The hidden Markov chain of HLM: cyclic, left to right, with jumps of 1 to J states (eq. 1).
 
-A frame advances its sequence by at least one state. The forward pass works with logarithms, because
-62 channels set states apart by more than the range of a double. It keeps the *shares*, the
-probability of each jump given the state that it led to and the frames before; the backward pass is
-then a plain product of probabilities, :math:`\gamma_{i-1}(m - j) = \sum_j \gamma_i(m)\,s_{ij}(m)`,
-in which nothing can overflow. The padding is frames without evidence, which change nothing before
-them. All sequences go together; inside, arrays are (N, M, K), so that a jump is a slice.
+Each frame advances by at least one state. The forward pass works with logarithms, because with 62
+channels the likelihoods of two states differ by more than the range of a double. It stores the
+*shares*: the probability of each jump given the state that it leads to and the earlier frames. The
+backward pass then multiplies probabilities, :math:`\gamma_{i-1}(m - j) = \sum_j
+\gamma_i(m)\,s_{ij}(m)`, which cannot overflow. Padding counts as frames without evidence, which do
+not affect earlier frames. All sequences are processed together; internally arrays have shape
+(N, M, K), so that a jump is a slice.
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
 """
 
 from __future__ import annotations
@@ -22,7 +26,7 @@ __all__ = ["Paths", "forward_backward", "viterbi"]
 
 @dataclass(frozen=True)
 class Paths:
-    """A posterior of the state paths of K sequences.
+    """The posterior of the state sequences of K sequences.
 
     Parameters
     ----------
@@ -31,6 +35,7 @@ class Paths:
     jumps : ndarray of shape (K, J)
         Expected number of jumps of each length.
     entropy : ndarray of shape (K,)
+        Entropy of the posterior over paths.
     """
 
     occupancy: Array
@@ -39,7 +44,7 @@ class Paths:
 
 
 def forward_backward(emission: Array, jumps: Array, frames: NDArray[np.bool_]) -> Paths:
-    """Return the posterior of the paths; the first state is uniform.
+    """Return the posterior of the paths; the prior of the first state is uniform.
 
     Parameters
     ----------
@@ -61,7 +66,7 @@ def forward_backward(emission: Array, jumps: Array, frames: NDArray[np.bool_]) -
 def viterbi(
     emission: Array, jumps: Array, frames: NDArray[np.bool_]
 ) -> tuple[NDArray[np.intp], ...]:
-    """Return the likeliest path (N_k,) of each sequence; arguments as `forward_backward`."""
+    """Return the most likely path (N_k,) of each sequence; arguments as in `forward_backward`."""
     log_jumps = np.log(jumps).T[:, None]
     scores = np.ascontiguousarray(emission.transpose(1, 2, 0))
     choices = np.zeros(scores.shape, dtype=np.intp)
@@ -76,9 +81,10 @@ def viterbi(
 
 
 def _forward(emission: Array, log_jumps: Array) -> tuple[Array, Array]:
-    """Return the log-probability (M, K) of the last state with all frames, and the shares.
+    """Return the joint log-density (M, K) of last state and frames, and the shares.
 
-    The shares are of shape (N − 1, J, M, K).
+    Step i adds the log-probabilities of all jumps into a state (log-sum-exp) and the evidence of
+    frame i.
     """
     n_frames, n_states, n_sequences = emission.shape
     max_jump = len(log_jumps)
@@ -110,14 +116,14 @@ def _backward(last: Array, shares: Array, frames: NDArray[np.bool_]) -> tuple[Ar
 
 
 def _reached(states: Array, max_jump: int) -> Array:
-    """Return, for each jump and state, what (M, K) holds where the jump came from: (J, M, K)."""
+    """Return the values (M, K) at the origin of each jump into each state: (J, M, K)."""
     n_states = len(states)
     ring = np.concatenate([states[-max_jump:], states])
     return np.stack([ring[max_jump - j : max_jump - j + n_states] for j in _jumps(max_jump)])
 
 
 def _left(flow: Array) -> Array:
-    """Sum the flow (J, M, K) of each jump into each state at the states left: (M, K)."""
+    """Sum the probabilities (J, M, K) of jumps into states at the jumps' origins: (M, K)."""
     return np.asarray(sum(np.roll(flow[j - 1], -j, axis=0) for j in _jumps(len(flow))))
 
 
@@ -126,7 +132,7 @@ def _jumps(max_jump: int) -> range:
 
 
 def _trace(final: Array, choices: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Follow the chosen jumps (N, M; jump less one) back from the best of the final scores."""
+    """Return the path (N,) by the best jumps (N, M), minus one, back from the best final state."""
     n_frames, n_states = choices.shape
     path = np.empty(n_frames, dtype=np.intp)
     path[-1] = final.argmax()

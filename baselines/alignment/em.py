@@ -17,15 +17,16 @@ Update = Callable[[State, Sequences, Hyperparameters], State]
 
 @dataclass(frozen=True)
 class Run:
-    """What EM came to.
+    """The result of EM.
 
     Parameters
     ----------
     state : State
+        The final state.
     bounds : tuple of float
         The objective at the start and after each iteration.
     converged : bool
-        Whether the last iteration raised it by less than the tolerance.
+        Whether the last iteration raised the objective by less than the tolerance.
     """
 
     state: State
@@ -45,9 +46,10 @@ def expectation_maximisation(
     tolerance: float,
     objective: Objective = bound,
 ) -> Run:
-    """Repeat ``n_inner`` sweeps of the E-step and one of the M-step.
+    """Alternate ``n_inner`` sweeps of the E-step with one of the M-step.
 
-    Until the objective rises by less than ``tolerance`` per visible entry, or ``max_iter`` times.
+    Stops when the objective rises by less than ``tolerance`` per visible entry, and after
+    ``max_iter`` iterations at the latest.
     """
     bounds = [objective(state, sequences, hyper)]
     threshold = tolerance * sequences.counts.sum()

@@ -1,4 +1,4 @@
-"""What every model that aligns recordings to one cycle does alike."""
+"""The common estimator of models that align recordings to one cycle."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ __all__ = ["CycleAligner"]
 
 
 class CycleAligner(Aligner):
-    """An estimator of one common cycle: a subclass says how it learns and what it then describes.
+    """An estimator of one common cycle; a subclass provides the learning and its attributes.
 
-    The model works on channels of zero mean and unit variance, and on recordings in order of name,
-    so that the order in which they come means nothing.
+    The model works on channels of zero mean and unit variance. Recordings are sorted by name, so
+    that their order does not affect results.
     """
 
     n_states: int | None
@@ -63,9 +63,10 @@ class CycleAligner(Aligner):
         return self
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
-        """Return the likeliest path of each recording, as in `fit` if it was there.
+        """Return the most likely state sequence of each recording.
 
-        A new one is taken to be of the style that suits it best, where there are several.
+        That of `fit` for a recording given there. A new recording takes the style with the highest
+        bound, if there are several.
 
         Raises
         ------
@@ -77,7 +78,7 @@ class CycleAligner(Aligner):
 
     @abstractmethod
     def _hyperparameters(self) -> Hyperparameters:
-        """Return what is chosen, not learnt."""
+        """Return the hyperparameters, which are not learnt."""
 
     @abstractmethod
     def _learn(self, rng: np.random.Generator) -> Run:
@@ -85,7 +86,10 @@ class CycleAligner(Aligner):
 
     @abstractmethod
     def _describe(self, run: Run, order: Sequence[int]) -> None:
-        """State what was learnt in the channels' units and in the order of the recordings."""
+        """Set the attributes of the subclass from the best run.
+
+        Values are in the channels' units, and in the ``order`` in which recordings were given.
+        """
 
     def _check_fitted(self, recordings: Sequence[Recording]) -> None:
         check_is_fitted(self)

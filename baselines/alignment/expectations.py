@@ -1,4 +1,8 @@
-"""Expectations under Q that both the updates and the bound need."""
+"""Expectations under Q that both the updates and the bound need.
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +20,9 @@ _LOG_2PI = np.log(2.0 * np.pi)
 def emission(sequences: Sequences, cycles: Ring, precisions: Array, labels: Array) -> Array:
     r"""Return the expected log-likelihood of each frame in each state: (K, N, M).
 
-    HLM eq. (10) with its constants: per sequence, the styles' terms
-    :math:`\tfrac12\log(\lambda/2\pi) - \tfrac12\lambda\langle(x - z)^2\rangle` are averaged first,
-    so that the number of styles does not matter to the cost.
+    HLM eq. (10) with its constants. The terms
+    :math:`\tfrac12\log(\lambda/2\pi) - \tfrac12\lambda\langle(x - z)^2\rangle` are first averaged
+    over the styles of a sequence, so that the cost for each frame does not grow with their number.
     """
     constant = labels @ (0.5 * (np.log(precisions) - _LOG_2PI))
     linear = _mixed(labels, precisions * cycles.mean)
@@ -45,7 +49,7 @@ def residuals(state: State, sequences: Sequences) -> Array:
 
 
 def roughness(cycles: Ring, reference: Array) -> float:
-    """Return the expected sum of squared steps, less those of a curve (M, F), round all cycles."""
+    """Return the expected sum of squared steps of all cycles minus a reference curve (M, F)."""
     deviation = cycles.mean - reference[:, None]
     steps = np.roll(deviation, -1, axis=0) - deviation
     return float((steps**2).sum() + 2.0 * (cycles.variance - cycles.neighbour).sum())

@@ -1,4 +1,8 @@
-"""EM from random starts, of which the bound chooses the best."""
+"""EM from random starts; the run with the highest bound is kept.
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
+"""
 
 from __future__ import annotations
 
@@ -23,9 +27,9 @@ from mocapbench.baselines.alignment.updates import (
     update_weights,
 )
 
-__all__ = ["Settings", "best_fit", "random_cycle", "random_start", "run", "split"]
+__all__ = ["EMSettings", "best_fit", "random_cycle", "random_start", "run", "split"]
 
-# Cycles first: while all styles have the same cycle, labels would forget where they started.
+# Cycles first: while all styles have the same cycle, an update makes all labels equal.
 _E_STEP: tuple[Update, ...] = (update_cycles, update_labels, update_paths)
 _M_STEP: tuple[Update, ...] = (
     update_parent,
@@ -39,8 +43,8 @@ _CLOSENESS: dict[bool, tuple[Update, ...]] = {False: (), True: (update_closeness
 
 
 @dataclass(frozen=True)
-class Settings:
-    """What EM starts from and does; names as in `CyclicAlignment`."""
+class EMSettings:
+    """Settings of EM and of its start; names as in `CyclicAlignment`."""
 
     n_styles: int
     n_states: int
@@ -55,13 +59,13 @@ class Settings:
 
 def best_fit(
     sequences: Sequences,
-    settings: Settings,
+    settings: EMSettings,
     *,
     n_restarts: int,
     max_iter: int,
     rng: np.random.Generator,
 ) -> tuple[Run, list[float]]:
-    """Return the run that ends highest, and where each ends."""
+    """Return the run with the highest final bound, and the final bounds of all runs."""
     runs = [
         run(random_start(sequences, settings, rng), sequences, settings, max_iter)
         for _ in range(n_restarts)
@@ -70,7 +74,7 @@ def best_fit(
     return runs[int(np.argmax(ends))], ends
 
 
-def run(state: State, sequences: Sequences, settings: Settings, max_iter: int) -> Run:
+def run(state: State, sequences: Sequences, settings: EMSettings, max_iter: int) -> Run:
     """Run EM from a state."""
     return expectation_maximisation(
         state,
@@ -84,11 +88,11 @@ def run(state: State, sequences: Sequences, settings: Settings, max_iter: int) -
     )
 
 
-def random_start(sequences: Sequences, settings: Settings, rng: np.random.Generator) -> State:
-    """Return a start: all sequences aligned to one cycle, then styles of equal size at random.
+def random_start(sequences: Sequences, settings: EMSettings, rng: np.random.Generator) -> State:
+    """Return a start: all sequences aligned to one cycle, then random styles of equal size.
 
-    The first cycle is a random sequence's, as in HLM §4. There the labels are all but even from the
-    beginning, so that noise alone tells the styles apart, and every style aligns for itself.
+    The first cycle is that of a random sequence, as in HLM §4. HLM starts with nearly uniform
+    labels instead, so that styles differ by noise alone and each style aligns separately.
     """
     common = start(
         random_cycle(sequences, settings.n_states, rng),
@@ -121,7 +125,7 @@ def split(state: State, labels: Array) -> State:
 
 
 def random_cycle(sequences: Sequences, n_states: int, rng: np.random.Generator) -> Array:
-    """Return the first cycle of a random sequence that has a whole one; of any if none has."""
+    """Return the first cycle of a random sequence that is long enough, or of any if none is."""
     n_frames = n_states // 2
     whole = np.flatnonzero((sequences.lengths >= n_frames) & (sequences.counts.sum(axis=1) > 0))
     chosen = rng.choice(whole) if len(whole) else rng.integers(len(sequences.lengths))

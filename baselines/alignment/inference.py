@@ -1,4 +1,8 @@
-"""What a fitted model says of a new sequence, and of what any sequence hides."""
+"""Inference given a fitted model: posteriors of new sequences and moments of hidden entries.
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +15,7 @@ from mocapbench.baselines.alignment.bound import sequence_bounds
 from mocapbench.baselines.alignment.chain import viterbi
 from mocapbench.baselines.alignment.em import Update, expectation_maximisation
 from mocapbench.baselines.alignment.expectations import emission
-from mocapbench.baselines.alignment.fitting import Settings, run
+from mocapbench.baselines.alignment.fitting import EMSettings, run
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.alignment.updates import (
@@ -26,13 +30,13 @@ __all__ = ["best_paths", "infer", "moments", "refine"]
 
 _MAX_ITER = 30
 _TOLERANCE = 1e-8
-_EMPTY = 0.5  # expected sequences of a style; fewer and it is free
+_EMPTY = 0.5  # a style with fewer expected sequences counts as empty
 
 
 def infer(sequence: Sequences, fitted: State, hyper: Hyperparameters) -> State:
     """Return Q(l), Q(π) and the jumps of one new sequence, given the fitted cycles.
 
-    Started from the style whose bound is the highest when the sequence is wholly of that style.
+    EM starts from the style with the highest bound when the sequence belongs to one style only.
     """
     styles = np.eye(len(fitted.parameters.weights))
     max_jump = fitted.parameters.jumps.shape[1]
@@ -53,18 +57,19 @@ def infer(sequence: Sequences, fitted: State, hyper: Hyperparameters) -> State:
 
 
 def refine(
-    sequence: Sequences, fitted: State, sequences: Sequences, settings: Settings, max_iter: int
+    sequence: Sequences, fitted: State, sequences: Sequences, settings: EMSettings, max_iter: int
 ) -> State:
-    """Return the state after more EM with one new sequence, which comes last.
+    """Return the state after further EM with one new sequence, which comes last.
 
-    From where EM ended with ``sequences``, and with the new one in the style that suits it best or,
-    if a style is free, in a style of its own. The higher bound decides.
+    EM continues from the fitted state, with the new sequence in its best existing style and, if a
+    style is empty, also with the new sequence alone in that style. The run with the higher bound
+    is returned.
     """
     joined = Sequences.of([*sequences.arrays(), *sequence.arrays()])
     first = _joined(fitted, infer(sequence, fitted, settings.hyper))
     runs = [
         run(update_paths(state, joined, settings.hyper), joined, settings, max_iter)
-        for state in (first, *_of_its_own(first, joined, settings.hyper))
+        for state in (first, *_in_empty_style(first, joined, settings.hyper))
     ]
     return max(runs, key=lambda attempt: attempt.bounds[-1]).state
 
@@ -72,7 +77,8 @@ def refine(
 def moments(state: State) -> tuple[Array, Array]:
     """Return the mean and variance of every entry, noise included: (K, N, F) each.
 
-    Those of the mixture over states and styles; HLM's eq. (18) weighs styles by precision.
+    These are the moments of the mixture over states and styles. HLM eq. (18) weights styles by
+    their precision instead.
     """
     cycles, noise = state.cycles, 1.0 / state.parameters.precisions
     mean = _expected(state, cycles.mean)
@@ -81,7 +87,7 @@ def moments(state: State) -> tuple[Array, Array]:
 
 
 def best_paths(state: State, sequences: Sequences) -> tuple[NDArray[np.intp], ...]:
-    """Return the likeliest path (N_k,) of each sequence."""
+    """Return the most likely path (N_k,) of each sequence."""
     theta = state.parameters
     expected = emission(sequences, state.cycles, theta.precisions, state.labels)
     return viterbi(expected, theta.jumps, sequences.frames)
@@ -98,7 +104,7 @@ def _with(state: State, labels: Array, jumps: Array) -> State:
 
 
 def _joined(fitted: State, new: State) -> State:
-    """Return the state of the fitted sequences and the new ones, but for the paths."""
+    """Return the state of the fitted and new sequences; the paths are left as they were."""
     joined = _with(
         fitted,
         np.concatenate([fitted.labels, new.labels]),
@@ -107,14 +113,14 @@ def _joined(fitted: State, new: State) -> State:
     return replace(joined, evidence=fitted.evidence.join(new.evidence))
 
 
-def _of_its_own(state: State, sequences: Sequences, hyper: Hyperparameters) -> list[State]:
-    """Return the state with the last sequence in the emptiest style, if that is free."""
+def _in_empty_style(state: State, sequences: Sequences, hyper: Hyperparameters) -> list[State]:
+    """Return the state with the last sequence alone in an empty style; nothing if none is empty."""
     sizes = state.labels[:-1].sum(axis=0)
     if sizes.min() > _EMPTY:
         return []
     labels = np.concatenate([state.labels[:-1], np.eye(len(sizes))[[sizes.argmin()]]])
     steps: tuple[Update, ...] = (update_cycles, update_precisions, update_cycles)
-    own = replace(state, labels=labels)
+    alone = replace(state, labels=labels)
     for update in steps:
-        own = update(own, sequences, hyper)
-    return [own]
+        alone = update(alone, sequences, hyper)
+    return [alone]

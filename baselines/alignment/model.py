@@ -1,7 +1,10 @@
 r"""The variables of HLM: parameters θ, hyperparameters η, and the factors of the posterior Q.
 
-Names follow HLM §2 with these readings: sequence k, frame i, state m of M, style c of C, channel f
-of F, jump j of J.
+Names follow HLM §2: sequence k of K, frame i of N, state m of M, style c of C, channel f of F,
+jump j of J.
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
 """
 
 from __future__ import annotations
@@ -16,21 +19,22 @@ from mocapbench.baselines.alignment.priors import CyclePrior
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 
-__all__ = ["Evidence", "Hyperparameters", "Parameters", "State"]
+__all__ = ["CycleParameters", "Evidence", "Hyperparameters", "State"]
 
 
 @dataclass(frozen=True)
 class Hyperparameters:
-    r"""What is chosen, not learnt.
+    r"""Quantities that are chosen rather than learnt.
 
     Parameters
     ----------
     regularisation : float
-        :math:`\eta` of the parent cycle, the styles' weights and the jumps, all above 0.
+        The weight :math:`\eta > 0` of the penalties on the parent cycle, the styles' weights and
+        the jumps.
     prior : CyclePrior
-        How the prior of a cycle is normalised.
-    max_precision : float
-        Upper limit of :math:`\lambda_f^c`: without it, a channel that does not vary has none.
+        The prior of a cycle.
+    max_precision : float, default=1e6
+        Upper limit of :math:`\lambda_f^c`, which is unbounded for a channel that does not vary.
     """
 
     regularisation: float
@@ -39,7 +43,7 @@ class Hyperparameters:
 
 
 @dataclass(frozen=True)
-class Parameters:
+class CycleParameters:
     r"""Point estimates θ.
 
     Parameters
@@ -67,7 +71,7 @@ class Parameters:
 
 @dataclass(frozen=True)
 class Evidence:
-    """What the frames say of each state, given the paths.
+    """Sufficient statistics of the frames for each state, given the paths.
 
     Parameters
     ----------
@@ -82,12 +86,12 @@ class Evidence:
 
     @classmethod
     def of(cls, sequences: Sequences, paths: Paths) -> Evidence:
-        """Sum over frames."""
+        """Return the sums over frames, weighted by the occupancies."""
         occupancy = paths.occupancy.swapaxes(1, 2)
         return cls(occupancy @ sequences.visible, occupancy @ sequences.values)
 
     def join(self, other: Evidence) -> Evidence:
-        """Return that of these sequences and the other ones."""
+        """Return the statistics of these sequences followed by the others."""
         return Evidence(
             np.concatenate([self.counts, other.counts]), np.concatenate([self.sums, other.sums])
         )
@@ -99,11 +103,11 @@ class Evidence:
 
 @dataclass(frozen=True)
 class State:
-    """θ and the factors of Q at one moment.
+    """The parameters θ and the factors of the posterior Q.
 
     Parameters
     ----------
-    parameters : Parameters
+    parameters : CycleParameters
     cycles : Ring
         Q(Z): arrays of shape (M, C, F).
     labels : ndarray of shape (K, C)
@@ -111,17 +115,17 @@ class State:
     paths : Paths
         Q(π), the paper's γ and ξ.
     evidence : Evidence
-        Follows from ``paths``.
+        Statistics that are computed from ``paths``.
     """
 
-    parameters: Parameters
+    parameters: CycleParameters
     cycles: Ring
     labels: Array
     paths: Paths
     evidence: Evidence
 
     def rows(self, index: NDArray[np.intp]) -> State:
-        """Return the state of the sequences that ``index`` names."""
+        """Return the state of the sequences at ``index``."""
         paths, evidence = self.paths, self.evidence
         return replace(
             self,
@@ -133,7 +137,7 @@ class State:
 
 
 def _by_style(labels: Array, statistic: Array) -> Array:
-    """Weigh (K, M, F) by the labels (K, C): (M, C, F)."""
+    """Sum (K, M, F) over sequences, weighted by the labels (K, C): (M, C, F)."""
     n_sequences, n_states, n_channels = statistic.shape
     flat = labels.T @ statistic.reshape(n_sequences, -1)
     return np.ascontiguousarray(flat.reshape(-1, n_states, n_channels).swapaxes(0, 1))

@@ -1,4 +1,8 @@
-"""The length of a cycle, from the data alone."""
+"""The length of a cycle, estimated by autocorrelation.
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
+"""
 
 from __future__ import annotations
 
@@ -8,15 +12,17 @@ from mocapbench.baselines.alignment.sequences import Array, Sequences
 
 __all__ = ["autocorrelation", "cycle_length", "default_states"]
 
-_FEWEST_REPEATS = 2  # a lag is believed where a sequence is at least this many times as long
-_AS_GOOD = 0.9  # two cycles resemble themselves as one does, but for the noise of the estimate
+_FEWEST_REPEATS = 2  # a sequence is at least this many times as long as a lag that is considered
+# A lag of two cycles correlates as highly as one of a single cycle, up to noise: of all peaks this
+# close to the highest, the first is the cycle.
+_AS_GOOD = 0.9
 
 
 def autocorrelation(sequences: Sequences) -> Array:
     """Return the autocorrelation of each sequence at lags 0 to N − 1: (K, N).
 
-    Pooled over channels, each mean taken over the pairs of entries that are both visible; NaN at a
-    lag without any.
+    It is pooled over channels and averaged over the pairs of entries that are both visible; NaN at
+    a lag without such pairs.
     """
     visible = sequences.visible
     n_frames = visible.shape[1]
@@ -33,21 +39,21 @@ def autocorrelation(sequences: Sequences) -> Array:
 def cycle_length(sequences: Sequences) -> int:
     """Return the expected number of frames of a cycle, N of HLM.
 
-    The median over sequences of the lag at which a sequence first resembles itself again: the
-    first peak of the autocorrelation, after it has been negative and within half the sequence,
-    that is nine tenths as high as the highest. If no sequence is long enough to have one, the
-    median length: each is then taken for one cycle.
+    It is the median over sequences of the first lag at which a sequence recurs: the first peak of
+    the autocorrelation after its first negative value, within half the sequence, that is at least
+    0.9 times as high as the highest such peak. If no sequence has one, each sequence counts as one
+    cycle, and the median length is returned.
     """
     lags = [
         _first_return(correlation[: length // _FEWEST_REPEATS + 1])
         for correlation, length in zip(autocorrelation(sequences), sequences.lengths, strict=True)
     ]
-    found = [lag for lag in lags if lag]
-    return int(np.median(found if found else sequences.lengths))
+    periods = [lag for lag in lags if lag]
+    return int(np.median(periods if periods else sequences.lengths))
 
 
 def default_states(sequences: Sequences, max_jump: int) -> int:
-    """Return M = 2N of HLM §2; as many as the jumps need where cycles are very short."""
+    """Return M = 2N as in HLM §2, but at least ``2 * max_jump + 1``."""
     return max(2 * cycle_length(sequences), 2 * max_jump + 1)
 
 

@@ -1,9 +1,12 @@
 r"""The prior of a style's cycle: smooth, and close to its parent.
 
 HLM's exponent is :math:`-\tfrac12\lambda_s\sum_m(z_m - z_{m-1})^2
--\tfrac12\lambda_{\bar z}\sum_m(z_m - \bar z_m)^2` per channel; what makes it a density in the two
-precisions is stated in two ways, and in a third one it is the deviation from the parent that is
-smooth.
+-\tfrac12\lambda_{\bar z}\sum_m(z_m - \bar z_m)^2` for each channel. There are three priors: with
+the normaliser of a Gaussian, with HLM's printed normaliser, and one in which the deviation from the
+parent is smooth instead of the cycle.
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
 """
 
 from __future__ import annotations
@@ -17,31 +20,37 @@ from mocapbench.baselines.alignment.sequences import Array
 
 __all__ = ["PRIORS", "CentredPrior", "CyclePrior", "NormalisedPrior", "PaperPrior"]
 
-_NARROWEST = 1e-12  # least precision, in parts of the largest that can be best
+_NARROWEST = 1e-12  # least precision, relative to the largest possible optimum
 
 
 class CyclePrior(ABC):
-    """How the prior of a cycle is normalised."""
+    """The prior of a cycle."""
 
     def reference(self, curves: Array) -> Array:
-        """Return what a cycle's steps are compared with where its parent is ``curves`` (M, …)."""
+        """Return the curve whose steps the cycle's steps are compared with, given its parent.
+
+        Parameters
+        ----------
+        curves : ndarray of shape (M, …)
+            The parent.
+        """
         return np.zeros_like(curves)
 
     @abstractmethod
     def log_normaliser(self, smoothness: float, closeness: float, n_states: int) -> float:
-        """Return the logarithm of the factor of the exponential, per cycle and channel."""
+        """Return the log-normaliser of one cycle in one channel."""
 
     @abstractmethod
     def smoothness(self, closeness: float, n_states: int, roughness: float) -> float:
-        """Return the best smoothness for a mean of the sum of squared steps."""
+        """Return the best λ_s given the mean sum of squared steps, ``roughness``."""
 
     @abstractmethod
     def closeness(self, smoothness: float, n_states: int, distance: float) -> float:
-        """Return the best closeness for a mean of the sum of squared distances to the parent."""
+        """Return the best λ_z̄ given the mean sum of squared distances to the parent."""
 
 
 class NormalisedPrior(CyclePrior):
-    r"""The Gaussian's own normaliser, :math:`\tfrac12\log\det(\lambda_s L + \lambda_{\bar z} I)`.
+    r"""HLM's exponent, normalised by :math:`\tfrac12\log\det(\lambda_s L + \lambda_{\bar z} I)`.
 
     The Laplacian L of a ring has the eigenvalues :math:`2 - 2\cos(2\pi j/M)`.
     """
@@ -61,11 +70,11 @@ class NormalisedPrior(CyclePrior):
 
 
 class CentredPrior(NormalisedPrior):
-    r"""A Gaussian about the parent: its exponent has :math:`z - \bar z` in place of z in the steps.
+    r"""A Gaussian about the parent: the steps are those of :math:`z - \bar z` instead of z.
 
-    A cycle is then its parent but for a smooth deviation. HLM's own steps draw it to a constant:
-    its mean is the parent made smoother, and the part of a cycle that nothing shows is nearly
-    straight.
+    A cycle is its parent plus a smooth deviation. Under HLM's prior a cycle is drawn towards a
+    constant: its prior mean is a smoothed parent, and a part of the cycle without visible frames
+    becomes nearly straight.
     """
 
     def reference(self, curves: Array) -> Array:
@@ -74,7 +83,7 @@ class CentredPrior(NormalisedPrior):
 
 
 class PaperPrior(CyclePrior):
-    """HLM eq. (5): each of the 2M factors normalised for itself, although their product is not."""
+    """HLM eq. (5): each of the 2M factors is normalised, although their product is not."""
 
     def log_normaliser(self, smoothness: float, closeness: float, n_states: int) -> float:
         """Return ½ M log(λ_s λ_z̄) − M log 2π."""
@@ -83,13 +92,13 @@ class PaperPrior(CyclePrior):
         )
 
     def smoothness(self, closeness: float, n_states: int, roughness: float) -> float:
-        """HLM eq. (13)."""
-        del closeness  # in its own factor alone
+        """Return HLM eq. (13)."""
+        del closeness  # it occurs in a different factor
         return n_states / roughness
 
     def closeness(self, smoothness: float, n_states: int, distance: float) -> float:
-        """HLM eq. (12)."""
-        del smoothness  # in its own factor alone
+        """Return HLM eq. (12)."""
+        del smoothness  # it occurs in a different factor
         return n_states / distance
 
 
@@ -106,7 +115,7 @@ def _laplacian(n_states: int) -> Array:
 
 
 def _best_scale(slope: Array, offset: Array, quadratic: float) -> float:
-    """Maximise Σ log(λ slope + offset) − λ quadratic, which is concave, over λ > 0."""
+    """Return the λ > 0 that maximises Σ log(λ slope + offset) − λ quadratic, which is concave."""
 
     def gradient(scale: float) -> float:
         return float((slope / (scale * slope + offset)).sum() - quadratic)

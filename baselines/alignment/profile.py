@@ -1,7 +1,10 @@
-"""The continuous profile model on a ring: one latent trace, a point estimate (CPM).
+"""The continuous profile model (CPM) on a ring: one latent trace, a point estimate.
 
-It is the model of HLM with a single style whose cycle has no variance and no parent; the trace is
-penalised by η times its squared steps, as HLM's parent is.
+It is the model of HLM with a single style, whose cycle has no variance and no parent. The trace is
+penalised by η times its squared steps, like HLM's parent.
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
 """
 
 from __future__ import annotations
@@ -67,10 +70,10 @@ def penalised_likelihood(state: State, sequences: Sequences, hyper: Hyperparamet
 
 
 def prototype(frames: Array, path: NDArray[np.intp], trace: Array) -> Array:
-    """Return a sequence's own cycle (M, F): its motion at every state, averaged over its cycles.
+    """Return a sequence warped onto the cycle by its path and averaged over its cycles: (M, F).
 
-    Linear between the states that its frames (N, F) are at, past entries that are hidden; the trace
-    (M, F) where it never comes.
+    Between the states of its visible frames (N, F) it is interpolated linearly. At states that the
+    sequence does not reach it equals the trace (M, F).
     """
     n_states = len(trace)
     position = path[0] + np.concatenate([[0], np.cumsum(np.diff(path) % n_states)])
@@ -78,15 +81,15 @@ def prototype(frames: Array, path: NDArray[np.intp], trace: Array) -> Array:
     for channel, values in zip(cycle.T, frames.T, strict=True):
         known = np.flatnonzero(~np.isnan(values))
         if len(known):
-            passed = np.arange(position[known[0]], position[known[-1]] + 1)
-            warped = np.interp(passed, position[known], values[known])
-            visits = np.bincount(passed % n_states, minlength=n_states)
-            totals = np.bincount(passed % n_states, warped, minlength=n_states)
+            reached = np.arange(position[known[0]], position[known[-1]] + 1)
+            warped = np.interp(reached, position[known], values[known])
+            visits = np.bincount(reached % n_states, minlength=n_states)
+            totals = np.bincount(reached % n_states, warped, minlength=n_states)
             np.divide(totals, visits, out=channel, where=visits > 0)
     return cycle
 
 
 def _point(mean: Array) -> Ring:
-    """Return a cycle (M, 1, F) that is known."""
-    nothing = np.zeros_like(mean)
-    return Ring(mean, nothing, nothing, nothing[0])
+    """Return a cycle (M, 1, F) without uncertainty."""
+    zero = np.zeros_like(mean)
+    return Ring(mean, zero, zero, zero[0])

@@ -1,9 +1,10 @@
 r"""Gaussians on a ring: precisions that are cyclic tridiagonal plus diagonal.
 
-The precision :math:`\lambda L + \mathrm{diag}(r)`, L the Laplacian of a ring of M states, is an
-electrical network: conductance :math:`\lambda` between neighbours, :math:`r_m` to the ground.
-Eliminating a state replaces its star by a mesh between its two neighbours. Every term of that is
-positive, so nothing cancels however smooth the ring is; one sweep forward and one back give the
+The precision :math:`\lambda L + \mathrm{diag}(r)`, L the Laplacian of a ring of M states, is that
+of an electrical network with conductance :math:`\lambda` between neighbours and :math:`r_m` from
+state m to the ground. Eliminating a state replaces its edges to two neighbours and the ground by
+edges among these three (the star–mesh transform). All terms are positive, so that no digits are
+lost by cancellation even if :math:`\lambda` is large. One forward and one backward sweep give the
 mean, the variances, the covariances of neighbours and the determinant, for any number of rings at
 once, in time linear in M.
 """
@@ -26,12 +27,13 @@ class Ring:
     Parameters
     ----------
     mean : ndarray of shape (M, …)
+        Mean of each state.
     variance : ndarray of shape (M, …)
         Diagonal of the covariance.
     neighbour : ndarray of shape (M, …)
         Covariance of each state with the next one; of the last state with the first.
     log_determinant : ndarray of shape (…)
-        That of the precision.
+        Log-determinant of the precision.
     """
 
     mean: Array
@@ -42,14 +44,16 @@ class Ring:
 
 @dataclass(frozen=True)
 class Elimination:
-    """The states of a ring eliminated in order, each upon the next one and the last one.
+    """A factorisation of the precision: states are eliminated in order 0 … M − 1.
+
+    When a state is eliminated, it has two neighbours left: the next state and the last one.
 
     Parameters
     ----------
     pivots : ndarray of shape (M, …)
-        Conductance of each state, when its turn comes, to all that is left.
+        Total conductance of each state when it is eliminated, to the ground included.
     near, far : ndarray of shape (M − 1, …)
-        The shares of it that lead to the next state and to the last.
+        The fractions of it that lead to the next state and to the last state.
     """
 
     pivots: Array
@@ -57,7 +61,7 @@ class Elimination:
     far: Array
 
     def forward(self, right: Array) -> Array:
-        """Return what each state passes on when ``right`` (M, …) flows in: the forward sweep."""
+        """Return the current at each state for the inflow ``right`` (M, …): forward sweep."""
         flow = right.copy()
         for m, (near, far) in enumerate(zip(self.near, self.far, strict=True)):
             flow[m + 1] += near * flow[m]
@@ -65,7 +69,7 @@ class Elimination:
         return flow
 
     def backward(self, potential: Array) -> Array:
-        """Add to each state (M, …) its share of the next and of the last: the backward sweep."""
+        """Return the potentials given those (M, …) against the remaining states: backward sweep."""
         potential = potential.copy()
         for m in reversed(range(len(self.near))):
             potential[m] += self.near[m] * potential[m + 1] + self.far[m] * potential[-1]
@@ -84,7 +88,7 @@ def eliminate(edge: float, ground: Array) -> Elimination:
     """
     pivots = ground.copy()
     near, far = np.empty_like(ground[1:]), np.empty_like(ground[1:])
-    chord: float | Array = edge  # between the state whose turn it is and the last
+    chord: float | Array = edge  # conductance between state m and the last state
     for m in range(len(near)):
         leak = pivots[m].copy()
         pivots[m] += edge + chord

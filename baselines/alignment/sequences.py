@@ -1,4 +1,4 @@
-"""Sequences of different lengths as one padded array, with what each shows."""
+"""Sequences of different lengths as one padded array, with masks of the visible entries."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ Array = NDArray[np.float64]
 class Sequences:
     """K sequences, padded to the longest.
 
-    A hidden entry and an entry of the padding weigh nothing, which integrates them out exactly:
-    the noise is independent between channels.
+    Hidden entries and padding have weight zero. This integrates them out exactly, because the noise
+    is independent between channels.
 
     Parameters
     ----------
@@ -62,11 +62,11 @@ class Sequences:
         return np.asarray((self.values**2).sum(axis=1))
 
     def rows(self, index: NDArray[np.intp]) -> Sequences:
-        """Return the sequences that ``index`` names."""
+        """Return the sequences at ``index``."""
         return Sequences(self.values[index], self.visible[index], self.lengths[index])
 
     def arrays(self) -> list[Array]:
-        """Return the array (N_k, F) of each sequence, NaN where hidden: undoes `of`."""
+        """Return the array (N_k, F) of each sequence, NaN where hidden: the inverse of `of`."""
         return self.unpad(np.where(self.visible > 0, self.values, np.nan))
 
     def unpad(self, array: Array) -> list[Array]:

@@ -1,11 +1,15 @@
-"""Where EM starts: HLM §4, "Comparison"."""
+"""The initial state of EM: HLM §4, "Comparison".
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
 from mocapbench.baselines.alignment.chain import Paths
-from mocapbench.baselines.alignment.model import Evidence, Hyperparameters, Parameters, State
+from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hyperparameters, State
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.alignment.updates import update_paths
@@ -22,11 +26,15 @@ def start(
     max_jump: int,
     hyper: Hyperparameters,
 ) -> State:
-    """Return the state with one style, whose cycle is the parent (M, F)."""
+    """Return the state with one style, whose cycle is ``parent`` (M, F).
+
+    The noise variances are those of the visible entries, and the variances of the cycle are equal
+    to them.
+    """
     n_sequences, (n_states, n_channels) = len(sequences.lengths), parent.shape
     variance = sequences.squares.sum(axis=0) / np.maximum(sequences.counts.sum(axis=0), 1.0)
     precision = 1.0 / np.maximum(variance, 1.0 / hyper.max_precision)
-    parameters = Parameters(
+    parameters = CycleParameters(
         parent,
         smoothness,
         closeness,
@@ -41,16 +49,16 @@ def start(
         np.zeros(shape),
         n_states * np.log(precision)[None],
     )
-    nothing = Paths(np.zeros((0, 0, n_states)), np.zeros((0, max_jump)), np.zeros(0))
+    no_paths = Paths(np.zeros((0, 0, n_states)), np.zeros((0, max_jump)), np.zeros(0))
     no_evidence = Evidence(np.zeros(0), np.zeros(0))
     labels = np.ones((n_sequences, 1))
-    return update_paths(State(parameters, cycles, labels, nothing, no_evidence), sequences, hyper)
+    return update_paths(State(parameters, cycles, labels, no_paths, no_evidence), sequences, hyper)
 
 
 def first_cycle(frames: Array, n_frames: int, n_states: int) -> Array:
-    """Stretch the first ``n_frames`` of a sequence (N, F), NaN where hidden, to (M, F).
+    """Return the first ``n_frames`` of a sequence (N, F), NaN where hidden, resampled to (M, F).
 
-    Linear in time between the visible entries of a channel; 0 for one that shows none.
+    Channels are interpolated linearly between visible entries; one without any is 0.
     """
     given = frames[:n_frames]
     positions = np.linspace(0.0, len(given), n_states, endpoint=False)

@@ -1,4 +1,8 @@
-"""New cycles and new sequences from a fitted model (HLM §2, the generative process; §4.2)."""
+"""New cycles and sequences from a fitted model (HLM §2, generative process; §4.2, blending).
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +17,9 @@ __all__ = ["blended", "draw_cycles", "draw_path", "draw_sequences"]
 
 
 def draw_sequences(state: State, n: int, n_frames: int, rng: np.random.Generator) -> Array:
-    """Return new sequences (n, N, F), noise included, each in the manner of one of the fitted.
+    """Return new sequences (n, N, F), noise included.
 
-    The manner is a fitted sequence's style and jumps, the sequence drawn evenly.
+    Each takes its style and the probabilities of its jumps from a fitted sequence, drawn uniformly.
     """
     sequences = rng.integers(len(state.labels), size=n)
     styles = np.array([rng.choice(len(labels), p=labels) for labels in state.labels[sequences]])
@@ -31,7 +35,7 @@ def draw_sequences(state: State, n: int, n_frames: int, rng: np.random.Generator
 
 
 def draw_cycles(state: State, style: int, n: int, rng: np.random.Generator) -> Array:
-    """Return draws (n, M, F) of Q(Z) of a style, through one elimination."""
+    """Return draws (n, M, F) from Q(Z) of a style, by one factorisation."""
     theta = state.parameters
     counts, _ = state.evidence.by_style(state.labels[:, [style]])
     ground = theta.closeness + theta.precisions[style] * counts[:, 0]
@@ -45,7 +49,7 @@ def draw_cycles(state: State, style: int, n: int, rng: np.random.Generator) -> A
 def draw_path(
     jumps: Array, n_states: int, n_frames: int, rng: np.random.Generator
 ) -> NDArray[np.intp]:
-    """Return a path (N,) of the chain, its first state uniform."""
+    """Return a random path (N,) of the chain; its first state is uniform."""
     steps = 1 + rng.choice(len(jumps), size=n_frames - 1, p=jumps)
     return np.cumsum(np.concatenate([rng.integers(n_states, size=1), steps])) % n_states
 
@@ -53,7 +57,7 @@ def draw_path(
 def blended(state: State, weights: Array) -> Array:
     """Return the styles' mean cycles mixed by weights (N, C), at the mean pace: (N, F).
 
-    A pose between two states is between theirs, for a pace is not a whole number of states.
+    The pace is not a whole number of states; poses between states are interpolated linearly.
 
     Raises
     ------
@@ -68,10 +72,10 @@ def blended(state: State, weights: Array) -> Array:
 
 
 def _poses(cycles: Array, position: Array) -> Array:
-    """Return cycles (M, …) at positions (N,) on the ring, linear between states: (N, …)."""
+    """Return cycles (M, …) at positions (N,) on the ring, interpolated linearly: (N, …)."""
     state, n_states = position.astype(np.intp), len(cycles)
-    share = (position - state).reshape(-1, *[1] * (cycles.ndim - 1))
-    return (1.0 - share) * cycles[state % n_states] + share * cycles[(state + 1) % n_states]
+    fraction = (position - state).reshape(-1, *[1] * (cycles.ndim - 1))
+    return (1.0 - fraction) * cycles[state % n_states] + fraction * cycles[(state + 1) % n_states]
 
 
 def _check_weights(weights: Array, n_styles: int) -> None:

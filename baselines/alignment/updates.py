@@ -1,6 +1,10 @@
-"""The updates of HLM §3, one function each: none of them lowers the bound.
+"""The updates of HLM §3, one function each. No update lowers the bound.
 
-Numbers of equations are HLM's; where the paper errs, the docstring says what is right instead.
+Equation numbers are those of HLM. Where a printed formula is wrong, the docstring gives the
+corrected one.
+
+Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
+as HLM.
 """
 
 from __future__ import annotations
@@ -20,7 +24,7 @@ from mocapbench.baselines.alignment.expectations import (
     residuals,
     roughness,
 )
-from mocapbench.baselines.alignment.model import Evidence, Hyperparameters, Parameters, State
+from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hyperparameters, State
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 
 __all__ = [
@@ -37,7 +41,7 @@ __all__ = [
 
 
 def update_paths(state: State, sequences: Sequences, _: Hyperparameters) -> State:
-    """Q(π), eq. (7), by forward–backward over the styles' expected log-likelihoods, eq. (10)."""
+    """Update Q(π), eq. (7), by forward–backward on the expected log-likelihoods, eq. (10)."""
     parameters = state.parameters
     expected = emission(sequences, state.cycles, parameters.precisions, state.labels)
     paths = forward_backward(expected, parameters.jumps, sequences.frames)
@@ -45,7 +49,7 @@ def update_paths(state: State, sequences: Sequences, _: Hyperparameters) -> Stat
 
 
 def update_labels(state: State, sequences: Sequences, _: Hyperparameters) -> State:
-    """Q(l), eq. (11), over visible entries."""
+    """Update Q(l), eq. (11), over visible entries."""
     score = np.log(state.parameters.weights) + log_likelihood(state, sequences)
     score -= score.max(axis=1, keepdims=True)
     labels = np.exp(score)
@@ -53,10 +57,11 @@ def update_labels(state: State, sequences: Sequences, _: Hyperparameters) -> Sta
 
 
 def update_cycles(state: State, _: Sequences, hyper: Hyperparameters) -> State:
-    """Q(Z), eq. (9).
+    """Update Q(Z), eq. (9), corrected.
 
-    The precision of a channel has the diagonal 2λ_s + λ_z̄ + λ_f n_m, n_m the expected number of
-    visible entries, and the mean solves for λ_z̄ z̄ + λ_f Σ γ x: the paper divides by n_m instead.
+    The precision S of a channel has the diagonal 2λ_s + λ_z̄ + λ_f n_m, with n_m the expected number
+    of visible entries of state m, and the mean is S⁻¹ (λ_z̄ z̄ + λ_f Σ γ x). HLM divides the sum by
+    n_m and omits S⁻¹.
     """
     theta = state.parameters
     counts, sums = state.evidence.by_style(state.labels)
@@ -66,9 +71,10 @@ def update_cycles(state: State, _: Sequences, hyper: Hyperparameters) -> State:
 
 
 def update_parent(state: State, _: Sequences, hyper: Hyperparameters) -> State:
-    """Eq. (17) with its bracket: (Cλ_z̄ + 4η) z̄_m − 2η (z̄_{m−1} + z̄_{m+1}) = λ_z̄ Σ_c ⟨z_m^c⟩.
+    """Update z̄, eq. (17) with the missing bracket.
 
-    Where the prior is centred, the whole precision of a cycle stands in place of λ_z̄.
+    It solves (Cλ_z̄ + 4η) z̄_m − 2η (z̄_{m−1} + z̄_{m+1}) = λ_z̄ Σ_c ⟨z_m^c⟩. For the centred prior the
+    precision matrix of a cycle takes the place of λ_z̄.
     """
     theta, (n_states, n_styles, _channels) = state.parameters, state.cycles.mean.shape
     impulse = np.eye(n_states)[0]
@@ -79,7 +85,7 @@ def update_parent(state: State, _: Sequences, hyper: Hyperparameters) -> State:
 
 
 def update_smoothness(state: State, _: Sequences, hyper: Hyperparameters) -> State:
-    """λ_s, eq. (13), as the prior is normalised."""
+    """Update λ_s: eq. (13) or its equivalent for the chosen prior."""
     n_states, *batch = state.cycles.mean.shape
     reference = hyper.prior.reference(state.parameters.parent)
     mean = roughness(state.cycles, reference) / np.prod(batch)
@@ -88,7 +94,7 @@ def update_smoothness(state: State, _: Sequences, hyper: Hyperparameters) -> Sta
 
 
 def update_closeness(state: State, _: Sequences, hyper: Hyperparameters) -> State:
-    """λ_z̄, eq. (12), as the prior is normalised."""
+    """Update λ_z̄: eq. (12) or its equivalent for the chosen prior."""
     n_states, *batch = state.cycles.mean.shape
     mean = distance(state.cycles, state.parameters.parent) / np.prod(batch)
     best = hyper.prior.closeness(state.parameters.smoothness, n_states, mean)
@@ -96,7 +102,7 @@ def update_closeness(state: State, _: Sequences, hyper: Hyperparameters) -> Stat
 
 
 def update_precisions(state: State, sequences: Sequences, hyper: Hyperparameters) -> State:
-    """λ_f^c, eq. (14), over visible entries; a style that nothing shows keeps its own."""
+    """Update λ_f^c, eq. (14), over visible entries; a style without any keeps its precision."""
     counts = state.labels.T @ sequences.counts
     squares = np.einsum("kc,kcf->cf", state.labels, residuals(state, sequences))
     best = counts / np.maximum(squares, counts / hyper.max_precision + np.finfo(float).tiny)
@@ -104,19 +110,19 @@ def update_precisions(state: State, sequences: Sequences, hyper: Hyperparameters
 
 
 def update_weights(state: State, _: Sequences, hyper: Hyperparameters) -> State:
-    """τ, eq. (15)."""
+    """Update τ, eq. (15)."""
     weights = hyper.regularisation + state.labels.sum(axis=0)
     return _learnt(state, weights=weights / weights.sum())
 
 
 def update_jumps(state: State, _: Sequences, hyper: Hyperparameters) -> State:
-    """d, eq. (16), ξ being the joint posterior of two successive states."""
+    """Update d, eq. (16), where ξ is the joint posterior of two consecutive states."""
     jumps = hyper.regularisation + state.paths.jumps
     return _learnt(state, jumps=jumps / jumps.sum(axis=1, keepdims=True))
 
 
-def _pull(curves: Array, theta: Parameters, hyper: Hyperparameters) -> Array:
-    """Return what a parent (M, …) adds to precision times mean of its cycles; λ_z̄ z̄ in HLM."""
+def _pull(curves: Array, theta: CycleParameters, hyper: Hyperparameters) -> Array:
+    """Return a parent's contribution to precision times mean of its cycles: λ_z̄ z̄ in HLM."""
     shape = theta.smoothness * _curvature(hyper.prior.reference(curves))
     return theta.closeness * curves + shape
 
@@ -127,5 +133,5 @@ def _curvature(curves: Array) -> Array:
 
 
 def _learnt(state: State, **parameters: Any) -> State:
-    """Return the state with some parameters replaced."""
+    """Return the state with some parameters of θ replaced."""
     return replace(state, parameters=replace(state.parameters, **parameters))

@@ -1,4 +1,4 @@
-"""Parameters of the models of cyclic motion, checked."""
+"""Checks of the parameters of the models of cyclic motion."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _CHECKS: dict[str, Callable[[str, object], None]] = {
 
 
 def check_settings(**parameters: Any) -> None:
-    """Check parameters that go by the names that `CyclicAlignment` and `KMeans` give them.
+    """Check the parameters of an estimator, which have the names of `CyclicAlignment` or `KMeans`.
 
     Raises
     ------

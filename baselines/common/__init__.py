@@ -1,1 +1,1 @@
-"""What more than one family of models uses."""
+"""Helpers that more than one family of models uses."""

@@ -1,4 +1,4 @@
-"""Frames that are hidden as a whole, and the gaps that they make."""
+"""Frames that are hidden as a whole, and runs of consecutive frames."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Two routines of LAPACK that let other threads run.
+"""Two LAPACK routines, called without Python's global interpreter lock.
 
-scipy's wrappers keep Python's global lock while they work, so that threads over outputs would wait
-for each other. The same compiled routines, reached through scipy's table for Cython, are called
-here without it.
+scipy's wrappers hold the lock while they work, so that threads over outputs would wait for each
+other. Here the same compiled routines are taken from `scipy.linalg.cython_lapack` and called
+through ctypes, which releases the lock.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 def _routine(capsule: object) -> Callable[[Array], int]:
-    """Return a routine (uplo, n, a, lda, info) as a function of a that gives info."""
+    """Return a LAPACK routine (uplo, n, a, lda, info) as a function from a to info."""
     of_name = ctypes.pythonapi.PyCapsule_GetName
     of_name.restype, of_name.argtypes = ctypes.c_char_p, [ctypes.py_object]
     address_of = ctypes.pythonapi.PyCapsule_GetPointer
@@ -45,12 +45,23 @@ _dpotri = _routine(cython_lapack.__pyx_capi__["dpotri"])
 def potrf(matrix: Array) -> int:
     """Overwrite the lower triangle of a C-ordered matrix with its Cholesky factor.
 
-    What is below the diagonal of a C-ordered array is above that of the Fortran-ordered one that
-    LAPACK sees. Returns 0, or the order of the leading minor that is not positive definite.
+    The lower triangle of a C-ordered array is the upper one of the Fortran-ordered array that
+    LAPACK sees.
+
+    Returns
+    -------
+    int
+        0, or the order of the leading minor that is not positive definite.
     """
     return _dpotrf(matrix)
 
 
 def potri(factor: Array) -> int:
-    """Overwrite a lower Cholesky factor (`potrf`) with the lower triangle of the inverse."""
+    """Overwrite a lower Cholesky factor (`potrf`) with the lower triangle of the inverse.
+
+    Returns
+    -------
+    int
+        0, or the index, counted from 1, of a zero on the factor's diagonal.
+    """
     return _dpotri(factor)

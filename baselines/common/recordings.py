@@ -1,4 +1,4 @@
-"""Recordings as models take them: checked, and pooled over fit and impute."""
+"""Checks of the recordings that models are given, and pooling over fit and impute."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ Array = NDArray[np.float64]
 
 
 def check_recordings(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
-    """Return the recordings as a tuple, once they can be stacked.
+    """Return the recordings as a tuple, after checking that they can be stacked.
 
     Raises
     ------
     ValueError
-        If there is none, channels differ, or a name repeats.
+        If there is no recording, channels differ, or a name repeats.
     """
     checked = tuple(recordings)
     if not checked:
@@ -47,7 +47,7 @@ def check_channels(recordings: Sequence[Recording], channels: tuple[str, ...]) -
     Raises
     ------
     ValueError
-        If one has not.
+        If a recording has other channels.
     """
     for recording in recordings:
         if recording.channels != channels:
@@ -58,12 +58,12 @@ def check_channels(recordings: Sequence[Recording], channels: tuple[str, ...]) -
 
 
 def check_outputs(recordings: Sequence[Recording], process: ToyProcess) -> None:
-    """Check that recordings with the same channels have as many as a process has outputs.
+    """Check that recordings with the same channels have one for each output of a process.
 
     Raises
     ------
     ValueError
-        If they have not.
+        If the numbers differ.
     """
     n_channels = len(recordings[0].channels)
     if n_channels != process.n_outputs:
@@ -88,26 +88,28 @@ def check_visible(recordings: Sequence[Recording]) -> None:
 
 
 def pool(fitted: Sequence[Recording], given: Sequence[Recording]) -> tuple[Recording, ...]:
-    """Return the recordings given to fit and impute, each name once, as given last.
+    """Return the recordings given to fit or impute, each name once.
+
+    A recording given to both is taken as given to impute.
 
     Raises
     ------
     ValueError
-        As `check_recordings`.
+        If there is no recording, or channels differ.
     """
     by_name = {recording.name: recording for recording in (*fitted, *given)}
     return check_recordings(tuple(by_name.values()))
 
 
 def stack(recordings: Sequence[Recording]) -> FrameByChannel:
-    """Return the values of all recordings, one below the other: (ΣN, D)."""
+    """Return the values of all recordings, stacked along frames: (ΣN, D)."""
     return np.concatenate([recording.values for recording in recordings])
 
 
 def visible_moments(recordings: Sequence[Recording]) -> tuple[Array, Array]:
     """Return the mean and variance (ddof 0) of each channel's visible entries: (D,) each.
 
-    NaN where a channel has none.
+    They are NaN where a channel has none.
     """
     values = stack(recordings)
     seen = ~np.isnan(values)

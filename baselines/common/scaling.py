@@ -16,7 +16,7 @@ __all__ = ["Standardisation"]
 Array = NDArray[np.float64]
 
 CONSTANT = 1e-12
-"""Relative standard deviation below which an output is constant but for rounding."""
+"""Relative standard deviation below which an output counts as constant: it is rounding error."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +37,7 @@ class Standardisation:
 
     @classmethod
     def of(cls, recordings: Sequence[Recording]) -> Standardisation:
-        """Learn the map from recordings with the same channels.
+        """Return the map for recordings with the same channels.
 
         Raises
         ------
@@ -60,10 +60,13 @@ class Standardisation:
         return recording.with_values((recording.values - self.mean) / self.scale)
 
     def restore(self, values: FrameByChannel) -> FrameByChannel:
-        """Return values (…, N, D) in the outputs' own units."""
+        """Return ``values`` (…, N, D) in standard units in the outputs' own units."""
         return values * self.scale + self.mean
 
     @property
     def log_jacobian(self) -> float:
-        """What the log-density of the data gains by the change of units: −Σ_d n_d log scale_d."""
+        """The log-Jacobian of the change of units, −Σ_d n_d log scale_d.
+
+        It is added to the log-density of data in standard units to get that in their own units.
+        """
         return -float(self.counts @ np.log(self.scale))

@@ -1,4 +1,4 @@
-"""The cheapest path through a trellis (Viterbi)."""
+"""The path of least cost through a trellis (the Viterbi algorithm)."""
 
 from __future__ import annotations
 
@@ -18,11 +18,12 @@ def cheapest_path(
     emission : ndarray of shape (T, S)
         The cost of each state at each time.
     transition : ndarray of shape (S, S)
-        The cost from row to column; infinite where there is no way.
+        The cost of going from state (row) to state (column); infinite where that is impossible.
 
     Returns
     -------
-    ndarray of shape (T,)
+    ndarray of int, shape (T,)
+        The states. Ties go to the state with the smallest index.
     """
     states = np.arange(emission.shape[1])
     cost, before = emission[0], []

@@ -1,8 +1,9 @@
-"""A path through a gap that moves as training frames near it moved.
+"""A path through a gap whose steps are those that training frames near it made.
 
-The steps of a path y_1 … y_n with given ends that minimise Σ_t ‖y_{t+1} − y_t − m_t‖² are the
-m_t, each corrected by an equal share of what their sum misses: the solution of the tridiagonal
-normal equations, in closed form. With one end given nothing is missed.
+The path y_1 … y_n with given ends that minimises Σ_t ‖y_{t+1} − y_t − m_t‖² has the steps m_t plus
+a constant: the difference between the given displacement y_n − y_1 and Σ_t m_t, divided by n − 1.
+This is the solution of the tridiagonal normal equations in closed form. With only one end given
+the constant is 0.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ __all__ = ["fill_gap", "least_squares_path"]
 
 Array = NDArray[np.float64]
 Steps = Callable[[FrameByChannel], Array]
+"""From frames (n, D) to the step (n, D) expected from each."""
 
 _ROUNDS = 20
 _TOLERANCE = 1e-6
@@ -29,17 +31,21 @@ def least_squares_path(steps: Array, path: FrameByChannel) -> FrameByChannel:
     Parameters
     ----------
     steps : ndarray of shape (n - 1, D)
-        The steps m_t to come near to.
+        The steps m_t.
     path : ndarray of shape (n, D)
-        Its first frame, its last frame or both are given, all others are NaN.
+        The first frame, the last frame or both are given; all others are NaN.
+
+    Returns
+    -------
+    ndarray of shape (n, D)
     """
     free = np.concatenate([np.zeros((1, path.shape[1])), np.cumsum(steps, axis=0)])
-    missed = (path - free)[~np.isnan(path).any(axis=1)]
-    return free + np.linspace(missed[0], missed[-1], len(path))
+    offsets = (path - free)[~np.isnan(path).any(axis=1)]
+    return free + np.linspace(offsets[0], offsets[-1], len(path))
 
 
 def fill_gap(path: FrameByChannel, steps: Steps) -> FrameByChannel:
-    """Alternate between the steps expected on a path and the path of these steps.
+    """Alternate between the steps expected on the current path and the path of these steps.
 
     Starts from the straight line between the ends (a constant if one is given) and stops after 20
     rounds, or when a round changes the path by less than 1e-6 of its norm.
@@ -50,6 +56,10 @@ def fill_gap(path: FrameByChannel, steps: Steps) -> FrameByChannel:
         As in `least_squares_path`.
     steps : callable
         From frames (n - 1, D) to the step (n - 1, D) expected from each.
+
+    Returns
+    -------
+    ndarray of shape (n, D)
     """
     current = least_squares_path(np.zeros_like(path[1:]), path)
     for _ in range(_ROUNDS):

@@ -1,4 +1,4 @@
-"""Checks of the parameters that estimators take: each names what was expected and what was got."""
+"""Checks of estimators' parameters, with messages that say what was expected and what was given."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def check_choice(name: str, value: object, choices: Collection[str]) -> None:
 def components_of(
     n_components: int | Mapping[str, int], layers: Sequence[str]
 ) -> Mapping[str, int]:
-    """Return the number of components of each layer; one number serves them all.
+    """Return the number of components of each layer; a single number is that of every layer.
 
     Raises
     ------
@@ -101,5 +101,5 @@ def components_of(
 
 
 def _is_integer(value: object) -> TypeGuard[Integral]:
-    """Whether ``value`` is an integer; True and False are none."""
+    """Return whether ``value`` is an integer other than True and False."""
     return isinstance(value, Integral) and not isinstance(value, bool)

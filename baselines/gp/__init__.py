@@ -1,26 +1,17 @@
 """The exact Gaussian-process core.
 
-A model of recordings (`reduction`) becomes a few small Gaussian problems of one form (`block`),
-which interchangeable exact solvers (`solver`: `dense`, `latent_split`, `state_space`) evaluate,
-differentiate and condition. On top of it stand training by maximum likelihood (`start`,
-`training`), prediction and draws (`prediction`, `sampling`), and the base class of the models
-(`estimator`). ``docs/inference.md`` has the mathematics in the names used here.
+Data pass through its folders and modules in this order:
+
+* `prior`: kernels, coregionalisation matrices and the parameters of both;
+* `reduction`: recordings become a few small Gaussian problems of one form, exactly;
+* `solvers`: interchangeable exact methods evaluate, differentiate and condition such a problem
+  (`solvers.dense`, `solvers.kronecker`, `solvers.latent_split`, `solvers.state_space`), and
+  `planner` chooses the one with the least work;
+* `training`: the parameters of largest likelihood are searched for;
+* `posterior`: predictions, joint covariances and draws with these parameters;
+* `estimator`: the base class of the models, on `covariances` (what is learnt), `imputation` (what
+  is predicted) and `synthesis` (what is drawn). `trended` adds a trend to it; `channelwise` and
+  `channel_posteriors` make one model for each channel.
+
+``docs/inference.md`` has the mathematics in the names used here.
 """
-
-from mocapbench.baselines.gp.estimator import GaussianProcess
-from mocapbench.baselines.gp.prior.kernels import KERNELS, Kernel
-from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, Layer, Parameters
-from mocapbench.baselines.gp.solvers.solver import Posterior, SingularCovarianceError, Solver
-
-__all__ = [
-    "CHILD",
-    "KERNELS",
-    "PARENT",
-    "GaussianProcess",
-    "Kernel",
-    "Layer",
-    "Parameters",
-    "Posterior",
-    "SingularCovarianceError",
-    "Solver",
-]

@@ -1,57 +1,49 @@
-"""What models have in common that are one Gaussian process a channel, nothing shared."""
+"""The base class of models with one independent Gaussian process for each channel."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Generic, Self, TypeVar
+from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.linalg import block_diag
-from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.baselines.common.validation import check_positive
-from mocapbench.baselines.gp.estimator import GaussianProcess
-from mocapbench.baselines.protocols import (
-    Imputer,
-    Prediction,
-    SampleByFrameByChannel,
-    Synthesiser,
-)
-from mocapbench.datasets import Frames, Recording
+from mocapbench.baselines.gp.channel_posteriors import ChannelPosteriors, Single
+from mocapbench.datasets import Recording
 
 __all__ = ["Channelwise"]
 
-Single = TypeVar("Single", bound=GaussianProcess)
-"""The model of a channel."""
 
+class Channelwise(ChannelPosteriors[Single]):
+    """A separate model for each channel, with separate parameters.
 
-class Channelwise(Imputer, Synthesiser, Generic[Single]):
-    """A model for each channel on its own, with parameters of its own.
+    N is the number of frames of a recording, D that of channels, Q that of components of a layer.
 
     Parameters
     ----------
     n_components : int or mapping of str to int, default=1
-        Number of kernels that are added in each channel, of each layer or of every layer by its
+        Number Q of kernels that are added up in every layer of a channel, or in each layer by its
         name.
     kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
         The kernel of every component.
     n_restarts : int, default=1
-        Number of searches a channel; the first starts from the data.
+        Number of searches for each channel; the first starts from the data, the others at random
+        around it.
     max_iter : int, default=1000
         Largest number of iterations of a search.
     tol : float, default=1e-7
-        Relative gain of an iteration at which a search has converged, as in `GaussianProcess`.
+        Relative gain of an iteration below which a search has converged, as in `GaussianProcess`.
     max_seconds : float or None, default=None
-        Time for all channels together, of which each gets an even share.
+        Time for all channels together, in seconds, divided evenly between them; None sets no
+        limit.
     warm_start : bool, default=False
-        Whether `fit` starts from the parameters of the last one, where there was one.
+        Whether `fit` starts from the parameters of the previous fit, if there was one.
     verbose : bool, default=False
         Whether `fit` prints a line for every iteration.
-    solver : {"auto", "dense", "latent-split", "state-space"}, default="auto"
-        How the likelihood is computed.
+    solver : {"auto", "dense", "latent-split", "state-space", "kronecker"}, default="auto"
+        How the likelihood is computed, as in `GaussianProcess`.
     random_state : int, numpy.random.Generator or None, default=None
         Seed of the random starts.
 
@@ -68,8 +60,6 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
     solver_ : str
         The solvers that were used.
     """
-
-    models_: tuple[Single, ...]
 
     def __init__(
         self,
@@ -102,12 +92,25 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         """Return an unfitted model of one channel."""
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
-        """Find each channel's parameters of largest likelihood.
+        """Find the parameters of largest likelihood of every channel.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+            Recordings with the same channels and different names; NaN marks a hidden entry.
+
+        Returns
+        -------
+        Channelwise
+            The model itself.
 
         Raises
         ------
         ValueError
-            As `GaussianProcess.fit`.
+            If a parameter is out of range, there is no recording, channels differ, a name
+            repeats, or a channel is nowhere visible.
+        SingularCovarianceError
+            If the covariance of a channel is singular at a start.
         """
         checked = check_recordings(recordings)
         models = self._unfitted(checked[0].channels)
@@ -123,71 +126,8 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         self.solver_ = "+".join(sorted({model.solver_ for model in self.models_}))
         return self
 
-    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictive distributions of recordings that `fit` has seen.
-
-        Raises
-        ------
-        ValueError
-            If a recording was not given to `fit`, or not with these times and values.
-        """
-        check_is_fitted(self)
-        by_channel = [
-            model.impute([recording.select([channel]) for recording in recordings])
-            for channel, model in zip(self.channels_, self.models_, strict=True)
-        ]
-        return [
-            Prediction(
-                np.hstack([prediction.mean for prediction in predictions]),
-                np.hstack([prediction.variance for prediction in predictions]),
-            )
-            for predictions in zip(*by_channel, strict=True)
-        ]
-
-    def sample(
-        self, times: Frames, n_samples: int, random_state: int | np.random.Generator
-    ) -> SampleByFrameByChannel:
-        """Return new recordings, noise included, (n, N, D), as `GaussianProcess.sample`."""
-        check_is_fitted(self)
-        rng = np.random.default_rng(random_state)
-        return np.dstack([model.sample(times, n_samples, rng) for model in self.models_])
-
-    def posterior_covariance(
-        self, recording: Recording, times: Frames | None = None
-    ) -> NDArray[np.float64]:
-        """Return the joint covariance of a recording's curve, (D M, D M), channel by channel.
-
-        As `GaussianProcess.posterior_covariance`; channels do not covary.
-        """
-        check_is_fitted(self)
-        return np.asarray(
-            block_diag(
-                *(
-                    model.posterior_covariance(recording.select([channel]), times)
-                    for channel, model in zip(self.channels_, self.models_, strict=True)
-                )
-            )
-        )
-
-    def posterior_draws(
-        self,
-        recording: Recording,
-        n_samples: int,
-        random_state: int | np.random.Generator,
-        times: Frames | None = None,
-    ) -> SampleByFrameByChannel:
-        """Return draws of a recording's curve, (n, M, D), as `GaussianProcess.posterior_draws`."""
-        check_is_fitted(self)
-        rng = np.random.default_rng(random_state)
-        return np.dstack(
-            [
-                model.posterior_draws(recording.select([channel]), n_samples, rng, times)
-                for channel, model in zip(self.channels_, self.models_, strict=True)
-            ]
-        )
-
     def _unfitted(self, channels: Sequence[str]) -> Mapping[str, Single]:
-        """Return a model for each channel; a warm start takes up the last one of that channel."""
+        """Return a model to fit for each channel; a warm start takes the channel's previous one."""
         settings = self.get_params() | {"random_state": np.random.default_rng(self.random_state)}
         if self.max_seconds is not None:
             check_positive("max_seconds", self.max_seconds)

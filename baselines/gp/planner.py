@@ -1,4 +1,4 @@
-"""Which solver to use for each block: the one with the least counted work."""
+"""Which solver to use for each block: the one with the least estimated work."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from types import MappingProxyType
 import numpy as np
 
 from mocapbench.baselines.common.threads import Mapper
-from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.solvers.dense import Dense
@@ -17,18 +17,18 @@ from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
 from mocapbench.baselines.gp.solvers.solver import Solver
 from mocapbench.baselines.gp.solvers.state_space.solver import StateSpace
 
-__all__ = ["PLANS", "Plan", "name_of", "reason", "with_mapper", "work"]
+__all__ = ["PLANS", "Plan", "describe_work", "solver_names", "with_mapper", "work"]
 
-Plan = Callable[[Kernel, Reduction, Parameters], tuple[Solver, ...]]
-"""Chooses a solver for each block; the parameters matter by their shapes alone."""
+Plan = Callable[[StationaryKernel, Reduction, Parameters], tuple[Solver, ...]]
+"""Chooses a solver for each block; of the parameters only the shapes matter."""
 
 _SOLVERS: tuple[type[Solver], ...] = (Dense, LatentSplit, StateSpace, Kronecker)
 
 
 def work(
-    kernel: Kernel, reduction: Reduction, parameters: Parameters
+    kernel: StationaryKernel, reduction: Reduction, parameters: Parameters
 ) -> tuple[Mapping[str, float], ...]:
-    """Return for each block the counted work of every solver, infinite where it cannot serve."""
+    """Return for each block the estimated work of every solver; infinite if it cannot solve it."""
     solvers = [solver(kernel) for solver in _SOLVERS]
     return tuple(
         {solver.name: solver.work(block, parameters) for solver in solvers}
@@ -36,7 +36,7 @@ def work(
     )
 
 
-def name_of(solvers: Sequence[Solver]) -> str:
+def solver_names(solvers: Sequence[Solver]) -> str:
     """Return the names of the solvers in use, joined by plus signs."""
     return "+".join(sorted({solver.name for solver in solvers}))
 
@@ -46,20 +46,26 @@ def with_mapper(solvers: Sequence[Solver], mapper: Mapper) -> tuple[Solver, ...]
     return tuple(type(solver)(solver.kernel, mapper) for solver in solvers)
 
 
-def reason(solvers: Sequence[Solver], reduction: Reduction, parameters: Parameters) -> str:
-    """Return the solvers in use, their work, and the work that each solver alone would have."""
-    counted = work(solvers[0].kernel, reduction, parameters)
-    in_use = sum(of_block[solver.name] for of_block, solver in zip(counted, solvers, strict=True))
-    alone = {solver.name: sum(of_block[solver.name] for of_block in counted) for solver in _SOLVERS}
+def describe_work(solvers: Sequence[Solver], reduction: Reduction, parameters: Parameters) -> str:
+    """Return the solvers in use, their work, and the work of each solver alone."""
+    estimated = work(solvers[0].kernel, reduction, parameters)
+    in_use = sum(of_block[solver.name] for of_block, solver in zip(estimated, solvers, strict=True))
+    alone = {
+        solver.name: sum(of_block[solver.name] for of_block in estimated) for solver in _SOLVERS
+    }
     others = ", ".join(
         f"{name} alone {amount / 1e9:.2g}"
         for name, amount in sorted(alone.items(), key=lambda pair: pair[1])
         if np.isfinite(amount)
     )
-    return f"{name_of(solvers)}: {in_use / 1e9:.2g} billion operations an evaluation ({others})"
+    return (
+        f"{solver_names(solvers)}: {in_use / 1e9:.2g} billion operations an evaluation ({others})"
+    )
 
 
-def _least_work(kernel: Kernel, reduction: Reduction, parameters: Parameters) -> tuple[Solver, ...]:
+def _least_work(
+    kernel: StationaryKernel, reduction: Reduction, parameters: Parameters
+) -> tuple[Solver, ...]:
     by_name = {solver.name: solver for solver in _SOLVERS}
     return tuple(
         by_name[min(of_block, key=of_block.__getitem__)](kernel)
@@ -68,14 +74,16 @@ def _least_work(kernel: Kernel, reduction: Reduction, parameters: Parameters) ->
 
 
 def _always(solver: type[Solver]) -> Plan:
-    def plan(kernel: Kernel, reduction: Reduction, parameters: Parameters) -> tuple[Solver, ...]:
+    def plan(
+        kernel: StationaryKernel, reduction: Reduction, parameters: Parameters
+    ) -> tuple[Solver, ...]:
         for of_block in work(kernel, reduction, parameters):
             if np.isinf(of_block[solver.name]):
                 able = sorted(name for name, amount in of_block.items() if np.isfinite(amount))
                 raise ValueError(
-                    f"expected a solver that can do every part of this problem, got "
-                    f"{solver.name!r}: it needs {solver.needs}; here {able} can, or leave the "
-                    "choice to 'auto'"
+                    f"expected a solver that can solve every part of this problem, got "
+                    f"{solver.name!r}: it needs {solver.needs}; choose one of {able} here, or "
+                    "'auto'"
                 )
         return (solver(kernel),) * len(reduction.blocks)
 

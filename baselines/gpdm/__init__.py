@@ -1,7 +1,16 @@
-"""Gaussian process dynamical models: latent trajectories, poses, and the ways to learn them.
+"""Gaussian process dynamical models: latent trajectories, poses and learning algorithms.
 
-One idea a module: `kernels` with their reverse derivatives, the Gaussian `process` that both
-mappings are, the `dynamics`, the joint `posterior`, `learning` and `two_stage` learning with `hmc`,
-the `conditional` model of a further sequence and the `starts` of its trajectory, `rollout` of new
-ones, and the `estimator` that puts them together for a `model`.
+The models are those of J. M. Wang, D. J. Fleet and A. Hertzmann (2008), *Gaussian Process
+Dynamical Models for Human Motion*, IEEE TPAMI 30(2), cited as GPDM. One idea a module:
+
+* `kernels`: covariance functions with their reverse-mode derivatives;
+* `process`: the Gaussian process behind both mappings, to poses and to the next position;
+* `dynamics`: priors of latent trajectories;
+* `posterior`: the joint posterior density of latent positions and parameters;
+* `learning` and `two_stage`: the learning algorithms; `descent` and `hmc`: the optimiser and the
+  sampler that they use;
+* `conditional`: the density of a further sequence; `starts`: where its optimisation starts;
+* `rollout`: new trajectories; `synthesis`: new recordings from them;
+* `sequences`: training recordings as the models take them;
+* `estimator`: the common estimator; `model`: the GPDM itself.
 """

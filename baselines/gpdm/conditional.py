@@ -1,4 +1,8 @@
-"""The distribution of a further sequence given the learnt model (GPDM §3.3)."""
+"""The distribution of a further sequence given the learnt model (GPDM §3.3).
+
+Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
+30(2), is cited as GPDM.
+"""
 
 from __future__ import annotations
 
@@ -9,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.gpdm.descent import descend
-from mocapbench.baselines.gpdm.dynamics import Motion
-from mocapbench.baselines.gpdm.posterior import Estimate, Posterior
-from mocapbench.baselines.gpdm.process import Conditioned
+from mocapbench.baselines.gpdm.dynamics import ConditionedDynamics
+from mocapbench.baselines.gpdm.posterior import JointPosterior, PointEstimate
+from mocapbench.baselines.gpdm.process import ConditionedProcess
 
 __all__ = ["Conditional", "Query"]
 
@@ -25,8 +29,9 @@ class Query:
     Parameters
     ----------
     poses : ndarray of shape (M, D)
-        Hidden frames hold anything finite.
+        Hidden frames may hold any finite values; they are not read.
     visible : ndarray of bool, shape (M,)
+        Whether each frame is visible.
     """
 
     poses: Array
@@ -45,56 +50,59 @@ class Conditional:
         The training frames in the model's units.
     lengths : tuple of int
         Frames of each training sequence.
-    reconstruction : Conditioned
-    motion : Motion
+    reconstruction : ConditionedProcess
+        The mapping from latent positions to poses, given the training frames.
+    dynamics : ConditionedDynamics
+        The prior of a new trajectory, given the training trajectories.
     weight : float
-        What the prior of the trajectory is multiplied by, here as in learning.
+        Factor of the trajectory's log-prior, the same as in learning.
     """
 
     x: Array
     poses: Array
     lengths: tuple[int, ...]
-    reconstruction: Conditioned
-    motion: Motion
+    reconstruction: ConditionedProcess
+    dynamics: ConditionedDynamics
     weight: float
 
     @classmethod
-    def of(cls, posterior: Posterior, at: Estimate) -> Conditional:
+    def of(cls, posterior: JointPosterior, estimate: PointEstimate) -> Conditional:
         """Return the conditional model of an estimate."""
-        poses = posterior.y * at.scales
+        poses = posterior.y * estimate.scales
         return cls(
-            at.x,
+            estimate.x,
             poses,
             posterior.lengths,
-            posterior.reconstruction.conditioned(at.beta, at.x, poses),
-            posterior.dynamics.conditioned(at.alpha, at.x, posterior.lengths),
+            posterior.reconstruction.conditioned(estimate.beta, estimate.x, poses),
+            posterior.dynamics.conditioned(estimate.alpha, estimate.x, posterior.lengths),
             posterior.weight,
         )
 
     def negative_log_density(self, x: Array, query: Query) -> tuple[float, Array]:
-        """Return −ln of (20) at the positions ``x`` (M, d) of a query, and its slope.
+        """Return −ln of GPDM (20) at the positions ``x`` (M, d) of a query, and its gradient.
 
-        Hidden poses are at their mean given the training and the visible frames (§5.4).
+        Hidden poses take their mean given the training and the visible frames (GPDM §5.4).
         """
         poses, d_poses, _ = self.reconstruction.negative_log_density(x, query.poses, query.visible)
-        prior, d_prior = self.motion.negative_log_density(x)
+        prior, d_prior = self.dynamics.negative_log_density(x)
         return poses + self.weight * prior, d_poses + self.weight * d_prior
 
-    def improved(self, x: Array, query: Query, n_steps: int) -> Array:
-        """Return the positions after ``n_steps`` downhill."""
+    def optimise(self, x: Array, query: Query, n_steps: int) -> Array:
+        """Return the positions after at most ``n_steps`` iterations of L-BFGS from ``x``."""
 
         def objective(x: Array) -> tuple[float, Sequence[Array]]:
-            value, slope = self.negative_log_density(x, query)
-            return value, (slope,)
+            value, gradient = self.negative_log_density(x, query)
+            return value, (gradient,)
 
         return descend(objective, (x,), n_steps)[0]
 
     def predecessors(self) -> Array:
-        """Return each training frame's history (N, order, d), the last position first.
+        """Return the positions before each training frame's successor: (N, order, d).
 
-        Where a sequence begins, its first position stands for those before it.
+        The frame's own position comes first, then earlier ones. At the beginning of a sequence
+        its first position is repeated.
         """
         frames = np.concatenate([np.arange(length) for length in self.lengths])
         rows = np.arange(len(frames))[:, None]
-        lags = np.arange(self.motion.order)
+        lags = np.arange(self.dynamics.order)
         return np.asarray(self.x[rows - np.minimum(lags, frames[:, None])])

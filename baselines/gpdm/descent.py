@@ -1,4 +1,4 @@
-"""A stated number of steps downhill, in several arrays at once."""
+"""Minimisation over several arrays at once, for a stated number of iterations."""
 
 from __future__ import annotations
 
@@ -11,21 +11,23 @@ from scipy.optimize import minimize
 __all__ = ["descend"]
 
 Array = NDArray[np.float64]
-Slope = tuple[float, Sequence[Array]]
+ValueAndGradients = tuple[float, Sequence[Array]]
 
 
 def descend(
-    objective: Callable[..., Slope], start: Sequence[Array], n_steps: int
+    objective: Callable[..., ValueAndGradients], start: Sequence[Array], n_steps: int
 ) -> tuple[Array, ...]:
     """Return the arrays after at most ``n_steps`` iterations of L-BFGS.
 
     Parameters
     ----------
     objective : callable
-        From as many arrays as ``start`` has to a value and its slopes with respect to each.
+        Takes as many arrays as ``start`` has and returns the value and one gradient an array.
     start : sequence of ndarray
+        Where the search starts.
     n_steps : int
-        Early stopping, not convergence: the parameters of the family keep drifting.
+        Largest number of iterations. This is early stopping rather than convergence: the kernel
+        parameters of these models keep drifting for thousands of iterations.
     """
     places = np.cumsum([array.size for array in start])[:-1]
 
@@ -34,14 +36,14 @@ def descend(
         return [piece.reshape(a.shape) for piece, a in zip(pieces, start, strict=True)]
 
     def flat(vector: Array) -> tuple[float, Array]:
-        value, slopes = objective(*parts(vector))
-        return value, np.concatenate([slope.ravel() for slope in slopes])
+        value, gradients = objective(*parts(vector))
+        return value, np.concatenate([gradient.ravel() for gradient in gradients])
 
-    found = minimize(
+    result = minimize(
         flat,
         np.concatenate([array.ravel() for array in start]),
         jac=True,
         method="L-BFGS-B",
         options={"maxiter": n_steps, "maxfun": 20 * n_steps + 20, "ftol": 0.0, "gtol": 0.0},
     )
-    return tuple(parts(found.x))
+    return tuple(parts(result.x))

@@ -1,7 +1,11 @@
-"""Priors of latent trajectories: Markov chains of any order, and none (the GPLVM).
+"""Priors of latent trajectories: Markov dynamics of any order, and independent positions (GPLVM).
 
-The function that leads from the last positions to the next is integrated out, GPDM (10); several
-sequences share it, (15) and (16); it may depend on two positions, (17), or predict the step, (19).
+The function from the last positions to the next one is integrated out, GPDM eq. (10). Several
+sequences share it, (15) and (16); it may depend on the last two positions, (17), or predict the
+step instead of the position, (19).
+
+Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
+30(2), is cited as GPDM.
 """
 
 from __future__ import annotations
@@ -13,27 +17,27 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.gpdm.process import Conditioned, Process
+from mocapbench.baselines.gpdm.process import ConditionedProcess, Process
 
-__all__ = ["Dynamics", "Markov", "Motion", "Static"]
+__all__ = ["ConditionedDynamics", "Dynamics", "Markov", "Static"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 
-class Motion(ABC):
-    """What a learnt prior says of a new trajectory."""
+class ConditionedDynamics(ABC):
+    """The prior of a new trajectory, given the training trajectories."""
 
     order: int
-    """On how many positions the next one depends."""
+    """Number of previous positions on which the next one depends."""
 
     @abstractmethod
     def negative_log_density(self, x: Array) -> tuple[float, Array]:
-        """Return −ln p(x | training) of a new sequence ``x`` (M, d), and its slope."""
+        """Return −ln p(x | training) of a new trajectory ``x`` (M, d), and its gradient."""
 
     @abstractmethod
     def step(self, history: Array) -> tuple[Array, Array]:
-        """Return mean (n, d) and variance (n,) of the positions after ``history``.
+        """Return the mean (n, d) and variance (n,) of the positions that follow ``history``.
 
         Parameters
         ----------
@@ -54,20 +58,33 @@ class Dynamics(ABC):
     def negative_log_prior(
         self, theta: Array, x: Array, lengths: Sequence[int]
     ) -> tuple[float, Array, Array]:
-        """Return −ln p(x) of sequences stacked in ``x`` (N, d), and its slopes in x and theta."""
+        """Return −ln p(x) of sequences stacked in ``x`` (N, d), and its gradients.
+
+        The gradients are those with respect to ``x`` and to the log-parameters ``theta``.
+        """
 
     @abstractmethod
-    def conditioned(self, theta: Array, x: Array, lengths: Sequence[int]) -> Motion:
-        """Return the prior of a further sequence, given those in ``x``."""
+    def conditioned(self, theta: Array, x: Array, lengths: Sequence[int]) -> ConditionedDynamics:
+        """Return the prior of a further trajectory, given those stacked in ``x`` (N, d)."""
 
     @abstractmethod
     def properties(self, theta: Array, n_latent: int) -> dict[str, float]:
-        """Return the signal-to-noise ratio and characteristic lengthscale of GPDM Table 1."""
+        """Return the signal-to-noise ratio and characteristic lengthscale, as in GPDM Table 1."""
 
 
 @dataclass(frozen=True)
 class _Lags:
-    """Rows of stacked sequences: of each position, of those before it, and of the first ones."""
+    """Rows of stacked sequences that the dynamics relate.
+
+    Parameters
+    ----------
+    now : ndarray of int, shape (P,)
+        Positions that have ``order`` predecessors.
+    before : ndarray of int, shape (P, order)
+        Their predecessors, the last one first.
+    first : ndarray of int
+        Positions without as many predecessors.
+    """
 
     now: Index
     before: Index
@@ -88,9 +105,11 @@ class Markov(Dynamics):
     Parameters
     ----------
     process : Process
+        The prior of f, with the noise.
     order : int, default=1
+        Number of previous positions on which the next one depends.
     carry : float, default=0.0
-        c: 0 predicts the position, 1 the step (velocity prediction).
+        The factor c: 0 predicts the position, 1 the step (velocity prediction, GPDM eq. 19).
     """
 
     process: Process
@@ -99,7 +118,7 @@ class Markov(Dynamics):
 
     @property
     def start(self) -> Array:
-        """Those of the process."""
+        """The start of the process."""
         return self.process.start
 
     def _pairs(self, x: Array, lags: _Lags) -> tuple[Array, Array]:
@@ -107,29 +126,32 @@ class Markov(Dynamics):
         return inputs, x[lags.now] - self.carry * x[lags.before[:, 0]]
 
     def _pull(self, x: Array, lags: _Lags, d_inputs: Array, d_targets: Array) -> Array:
-        """Return the slope in x of pairs and of the standard normal prior of the first ones."""
-        slope = np.zeros_like(x)
+        """Return the gradient (N, d) in x, given those in the pairs of inputs and targets.
+
+        The first positions of a sequence have a standard normal prior, whose gradient is added.
+        """
+        gradient = np.zeros_like(x)
         by_lag = d_inputs.reshape(len(lags.now), self.order, x.shape[1])
         for lag in range(self.order):
-            slope[lags.before[:, lag]] += by_lag[:, lag]
-        slope[lags.now] += d_targets
-        slope[lags.before[:, 0]] -= self.carry * d_targets
-        slope[lags.first] += x[lags.first]
-        return slope
+            gradient[lags.before[:, lag]] += by_lag[:, lag]
+        gradient[lags.now] += d_targets
+        gradient[lags.before[:, 0]] -= self.carry * d_targets
+        gradient[lags.first] += x[lags.first]
+        return gradient
 
     def negative_log_prior(
         self, theta: Array, x: Array, lengths: Sequence[int]
     ) -> tuple[float, Array, Array]:
-        """Return GPDM (29) and its slopes."""
+        """Return GPDM eq. (29) and its gradients."""
         lags = _Lags.of(lengths, self.order)
-        found = self.process.negative_log_likelihood(theta, *self._pairs(x, lags))
-        value = found.value + 0.5 * float((x[lags.first] ** 2).sum())
-        return value, self._pull(x, lags, found.inputs, found.targets), found.theta
+        pairs = self.process.negative_log_likelihood(theta, *self._pairs(x, lags))
+        value = pairs.value + 0.5 * float((x[lags.first] ** 2).sum())
+        return value, self._pull(x, lags, pairs.inputs, pairs.targets), pairs.theta
 
-    def conditioned(self, theta: Array, x: Array, lengths: Sequence[int]) -> Motion:
-        """Return GPDM (26)."""
+    def conditioned(self, theta: Array, x: Array, lengths: Sequence[int]) -> ConditionedDynamics:
+        """Return the dynamics of GPDM eq. (26)."""
         pairs = self._pairs(x, _Lags.of(lengths, self.order))
-        return _MarkovMotion(self.order, self, self.process.conditioned(theta, *pairs))
+        return _ConditionedMarkov(self.order, self, self.process.conditioned(theta, *pairs))
 
     def properties(self, theta: Array, n_latent: int) -> dict[str, float]:
         """Return SNR(α) and CLS(α)."""
@@ -139,16 +161,16 @@ class Markov(Dynamics):
 
 
 @dataclass(frozen=True)
-class _MarkovMotion(Motion):
+class _ConditionedMarkov(ConditionedDynamics):
     order: int
     dynamics: Markov
-    process: Conditioned
+    process: ConditionedProcess
 
     def negative_log_density(self, x: Array) -> tuple[float, Array]:
         lags = _Lags.of([len(x)], self.order)
         inputs, targets = self.dynamics._pairs(x, lags)
-        everywhere = np.ones(len(targets), dtype=bool)
-        value, d_inputs, d_targets = self.process.negative_log_density(inputs, targets, everywhere)
+        visible = np.ones(len(targets), dtype=bool)
+        value, d_inputs, d_targets = self.process.negative_log_density(inputs, targets, visible)
         value += 0.5 * float((x[lags.first] ** 2).sum())
         return value, self.dynamics._pull(x, lags, d_inputs, d_targets)
 
@@ -159,8 +181,8 @@ class _MarkovMotion(Motion):
 
 
 @dataclass(frozen=True)
-class Static(Dynamics, Motion):
-    """Independent standard normal positions: the prior of the GPLVM, which knows no time."""
+class Static(Dynamics, ConditionedDynamics):
+    """Independent standard normal positions: the prior of the GPLVM, which ignores time."""
 
     order: int = 1
 
@@ -176,13 +198,13 @@ class Static(Dynamics, Motion):
         del lengths
         return 0.5 * float((x**2).sum()), x, np.zeros_like(theta)
 
-    def conditioned(self, theta: Array, x: Array, lengths: Sequence[int]) -> Motion:
-        """Return itself: other sequences say nothing."""
+    def conditioned(self, theta: Array, x: Array, lengths: Sequence[int]) -> ConditionedDynamics:
+        """Return itself: the positions of other sequences are independent of a new one's."""
         del theta, x, lengths
         return self
 
     def properties(self, theta: Array, n_latent: int) -> dict[str, float]:
-        """Return nothing."""
+        """Return no properties: there are no dynamics."""
         del theta, n_latent
         return {}
 
@@ -191,5 +213,5 @@ class Static(Dynamics, Motion):
         return 0.5 * float((x**2).sum()), x
 
     def step(self, history: Array) -> tuple[Array, Array]:
-        """Return the prior, whatever came before."""
+        """Return mean 0 and variance 1, whatever the history."""
         return np.zeros_like(history[:, 0]), np.ones(len(history))

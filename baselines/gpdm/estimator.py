@@ -1,4 +1,8 @@
-"""The estimators of the family: one base that learns and fills, whatever prior and learning."""
+"""The common estimator of the GPDM family: fitting and filling with any prior and learning.
+
+Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
+30(2), is cited as GPDM.
+"""
 
 from __future__ import annotations
 
@@ -20,11 +24,11 @@ from mocapbench.baselines.common.validation import (
 )
 from mocapbench.baselines.gpdm.conditional import Conditional, Query
 from mocapbench.baselines.gpdm.dynamics import Dynamics
-from mocapbench.baselines.gpdm.kernels import RBF
+from mocapbench.baselines.gpdm.kernels import RBFKernel
 from mocapbench.baselines.gpdm.learning import Learning
-from mocapbench.baselines.gpdm.posterior import KAPPA, Estimate, Posterior
+from mocapbench.baselines.gpdm.posterior import KAPPA, JointPosterior, PointEstimate
 from mocapbench.baselines.gpdm.process import Process
-from mocapbench.baselines.gpdm.sequences import Sequences, whitened_components
+from mocapbench.baselines.gpdm.sequences import TrainingSequences, whitened_components
 from mocapbench.baselines.gpdm.starts import STARTS
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import Embedded, FrameImputer, Inductive, Prediction
@@ -38,8 +42,8 @@ Array = NDArray[np.float64]
 class LatentVariableModel(FrameImputer, Inductive, Embedded):
     """Poses as smooth functions of latent positions, which have a prior.
 
-    Subclasses say which prior and which way of learning; their constructors store ``n_latent``,
-    ``start``, ``subject_offset``, ``fill_iter`` and ``random_state``.
+    A subclass provides the prior and the learning algorithm. Its constructor stores ``n_latent``,
+    ``start``, ``subject_offset``, ``fill_iter`` and ``random_state``; see `GPDM`.
     """
 
     n_latent: int
@@ -54,10 +58,10 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
 
     @abstractmethod
     def _learning(self) -> Learning:
-        """Return the way to learn."""
+        """Return the learning algorithm."""
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
-        """Learn latent positions of all complete frames, and the parameters.
+        """Learn the latent positions of all complete frames, and the parameters.
 
         Raises
         ------
@@ -67,20 +71,22 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
         """
         self._check_parameters()
         dynamics, learning = self._dynamics(), self._learning()
-        self.sequences_ = Sequences.of(recordings)
+        self.sequences_ = TrainingSequences.of(recordings)
         self.channels_ = recordings[0].channels
         self.matcher_ = PoseViterbi().fit(recordings)
         self.frame_seconds_ = float(np.median(np.diff(recordings[0].times)))
         y = self.sequences_.y
         x = whitened_components(y, self.n_latent)
-        posterior = Posterior(
-            Process(RBF()),
+        posterior = JointPosterior(
+            Process(RBFKernel()),
             dynamics,
             y,
             self.sequences_.lengths,
             learning.weight(y.shape[1], x.shape[1]),
         )
-        start = Estimate(x, dynamics.start, posterior.reconstruction.start, np.ones(y.shape[1]))
+        start = PointEstimate(
+            x, dynamics.start, posterior.reconstruction.start, np.ones(y.shape[1])
+        )
         rng = np.random.default_rng(self.random_state)
         self.estimate_ = learning.learn(posterior, start, rng)
         self.conditional_ = Conditional.of(posterior, self.estimate_)
@@ -94,14 +100,14 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
         check_share("subject_offset", self.subject_offset)
         check_seed("random_state", self.random_state)
 
-    def _properties(self, posterior: Posterior) -> dict[str, float]:
-        """Return SNR and CLS of both kernels, GPDM Table 1."""
-        at, process = self.estimate_, posterior.reconstruction
-        n_latent = at.x.shape[1]
+    def _properties(self, posterior: JointPosterior) -> dict[str, float]:
+        """Return SNR and CLS of both kernels, as in GPDM Table 1."""
+        estimate, process = self.estimate_, posterior.reconstruction
+        n_latent = estimate.x.shape[1]
         return {
-            **posterior.dynamics.properties(at.alpha, n_latent),
-            "SNR(β)": process.signal_to_noise(at.beta, n_latent),
-            "CLS(β)": process.kernel.lengthscales(at.beta[:-1])[0],
+            **posterior.dynamics.properties(estimate.alpha, n_latent),
+            "SNR(β)": process.signal_to_noise(estimate.beta, n_latent),
+            "CLS(β)": process.kernel.lengthscales(estimate.beta[:-1])[0],
         }
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -123,7 +129,7 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
         offset = self.subject_offset * self.matcher_.residual(recording)
         query = Query(self._scaled(recording.values - offset), visible)
         x = STARTS[self.start](self.conditional_, query)
-        x = self.conditional_.improved(x, query, self.fill_iter)
+        x = self.conditional_.optimise(x, query, self.fill_iter)
         mean, variance = self.conditional_.reconstruction.filled(x, query.poses, visible)
         return Prediction.around(
             recording, self._unscaled(mean) + offset, np.outer(variance, self._units() ** 2)
@@ -135,23 +141,23 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
         return np.split(self.estimate_.x, np.cumsum(self.sequences_.lengths)[:-1])
 
     def confidence(self, positions: Array) -> Array:
-        """Return −ln σ_Y² at ``positions`` (n, d), GPDM (34), noise included."""
+        """Return −ln σ_Y² at ``positions`` (n, d), GPDM eq. (34), noise included."""
         check_is_fitted(self)
         return -np.log(self.conditional_.reconstruction.marginals(positions)[1])
 
     def poses(self, positions: Array) -> FrameByChannel:
-        """Return the mean poses (N, D) at ``positions`` (N, d), GPDM (33)."""
+        """Return the mean poses (N, D) at ``positions`` (N, d), GPDM eq. (33)."""
         check_is_fitted(self)
         return self._unscaled(self.conditional_.reconstruction.marginals(positions)[0])
 
     def _units(self) -> Array:
-        """Return the inverse scales (D,): of a constant channel, the bound (κ² N)^(−½)."""
+        """Return the inverse scales (D,); a constant channel has the prior's bound (κ² N)^(−½)."""
         units = np.full(len(self.channels_), 1.0 / (KAPPA * np.sqrt(len(self.sequences_.y))))
         units[self.sequences_.moving] = 1.0 / self.estimate_.scales
         return units
 
     def _scaled(self, values: FrameByChannel) -> Array:
-        """Return the moving channels in the model's units; what is hidden becomes zero."""
+        """Return the moving channels in the model's units; hidden entries become zero."""
         moving = self.sequences_.moving
         poses = (values - self.sequences_.mean)[:, moving] * self.estimate_.scales
         return np.nan_to_num(poses, nan=0.0)

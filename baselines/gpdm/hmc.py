@@ -1,4 +1,8 @@
-"""Hybrid Monte Carlo with a step size that the first samples set."""
+"""Hybrid Monte Carlo whose step size adapts during the first trajectories (GPDM §4.4).
+
+Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
+30(2), is cited as GPDM.
+"""
 
 from __future__ import annotations
 
@@ -20,19 +24,19 @@ _LONGER, _SHORTER = 1.1, 0.8
 
 @dataclass(frozen=True)
 class HybridMonteCarlo:
-    """A sampler of exp(−potential).
+    """A sampler of the density proportional to exp(−potential).
 
     Parameters
     ----------
     n_samples, n_burn : int
-        How many states are kept, and how many before them are not.
+        Number of states returned, and number discarded before them.
     n_leaps : int
         Leapfrog steps of a trajectory.
     step : float
-        Their first size.
+        Initial step size.
     n_adapt : int, default=25
-        The step grows by a tenth with each of the first trajectories that is accepted and shrinks
-        by a fifth with each that is not.
+        Number of first trajectories during which the step size adapts: it grows by a tenth after
+        each that is accepted and shrinks by a fifth after each that is rejected.
 
     References
     ----------
@@ -49,7 +53,7 @@ class HybridMonteCarlo:
     def sample(
         self, potential: Potential, start: Array, rng: np.random.Generator
     ) -> tuple[Array, float]:
-        """Return states (n_samples, *start.shape) and the share of trajectories accepted."""
+        """Return states (n_samples, *start.shape) and the fraction of trajectories accepted."""
         state, step, kept, n_accepted = start, self.step, [], 0
         here = potential(state)
         for index in range(self.n_burn + self.n_samples):
@@ -69,7 +73,7 @@ class HybridMonteCarlo:
         step: float,
         rng: np.random.Generator,
     ) -> tuple[Array, tuple[float, Array], bool]:
-        """Return the next state, its potential, and whether it is a new one.
+        """Return the next state, its potential and gradient, and whether it was accepted.
 
         A trajectory on which a factorisation fails or a number overflows is rejected.
         """
@@ -94,6 +98,7 @@ class HybridMonteCarlo:
         here: tuple[float, Array],
         step: float,
     ) -> tuple[Array, Array, tuple[float, Array]]:
+        """Return the state, the momentum and the potential after ``n_leaps`` leapfrog steps."""
         for _ in range(self.n_leaps):
             momentum = momentum - 0.5 * step * here[1]
             state = state + step * momentum

@@ -1,11 +1,15 @@
-"""Covariance functions of latent positions, each with its reverse derivative.
+"""Covariance functions of latent positions, each with its reverse-mode derivative.
 
-A kernel takes the logarithms of its positive parameters and two sets of inputs, and returns the
-covariance matrix with a pullback: from the slope of a scalar with respect to that matrix to its
-slopes with respect to both inputs and the log-parameters. Sums and scalings of kernels pull back
-through their parts, so that (7), (11), (12) and (18) are compositions.
+A kernel takes the logarithms of its positive parameters and two sets of inputs. It returns the
+covariance matrix and a pullback: a function from the gradient of a scalar with respect to that
+matrix to its gradients with respect to both inputs and to the log-parameters. Sums and scaled
+kernels call the pullbacks of their parts, so that GPDM eq. (7), (11), (12) and (18) are
+compositions.
 
-An input is one latent position, or several side by side: the last ones first ("lags").
+An input is one latent position, or several side by side ("lags"), the last one first.
+
+Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
+30(2), is cited as GPDM.
 """
 
 from __future__ import annotations
@@ -17,21 +21,21 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["RBF", "Kernel", "Linear", "Pullback", "Scaled", "Sum"]
+__all__ = ["LatentKernel", "LinearKernel", "Pullback", "RBFKernel", "ScaledKernel", "SumKernel"]
 
 Array = NDArray[np.float64]
 Pullback = Callable[[Array], tuple[Array, Array, Array]]
 
 
-class Kernel(ABC):
+class LatentKernel(ABC):
     """A covariance function k(a, b) with positive parameters."""
 
     start: tuple[float, ...]
-    """The parameters that learning starts from."""
+    """The parameters from which learning starts."""
 
     @abstractmethod
     def __call__(self, theta: Array, a: Array, b: Array) -> tuple[Array, Pullback]:
-        """Return the matrix (n, m) of ``a`` (n, q) against ``b`` (m, q), and its pullback."""
+        """Return the covariances (n, m) of ``a`` (n, q) with ``b`` (m, q), and the pullback."""
 
     @abstractmethod
     def diagonal(self, theta: Array, a: Array) -> Array:
@@ -39,18 +43,18 @@ class Kernel(ABC):
 
     @abstractmethod
     def lengthscales(self, theta: Array) -> tuple[float, ...]:
-        """Return the characteristic lengthscales: inverse square roots of the inverse widths."""
+        """Return the characteristic lengthscales, w^(−½) for each inverse width w."""
 
 
 @dataclass(frozen=True)
-class RBF(Kernel):
-    r"""exp(−½ Σ_l w_l ‖a_l − b_l‖²), one inverse width w_l a lag."""
+class RBFKernel(LatentKernel):
+    r"""exp(−½ Σ_l w_l ‖a_l − b_l‖²), with one inverse width w_l for each lag l."""
 
     n_lags: int = 1
 
     @property
     def start(self) -> tuple[float, ...]:  # type: ignore[override]
-        """Widths of one."""
+        """Inverse widths of 1."""
         return (1.0,) * self.n_lags
 
     def __call__(self, theta: Array, a: Array, b: Array) -> tuple[Array, Pullback]:
@@ -62,20 +66,20 @@ class RBF(Kernel):
         matrix -= 0.5 * (right * b).sum(axis=1)
         np.exp(np.minimum(matrix, 0.0, out=matrix), out=matrix)
 
-        def pull(slope: Array) -> tuple[Array, Array, Array]:
-            slope = slope * matrix
-            rows, columns = slope.sum(axis=1), slope.sum(axis=0)
-            across = slope @ b
+        def pull(gradient: Array) -> tuple[Array, Array, Array]:
+            gradient = gradient * matrix
+            rows, columns = gradient.sum(axis=1), gradient.sum(axis=0)
+            across = gradient @ b
             da = across - rows[:, None] * a
-            db = slope.T @ a - columns[:, None] * b
-            # Σ slope ‖a − b‖² per coordinate, without another matrix of distances.
-            spread = rows @ a**2 + columns @ b**2 - 2.0 * (a * across).sum(axis=0)
-            return widths * da, widths * db, self._by_lag(-0.5 * widths * spread)
+            db = gradient.T @ a - columns[:, None] * b
+            # Σ gradient (a − b)² for each coordinate, without another (n, m) matrix.
+            distances = rows @ a**2 + columns @ b**2 - 2.0 * (a * across).sum(axis=0)
+            return widths * da, widths * db, self._by_lag(-0.5 * widths * distances)
 
         return matrix, pull
 
-    def _by_lag(self, slopes: Array) -> Array:
-        return np.asarray(slopes.reshape(self.n_lags, -1).sum(axis=1))
+    def _by_lag(self, gradients: Array) -> Array:
+        return np.asarray(gradients.reshape(self.n_lags, -1).sum(axis=1))
 
     def diagonal(self, theta: Array, a: Array) -> Array:
         """Return ones."""
@@ -88,8 +92,8 @@ class RBF(Kernel):
 
 
 @dataclass(frozen=True)
-class Linear(Kernel):
-    r"""Σ_l v_l a_lᵀ b_l, one variance v_l a lag."""
+class LinearKernel(LatentKernel):
+    r"""Σ_l v_l a_lᵀ b_l, with one variance v_l for each lag l."""
 
     n_lags: int = 1
 
@@ -103,10 +107,10 @@ class Linear(Kernel):
         variances = np.repeat(np.exp(theta), a.shape[1] // self.n_lags)
         weighted = a * variances
 
-        def pull(slope: Array) -> tuple[Array, Array, Array]:
-            across = slope @ b
+        def pull(gradient: Array) -> tuple[Array, Array, Array]:
+            across = gradient @ b
             by_lag = (weighted * across).sum(axis=0).reshape(self.n_lags, -1).sum(axis=1)
-            return variances * across, slope.T @ weighted, by_lag
+            return variances * across, gradient.T @ weighted, by_lag
 
         return weighted @ b.T, pull
 
@@ -115,16 +119,16 @@ class Linear(Kernel):
         return np.asarray(a**2 @ np.repeat(np.exp(theta), a.shape[1] // self.n_lags))
 
     def lengthscales(self, theta: Array) -> tuple[float, ...]:
-        """Return none: a linear function has no lengthscale."""
+        """Return an empty tuple: a linear function has no lengthscale."""
         del theta
         return ()
 
 
 @dataclass(frozen=True)
-class Scaled(Kernel):
-    """s k(a, b): the scale first, then the parameters of k."""
+class ScaledKernel(LatentKernel):
+    """s k(a, b); the parameters are the scale s and then those of k."""
 
-    kernel: Kernel
+    kernel: LatentKernel
 
     @property
     def start(self) -> tuple[float, ...]:  # type: ignore[override]
@@ -137,9 +141,9 @@ class Scaled(Kernel):
         matrix, pull_kernel = self.kernel(theta[1:], a, b)
         matrix = scale * matrix
 
-        def pull(slope: Array) -> tuple[Array, Array, Array]:
-            da, db, dtheta = pull_kernel(scale * slope)
-            return da, db, np.concatenate([[(slope * matrix).sum()], dtheta])
+        def pull(gradient: Array) -> tuple[Array, Array, Array]:
+            da, db, dtheta = pull_kernel(scale * gradient)
+            return da, db, np.concatenate([[(gradient * matrix).sum()], dtheta])
 
         return matrix, pull
 
@@ -148,20 +152,20 @@ class Scaled(Kernel):
         return np.asarray(np.exp(theta[0]) * self.kernel.diagonal(theta[1:], a))
 
     def lengthscales(self, theta: Array) -> tuple[float, ...]:
-        """Return those of k."""
+        """Return the lengthscales of k."""
         return self.kernel.lengthscales(theta[1:])
 
 
 @dataclass(frozen=True)
-class Sum(Kernel):
-    """k₁(a, b) + k₂(a, b), with the parameters of both in this order."""
+class SumKernel(LatentKernel):
+    """k₁(a, b) + k₂(a, b); the parameters are those of k₁ and then those of k₂."""
 
-    first: Kernel
-    second: Kernel
+    first: LatentKernel
+    second: LatentKernel
 
     @property
     def start(self) -> tuple[float, ...]:  # type: ignore[override]
-        """Those of both."""
+        """The start of k₁ and then that of k₂."""
         return (*self.first.start, *self.second.start)
 
     def _parts(self, theta: Array) -> tuple[Array, Array]:
@@ -174,18 +178,18 @@ class Sum(Kernel):
         first, pull_first = self.first(one, a, b)
         second, pull_second = self.second(two, a, b)
 
-        def pull(slope: Array) -> tuple[Array, Array, Array]:
-            (da, db, d_one), (ea, eb, d_two) = pull_first(slope), pull_second(slope)
+        def pull(gradient: Array) -> tuple[Array, Array, Array]:
+            (da, db, d_one), (ea, eb, d_two) = pull_first(gradient), pull_second(gradient)
             return da + ea, db + eb, np.concatenate([d_one, d_two])
 
         return first + second, pull
 
     def diagonal(self, theta: Array, a: Array) -> Array:
-        """Return the sum of both."""
+        """Return k₁(a_i, a_i) + k₂(a_i, a_i)."""
         one, two = self._parts(theta)
         return self.first.diagonal(one, a) + self.second.diagonal(two, a)
 
     def lengthscales(self, theta: Array) -> tuple[float, ...]:
-        """Return those of both."""
+        """Return the lengthscales of both."""
         one, two = self._parts(theta)
         return (*self.first.lengthscales(one), *self.second.lengthscales(two))

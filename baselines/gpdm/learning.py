@@ -1,7 +1,10 @@
-"""Four ways to learn the unknowns (GPDM §4), each an object that takes a posterior to an estimate.
+"""Learning algorithms (GPDM §4), each an object that computes an estimate from a joint posterior.
 
-All stop after a stated number of iterations: the kernels' parameters drift for thousands of them,
-so the number is part of the model (early stopping).
+All stop after a stated number of iterations. The kernel parameters drift for thousands of
+iterations, so that this number is part of the model (early stopping).
+
+Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
+30(2), is cited as GPDM.
 """
 
 from __future__ import annotations
@@ -14,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.gpdm.descent import descend
-from mocapbench.baselines.gpdm.posterior import Estimate, Posterior
+from mocapbench.baselines.gpdm.posterior import JointPosterior, PointEstimate
 
 __all__ = ["Balanced", "FixedDynamics", "Learning", "MaximumAPosteriori", "with_best_scales"]
 
@@ -22,56 +25,65 @@ Array = NDArray[np.float64]
 
 
 class Learning(ABC):
-    """A way to learn."""
+    """A learning algorithm."""
 
     def weight(self, n_channels: int, n_latent: int) -> float:
-        """Return what the prior of the trajectories is multiplied by."""
+        """Return the factor of the trajectories' log-prior."""
         del n_channels, n_latent
         return 1.0
 
     @abstractmethod
-    def learn(self, posterior: Posterior, start: Estimate, rng: np.random.Generator) -> Estimate:
-        """Return an estimate of all unknowns."""
+    def learn(
+        self, posterior: JointPosterior, start: PointEstimate, rng: np.random.Generator
+    ) -> PointEstimate:
+        """Return an estimate of all unknowns, found from ``start``."""
 
 
-def with_best_scales(posterior: Posterior, at: Estimate) -> Estimate:
-    """Return the estimate with the scales that are best for the rest of it."""
-    return replace(at, scales=posterior.best_scales(posterior.inverse(at.x, at.beta)))
+def with_best_scales(posterior: JointPosterior, estimate: PointEstimate) -> PointEstimate:
+    """Return the estimate with the scales that maximise the posterior given the rest of it."""
+    return replace(
+        estimate, scales=posterior.best_scales(posterior.inverse(estimate.x, estimate.beta))
+    )
 
 
 @dataclass(frozen=True)
 class MaximumAPosteriori(Learning):
-    """Algorithm 1: in turn the scales in closed form, and steps in everything else.
+    """GPDM Algorithm 1: alternate the scales in closed form with L-BFGS on all other unknowns.
 
     Parameters
     ----------
     n_rounds, n_steps : int
-        The paper's I = 100 and J = 10; L-BFGS takes the place of scaled conjugate gradients.
+        Rounds, and iterations of L-BFGS in a round: the paper's I = 100 and J = 10. L-BFGS takes
+        the place of the paper's scaled conjugate gradients.
     """
 
     n_rounds: int
     n_steps: int
 
-    def learn(self, posterior: Posterior, start: Estimate, rng: np.random.Generator) -> Estimate:
+    def learn(
+        self, posterior: JointPosterior, start: PointEstimate, rng: np.random.Generator
+    ) -> PointEstimate:
         """Return the estimate after all rounds."""
         del rng
-        at = start
+        estimate = start
         for _ in range(self.n_rounds):
-            at = self._round(posterior, with_best_scales(posterior, at))
-        return at
+            estimate = self._round(posterior, with_best_scales(posterior, estimate))
+        return estimate
 
-    def _round(self, posterior: Posterior, at: Estimate) -> Estimate:
+    def _round(self, posterior: JointPosterior, estimate: PointEstimate) -> PointEstimate:
         def objective(x: Array, alpha: Array, beta: Array) -> tuple[float, Sequence[Array]]:
-            found = posterior.slopes(Estimate(x, alpha, beta, at.scales))
-            return found.value, (found.x, found.alpha, found.beta)
+            joint = posterior.value_and_gradients(PointEstimate(x, alpha, beta, estimate.scales))
+            return joint.value, (joint.x, joint.alpha, joint.beta)
 
-        x, alpha, beta = descend(objective, (at.x, at.alpha, at.beta), self.n_steps)
-        return Estimate(x, alpha, beta, at.scales)
+        x, alpha, beta = descend(
+            objective, (estimate.x, estimate.alpha, estimate.beta), self.n_steps
+        )
+        return PointEstimate(x, alpha, beta, estimate.scales)
 
 
 @dataclass(frozen=True)
 class Balanced(MaximumAPosteriori):
-    """§4.2: the prior of the trajectories weighs as much as the poses, by D/d."""
+    """GPDM §4.2: the log-prior of the trajectories is multiplied by D/d, to balance the poses."""
 
     def weight(self, n_channels: int, n_latent: int) -> float:
         """Return D/d."""
@@ -80,16 +92,19 @@ class Balanced(MaximumAPosteriori):
 
 @dataclass(frozen=True)
 class FixedDynamics(MaximumAPosteriori):
-    """§4.3: the parameters of the dynamics are stated by hand, and the rest is learnt.
+    """GPDM §4.3: the parameters of the dynamics are set by hand, and the rest is learnt.
 
     Parameters
     ----------
     alpha : tuple of float
+        The parameters of the dynamics.
     """
 
     alpha: tuple[float, ...]
 
-    def learn(self, posterior: Posterior, start: Estimate, rng: np.random.Generator) -> Estimate:
+    def learn(
+        self, posterior: JointPosterior, start: PointEstimate, rng: np.random.Generator
+    ) -> PointEstimate:
         """Return the estimate after all rounds.
 
         Raises
@@ -104,10 +119,11 @@ class FixedDynamics(MaximumAPosteriori):
             )
         return super().learn(posterior, replace(start, alpha=np.log(self.alpha)), rng)
 
-    def _round(self, posterior: Posterior, at: Estimate) -> Estimate:
+    def _round(self, posterior: JointPosterior, estimate: PointEstimate) -> PointEstimate:
         def objective(x: Array, beta: Array) -> tuple[float, Sequence[Array]]:
-            found = posterior.slopes(Estimate(x, at.alpha, beta, at.scales))
-            return found.value, (found.x, found.beta)
+            point = PointEstimate(x, estimate.alpha, beta, estimate.scales)
+            joint = posterior.value_and_gradients(point)
+            return joint.value, (joint.x, joint.beta)
 
-        x, beta = descend(objective, (at.x, at.beta), self.n_steps)
-        return Estimate(x, at.alpha, beta, at.scales)
+        x, beta = descend(objective, (estimate.x, estimate.beta), self.n_steps)
+        return PointEstimate(x, estimate.alpha, beta, estimate.scales)

@@ -1,4 +1,4 @@
-"""The Gaussian process dynamical model."""
+"""The Gaussian process dynamical model of Wang, Fleet and Hertzmann (2008), cited as GPDM."""
 
 from __future__ import annotations
 
@@ -9,7 +9,13 @@ import numpy as np
 from mocapbench.baselines.common.validation import check_choice, check_count
 from mocapbench.baselines.gpdm.dynamics import Dynamics, Markov
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
-from mocapbench.baselines.gpdm.kernels import RBF, Kernel, Linear, Scaled, Sum
+from mocapbench.baselines.gpdm.kernels import (
+    LatentKernel,
+    LinearKernel,
+    RBFKernel,
+    ScaledKernel,
+    SumKernel,
+)
 from mocapbench.baselines.gpdm.learning import (
     Balanced,
     FixedDynamics,
@@ -22,13 +28,13 @@ from mocapbench.baselines.gpdm.two_stage import TwoStage
 
 __all__ = ["GPDM"]
 
-_KERNELS: Mapping[str, Callable[[int], Kernel]] = {
-    "linear+rbf": lambda order: Sum(Scaled(RBF(order)), Linear(order)),
-    "rbf": lambda order: Scaled(RBF(order)),
-    "linear": Linear,
+_KERNELS: Mapping[str, Callable[[int], LatentKernel]] = {
+    "linear+rbf": lambda order: SumKernel(ScaledKernel(RBFKernel(order)), LinearKernel(order)),
+    "rbf": lambda order: ScaledKernel(RBFKernel(order)),
+    "linear": LinearKernel,
 }
 _CARRY = {"position": 0.0, "velocity": 1.0}
-_FIXED_ALPHA = (0.009, 0.2, 0.001, 1e6)  # §4.3
+_FIXED_ALPHA = (0.009, 0.2, 0.001, 1e6)  # GPDM §4.3
 _POSITION_STEP = 3e-3
 
 
@@ -36,37 +42,39 @@ class GPDM(DynamicalModel):
     r"""A Gaussian process dynamical model of several sequences.
 
     Poses are :math:`y_t = W^{-1}(g(x_t) + n_{y,t})` and latent positions :math:`x_t =
-    f(x_{t-1}) + n_{x,t}`, with both functions integrated out under Gaussian processes. A hidden
-    frame is filled with its mean given the training sequences and the visible frames, at the
-    latent trajectory that a descent from ``start`` ends in; the variance is that of an
-    observation at this trajectory, whose own uncertainty is not in it.
+    f(x_{t-1}) + n_{x,t}`, with both functions integrated out under Gaussian-process priors. To
+    fill a sequence, its latent trajectory is optimised from ``start``. Hidden frames take their
+    mean given the training sequences and the visible frames at this trajectory. The variance is
+    that of an observation at this trajectory; it does not include the trajectory's uncertainty.
 
-    Channels that are constant in training are left out with a warning and filled with their
-    value, at the variance 1/(κ² N) to which the prior of the scales bounds them. Time is counted
-    in frames, so that all recordings should have one frame rate.
+    Channels that are constant in training are left out with a warning. They are filled with their
+    constant value and the variance 1/(κ² N), the bound that the prior of the scales implies. Time
+    is counted in frames, so that all recordings should have the same frame rate.
 
     Parameters
     ----------
     learning : {"map", "balanced", "fixed-alpha", "two-stage"}, default="balanced"
-        How the unknowns are learnt: GPDM §4.1 to §4.4.
+        The learning algorithm: GPDM §4.1, §4.2, §4.3 and §4.4.
     n_latent : int, default=3
-        Latent dimensions; as many as the data have, if they are fewer.
+        Number of latent dimensions; the rank of the data, if that is smaller.
     dynamics : {"linear+rbf", "rbf", "linear"}, default="linear+rbf"
-        Kernel of the dynamics, (12) and (11).
+        Kernel of the dynamics, GPDM eq. (12) and (11).
     order : {1, 2}, default=1
-        On how many positions the next one depends, (17).
+        Number of previous positions on which the next one depends, GPDM eq. (17).
     predicts : {"position", "velocity"}, default="position"
-        What the dynamics give, (19).
+        Whether the dynamics predict the next position or the step to it, GPDM eq. (19).
     start : {"linear", "mean-prediction", "window", "viterbi"}, default="viterbi"
-        Where a sequence to fill starts from.
+        Initial latent trajectory of a sequence to fill: linear between the nearest training
+        positions, the mean of the dynamics, the nearest training window, or the most probable path
+        through the training positions.
     subject_offset : float, default=0.0
-        The share of the mean residual of `PoseViterbi` at the visible frames that is taken off
-        before filling and put back afterwards.
+        The fraction, from 0 to 1, of the mean residual of `PoseViterbi` at the visible frames that
+        is subtracted before filling and added afterwards.
     max_iter : int, default=100
-        Rounds of learning (the paper's I); of two-stage learning, a tenth as many.
+        Rounds of learning (the paper's I); two-stage learning has a tenth as many.
     n_steps : int, default=10
-        Iterations of L-BFGS in a round (the paper's J). Both are early stopping: the parameters
-        of the kernels drift for thousands of iterations.
+        Iterations of L-BFGS in a round (the paper's J). Both numbers are early stopping: the kernel
+        parameters drift for thousands of iterations.
     fill_iter : int, default=100
         Iterations of L-BFGS on the trajectory of a sequence to fill.
     n_samples : int, default=50
@@ -77,23 +85,39 @@ class GPDM(DynamicalModel):
     Attributes
     ----------
     channels_ : tuple of D str
-    sequences_ : Sequences
+        The channels of the recordings given to `fit`.
+    sequences_ : TrainingSequences
         The training frames.
-    estimate_ : Estimate
+    estimate_ : PointEstimate
         Latent positions and parameters.
     conditional_ : Conditional
         The distribution of a further sequence.
     kernel_properties_ : dict of str to float
         Signal-to-noise ratio and characteristic lengthscale of both kernels: GPDM Table 1.
     matcher_ : PoseViterbi
-        What the subject's offset is found with.
+        The model from which the subject's offset is computed.
     frame_seconds_ : float
-        The time from one training frame to the next.
+        The time between training frames.
 
     References
     ----------
     J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical Models for Human
-    Motion, IEEE TPAMI 30(2).
+    Motion, IEEE TPAMI 30(2): the model §3, learning §4, synthesis and filling §5.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import GPDM
+    >>> from mocapbench.datasets import Recording
+    >>> angle = 2 * np.pi * np.arange(25) / 12
+    >>> values = np.column_stack([np.sin(angle), np.cos(angle)])
+    >>> walk = Recording("walk", np.arange(25) / 30, values, ("hip", "knee"), ("deg",) * 2)
+    >>> model = GPDM(n_latent=2, max_iter=2, fill_iter=5).fit([walk])
+    >>> gap = np.zeros((25, 2), dtype=bool)
+    >>> gap[10:14] = True
+    >>> (prediction,) = model.impute([walk.hide(gap)])
+    >>> bool(np.abs(prediction.mean - values).max() < 0.5)
+    True
     """
 
     def __init__(

@@ -1,4 +1,8 @@
-"""The joint negative log-posterior of latent positions and parameters, GPDM (27)."""
+"""The joint negative log-posterior of latent positions and parameters, GPDM eq. (27).
+
+Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
+30(2), is cited as GPDM.
+"""
 
 from __future__ import annotations
 
@@ -10,26 +14,26 @@ from numpy.typing import NDArray
 from mocapbench.baselines.gpdm.dynamics import Dynamics
 from mocapbench.baselines.gpdm.process import Process, invert
 
-__all__ = ["Estimate", "Posterior", "PosteriorSlopes"]
+__all__ = ["JointPosterior", "PointEstimate", "PosteriorGradients"]
 
 Array = NDArray[np.float64]
 
 KAPPA = 1e3
-"""The width κ of the half-normal prior (13) of the scales."""
+"""The standard deviation κ of the half-normal prior of the scales, GPDM eq. (13)."""
 
 
 @dataclass(frozen=True, eq=False)
-class Estimate:
-    """A point in the space of all unknowns.
+class PointEstimate:
+    """Values of all unknowns.
 
     Parameters
     ----------
     x : ndarray of shape (N, d)
         Latent positions.
     alpha, beta : ndarray
-        Log-parameters of the dynamics and of the reconstruction.
+        Log-parameters of the dynamics and of the mapping to poses.
     scales : ndarray of shape (D,)
-        The w of each channel.
+        The factor w of each channel.
     """
 
     x: Array
@@ -39,8 +43,8 @@ class Estimate:
 
 
 @dataclass(frozen=True, eq=False)
-class PosteriorSlopes:
-    """The negative log-posterior and its slopes, those of the scales apart."""
+class PosteriorGradients:
+    """The negative log-posterior and its gradients; the scales have none, see `best_scales`."""
 
     value: float
     x: Array
@@ -49,20 +53,21 @@ class PosteriorSlopes:
 
 
 @dataclass(frozen=True, eq=False)
-class Posterior:
-    """What learning minimises.
+class JointPosterior:
+    """The negative log-posterior of all unknowns, which learning minimises.
 
     Parameters
     ----------
     reconstruction : Process
-        From latent positions to poses.
+        The mapping from latent positions to poses.
     dynamics : Dynamics
+        The prior of the latent positions.
     y : ndarray of shape (N, D)
         The stacked sequences, their mean subtracted.
     lengths : tuple of int
         Frames of each sequence.
     weight : float
-        What L_X is multiplied by: 1, or D/d in the balanced model (§4.2).
+        Factor of the dynamics' term L_X: 1, or D/d in the balanced model (GPDM §4.2).
     """
 
     reconstruction: Process
@@ -71,12 +76,16 @@ class Posterior:
     lengths: tuple[int, ...]
     weight: float
 
-    def slopes(self, at: Estimate) -> PosteriorSlopes:
+    def value_and_gradients(self, estimate: PointEstimate) -> PosteriorGradients:
         """Return L_Y + weight L_X + Σ ln α + Σ ln β, without terms in the scales alone."""
-        poses = self.reconstruction.negative_log_likelihood(at.beta, at.x, self.y * at.scales)
-        prior, d_x, d_alpha = self.dynamics.negative_log_prior(at.alpha, at.x, self.lengths)
-        return PosteriorSlopes(
-            poses.value + self.weight * prior + float(at.alpha.sum() + at.beta.sum()),
+        poses = self.reconstruction.negative_log_likelihood(
+            estimate.beta, estimate.x, self.y * estimate.scales
+        )
+        prior, d_x, d_alpha = self.dynamics.negative_log_prior(
+            estimate.alpha, estimate.x, self.lengths
+        )
+        return PosteriorGradients(
+            poses.value + self.weight * prior + float(estimate.alpha.sum() + estimate.beta.sum()),
             poses.inputs + self.weight * d_x,
             self.weight * d_alpha + 1.0,
             poses.theta + 1.0,
@@ -88,6 +97,6 @@ class Posterior:
         return invert(gram + np.exp(-beta[-1]) * np.eye(len(x)))[0]
 
     def best_scales(self, inverse: Array) -> Array:
-        """Return w given K_Y⁻¹, or its mean over samples: Algorithms 1 and 2."""
+        """Return the best w (D,) given K_Y⁻¹, or its mean over samples: GPDM Algorithms 1 and 2."""
         quadratic = (self.y * (inverse @ self.y)).sum(axis=0)
         return np.asarray(np.sqrt(len(self.y) / (quadratic + 1.0 / KAPPA**2)))

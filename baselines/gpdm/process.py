@@ -1,8 +1,12 @@
-"""Functions of latent positions that a Gaussian process has drawn, one for each target.
+"""Gaussian-process regression with several independent targets, integrated over the function.
 
-The mapping to poses and that to the next latent position are of one form: with
+The mapping from positions to poses and that to the next position have one form: with
 K = k(inputs, inputs) + I / precision, each of the p columns of the targets T is N(0, K), as in
-GPDM (6) and (10). Given one set of inputs and targets, another has the density of (24) and (26).
+GPDM eq. (6) and (10). Given one set of inputs and targets, a further set has the density of
+eq. (24) and (26).
+
+Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
+30(2), is cited as GPDM.
 """
 
 from __future__ import annotations
@@ -13,11 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.cholesky import mirror
 from mocapbench.baselines.common.lapack import potrf, potri
-from mocapbench.baselines.gp.solvers.cholesky import mirror
-from mocapbench.baselines.gpdm.kernels import Kernel
+from mocapbench.baselines.gpdm.kernels import LatentKernel
 
-__all__ = ["Conditioned", "Process", "Slopes", "invert"]
+__all__ = ["ConditionedProcess", "Process", "ProcessGradients", "invert"]
 
 Array = NDArray[np.float64]
 Moments = tuple[Array, Array, Callable[[Array, Array], Array]]
@@ -29,12 +33,12 @@ _JITTERS = (0.0, *(10.0**power for power in range(-12, -3)))
 def invert(matrix: Array) -> tuple[Array, float]:
     """Return the inverse and log-determinant of a positive definite ``matrix`` (n, n), n ≥ 0.
 
-    A share of the mean diagonal, from 1e-12 to 1e-4, is added where rounding asks for it.
+    If the factorisation fails, a multiple of the mean diagonal, from 1e-12 to 1e-4, is added.
 
     Raises
     ------
     numpy.linalg.LinAlgError
-        If that is not enough.
+        If the factorisation fails with the largest multiple too.
     """
     if not matrix.size:
         return matrix, 0.0
@@ -48,14 +52,14 @@ def invert(matrix: Array) -> tuple[Array, float]:
             mirror(factor)
             return factor, log_determinant
     raise np.linalg.LinAlgError(
-        f"expected a positive definite covariance of {len(matrix)} frames, got one that is not "
-        f"even with {_JITTERS[-1]:g} of its diagonal added"
+        f"expected a positive definite covariance of {len(matrix)} frames, got one that is not, "
+        f"even with {_JITTERS[-1]:g} times its mean diagonal added"
     )
 
 
 @dataclass(frozen=True, eq=False)
-class Slopes:
-    """A negative log-density and its slopes with respect to inputs, targets and parameters."""
+class ProcessGradients:
+    """A negative log-density and its gradients with respect to inputs, targets and parameters."""
 
     value: float
     inputs: Array
@@ -67,36 +71,38 @@ class Slopes:
 class Process:
     """A Gaussian process with white noise; its parameters are the kernel's and the precision."""
 
-    kernel: Kernel
+    kernel: LatentKernel
 
     @property
     def start(self) -> Array:
-        """The logarithms of the parameters that learning starts from."""
+        """The logarithms of the parameters from which learning starts."""
         return np.log([*self.kernel.start, _NOISE_PRECISION])
 
-    def negative_log_likelihood(self, theta: Array, inputs: Array, targets: Array) -> Slopes:
-        """Return p/2 ln|K| + ½ tr(K⁻¹ T Tᵀ), without the constants."""
+    def negative_log_likelihood(
+        self, theta: Array, inputs: Array, targets: Array
+    ) -> ProcessGradients:
+        """Return p/2 ln|K| + ½ tr(K⁻¹ T Tᵀ), constants left out, and its gradients."""
         gram, pull = self.kernel(theta[:-1], inputs, inputs)
         inverse, log_determinant = invert(_noisy(gram, theta))
         dual = inverse @ targets
-        slope = dual @ (-0.5 * dual.T)
-        slope += 0.5 * targets.shape[1] * inverse
-        left, right, d_theta = pull(slope)
-        return Slopes(
+        gradient = dual @ (-0.5 * dual.T)
+        gradient += 0.5 * targets.shape[1] * inverse
+        left, right, d_theta = pull(gradient)
+        return ProcessGradients(
             0.5 * (targets.shape[1] * log_determinant + float((targets * dual).sum())),
             left + right,
             dual,
-            np.append(d_theta, -np.trace(slope) * np.exp(-theta[-1])),
+            np.append(d_theta, -np.trace(gradient) * np.exp(-theta[-1])),
         )
 
-    def conditioned(self, theta: Array, inputs: Array, targets: Array) -> Conditioned:
+    def conditioned(self, theta: Array, inputs: Array, targets: Array) -> ConditionedProcess:
         """Return the process given ``targets`` (n, p) at ``inputs`` (n, q)."""
         gram, _ = self.kernel(theta[:-1], inputs, inputs)
         inverse, _ = invert(_noisy(gram, theta))
-        return Conditioned(self.kernel, theta, inputs, inverse, inverse @ targets)
+        return ConditionedProcess(self.kernel, theta, inputs, inverse, inverse @ targets)
 
     def signal_to_noise(self, theta: Array, n_inputs: int) -> float:
-        """Return GPDM's SNR: the root of the variance at a unit vector over that of the noise."""
+        """Return GPDM's SNR: the standard deviation at a unit vector over that of the noise."""
         unit = np.eye(1, n_inputs)
         variance = self.kernel.diagonal(theta[:-1], unit)[0]
         return float(np.sqrt(variance * np.exp(theta[-1])))
@@ -109,21 +115,24 @@ def _noisy(gram: Array, theta: Array) -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class Conditioned:
-    """A process given its targets at some inputs; the inverse is made once.
+class ConditionedProcess:
+    """A process given targets at some inputs; the inverse is computed once.
 
     Parameters
     ----------
-    kernel, theta
-        As of the `Process`.
+    kernel : LatentKernel
+        The kernel of the `Process`.
+    theta : ndarray
+        Log-parameters of the kernel, and last the log-precision of the noise.
     inputs : ndarray of shape (n, q)
+        The inputs at which targets are given.
     inverse : ndarray of shape (n, n)
         K⁻¹.
     dual : ndarray of shape (n, p)
         K⁻¹ T.
     """
 
-    kernel: Kernel
+    kernel: LatentKernel
     theta: Array
     inputs: Array
     inverse: Array
@@ -132,7 +141,7 @@ class Conditioned:
     def marginals(self, inputs: Array) -> tuple[Array, Array]:
         """Return the means (m, p) and variances (m,) of single targets, noise included.
 
-        GPDM (33) and (34), or (36) and (37).
+        GPDM eq. (33) and (34), or (36) and (37).
         """
         cross, _ = self.kernel(self.theta[:-1], self.inputs, inputs)
         explained = (cross * (self.inverse @ cross)).sum(axis=0)
@@ -141,7 +150,11 @@ class Conditioned:
         return cross.T @ self.dual, np.maximum(prior - explained, 0.0) + noise
 
     def moments(self, inputs: Array) -> Moments:
-        """Return the joint mean (m, p), covariance (m, m), and the pullback of both to inputs."""
+        """Return the joint mean (m, p) and covariance (m, m), noise included, and a pullback.
+
+        The pullback maps the gradients of a scalar with respect to both to its gradient (m, q)
+        with respect to ``inputs``.
+        """
         theta = self.theta[:-1]
         cross, pull_cross = self.kernel(theta, self.inputs, inputs)
         prior, pull_prior = self.kernel(theta, inputs, inputs)
@@ -157,10 +170,12 @@ class Conditioned:
     def negative_log_density(
         self, inputs: Array, targets: Array, visible: NDArray[np.bool_]
     ) -> tuple[float, Array, Array]:
-        """Return the surprise at new ``targets`` (m, p), and its slopes with respect to both.
+        """Return −ln of the density of new ``targets`` (m, p), and its gradients.
 
-        p/2 ln|S| + ½ tr(S_vv⁻¹ Z Zᵀ): targets that are not visible are at their mean given those
-        that are, where the quadratic form of all equals that of the visible ones.
+        The value is p/2 ln|S| + ½ tr(S_vv⁻¹ Z Zᵀ), with S the conditional covariance and Z the
+        visible residuals. Hidden targets take their mean given the visible ones; the quadratic
+        form of all targets then equals that of the visible ones. The gradients are those with
+        respect to ``inputs`` and to ``targets``.
         """
         mean, covariance, pull = self.moments(inputs)
         rows = np.flatnonzero(visible)
@@ -178,7 +193,7 @@ class Conditioned:
     ) -> tuple[Array, Array]:
         """Return mean (m, p) and variance (m,) of all targets given the visible ones.
 
-        Those of hidden targets include noise; visible ones are themselves, with variance 0.
+        Variances of hidden targets include noise; visible targets are copied, with variance 0.
         """
         mean, covariance, _ = self.moments(inputs)
         inverse, _ = invert(covariance[np.ix_(visible, visible)])

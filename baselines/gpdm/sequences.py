@@ -1,4 +1,4 @@
-"""Training recordings as the family takes them: complete stretches of the channels that move."""
+"""Training recordings as the GPDM family takes them: complete stretches of moving channels."""
 
 from __future__ import annotations
 
@@ -14,27 +14,28 @@ from mocapbench.baselines.common.gaps import complete_stretches
 from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.datasets import Recording
 
-__all__ = ["Sequences", "whitened_components"]
+__all__ = ["TrainingSequences", "whitened_components"]
 
 Array = NDArray[np.float64]
 
 _CONSTANT = 1e-9
-"""A channel whose range is below this share of its size does not move."""
+"""A channel is constant if its range is at most this fraction of its largest absolute value."""
 
 
 @dataclass(frozen=True, eq=False)
-class Sequences:
-    """Stretches of complete frames, one below the other.
+class TrainingSequences:
+    """Stretches of complete frames, stacked.
 
     Parameters
     ----------
     mean : ndarray of shape (D,)
-        Of all channels.
+        Mean of every channel over all frames.
     moving : ndarray of bool, shape (D,)
         The channels that are not constant.
     y : ndarray of shape (N, D')
         The moving channels, their mean subtracted.
     lengths : tuple of int
+        Frames of each stretch.
     """
 
     mean: Array
@@ -43,8 +44,8 @@ class Sequences:
     lengths: tuple[int, ...]
 
     @classmethod
-    def of(cls, recordings: Sequence[Recording]) -> Sequences:
-        """Return the complete stretches of recordings, which are taken in order of their names.
+    def of(cls, recordings: Sequence[Recording]) -> TrainingSequences:
+        """Return the complete stretches of the recordings, sorted by recording name.
 
         Raises
         ------
@@ -67,16 +68,16 @@ def _report_constant(channels: Sequence[str], n_channels: int) -> None:
         raise ValueError("expected a channel that moves in training, got none")
     if channels:
         warnings.warn(
-            f"left out, and filled with their value: the channels {', '.join(channels)}, which "
-            "are constant in training",
+            f"the channels {', '.join(channels)}, which are constant in training, are left out of "
+            "the model and filled with their constant value",
             stacklevel=4,
         )
 
 
 def whitened_components(y: Array, n_latent: int) -> Array:
-    """Return the first principal components of ``y`` (N, D) with variance one: (N, d).
+    """Return the first principal components of ``y`` (N, D), scaled to variance 1: (N, d).
 
-    At most as many as ``y`` has rank; a warning says so where they are fewer than asked for.
+    Where the rank of ``y`` is below ``n_latent``, d is that rank, and a warning is issued.
     """
     left, singular, right = np.linalg.svd(y, full_matrices=False)
     left, _ = svd_flip(left, right)
@@ -84,7 +85,7 @@ def whitened_components(y: Array, n_latent: int) -> Array:
     if rank < n_latent:
         warnings.warn(
             f"expected data of at least n_latent={n_latent} dimensions, got {rank}: "
-            f"the latent space has {rank}",
+            f"the latent space has {rank} dimensions",
             stacklevel=4,
         )
     return np.asarray(left[:, : min(rank, n_latent)] * np.sqrt(len(y)))

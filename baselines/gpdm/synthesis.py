@@ -1,4 +1,8 @@
-"""Models that draw new recordings from their latent dynamics (GPDM §5.1)."""
+"""Models that draw new recordings from their latent dynamics (GPDM §5.1).
+
+Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
+30(2), is cited as GPDM.
+"""
 
 from __future__ import annotations
 
@@ -21,21 +25,23 @@ _BURN_IN, _LEAPS, _STEP = 40, 20, 1e-2
 
 
 class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
-    """A latent variable model whose positions depend on ``order`` ones before.
+    """A latent variable model in which each position depends on the ``order`` positions before it.
 
-    Trajectories come from Markov chains of a few dozen states, which mix slowly: samples are less
-    spread around the mean prediction than the dynamics would have them.
+    Trajectories are drawn by hybrid Monte Carlo chains of a few dozen states, which mix slowly:
+    samples vary less around the mean prediction than exact draws would.
     """
 
     order: int
+    """Number of previous positions on which the next one depends."""
 
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Return fair samples of whole recordings, each from the start of a training sequence.
+        """Return samples of whole recordings at ``times`` (N,), noise included: (n, N, D).
 
-        Trajectories are drawn by hybrid Monte Carlo (§5.1), poses at once from their joint
-        distribution given the trajectory, at the frame rate of training and then interpolated.
+        Each starts at the first position of a random training sequence. Trajectories are drawn by
+        hybrid Monte Carlo (GPDM §5.1), and poses from their joint distribution given the
+        trajectory, at the training frame rate and then interpolated linearly.
         """
         check_is_fitted(self)
         rng = np.random.default_rng(random_state)
@@ -48,31 +54,33 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
     def latent_walks(
         self, n_frames: int, n_samples: int, random_state: int | np.random.Generator
     ) -> tuple[Array, Array]:
-        """Return the mean prediction (N, d) from the first training frame, and fair samples."""
+        """Return the mean prediction (N, d) and samples (n, N, d) from the first training frame."""
         check_is_fitted(self)
-        motion, first = self.conditional_.motion, self._first(self._origins()[0])
+        dynamics, first = self.conditional_.dynamics, self._first(self._origins()[0])
         sampler = HybridMonteCarlo(n_samples, _BURN_IN, _LEAPS, _STEP, _BURN_IN)
         rng = np.random.default_rng(random_state)
-        samples = fair_trajectories(motion, first, n_frames, sampler, rng)
-        return mean_trajectory(motion, first, n_frames), samples
+        samples = fair_trajectories(dynamics, first, n_frames, sampler, rng)
+        return mean_trajectory(dynamics, first, n_frames), samples
 
     def _origins(self) -> NDArray[np.intp]:
-        """Return the training sequences that are long enough to start from."""
+        """Return the indices of training sequences that have at least ``order`` frames."""
         return np.flatnonzero(np.asarray(self.sequences_.lengths) >= self.order)
 
     def _first(self, sequence: int) -> Array:
-        """Return the first positions (order, d) of a training sequence that has so many."""
+        """Return the first positions (order, d) of a training sequence."""
         starts = np.cumsum((0, *self.sequences_.lengths))
         return self.estimate_.x[starts[sequence] : starts[sequence + 1]][: self.order]
 
     def _drawn(self, n_samples: int, n_frames: int, rng: np.random.Generator) -> list[Array]:
-        """Return trajectories, those that start from one training sequence from one chain."""
+        """Return trajectories (N, d), from one chain for each training sequence drawn."""
         origins = rng.choice(self._origins(), n_samples)
         chains = []
         for sequence, count in zip(*np.unique(origins, return_counts=True), strict=True):
             sampler = HybridMonteCarlo(int(count), _BURN_IN, _LEAPS, _STEP, _BURN_IN)
             first = self._first(int(sequence))
-            chains += [*fair_trajectories(self.conditional_.motion, first, n_frames, sampler, rng)]
+            chains += [
+                *fair_trajectories(self.conditional_.dynamics, first, n_frames, sampler, rng)
+            ]
         return chains
 
     def _poses(self, x: Array, rng: np.random.Generator) -> Array:

@@ -1,4 +1,8 @@
-"""Two-stage learning (GPDM §4.4): parameters by Monte Carlo EM, then positions given them."""
+"""Two-stage learning (GPDM §4.4): parameters by Monte Carlo EM, then positions given them.
+
+Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
+30(2), is cited as GPDM.
+"""
 
 from __future__ import annotations
 
@@ -11,32 +15,32 @@ from numpy.typing import NDArray
 from mocapbench.baselines.gpdm.descent import descend
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
 from mocapbench.baselines.gpdm.learning import Learning
-from mocapbench.baselines.gpdm.posterior import Estimate, Posterior
+from mocapbench.baselines.gpdm.posterior import JointPosterior, PointEstimate
 
 __all__ = ["TwoStage"]
 
 Array = NDArray[np.float64]
 
 _TO_MODE = 100
-"""Steps to a mode of the positions, from which each chain starts (footnote 9)."""
+"""Iterations of L-BFGS towards a mode, where each chain starts (GPDM footnote 9)."""
 
 
 @dataclass(frozen=True)
 class TwoStage(Learning):
-    """Algorithm 2, then steps in the positions from the last sample.
+    """GPDM Algorithm 2, and then L-BFGS on the positions from the last sample.
 
-    The posterior over the positions is sampled given the parameters; the parameters minimise the
-    mean of the negative log-posterior over the samples.
+    The E-step samples the posterior of the positions given the parameters. The M-step minimises
+    the negative log-posterior, averaged over the samples, with respect to the parameters.
 
     Parameters
     ----------
     sampler : HybridMonteCarlo
-        The paper draws R = 50 samples after 10, with 100 leapfrog steps each.
+        The paper draws R = 50 samples after 10 discarded ones, with 100 leapfrog steps each.
     n_rounds, n_turns, n_steps : int
-        The paper's I, J and K: rounds of EM, and in each M-step turns between the scales in
-        closed form and steps in the other parameters.
+        The paper's I, J and K: rounds of EM; within an M-step, alternations between the scales in
+        closed form and the other parameters; and iterations of L-BFGS on the latter.
     n_last : int
-        Steps of the second stage.
+        Iterations of L-BFGS in the second stage.
     """
 
     sampler: HybridMonteCarlo
@@ -45,46 +49,57 @@ class TwoStage(Learning):
     n_steps: int
     n_last: int
 
-    def learn(self, posterior: Posterior, start: Estimate, rng: np.random.Generator) -> Estimate:
+    def learn(
+        self, posterior: JointPosterior, start: PointEstimate, rng: np.random.Generator
+    ) -> PointEstimate:
         """Return the estimate after both stages."""
-        at = replace(start, scales=posterior.best_scales(posterior.inverse(start.x, start.beta)))
+        estimate = replace(
+            start, scales=posterior.best_scales(posterior.inverse(start.x, start.beta))
+        )
         for _ in range(self.n_rounds):
-            samples = self._samples(posterior, at, rng)
-            at = self._maximised(posterior, samples, replace(at, x=samples[-1]))
-        return settled(posterior, at, self.n_last)
+            samples = self._samples(posterior, estimate, rng)
+            estimate = self._maximised(posterior, samples, replace(estimate, x=samples[-1]))
+        return optimise_latents(posterior, estimate, self.n_last)
 
-    def _samples(self, posterior: Posterior, at: Estimate, rng: np.random.Generator) -> Array:
+    def _samples(
+        self, posterior: JointPosterior, estimate: PointEstimate, rng: np.random.Generator
+    ) -> Array:
         def potential(x: Array) -> tuple[float, Array]:
-            found = posterior.slopes(replace(at, x=x))
-            return found.value, found.x
+            joint = posterior.value_and_gradients(replace(estimate, x=x))
+            return joint.value, joint.x
 
-        mode = settled(posterior, at, _TO_MODE)
+        mode = optimise_latents(posterior, estimate, _TO_MODE)
         samples, _ = self.sampler.sample(potential, mode.x, rng)
         return samples
 
-    def _maximised(self, posterior: Posterior, samples: Array, at: Estimate) -> Estimate:
-        """Return the parameters of the M-step."""
+    def _maximised(
+        self, posterior: JointPosterior, samples: Array, estimate: PointEstimate
+    ) -> PointEstimate:
+        """Return the estimate with the parameters of the M-step."""
 
         def objective(alpha: Array, beta: Array) -> tuple[float, Sequence[Array]]:
-            found = [posterior.slopes(Estimate(x, alpha, beta, at.scales)) for x in samples]
-            value = float(np.mean([each.value for each in found]))
-            slopes = [[each.alpha, each.beta] for each in found]
-            return value, [np.mean(column, axis=0) for column in zip(*slopes, strict=True)]
+            points = [PointEstimate(x, alpha, beta, estimate.scales) for x in samples]
+            terms = [posterior.value_and_gradients(point) for point in points]
+            value = float(np.mean([term.value for term in terms]))
+            gradients = [[term.alpha, term.beta] for term in terms]
+            return value, [np.mean(column, axis=0) for column in zip(*gradients, strict=True)]
 
         for _ in range(self.n_turns):
-            inverse = np.mean([posterior.inverse(x, at.beta) for x in samples], axis=0)
-            at = replace(at, scales=posterior.best_scales(inverse))
-            alpha, beta = descend(objective, (at.alpha, at.beta), self.n_steps)
-            at = replace(at, alpha=alpha, beta=beta)
-        return at
+            inverse = np.mean([posterior.inverse(x, estimate.beta) for x in samples], axis=0)
+            estimate = replace(estimate, scales=posterior.best_scales(inverse))
+            alpha, beta = descend(objective, (estimate.alpha, estimate.beta), self.n_steps)
+            estimate = replace(estimate, alpha=alpha, beta=beta)
+        return estimate
 
 
-def settled(posterior: Posterior, at: Estimate, n_steps: int) -> Estimate:
-    """Return the estimate after ``n_steps`` in the positions alone."""
+def optimise_latents(
+    posterior: JointPosterior, estimate: PointEstimate, n_steps: int
+) -> PointEstimate:
+    """Return the estimate after ``n_steps`` iterations of L-BFGS on the positions alone."""
 
     def objective(x: Array) -> tuple[float, Sequence[Array]]:
-        found = posterior.slopes(replace(at, x=x))
-        return found.value, (found.x,)
+        joint = posterior.value_and_gradients(replace(estimate, x=x))
+        return joint.value, (joint.x,)
 
-    (x,) = descend(objective, (at.x,), n_steps)
-    return replace(at, x=x)
+    (x,) = descend(objective, (estimate.x,), n_steps)
+    return replace(estimate, x=x)

@@ -24,6 +24,11 @@ __all__ = ["app"]
 
 app = typer.Typer()
 
+NOTHING_COMPARED = (
+    "nothing was compared: expected values that both {run} and {reference} hold; "
+    "run what the reference holds, or record this run with --update"
+)
+
 
 @app.command()
 def check(
@@ -59,7 +64,10 @@ def check(
     ] = False,
     plugin: Plugins = None,
 ) -> None:
-    """Compare a run with reference values, fold by fold; exit code 1: a metric got worse."""
+    """Check that no metric of a run is worse than its reference value.
+
+    Values are paired by fold. Exit code 1 says that a metric got worse.
+    """
     load_plugins(plugin)
     if (reference is None) != controls:
         raise UsageError("expected something to check against: choose --reference or --controls")
@@ -72,18 +80,16 @@ def check(
         if path is not None and (path.is_dir() or not path.parent.is_dir()):
             raise UsageError(f"{path}: expected a file in a folder that exists")
     store, console = bench.Store.open(run), Console()
-    records, known = store.planned(), gate.read_reference(reference)
-    values = gate.of_records(records, store.load_plan())
+    records, plan = store.planned(), store.load_plan()
+    known, values = gate.read_reference(reference), gate.of_records(records, plan)
     show_left_out(store.damaged, console)
     if update:
-        n_absent = len(store.load_plan()["keys"]) - len(records)
-        _refuse_to_update(reference, values, records, n_absent, allow_failures)
+        _refuse_to_update(reference, values, records, len(plan["keys"]), allow_failures)
         known = known or gate.Reference({}, values.about)
         environment = environment or Environment.SAME  # whatever moves is worth a review
     if known is None:
-        console.print(
-            f"no reference values at {reference}: write some with --update", soft_wrap=True
-        )
+        advice = f"no reference values at {reference}: write some with --update"
+        console.print(advice, soft_wrap=True)
         raise typer.Exit(ExitCode.NOTHING_RAN)
     differing = gate.differences(known, values)
     level = environment or (Environment.CROSS if differing else Environment.SAME)
@@ -97,11 +103,7 @@ def check(
         console.print(f"{reference} now holds this run: review it like code", soft_wrap=True)
         raise typer.Exit(ExitCode.OK)
     if result.exit_code is ExitCode.NOTHING_RAN:
-        console.print(
-            f"nothing was compared: expected values that both {run} and {reference} hold; "
-            "run what the reference holds, or record this run with --update",
-            soft_wrap=True,
-        )
+        console.print(NOTHING_COMPARED.format(run=run, reference=reference), soft_wrap=True)
     store.save_check({"reference": str(reference), **gate.plain(result)})
     raise typer.Exit(result.exit_code)
 
@@ -114,16 +116,16 @@ def _check_controls(run: Path, console: Console) -> ExitCode:
 
 
 def _refuse_to_update(
-    reference: Path, run: Reference, records: Sequence[Record], n_absent: int, allow_failures: bool
+    reference: Path, run: Reference, records: Sequence[Record], n_planned: int, allow_failures: bool
 ) -> None:
     if reference.is_dir() and bench.Store.is_run(reference):
         raise UsageError(f"--update: {reference} is a run directory; name a .csv file or a folder")
     if reference.is_file() and reference.suffix != ".csv":
         raise UsageError(f"--update: expected a .csv file or a folder, got the file {reference}")
-    if n_absent:
+    if len(records) < n_planned:
         raise UsageError(
-            f"--update: {n_absent} jobs of the run have no whole record, so the reference would "
-            "lack them; resume it with `mocapbench run`"
+            f"--update: {n_planned - len(records)} jobs of the run have no whole record, so the "
+            "reference would lack them; resume it with `mocapbench run`"
         )
     failed = [record for record in records if record.status.broken]
     if failed and not allow_failures:

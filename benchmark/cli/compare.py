@@ -11,12 +11,12 @@ from rich.console import Console
 
 from mocapbench import benchmark as bench
 from mocapbench.benchmark import comparison
-from mocapbench.benchmark.cli.options import Names, show_left_out, split
+from mocapbench.benchmark.cli.options import Names, Plugins, load_plugins, show_left_out, split
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark.comparison.contrasts import Side
+    from mocapbench.benchmark.comparison.sides import Side
 
 __all__ = ["app"]
 
@@ -34,8 +34,10 @@ def compare(
     ] = 0.02,
     markdown: Annotated[Path | None, typer.Option(help="A Markdown file to write.")] = None,
     csv: Annotated[Path | None, typer.Option(help="A CSV file to write, unrounded.")] = None,
+    plugin: Plugins = None,
 ) -> None:
-    """Set two runs, or two models of one run, against each other, fold by fold."""
+    """Compare two runs, or two models of one run, fold by fold."""
+    load_plugins(plugin)
     console = Console()
     for path in (markdown, csv):
         if path is not None and not path.parent.is_dir():

@@ -24,7 +24,7 @@ def export(
     out: Out = DEFAULT_OUT,
     to: Annotated[Path | None, typer.Option(help="Folder of the files.")] = None,
 ) -> None:
-    """Write everything in a run directory, scores and jobs, as tables.
+    """Write the scores and jobs of a run directory as tables.
 
     As CSV, and as Parquet where pyarrow is installed.
     """

@@ -44,7 +44,7 @@ class Kind(StrEnum):
 def list_registered(
     kind: Annotated[Kind, typer.Argument(help="What to list.")], plugin: Plugins = None
 ) -> None:
-    """List the registered tasks, models, metrics or libraries of recordings."""
+    """List tasks, models, metrics or libraries of recordings."""
     load_plugins(plugin)
     tables: dict[Kind, Callable[[], Table]] = {
         Kind.TASKS: _task_table,

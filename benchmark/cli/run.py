@@ -66,7 +66,10 @@ def run(
     offline: Annotated[bool, typer.Option("--offline", help="Download nothing.")] = False,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Show the jobs, run none.")] = False,
 ) -> None:
-    """Run the benchmark and write its report; what the run directory holds is not run again."""
+    """Run the benchmark and write its report.
+
+    What the run directory holds already is not computed again, so that the same command resumes.
+    """
     console, plugins = Console(), load_plugins(plugin)
     request = bench.Request(
         profile, split(tasks), split(models), split(cases), split(metrics), folds, seed

@@ -1,5 +1,6 @@
-from .contrasts import between_models, between_runs, compare, tidy
+from .contrasts import compare, tidy
 from .output import markdown, notes, terminal
+from .sides import between_models, between_runs
 
 __all__ = [
     "between_models",

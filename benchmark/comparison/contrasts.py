@@ -14,7 +14,8 @@ from dataclasses import asdict, dataclass, replace
 
 import pandas as pd
 
-from mocapbench.benchmark.errors import UnknownNameError, UsageError
+from mocapbench.benchmark.comparison.sides import Side
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
@@ -28,11 +29,9 @@ from mocapbench.metrics.statistics import (
     pooled_units,
 )
 
-__all__ = ["POOLED", "Row", "between_models", "between_runs", "compare", "tidy"]
+__all__ = ["POOLED", "Row", "compare", "tidy"]
 
 POOLED = "all cases"
-
-Side = Sequence[Record]
 
 
 @dataclass(frozen=True)
@@ -50,55 +49,6 @@ class Row:
     contrast: Contrast
     t_p_holm: float = math.nan
     signed_rank_p_holm: float = math.nan
-
-
-def between_runs(first: Side, second: Side, models: Sequence[str] = ()) -> tuple[Side, Side]:
-    """Return the records of both runs, of the entrants that ``models`` names, or of all.
-
-    Raises
-    ------
-    UnknownNameError
-        If neither run has an entrant of that label or model.
-    """
-    one, other = (_of_models(side, models or _labels(side)) for side in (first, second))
-    _require_models(models, [*first, *second])
-    return one, other
-
-
-def between_models(run: Side, models: Sequence[str]) -> tuple[Side, Side]:
-    """Return the records of two entrants of one run, without their labels.
-
-    Raises
-    ------
-    UsageError
-        If ``models`` are not two different labels of the run.
-    """
-    if len(set(models)) != 2:
-        raise UsageError(
-            "compare: expected a second run, or --models with two labels of the one run, got "
-            f"{', '.join(models) or 'neither'}"
-        )
-    _require_models(models, run)
-    one, other = (
-        [replace(r, address=r.address._replace(label="")) for r in _of_models(run, [name])]
-        for name in models
-    )
-    return one, other
-
-
-def _labels(side: Side) -> set[str]:
-    return {record.address.label for record in side}
-
-
-def _of_models(side: Side, models: Iterable[str]) -> list[Record]:
-    return [record for record in side if record.address.label in set(models)]
-
-
-def _require_models(models: Iterable[str], side: Side) -> None:
-    known = sorted(_labels(side))
-    for name in models:
-        if name not in known:
-            raise UnknownNameError("entrant of the run", name, known)
 
 
 def compare(

@@ -88,24 +88,26 @@ def _columns(sides: tuple[str, str]) -> list[str]:
 
 
 def _cells(row: Row, sides: tuple[str, str]) -> list[str]:
-    found = row.contrast
+    contrast = row.contrast
     return [
         f"{row.entrant}: {row.case}" if row.entrant else row.case,
-        *(str(found.n), _digits(found.first), _digits(found.second)),
-        f"{_digits(found.advantage)} {_interval(found)}".strip(),
+        *(str(contrast.n), _digits(contrast.first), _digits(contrast.second)),
+        f"{_digits(contrast.advantage)} {_interval(contrast)}".strip(),
         *map(_digits, (row.t_p_holm, row.signed_rank_p_holm)),
-        _probabilities(found),
+        _probabilities(contrast),
         outcome(row, sides),
     ]
 
 
-def _interval(found: Contrast) -> str:
-    return "" if math.isnan(found.low) else f"[{_digits(found.low)}, {_digits(found.high)}]"
+def _interval(contrast: Contrast) -> str:
+    return (
+        "" if math.isnan(contrast.low) else f"[{_digits(contrast.low)}, {_digits(contrast.high)}]"
+    )
 
 
-def _probabilities(found: Contrast) -> str:
-    shares = (found.better, found.equivalent, found.worse)
-    return "–" if math.isnan(found.better) else " / ".join(f"{share:.2f}" for share in shares)
+def _probabilities(contrast: Contrast) -> str:
+    shares = (contrast.better, contrast.equivalent, contrast.worse)
+    return "–" if math.isnan(contrast.better) else " / ".join(f"{share:.2f}" for share in shares)
 
 
 def _digits(value: float) -> str:

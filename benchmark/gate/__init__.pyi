@@ -2,7 +2,8 @@ from .checking import check, differences, updated
 from .findings import Check, Finding
 from .negative_control import check_controls
 from .output import junit, markdown, plain, summary, terminal
-from .reference import Reference, of_records, read_reference, write_reference
+from .reference import Reference, of_records
+from .reference_files import read_reference, write_reference
 from .rule import Judgement, Tolerance, Verdict, judge
 from .tolerances import read_tolerances
 

@@ -24,10 +24,10 @@ def check_controls(records: Sequence[Record], console: Console) -> ExitCode:
     `ExitCode.NOTHING_RAN` if no task has a control with scores in two cells.
     """
     results = bundle(records, {})
-    found = {
+    by_task = {
         layout.name: negative_control(task_results(results, layout)) for layout in results.layouts
     }
-    checked = {task: findings for task, findings in found.items() if findings}
+    checked = {task: findings for task, findings in by_task.items() if findings}
     if not checked:
         console.print(
             "nothing to check: expected scores of the entrant 'control' in at least two cells "

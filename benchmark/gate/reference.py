@@ -1,48 +1,33 @@
-"""Reference values: the stored values of every fold that a run is compared with.
-
-They are kept as text that a review can read: a CSV file with one row per (task, version, case,
-label, metric), sorted, and a column per fold, below a head that says what the values were computed
-with. It is one file, or a folder with a file per task; a run directory serves as one too.
-"""
+"""Reference values: the stored values of every fold that a run is compared with."""
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, NamedTuple
 
-from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
-from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.record import Record
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 
 __all__ = [
     "COLUMNS",
     "ENVIRONMENT",
+    "REQUEST",
     "Folds",
     "Reference",
     "Series",
+    "gathered",
     "of_records",
-    "read_reference",
-    "write_reference",
 ]
 
-FORMAT = "mocapbench baseline"
-"""The first line of a file, from the time when reference values were called a baseline."""
 ENVIRONMENT = (
     *("machine", "libc", "BLAS"),
     *(f"{library} version" for library in ("numpy", "scipy", "scikit-learn")),
 )
-_REQUEST = ("profile", "seed")
+REQUEST = ("profile", "seed")
 _UNKNOWN = "unknown"
 COLUMNS = ("task", "version", "case", "label", "metric")
-_FOLD = "fold "
 
 
 class Series(NamedTuple):
@@ -103,114 +88,12 @@ def of_records(records: Sequence[Record], plan: Mapping[str, Any]) -> Reference:
             if math.isfinite(value):
                 series = Series(record.address.all_folds, metric)
                 values.setdefault(series, {})[record.address.fold or 0] = value
-    request = {name: plan["provenance"].get(name, _UNKNOWN) for name in _REQUEST}
+    request = {name: plan["provenance"].get(name, _UNKNOWN) for name in REQUEST}
     scored = [record.provenance for record in records if record.scores]
-    return Reference(values, {**request, **_gathered(scored, ENVIRONMENT)})
+    return Reference(values, {**request, **gathered(scored, ENVIRONMENT)})
 
 
-def _gathered(parts: Sequence[Mapping[str, str]], names: Iterable[str]) -> dict[str, str]:
+def gathered(parts: Sequence[Mapping[str, str]], names: Iterable[str]) -> dict[str, str]:
     """Return what ``parts`` hold under ``names``, side by side where they differ."""
     held = {name: sorted({part.get(name, _UNKNOWN) for part in parts}) for name in names}
     return {name: " and ".join(values) for name, values in held.items()}
-
-
-def read_reference(path: Path) -> Reference | None:
-    """Return the values in a file, a folder of files or a run directory; None if none is there.
-
-    Raises
-    ------
-    UsageError
-        If a file holds no reference values, the files of a folder do not belong together, or a
-        record of a run directory is damaged.
-    """
-    if path.is_dir() and Store.is_run(path):
-        store = Store.open(path)
-        records = store.planned()
-        if store.damaged:
-            raise UsageError(
-                f"--reference: {path} holds a damaged record ({store.damaged[0]}); run "
-                "`mocapbench run` there again, which mends it"
-            )
-        return of_records(records, store.load_plan())
-    files = sorted(path.glob("*.csv")) if path.is_dir() else [path] * path.is_file()
-    return _joined(path, [_parse(file) for file in files]) if files else None
-
-
-def _joined(path: Path, parts: Sequence[Reference]) -> Reference:
-    about = _gathered([part.about for part in parts], (*_REQUEST, *ENVIRONMENT))
-    for name in _REQUEST:
-        if len({part.about.get(name) for part in parts}) > 1:
-            raise UsageError(
-                f"--reference: expected one {name} in all files of {path}, got {about[name]}; "
-                "delete them and write them again with --update"
-            )
-    return Reference(_distinct(row for part in parts for row in part.values.items()), about)
-
-
-def _distinct(rows: Iterable[tuple[Series, Folds]]) -> dict[Series, Folds]:
-    """Return ``rows`` by series: which of two rows a merge meant cannot be known."""
-    values: dict[Series, Folds] = {}
-    for series, folds in rows:
-        if series in values:
-            raise UsageError(f"--reference: {series} has two rows; keep one")
-        values[series] = folds
-    return values
-
-
-def _parse(path: Path) -> Reference:
-    try:
-        *lines, rest = path.read_text(encoding="utf-8").split("\n")
-        head = [line[2:] for line in lines if line.startswith("# ")]
-        if head[:1] != [FORMAT]:
-            raise ValueError(f"its first line is not '# {FORMAT}'")
-        if rest:
-            raise ValueError("its last line is cut short")
-        values = _distinct(map(_row, csv.DictReader(lines[len(head) :], strict=True)))
-        return Reference(values, dict(line.split(": ", 1) for line in head[1:]))
-    except (OSError, ValueError, KeyError, TypeError, csv.Error) as error:
-        raise UsageError(
-            f"--reference: {path} holds no reference values ({error}); mend it, or delete it and "
-            "write it again with --update"
-        ) from error
-
-
-def _row(row: Mapping[Any, Any]) -> tuple[Series, Folds]:
-    if None in row or None in row.values():
-        raise ValueError(f"expected as many cells in a row as in the head, got {[*row.values()]}")
-    address = Address(row["task"], int(row["version"]), row["case"], label=row["label"])
-    values = {
-        int(name.removeprefix(_FOLD)): float(text)
-        for name, text in row.items()
-        if name.startswith(_FOLD) and text
-    }
-    if not (values and all(map(math.isfinite, values.values()))):
-        raise ValueError(f"expected finite values of {row['metric']}, got {values}")
-    return Series(address, METRICS.renamed(row["metric"])), values
-
-
-def write_reference(path: Path, reference: Reference) -> None:
-    """Write the values to a ``.csv`` file, or to one per task of a folder; each is whole."""
-    if path.suffix == ".csv" and not path.is_dir():
-        return _write(path, reference.values, reference.about)
-    by_task: dict[str, dict[Series, Folds]] = {}
-    for series, folds in reference.values.items():
-        by_task.setdefault(series.address.task, {})[series] = folds
-    for task, values in by_task.items():
-        _write(path / f"{task}.csv", values, reference.about)
-    for file in path.glob("*.csv"):
-        if file.stem not in by_task:
-            file.unlink()
-    return None
-
-
-def _write(path: Path, values: Mapping[Series, Folds], about: Mapping[str, str]) -> None:
-    folds = range(1 + max(fold for folds in values.values() for fold in folds))
-    buffer = io.StringIO()
-    buffer.writelines(f"# {line}\n" for line in (FORMAT, *(f"{k}: {v}" for k, v in about.items())))
-    writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow([*COLUMNS, *(f"{_FOLD}{fold}" for fold in folds)])
-    for series, by_fold in sorted(values.items()):
-        writer.writerow([*series.cells, *(by_fold.get(fold) for fold in folds)])
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(path) as file:
-        file.write(buffer.getvalue().encode())

@@ -19,8 +19,8 @@ def with_numbers(name: str, arrays: Iterable[NDArray[Any]]) -> dict[str, NDArray
 
 def numbered(name: str, arrays: Arrays) -> tuple[NDArray[Any], ...]:
     """Return the arrays ``name-0``, ``name-1`` and so on, as many as there are."""
-    found = with_prefix(name, arrays)
-    return tuple(found[str(number)] for number in range(len(found)))
+    by_number = with_prefix(name, arrays)
+    return tuple(by_number[str(number)] for number in range(len(by_number)))
 
 
 def with_prefix(prefix: str, arrays: Arrays) -> dict[str, NDArray[Any]]:

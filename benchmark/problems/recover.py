@@ -52,7 +52,7 @@ class RecoverProblem(Problem[Covariances]):
     train : tuple of Recording
         What `fit` gets.
     process : ToyProcess
-        The process, which the models that enter are not told.
+        The process, which no model that enters is given.
     times : ndarray of shape (N,)
         Where the covariances are compared.
     """

@@ -57,7 +57,7 @@ def execute(jobs: Sequence[Job], config: WorkerConfig, n_workers: int) -> Iterat
 
 
 def _record(future: Future[Record], job: Job, config: WorkerConfig) -> Record:
-    """Return the job's record, whatever became of its process."""
+    """Return the job's record, or one that says why its process gave none."""
     try:
         return future.result()
     except TimeoutError:

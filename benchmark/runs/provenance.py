@@ -1,4 +1,4 @@
-"""Provenance: what a number was computed with and on."""
+"""Provenance: the versions, the machine and the command behind a number."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Records: what one job found, as one immutable row."""
+"""Records: the result of one job, as one immutable row."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What synthesisers, clusterers, aligners and blenders promise."""
+"""Checks of synthesisers, clusterers, aligners and blenders."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ def clusters_every_recording(subject: Subject) -> None:
     """Check that every recording has a cluster, and the same seed gives the same."""
     one, two = (np.asarray(subject.fitted(problem(GAP)).labels_) for _ in range(2))
     whole = one.shape == (4,) and np.issubdtype(one.dtype, np.integer)
-    found = f"shape {one.shape} of {one.dtype}"
-    require(whole, "labels_ of 4 integers, one a recording", found, "label recordings, not frames")
+    got = f"shape {one.shape} of {one.dtype}"
+    require(whole, "labels_ of 4 integers, one a recording", got, "label recordings, not frames")
     require_equal(one, two, "the same clusters from the same seed", "use random_state alone")
 
 
 def makes_one_cluster_of_one_style(subject: Subject) -> None:
     """Check that with n_styles=1 all recordings are together."""
-    found = sorted(set(np.asarray(subject.fitted(COMPLETE, n_styles=1).labels_).tolist()))
+    labels = sorted(set(np.asarray(subject.fitted(COMPLETE, n_styles=1).labels_).tolist()))
     advice = "take n_styles in the constructor and find no more clusters than that"
-    require(len(found) == 1, "one cluster with n_styles=1", found, advice)
+    require(len(labels) == 1, "one cluster with n_styles=1", labels, advice)
 
 
 def aligns_every_frame(subject: Subject) -> None:

@@ -1,4 +1,4 @@
-"""What a failed check says."""
+"""The error of a failed check, and how checks raise it."""
 
 from __future__ import annotations
 

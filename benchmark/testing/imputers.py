@@ -1,4 +1,4 @@
-"""What an imputer promises."""
+"""Checks of imputers."""
 
 from __future__ import annotations
 

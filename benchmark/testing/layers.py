@@ -1,4 +1,4 @@
-"""What models with a trend, with layers and with coregionalisation promise."""
+"""Checks of models with a trend, with layers and with coregionalisation."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ _ROUNDING = 1e-6
 
 
 def infers_a_trend_at_any_time(subject: Subject) -> None:
-    """Check that the trend has a mean and a positive variance wherever it is asked for."""
-    asked = TIMES[::3] + 0.1
-    mean, variance = subject.fitted(problem(GAP)).trend(asked)
-    shape = (len(asked), COMPLETE[0].values.shape[1])
-    found = f"{np.shape(mean)} and {np.shape(variance)}"
+    """Check that the trend has a mean and a positive variance at any time."""
+    times = TIMES[::3] + 0.1
+    mean, variance = subject.fitted(problem(GAP)).trend(times)
+    shape = (len(times), COMPLETE[0].values.shape[1])
+    shapes = f"{np.shape(mean)} and {np.shape(variance)}"
     whole = np.shape(mean) == np.shape(variance) == shape
-    require(whole, f"mean and variance of shape {shape}", found, "return them for all channels")
+    require(whole, f"mean and variance of shape {shape}", shapes, "return them for all channels")
     require(np.isfinite(mean).all(), "a finite mean", "NaN or infinity", "extrapolate")
     least = float(np.min(variance))
     require(least > 0, "a positive variance", f"{least:g}", "leave no time without uncertainty")

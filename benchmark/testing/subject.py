@@ -1,4 +1,4 @@
-"""What the checks of models work on: small recordings, and models fitted to them."""
+"""Small recordings, and models fitted to them, for the checks of models."""
 
 from __future__ import annotations
 

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import joblib
 import numpy as np
 
 from mocapbench.baselines import FrameImputer, Imputer, Model
@@ -53,7 +54,7 @@ def _check_names(task: Task) -> None:
     _require_distinct("labels of entrants", labels)
     require(task.version >= 1, "a version from 1", task.version, "raise it when problems change")
     require(task.page.metrics, "metrics to show", "none", "name at least one")
-    abilities = all(issubclass(each, Model) for each in task.requires)
+    abilities = all(issubclass(ability, Model) for ability in task.requires)
     require(abilities, "abilities from mocapbench.baselines", task.requires, "say what is needed")
     _require_among("metrics", task.page.metrics, METRICS.names())
     _require_among("published_models", task.page.published_models, labels)
@@ -85,6 +86,9 @@ def _check_problems(task: Task, archive: Archive) -> None:
         _check_masks(one, two)
         if task.max_folds != 1:
             _check_folds(one, _posed(task, case, 1, archive))
+    # What no model sees counts too: the truth, the references and the process.
+    same = joblib.hash(one) == joblib.hash(two)
+    require(same, "the same problem again at the same address", "another", advice)
 
 
 def _check_masks(one: Any, two: Any) -> None:

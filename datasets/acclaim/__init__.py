@@ -1,1 +1,1 @@
-"""The Acclaim format: skeletons (.asf) and motions (.amc), read strictly and written."""
+"""The Acclaim format: strict readers and writers of skeletons (.asf) and motions (.amc)."""

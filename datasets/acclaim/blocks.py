@@ -1,4 +1,4 @@
-"""How an .asf file is built: sections, blocks from ``begin`` to ``end``, and fields."""
+"""The parts of an .asf file: sections, blocks from ``begin`` to ``end``, and fields."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Fields:
 
     @classmethod
     def parse(cls, section: Sequence[Line], allowed: Set[str]) -> Fields:
-        """Take the lines of a section or block, its heading first.
+        """Return the fields of a section or block, given its lines with the heading first.
 
         Raises
         ------

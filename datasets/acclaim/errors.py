@@ -1,4 +1,4 @@
-"""What can be wrong with an Acclaim file, said so that a person can mend it."""
+"""Errors and warnings about Acclaim files, with file, line, expected and found content."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ class AcclaimError(ValueError):
     file : str
         The file, or the name of the generated text.
     line : int or None
-        1-based line, or None where the file as a whole is at fault.
+        Line, counted from 1; None if the error concerns the whole file.
     expected : str
-        What the format asks for there.
+        What the format requires there.
     got : str
         What was found instead.
     """
@@ -33,4 +33,4 @@ class AcclaimError(ValueError):
 
 
 class TruncatedFrameWarning(UserWarning):
-    """The last frame of a motion lacks segments, as the capture was cut short; it is dropped."""
+    """The last frame of a motion is incomplete, as the capture was cut short; it was dropped."""

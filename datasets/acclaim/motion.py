@@ -21,7 +21,7 @@ _UNITS = {"r": "deg", "t": ""}
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """The values of an .amc file as they stand there, angles in degrees.
+    """The values of an .amc file, unchanged except that angles are in degrees.
 
     Root translations keep the skeleton's unit of length, in which the papers' errors are stated;
     only `joint_positions` converts to centimetres.
@@ -29,17 +29,17 @@ class Motion:
     Parameters
     ----------
     skeleton : Skeleton
-        Whose degrees of freedom these are.
+        The skeleton that moves.
     segments : tuple of str
-        Every moving segment of the skeleton, in the order of the file.
+        Every segment of the skeleton that has degrees of freedom, in the order of the file.
     values : ndarray of shape (N, D)
-        One column per degree of freedom.
+        One column per degree of freedom: degrees, or the skeleton's unit of length.
 
     Raises
     ------
     ValueError
-        If the segments are not the skeleton's moving ones, or the values have another shape or
-        are not finite.
+        If the segments are not those of the skeleton with degrees of freedom, or the values have
+        another shape or are not finite.
     """
 
     skeleton: Skeleton
@@ -74,7 +74,7 @@ class Motion:
 
 
 def format_motion(motion: Motion) -> str:
-    """Return the text of an .amc file, from which exactly the same values are read."""
+    """Return the text of an .amc file; reading it gives exactly the same values."""
     return "\n".join((":FULLY-SPECIFIED", ":DEGREES", *_frames(motion))) + "\n"
 
 

@@ -1,7 +1,7 @@
 """Reading Acclaim motion files (.amc), strictly.
 
-The first frame states the order of the segments, and every other must repeat it. One defect of
-real captures is read with a warning: a last frame that lacks its last segments is dropped.
+The first frame gives the order of the segments, which every other frame must repeat. One defect of
+real captures only gives a warning: a last frame without its last segments is dropped.
 """
 
 from __future__ import annotations
@@ -28,7 +28,20 @@ _Layout = Sequence[tuple[str, int]]
 
 
 def read_motion(path: str | Path, skeleton: Skeleton) -> Motion:
-    """Read an .amc file of a motion of ``skeleton``.
+    """Read an .amc file.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    skeleton : Skeleton
+        Skeleton of the subject, from `read_skeleton`.
+
+    Returns
+    -------
+    Motion
+        N frames of all degrees of freedom, angles in degrees; ``motion.recording(name)`` makes a
+        `Recording` of it.
 
     Raises
     ------
@@ -38,13 +51,39 @@ def read_motion(path: str | Path, skeleton: Skeleton) -> Motion:
     Warns
     -----
     TruncatedFrameWarning
-        If the last frame lacks segments and was dropped.
+        If the last frame is incomplete and was dropped.
+
+    Examples
+    --------
+    Write a synthetic recording to files and read it back:
+
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from mocapbench.datasets import GaitLibrary, format_motion, format_skeleton
+    >>> from mocapbench.datasets import read_motion, read_skeleton
+    >>> motion = GaitLibrary().motion("01_01")
+    >>> with TemporaryDirectory() as folder:
+    ...     asf, amc = Path(folder, "01.asf"), Path(folder, "01_01.amc")
+    ...     _ = asf.write_text(format_skeleton(motion.skeleton))
+    ...     _ = amc.write_text(format_motion(motion))
+    ...     again = read_motion(amc, read_skeleton(asf))
+    >>> again.channels[-1], again.values.shape
+    ('ltoes.rx', (331, 62))
     """
     return parse_motion(read_text(path), skeleton, str(path))
 
 
 def parse_motion(text: str, skeleton: Skeleton, file: str) -> Motion:
-    """Parse the text of an .amc file, which errors call ``file``.
+    """Parse the text of an .amc file.
+
+    Parameters
+    ----------
+    text : str
+        Content of the file.
+    skeleton : Skeleton
+        Skeleton of the subject.
+    file : str
+        Name of the file in error messages.
 
     Raises
     ------
@@ -54,7 +93,7 @@ def parse_motion(text: str, skeleton: Skeleton, file: str) -> Motion:
     Warns
     -----
     TruncatedFrameWarning
-        If the last frame lacks segments and was dropped.
+        If the last frame is incomplete and was dropped.
     """
     source = _Source(file, text.rstrip().split("\n"))
     start, degrees_per_unit = _header(source)
@@ -74,7 +113,7 @@ class _Source:
     lines: Sequence[str]
 
     def line(self, index: int) -> Line:
-        """Return the line at a 0-based index; beyond the last it is empty."""
+        """Return the line at a 0-based index, an empty one after the last."""
         text = self.lines[index] if index < len(self.lines) else ""
         return Line(self.file, index + 1, text.rstrip())
 
@@ -137,10 +176,10 @@ def _first(source: _Source, start: int) -> int:
 
 
 def _row(source: _Source, start: int, number: int, layout: _Layout) -> list[float]:
-    """Return the values of the frame at index ``start``, as many as the file has."""
+    """Return the values of the frame at line index ``start``; the last frame may be incomplete."""
     if source.lines[start].split() != [str(number)]:
         raise source.line(start).error(f"the frame number {number}")
-    shape = layout[: len(source.lines) - start - 1]  # the last frame may be short
+    shape = layout[: len(source.lines) - start - 1]  # fewer in an incomplete last frame
     block = [text.split() for text in source.lines[start + 1 : start + 1 + len(shape)]]
     try:
         # All numbers of a frame at once: twice as fast as line by line.

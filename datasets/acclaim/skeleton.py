@@ -1,4 +1,4 @@
-"""Acclaim skeletons: segments, their degrees of freedom and how they hang together.
+"""Acclaim skeletons: segments, their degrees of freedom and their hierarchy.
 
 Angles are in degrees. Lengths, root translations included, are in the skeleton's own unit, which
 is ``1 / length_unit`` inches (the CMU database states ``length 0.45``, so 5.64 cm).
@@ -29,11 +29,11 @@ class Segment:
     parent : str
         Name of the segment at whose end this one begins; empty for the root.
     direction : tuple of 3 float
-        In the rest pose, in the global frame; of unit length, zero for the root.
+        Unit vector in the rest pose, in global coordinates; zero for the root.
     length : float
         In the skeleton's unit, 0 for the root.
     axis : tuple of 3 float
-        Euler angles, in degrees, of the local frame in which the degrees of freedom turn.
+        Euler angles, in degrees, of the local axes about which the segment rotates.
     order : str
         Order in which rotations are applied, for example ``XYZ``.
     dof : tuple of str
@@ -56,7 +56,7 @@ class Skeleton:
     Parameters
     ----------
     name : str
-        As the file states it.
+        As given in the file.
     length_unit : float
         One unit of length is ``1 / length_unit`` inches.
     segments : tuple of Segment
@@ -79,13 +79,13 @@ class Skeleton:
 
     @property
     def parents(self) -> tuple[int, ...]:
-        """Index of each segment's parent, -1 for the root: the bones that a player draws."""
+        """Index of each segment's parent, -1 for the root."""
         index = {segment.name: i for i, segment in enumerate(self.segments)}
         return tuple(index.get(segment.parent, -1) for segment in self.segments)
 
 
 def format_skeleton(skeleton: Skeleton) -> str:
-    """Return the text of an .asf file, from which the same skeleton is read."""
+    """Return the text of an .asf file; reading it gives the same skeleton."""
     root, *segments = skeleton.segments
     blocks = (
         line for number, segment in enumerate(segments, 1) for line in _block(number, segment)

@@ -1,6 +1,6 @@
 """Reading Acclaim skeleton files (.asf), strictly.
 
-What the benchmark does not use is read over and not kept: masses, joint limits, documentation.
+Masses, joint limits and documentation are skipped, as the benchmark does not use them.
 """
 
 from __future__ import annotations
@@ -29,16 +29,45 @@ _TRANSLATIONS = {"tx", "ty", "tz"}
 def read_skeleton(path: str | Path) -> Skeleton:
     """Read an .asf file.
 
+    Parameters
+    ----------
+    path : path
+        The file.
+
+    Returns
+    -------
+    Skeleton
+        Angles in degrees, lengths in the file's unit.
+
     Raises
     ------
     AcclaimError
         If the file is missing or malformed.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from mocapbench.datasets import GaitLibrary, format_skeleton, read_skeleton
+    >>> with TemporaryDirectory() as folder:
+    ...     asf = Path(folder, "01.asf")
+    ...     _ = asf.write_text(format_skeleton(GaitLibrary().skeleton("01_01")))
+    ...     skeleton = read_skeleton(asf)
+    >>> skeleton.segments[2].name, skeleton.segments[2].dof
+    ('upperback', ('rx', 'ry', 'rz'))
     """
     return parse_skeleton(read_text(path), str(path))
 
 
 def parse_skeleton(text: str, file: str) -> Skeleton:
-    """Parse the text of an .asf file, which errors call ``file``.
+    """Parse the text of an .asf file.
+
+    Parameters
+    ----------
+    text : str
+        Content of the file.
+    file : str
+        Name of the file in error messages.
 
     Raises
     ------

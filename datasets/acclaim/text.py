@@ -1,4 +1,4 @@
-"""The text of an Acclaim file: read with a bound on its lines, and lines that know their place."""
+"""The text of an Acclaim file: bounded reading, and lines with file and number for errors."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mocapbench.datasets.acclaim.errors import AcclaimError
 __all__ = ["MAX_LINE", "Line", "content_lines", "finite_floats", "read_text"]
 
 MAX_LINE = 4096
-"""Longest line in bytes that is read; the longest of the CMU database has about a hundred."""
+"""Longest line in bytes that is accepted; the CMU database has lines of about a hundred."""
 
 _SHOWN = 60
 _HUGE = 1e100  # far from where arithmetic on the values could overflow
@@ -29,7 +29,7 @@ def finite_floats(words: Sequence[str]) -> list[float]:
         If one is not a number in plain notation, is NaN, or is too large to be a measurement.
     """
     values = [float(word) for word in words]
-    # float() also takes Python's 1_000 and the digits of other scripts, as no other reader does.
+    # float() also accepts Python's 1_000 and the digits of other scripts; the format does not.
     joined = "".join(words)
     plain = joined.isascii() and "_" not in joined
     if not plain or not all(map(isfinite, values)) or max(map(abs, values), default=0.0) > _HUGE:
@@ -44,11 +44,11 @@ class Line:
     Parameters
     ----------
     file : str
-        Where it stands.
+        The file of the line, for error messages.
     number : int
-        1-based.
+        Counted from 1.
     text : str
-        The line without its end.
+        The line without its line end.
     """
 
     file: str
@@ -61,7 +61,7 @@ class Line:
         return tuple(self.text.split())
 
     def error(self, expected: str) -> AcclaimError:
-        """Return the error that says what was expected here."""
+        """Return an error for this line, given what was expected."""
         shown = self.text if len(self.text) <= _SHOWN else self.text[:_SHOWN] + "…"
         return AcclaimError(self.file, self.number, expected, repr(shown))
 
@@ -91,7 +91,7 @@ def content_lines(text: str, file: str) -> Iterator[Line]:
 
 
 def read_text(path: str | Path) -> str:
-    """Return the text of a file, never holding a line longer than `MAX_LINE` bytes.
+    """Return the text of a file, without loading any line longer than `MAX_LINE` bytes.
 
     Raises
     ------

@@ -1,10 +1,13 @@
-"""How the thesis must have computed MOA: what `docs/moa.md` rests on.
+"""Experiments on how the thesis computed MOA, reported in `docs/moa.md`.
+
+The thesis is J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion
+Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017.
 
 ::
 
     python docs/evidence/moa.py masks [TEST …]     # one dataset, five masks, as in Tables 1–3
-    python docs/evidence/moa.py visible            # more and more points of one dataset, Table 7
-    python docs/evidence/moa.py walking [FOLDS]    # Table 11, each walk in its own range
+    python docs/evidence/moa.py visible            # 10 and 20 visible points of one dataset
+    python docs/evidence/moa.py walking [FOLDS]    # Table 11, each walk mapped by its own range
 """
 
 from __future__ import annotations
@@ -18,9 +21,7 @@ import pandas as pd
 
 from mocapbench.baselines.lmc_independent import LMCIndependent
 from mocapbench.baselines.moa import MOA
-from mocapbench.benchmark.problems.impute import ImputeProblem, Unit
-from mocapbench.benchmark.registry import METRICS, TASKS
-from mocapbench.benchmark.tasks.seeds import Seeds
+from mocapbench.benchmark import METRICS, TASKS, Address, Case, ImputeProblem, Seeds, Task, Unit
 from mocapbench.datasets import Recording, open_archive
 
 MODELS = {"pooled": MOA, "independent": LMCIndependent}
@@ -30,27 +31,33 @@ N_DATASETS, N_MASKS = 3, 5
 
 @dataclass(frozen=True)
 class OneDataset(Seeds):
-    """Seeds whose folds draw new masks of the dataset that fold ``dataset`` has."""
+    """Seeds whose folds draw new masks, all of the dataset of fold ``dataset``."""
 
     dataset: int = 0
 
     def generator(self, stream: str) -> np.random.Generator:
-        """Return the generator of a stream, the data's of the one dataset."""
+        """Return the generator of a stream; that of the data is the same in every fold."""
         fold = self.dataset if stream == "data" else self.fold
-        return np.random.default_rng(replace(self, fold=fold).sequence(stream))
+        return Seeds(self.root, self.address._replace(fold=fold)).generator(stream)
 
 
 def problem(task: str, case: str, dataset: int, mask: int) -> ImputeProblem:
     """Return the problem of a toy case with a given dataset and mask."""
     known = TASKS.get(task)
-    seeds = OneDataset(0, known.name, known.version, case, mask, dataset=dataset)
-    return known.problem(known.case(case), seeds, open_archive())
+    address = Address(known.name, known.version, case, mask)
+    return known.case(case).problem(OneDataset(0, address, dataset), open_archive())
 
 
-def scores(posed: ImputeProblem, name: str, **settings: object) -> dict[str, float]:
-    """Return what a model scores on a problem."""
-    model = MODELS[name](random_state=0, **settings).fit(posed.train)
-    outcome = posed.outcome(posed.solve(model, 0))
+def posed(task: Task, case: Case, fold: int, name: str = "") -> ImputeProblem:
+    """Return the problem of a case, drawn by the seeds of the case called ``name`` or its own."""
+    address = Address(task.name, task.version, name or case.name, fold)
+    return case.problem(Seeds(0, address), open_archive())
+
+
+def scores(problem: ImputeProblem, name: str, **settings: object) -> dict[str, float]:
+    """Return the scores of a model on a problem."""
+    model = MODELS[name](random_state=0, **settings).fit(problem.train)
+    outcome = problem.outcome(problem.solve(model, 0))
     return {title: METRICS.get(metric)(outcome).value for metric, title in SCORES.items()}
 
 
@@ -70,13 +77,13 @@ def masks(tests: Sequence[str]) -> pd.DataFrame:
         for name in MODELS
     ]
     of_dataset = pd.DataFrame(rows).groupby(["test", "model", "dataset"])
-    mean, spread = of_dataset.mean(), 2.0 * of_dataset.std()
-    table = mean.assign(**{"2 sd / MSE": spread["MSE"] / mean["MSE"]})
+    mean, two_sd = of_dataset.mean(), 2.0 * of_dataset.std()
+    table = mean.assign(**{"2 sd / MSE": two_sd["MSE"] / mean["MSE"]})
     return table.groupby(["test", "model"]).mean()
 
 
 def visible() -> pd.DataFrame:
-    """Return the errors of Tables 7–9's data as more points of the same data become visible."""
+    """Return the errors on the data of Tables 7–9 with 10 and with 20 visible points."""
     task = TASKS.get("toy-interpolation-3")
     rows = [
         {"missing in": missing, "visible": n_visible, "model": name}
@@ -90,39 +97,38 @@ def visible() -> pd.DataFrame:
 
 
 def _shown(name: str, missing: str, n_visible: int, fold: int) -> ImputeProblem:
-    """Return a case with the data of the case that shows 10 points."""
+    """Return the problem of a case, on the data of the case with 10 visible points."""
     task = TASKS.get(name)
-    wanted = {"visible": n_visible, "missing in": missing}
-    (case,) = (case for case in task.cases if dict(case.settings) == wanted)
-    (ten,) = (case for case in task.cases if dict(case.settings) == wanted | {"visible": 10})
-    return task.problem(case, Seeds(0, task.name, task.version, ten.name, fold), open_archive())
+    columns = {"visible": n_visible, "missing in": missing}
+    (case,) = (case for case in task.cases if case.columns == columns)
+    (ten,) = (case for case in task.cases if case.columns == columns | {"visible": 10})
+    return posed(task, case, fold, ten.name)
 
 
 def walking(n_folds: int) -> pd.DataFrame:
     """Return Table 11 with each walk mapped to [0, 1] by its own range before training."""
     task = TASKS.get("walking-interpolation")
     rows = [
-        {"visible": case.settings["visible frames"], "model": name}
-        | scores(_in_own_range(task.problem(case, seeds, open_archive())), name, max_iter=500)
+        {"visible": case.columns["visible frames"], "model": name}
+        | scores(_in_own_range(posed(task, case, fold)), name, max_iter=500)
         for case in task.cases
         if not case.synthetic
         for fold in range(n_folds)
-        for seeds in [Seeds(0, task.name, task.version, case.name, fold)]
         for name in MODELS
     ]
     return pd.DataFrame(rows).groupby(["visible", "model"], sort=False).mean()
 
 
-def _in_own_range(posed: ImputeProblem) -> ImputeProblem:
-    """Return the problem with every recording in the unit of its own complete range."""
-    (given,), (truth,) = posed.given, posed.truth
-    own = posed.unit
-    first = given.with_values(own.of(given.values))
+def _in_own_range(problem: ImputeProblem) -> ImputeProblem:
+    """Return the problem with every recording mapped to [0, 1] by its own complete range."""
+    (given,), (truth,) = problem.given, problem.truth
+    unit = problem.unit
+    first = given.with_values(unit.of(given.values))
     return replace(
-        posed,
-        train=(first, *map(_normalised, posed.train[1:])),
+        problem,
+        train=(first, *map(_normalised, problem.train[1:])),
         given=(first,),
-        truth=(own.of(truth),),
+        truth=(unit.of(truth),),
         unit=Unit.natural(truth.shape[1]),
     )
 
@@ -132,7 +138,7 @@ def _normalised(recording: Recording) -> Recording:
 
 
 def main(arguments: Sequence[str]) -> Iterator[pd.DataFrame]:
-    """Yield the tables that were asked for."""
+    """Yield the requested tables."""
     match list(arguments):
         case ["masks", *tests]:
             yield masks(tests or list("123456789"))

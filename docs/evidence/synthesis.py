@@ -1,11 +1,14 @@
-"""Why samples follow real motion less than the thesis prints: what `docs/thesis.md` rests on.
+"""Why samples correlate less with real motion than in the thesis: reported in `docs/thesis.md`.
+
+The thesis is J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion
+Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017.
 
 ::
 
-    python docs/evidence/synthesis.py frames               # what the mean of two walks reaches
+    python docs/evidence/synthesis.py frames               # the MLC of the mean of two walks
     python docs/evidence/synthesis.py variants [MAX_ITER]  # other kernels, and other units
 
-Recordings are those of the folder that MOCAPBENCH_DATA names.
+Recordings are read from the folder in the environment variable MOCAPBENCH_DATA.
 """
 
 from __future__ import annotations
@@ -24,9 +27,16 @@ from sklearn.preprocessing import minmax_scale
 from mocapbench.baselines.gp.trended import TrendedProcess
 from mocapbench.baselines.moa import MOA
 from mocapbench.baselines.mohgp import MOHGP
-from mocapbench.benchmark.registry import METRICS
-from mocapbench.benchmark.tasks.mocap_synthesis import KICKS, N_SAMPLES, WALKS
-from mocapbench.benchmark.tasks.thesis_recordings import EVALUATION, TRAINING, Window, read_excerpt
+from mocapbench.benchmark import METRICS
+from mocapbench.benchmark.tasks.mocap_synthesis import N_SAMPLES
+from mocapbench.benchmark.tasks.thesis_recordings import (
+    EVALUATION,
+    KICKS,
+    TRAINING,
+    WALKS,
+    Window,
+    read_excerpt,
+)
 from mocapbench.datasets import Recording, open_archive
 from mocapbench.metrics import Synthesis
 
@@ -60,8 +70,8 @@ def excerpts(uris: Sequence[str], windows: Mapping[str, Window]) -> list[Recordi
 
 def compared_with(uris: Mapping[str, str]) -> dict[str, np.ndarray]:
     """Return the curves (N, D) of each reference."""
-    found = excerpts(list(uris.values()), EVALUATION)
-    return {name: each.values for name, each in zip(uris, found, strict=True)}
+    recordings = excerpts(list(uris.values()), EVALUATION)
+    return {name: recording.values for name, recording in zip(uris, recordings, strict=True)}
 
 
 def mlc(samples: np.ndarray, references: Mapping[str, np.ndarray]) -> dict[str, float]:
@@ -73,10 +83,11 @@ def mlc(samples: np.ndarray, references: Mapping[str, np.ndarray]) -> dict[str, 
 
 
 def frames() -> Iterator[dict[str, object]]:
-    """Yield the MLC of the mean of both walks, and of one with the other, for several cuts.
+    """Yield the MLC of the mean of both walks, and of one with the other, for several windows.
 
-    A cut ends where a recording does, 2(1) after 343 frames and 2(2) after 298; each is then
-    resampled to 90, so that the mean is of equal shares of the walks rather than of equal times.
+    A window ends with the recording if that is shorter: 2(1) has 343 frames and 2(2) has 298. Each
+    is then resampled to 90 frames, so that the mean pairs equal fractions of the walks rather than
+    equal times.
     """
     references = compared_with(REFERENCES)
     for window in FRAMES:
@@ -90,14 +101,14 @@ def frames() -> Iterator[dict[str, object]]:
 
 
 def variants(max_iter: int) -> Iterator[dict[str, object]]:
-    """Yield what samples reach under other kernels and in other units.
+    """Yield the scores of samples under other kernels and in other units.
 
-    Log-likelihoods compare within one kind of units only.
+    Log-likelihoods are comparable within the same units only.
     """
     for pair, (uris, windows, references) in PAIRS.items():
         recorded, compared = excerpts(uris, windows), compared_with(references)
         for kernel, unit in product(("matern32", "matern52", "rbf"), UNITS):
-            train = [UNITS[unit](each) for each in recorded]
+            train = [UNITS[unit](recording) for recording in recorded]
             for label, model in MODELS.items():
                 fitted = model(n_components=3, kernel=kernel, max_iter=max_iter).fit(train)
                 row = {"trained on": pair, "kernel": kernel, "units": unit, "model": label}
@@ -111,9 +122,9 @@ def variants(max_iter: int) -> Iterator[dict[str, object]]:
 def _measures(
     fitted: TrendedProcess, train: Sequence[Recording], references: Mapping[str, np.ndarray]
 ) -> dict[str, float]:
-    """Return how much samples vary in time, as a multiple of half the two recordings' difference.
+    """Return the variance of samples in time over half that of the recordings' difference.
 
-    It is the median over channels; the MLC of samples with each reference stands beside it.
+    It is the median over channels. The MLC of the samples with each reference is returned too.
     """
     times = train[0].times
     samples, (trend, _) = fitted.sample(times, N_SAMPLES, 0), fitted.trend(times)
@@ -122,9 +133,9 @@ def _measures(
     return {"drawn / differed": float(np.median(drawn / differed)), **mlc(samples, references)}
 
 
-def main(what: str, max_iter: str = "200") -> None:
+def main(table: str, max_iter: str = "200") -> None:
     """Print one of the tables."""
-    rows = {"frames": frames, "variants": lambda: variants(int(max_iter))}[what]()
+    rows = {"frames": frames, "variants": lambda: variants(int(max_iter))}[table]()
     print(pd.DataFrame(rows).round(3).to_string(index=False))
 
 

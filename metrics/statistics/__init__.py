@@ -1,10 +1,10 @@
 """Statistics of paired comparisons: whether a difference of two entrants is more than chance.
 
 A difference is an *advantage*: the loss of the second entrant minus that of the first, so that
-positive speaks for the first whatever the metric's direction. `pairing` says what one unit is,
-`differences` and `posterior` what a sample of differences tells, `contrast` puts these together,
-`shared_rank` and `ranking` order more than two entrants. docs/statistics.md says what is used
-where and why.
+positive means that the first is better, whatever the metric's direction. `pairing` forms the units,
+`differences` and `posterior` test a sample of differences, `contrast` puts these together, and
+`shared_rank` and `ranking` order more than two entrants. docs/statistics.md explains which of these
+is used where, and why.
 """
 
 from mocapbench.metrics.statistics.contrast import ROPE, Contrast, contrast

@@ -1,4 +1,4 @@
-"""The contrast of two entrants: everything that paired units tell of their difference."""
+"""The contrast of two entrants over paired units: means, interval, tests and probabilities."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from mocapbench.metrics.statistics.posterior import correlated_t_test
 __all__ = ["ROPE", "Contrast", "contrast"]
 
 ROPE = 0.02
-"""Two entrants within 2 % of their mean value are equivalent in practice."""
+"""Region of practical equivalence: two entrants within 2 % of their mean value are equivalent."""
 
 
 @dataclass(frozen=True)
 class Contrast:
-    """What paired units tell of two entrants.
+    """The comparison of two entrants over paired units.
 
     Parameters
     ----------
     n : int
-        Number of units that both have; 0 leaves everything else NaN.
+        Number of units that both have; if 0, all other fields are NaN.
     first, second : float
         Mean values over the units.
     advantage, low, high : float
@@ -58,7 +58,7 @@ def contrast(units: pd.DataFrame, loss: Callable[[float], float], rope: float = 
         One row per unit, columns ``first`` and ``second``, finite: see `case_units` and
         `pooled_units`.
     loss : callable
-        From a value of the metric to how bad it is.
+        From a value of the metric to its loss, of which lower is better.
     rope : float
         Half the width of the region of practical equivalence, as a share of the mean absolute
         value of both columns.

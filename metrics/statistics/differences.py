@@ -29,7 +29,7 @@ MOST_ENUMERATED = 12
 
 Array = NDArray[np.float64]
 
-# SciPy warns where differences are equal but for rounding; their p is 0 all the same.
+# SciPy warns of lost precision where differences are equal except for rounding errors.
 _without_warnings = partial(warnings.catch_warnings, action="ignore", category=RuntimeWarning)
 
 

@@ -1,4 +1,4 @@
-"""What one unit of a test is: a fold, or a case where folds are no independent draws."""
+"""Units of a test: folds, or whole cases where folds are not independent draws."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def pair(first: pd.Series[float], second: pd.Series[float]) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Columns ``first`` and ``second``, in the order of ``first``. What only one side has is
-        left out: unpaired values would bring the difference between problems into that between
+        Columns ``first`` and ``second``, in the order of ``first``. Addresses that only one side
+        has are left out: unpaired values would mix differences between problems with those between
         entrants.
     """
     both = pd.concat({"first": first, "second": second}, axis=1, join="inner").astype(float)
@@ -29,15 +29,15 @@ def pair(first: pd.Series[float], second: pd.Series[float]) -> pd.DataFrame:
 
 def case_units(pairs: pd.DataFrame, case: str, *, independent: bool) -> pd.DataFrame:
     """Return the units of one case: its folds, or their mean where folds are not independent."""
-    own = pairs[pairs.index.get_level_values(0) == case]
-    return own if independent or own.empty else own.mean().to_frame().T
+    folds = pairs[pairs.index.get_level_values(0) == case]
+    return folds if independent or folds.empty else folds.mean().to_frame().T
 
 
 def pooled_units(pairs: pd.DataFrame, *, independent: bool) -> pd.DataFrame:
     """Return the units of a task: the means of its cases, or the units of its only case.
 
-    Cases are the units of a comparison over cases, however many folds each has, as data sets are
-    in J. Demšar (2006), Statistical comparisons of classifiers over multiple data sets, JMLR 7.
+    In a comparison over cases each case counts once, however many folds it has, like data sets in
+    J. Demšar (2006), Statistical comparisons of classifiers over multiple data sets, JMLR 7.
     """
     cases = pairs.index.get_level_values(0)
     if cases.nunique() == 1:

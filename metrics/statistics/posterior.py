@@ -1,4 +1,4 @@
-"""The Bayesian correlated t-test: how probably one entrant is better in practice."""
+"""The Bayesian correlated t-test: the probability that one entrant is better than another."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["Posterior", "correlated_t_test"]
 
 @dataclass(frozen=True)
 class Posterior:
-    """The probabilities that the first entrant is better, equivalent or worse; they sum to 1."""
+    """Probabilities that the first entrant is better, practically equivalent or worse; sum is 1."""
 
     better: float
     equivalent: float
@@ -24,11 +24,11 @@ class Posterior:
 
 
 def correlated_t_test(differences: ArrayLike, rope: float) -> Posterior:
-    """Return where the mean advantage lies, a posteriori, beside the region of equivalence.
+    """Return the probabilities that the mean advantage is above, in or below the equivalent region.
 
     The posterior is Student's t with n − 1 degrees of freedom, location x̄ and squared scale
     (1/n + ρ/(1 − ρ)) s², with ρ = 1/n after Nadeau and Bengio: folds that share data are
-    correlated, and treating them as independent would be too sure.
+    correlated, and the posterior of independent ones would be too narrow.
 
     Parameters
     ----------
@@ -40,8 +40,8 @@ def correlated_t_test(differences: ArrayLike, rope: float) -> Posterior:
     Returns
     -------
     Posterior
-        NaN for a single unit, whose spread is unknown. Differences that are all equal put all
-        probability on one of the three.
+        NaN for a single unit, whose variance is unknown. If all differences are equal, one of the
+        three is 1.
 
     References
     ----------

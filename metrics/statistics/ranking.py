@@ -1,8 +1,8 @@
 """Critical differences of mean ranks: Friedman's test, then Nemenyi's.
 
-Pairwise signed-rank tests with Holm's correction, the other usual way, cannot tell any two of
-eight entrants apart over nine cases: the least p, 2⁻⁸, is multiplied by 28. Nemenyi's test can, and
-its one critical difference draws a diagram that a reader can check with a ruler.
+Pairwise signed-rank tests with Holm's correction, the usual alternative, cannot separate any two of
+eight entrants over nine cases: the least p, 2⁻⁸, is multiplied by 28. Nemenyi's test can, and its
+single critical difference can be drawn to scale in a diagram.
 """
 
 from __future__ import annotations
@@ -45,9 +45,9 @@ class RankComparison:
 
     @property
     def groups(self) -> tuple[tuple[int, ...], ...]:
-        """The largest sets of two or more entrants that are not separable, best first.
+        """The largest sets of two or more entrants whose ranks do not differ significantly.
 
-        All are one group where Friedman's test finds no difference at all.
+        Best first. All entrants are one group if Friedman's test finds no difference.
         """
         order = sorted(range(len(self.mean_ranks)), key=self.mean_ranks.__getitem__)
         if self.p_value > ALPHA:
@@ -60,7 +60,7 @@ class RankComparison:
 
 
 def compare_ranks(losses: ArrayLike) -> RankComparison:
-    """Return the mean ranks of entrants over blocks, and what can be said of them.
+    """Return the mean ranks of entrants over blocks, and their critical difference.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Who shares the first rank: the best mean, and every mean that a test cannot tell from it."""
+"""Entrants that share the first rank: the best mean and those not significantly worse."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class SharedRank:
     Parameters
     ----------
     labels : tuple of str
-        Those who share it, the best mean first.
+        Entrants that share it, the best mean first.
     n : int
-        The most units of any test; below 2 nothing could be tested, and only equal means share.
+        The most units of any test; below 2 no test is possible, and only equal means share.
     """
 
     labels: tuple[str, ...]
@@ -29,15 +29,16 @@ class SharedRank:
 
     @property
     def tested(self) -> bool:
-        """Whether there were units enough for a test."""
+        """Whether there were enough units for a test."""
         return self.n > 1
 
 
 def shared_rank(losses: pd.DataFrame, order: tuple[str, ...]) -> SharedRank:
-    """Return who cannot be told from the best by paired t-tests with Holm's correction.
+    """Return the best entrant and those not significantly worse by paired t-tests.
 
-    Wilcoxon's test could not separate any two in five units: its p cannot go below 0.0625. An
-    entrant with fewer than two units in common with the best is not tested and does not share.
+    P-values are corrected by Holm's method. Wilcoxon's test cannot separate any two entrants in
+    five units: its p is at least 0.0625. An entrant with fewer than two units in common with the
+    best is not tested and does not share, unless all its common units are equal.
 
     Parameters
     ----------

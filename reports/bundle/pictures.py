@@ -1,6 +1,6 @@
 """Every kind of picture that a report draws, as plain values.
 
-The harness decides what to show; `mocapbench.reports.figures` draws it.
+The harness decides which pictures to show; `mocapbench.reports.figures` draws them.
 """
 
 from __future__ import annotations

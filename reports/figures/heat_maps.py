@@ -1,8 +1,7 @@
 """Draw heat maps in nine levels around zero.
 
 The cells of small matrices show their values. In large matrices negative cells are hatched, so that
-the sign is visible without colour. Neighbouring cells of one level in a row form one rectangle, and
-all rectangles of a level form one path, which keeps a page with many matrices small.
+the sign is visible without colour.
 """
 
 from __future__ import annotations
@@ -10,17 +9,16 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from markupsafe import Markup
 from matplotlib import rc_context
 from matplotlib.figure import Figure
-from matplotlib.patches import PathPatch, Rectangle
-from matplotlib.path import Path
-from numpy.typing import NDArray
+from matplotlib.patches import Rectangle
 
 from mocapbench.reports.bundle.heat_maps import HeatMap, HeatMaps
+from mocapbench.reports.figures.cells import HATCH, MIDDLE, MOST_WRITTEN, draw_cells, levels_of
 from mocapbench.reports.figures.svg import INK, LEVELS, STYLE, svg_element
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
 from mocapbench.reports.text import counted, slug
@@ -28,17 +26,11 @@ from mocapbench.reports.text import counted, slug
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["draw", "levels_of"]
+__all__ = ["draw"]
 
-Level = NDArray[np.intp]
-
-MOST_WRITTEN = 8
-"""Matrices of more rows have no room for their values."""
 SIDE, MARGIN = 2.4, 0.9
 RECTANGLE = re.compile(r"M (\S+) (\S+)\s+L (\S+) \2\s+L \3 (\S+)\s+L \1 \4\s+z\s*")
 """A rectangle as matplotlib writes it, at twice the necessary length."""
-MIDDLE = len(LEVELS) // 2
-HATCH: dict[str, Any] = {"facecolor": "none", "edgecolor": INK, "hatch": "/////", "linewidth": 0.0}
 LOOK = {**STYLE, "hatch.linewidth": 0.35, "xtick.labelsize": 7, "ytick.labelsize": 7}
 
 
@@ -55,25 +47,6 @@ def draw(figure: HeatMaps) -> SvgFigure:
         )
 
 
-def levels_of(values: NDArray[np.float64], limit: float) -> Level:
-    """Return the level of each value.
-
-    Parameters
-    ----------
-    values : ndarray
-    limit : float
-
-    Returns
-    -------
-    ndarray of int, of the shape of ``values``
-        Levels 0 … 8 have equal width over [−limit, limit]. Values beyond ± ``limit`` belong to the
-        outermost levels.
-    """
-    n_levels = len(LEVELS)
-    places = np.floor((values / limit + 1.0) * n_levels / 2.0).astype(np.intp)
-    return np.clip(places, 0, n_levels - 1)
-
-
 def _maps(figure: HeatMaps, prefix: str) -> Markup:
     n_rows = -(-len(figure.maps) // figure.columns)
     width, height = figure.columns * SIDE + MARGIN, n_rows * (SIDE + 0.3) + MARGIN
@@ -82,7 +55,7 @@ def _maps(figure: HeatMaps, prefix: str) -> Markup:
     for axes in grid.flat[len(figure.maps) :]:
         axes.set_visible(False)
     for axes, heat_map in zip(grid.flat, figure.maps, strict=False):
-        _draw_cells(axes, levels_of(heat_map.values, figure.limit))
+        draw_cells(axes, levels_of(heat_map.values, figure.limit))
         _frame(axes, heat_map, figure.labels)
     for axes in grid.flat[max(0, len(figure.maps) - figure.columns) : len(figure.maps)]:
         axes.tick_params(labelbottom=True)
@@ -94,36 +67,6 @@ def _maps(figure: HeatMaps, prefix: str) -> Markup:
         style=f"min-width: {width:.2f}in",
     )
     return Markup(RECTANGLE.sub(r"M\1 \2H\3V\4H\1z", svg))
-
-
-def _draw_cells(axes: Axes, levels: Level) -> None:
-    for level, colour in enumerate(LEVELS):
-        cells = _rectangles(levels == level)
-        axes.add_patch(PathPatch(cells, facecolor=colour, linewidth=0.0, antialiased=False))
-    if len(levels) > MOST_WRITTEN:
-        axes.add_patch(PathPatch(_rectangles(levels < MIDDLE), **HATCH))
-
-
-def _rectangles(chosen: NDArray[np.bool_]) -> Path:
-    """Return the chosen cells as one path, with a rectangle for each run along a row."""
-    steps = np.diff(np.pad(chosen, ((0, 0), (1, 1))).astype(int), axis=1)
-    rows, starts = np.nonzero(steps == 1)
-    ends = np.nonzero(steps == -1)[1]
-    corners = np.stack(
-        [
-            np.stack([x, y], axis=1)
-            for x, y in (
-                (starts, rows),
-                (ends, rows),
-                (ends, rows + 1),
-                (starts, rows + 1),
-                (starts, rows),
-            )
-        ],
-        axis=1,
-    )
-    codes = [Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY]
-    return Path(corners.reshape(-1, 2).astype(float), np.tile(codes, len(rows)))
 
 
 def _frame(axes: Axes, heat_map: HeatMap, labels: Sequence[str]) -> None:

@@ -7,6 +7,9 @@ readers who do not see the bars.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
 from markupsafe import Markup
 from matplotlib import rc_context
 from matplotlib.figure import Figure
@@ -16,6 +19,9 @@ from mocapbench.reports.figures.styles import SMALLEST_SCALE
 from mocapbench.reports.figures.svg import INK, PALETTE, RULE, STYLE, svg_element
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.text import counted, slug
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 __all__ = ["rank_figure"]
 
@@ -31,34 +37,46 @@ def rank_figure(ranks: Ranks, title: str, name: str) -> SvgFigure:
 
 
 def _diagram(ranks: Ranks, title: str, prefix: str) -> Markup:
-    comparison = ranks.comparison
-    order = sorted(range(len(ranks.labels)), key=comparison.mean_ranks.__getitem__)
-    rows = {entrant: row for row, entrant in enumerate(order)}
-    last = len(order)
-    figure = Figure(figsize=(WIDTH, FRAME_HEIGHT + ROW_HEIGHT * last), layout="constrained")
+    mean_ranks, n_entrants = ranks.comparison.mean_ranks, len(ranks.labels)
+    order = sorted(range(n_entrants), key=mean_ranks.__getitem__)
+    figure = Figure(figsize=(WIDTH, FRAME_HEIGHT + ROW_HEIGHT * n_entrants), layout="constrained")
     axes = figure.subplots()
-    means = [comparison.mean_ranks[entrant] for entrant in order]
-    axes.hlines(range(last), 1.0, means, color=RULE, linewidth=1.0, zorder=1)
-    axes.plot(means, range(last), "o", color=PALETTE[0], markersize=6.0, zorder=2)
-    for mean, row in zip(means, range(last), strict=True):
-        axes.annotate(f"{mean:.1f}", (mean, row), (6, 0), textcoords="offset points", va="center")
-    for place, group in enumerate(comparison.groups, start=1):
-        ends = [rows[group[0]] - 0.25, rows[group[-1]] + 0.25]
-        across = last * (1.0 + LABEL_SHARE + GROUP_GAP * place / 4)
-        axes.plot([across] * 2, ends, color=INK, linewidth=3.0, solid_capstyle="butt")
-    axes.set_yticks(range(last), [ranks.labels[entrant] for entrant in order])
-    axes.set_xticks(range(1, last + 1))
-    axes.set(xlabel="mean rank (1 is best)", xlim=(0.7, None), ylim=(last - 0.4, -0.6))
-    axes.tick_params(axis="y", length=0)
-    axes.spines["bottom"].set_bounds(1, last)
-    n = counted(comparison.n, ranks.blocks.removesuffix("s"))
+    _draw_means(axes, [mean_ranks[entrant] for entrant in order])
+    _draw_groups(axes, ranks, {entrant: row for row, entrant in enumerate(order)})
+    _label_axes(axes, [ranks.labels[entrant] for entrant in order])
+    n = counted(ranks.comparison.n, ranks.blocks.removesuffix("s"))
     return svg_element(
         figure,
         prefix,
         role="img",
-        aria_label=f"{title}: mean ranks of {counted(last, 'entrant')} over {n}",
+        aria_label=f"{title}: mean ranks of {counted(n_entrants, 'entrant')} over {n}",
         style=f"min-width: {SMALLEST_SCALE * WIDTH:.2f}in",
     )
+
+
+def _draw_means(axes: Axes, means: Sequence[float]) -> None:
+    rows = range(len(means))
+    axes.hlines(rows, 1.0, means, color=RULE, linewidth=1.0, zorder=1)
+    axes.plot(means, rows, "o", color=PALETTE[0], markersize=6.0, zorder=2)
+    for mean, row in zip(means, rows, strict=True):
+        axes.annotate(f"{mean:.1f}", (mean, row), (6, 0), textcoords="offset points", va="center")
+
+
+def _draw_groups(axes: Axes, ranks: Ranks, rows: Mapping[int, int]) -> None:
+    """Join each group that is not separable by a bar; ``rows`` are by entrant."""
+    for place, group in enumerate(ranks.comparison.groups, start=1):
+        ends = [rows[group[0]] - 0.25, rows[group[-1]] + 0.25]
+        across = len(rows) * (1.0 + LABEL_SHARE + GROUP_GAP * place / 4)
+        axes.plot([across] * 2, ends, color=INK, linewidth=3.0, solid_capstyle="butt")
+
+
+def _label_axes(axes: Axes, labels: Sequence[str]) -> None:
+    last = len(labels)
+    axes.set_yticks(range(last), labels)
+    axes.set_xticks(range(1, last + 1))
+    axes.set(xlabel="mean rank (1 is best)", xlim=(0.7, None), ylim=(last - 0.4, -0.6))
+    axes.tick_params(axis="y", length=0)
+    axes.spines["bottom"].set_bounds(1, last)
 
 
 def _caption(ranks: Ranks) -> str:

@@ -36,23 +36,27 @@ def draw(space: Space) -> SvgFigure:
     groups = tuple(dict.fromkeys(path.group for path in space.paths))
     styles = {group: _style(place) for place, group in enumerate(groups)}
     with rc_context(STYLE):
-        figure = Figure(figsize=(SIDE * len(VIEWS), SIDE))
-        for place, (elevation, azimuth) in enumerate(VIEWS, start=1):
-            axes: Axes3D = figure.add_subplot(1, len(VIEWS), place, projection="3d")
-            axes.view_init(elevation, azimuth)
-            _draw_cloud(axes, space)
-            for path in space.paths:
-                axes.plot(*path.points.T, **styles[path.group])
-            _frame(axes)
-        figure.subplots_adjust(left=0.0, right=1.0, bottom=0.04, top=1.0, wspace=0.02)
-        svg = svg_element(
-            figure,
-            prefix,
-            role="img",
-            aria_label=f"{space.title}: {counted(len(space.paths), 'path')}, from two sides",
-            style=f"min-width: {SIDE * len(VIEWS):.2f}in",
-        )
+        svg = _views(space, styles, prefix)
         return SvgFigure(space.title, svg, _legend(space, styles, prefix), space.caption)
+
+
+def _views(space: Space, styles: dict[str, dict[str, Any]], prefix: str) -> Markup:
+    figure = Figure(figsize=(SIDE * len(VIEWS), SIDE))
+    for place, (elevation, azimuth) in enumerate(VIEWS, start=1):
+        axes: Axes3D = figure.add_subplot(1, len(VIEWS), place, projection="3d")
+        axes.view_init(elevation, azimuth)
+        _draw_cloud(axes, space)
+        for path in space.paths:
+            axes.plot(*path.points.T, **styles[path.group])
+        _frame(axes)
+    figure.subplots_adjust(left=0.0, right=1.0, bottom=0.04, top=1.0, wspace=0.02)
+    return svg_element(
+        figure,
+        prefix,
+        role="img",
+        aria_label=f"{space.title}: {counted(len(space.paths), 'path')}, from two sides",
+        style=f"min-width: {SIDE * len(VIEWS):.2f}in",
+    )
 
 
 def _style(place: int) -> dict[str, Any]:

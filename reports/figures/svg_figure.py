@@ -17,7 +17,7 @@ class Key:
     ----------
     label : str
     swatch : Markup
-        An SVG element that looks like what the label names.
+        An SVG element in the style of the series or level that the label names.
     """
 
     label: str

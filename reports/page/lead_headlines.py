@@ -32,5 +32,5 @@ def _lead(results: TaskResults, metric: str, label: str, cases: Sequence[CaseLay
     first = mean_over_cases(results, metric, led, [label] * len(led))
     second = mean_over_cases(results, metric, led, [label for (label,) in seconds])
     mean, next_best = same_places(first, second)
-    lead = f"has the best mean {title} in {where}: {mean} on average, next best {next_best}."
+    lead = f"is best in {where} by {title}: {mean} on average, next best {next_best}."
     return f"{lead} {lead_note(results, metric, label, [case.name for case in led])}"

@@ -12,12 +12,12 @@ from markupsafe import Markup
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.troubles import DATA_MISSING, troubles
 from mocapbench.reports.bundle.bundle import STATUSES, Bundle
+from mocapbench.reports.page.downloads import to_csv, to_latex
 from mocapbench.reports.page.missing_data import missing_data
 from mocapbench.reports.page.sections import overall_ranks, task_view
 from mocapbench.reports.paper.citations import citations_of
 from mocapbench.reports.tables.base import Table
 from mocapbench.reports.tables.check import check_table
-from mocapbench.reports.tables.downloads import to_csv, to_latex
 from mocapbench.reports.tables.papers import papers_table
 from mocapbench.reports.tables.score_cells import MISSING_ID
 from mocapbench.reports.text import counted, slug

@@ -1,6 +1,6 @@
 "use strict";
 
-// The page is complete without this script, which adds downloads and opens what a link points into.
+// The page works without this script, which adds downloads and opens the section of a link.
 (() => {
   const tables = JSON.parse(document.getElementById("downloads").textContent);
   const types = { csv: "text/csv", tex: "application/x-tex" };

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.tables.score_notes import OVER_SAMPLES
 from mocapbench.reports.tables.scores import metric_decimals
@@ -21,6 +22,10 @@ __all__ = ["best_reference_table"]
 
 BEST = "_best"
 """Suffix of a metric that looks at the best-matched reference alone."""
+NOTE = (
+    "Real motions differ, so no sample can resemble every reference. The thesis (§A.4.2) therefore "
+    "compares models by the best-matched reference. First rank in bold."
+)
 
 
 def best_reference_table(results: TaskResults) -> Table | None:
@@ -31,16 +36,16 @@ def best_reference_table(results: TaskResults) -> Table | None:
     Table or None
         Rows are the cases with several references; None where there is no such case.
     """
-    metrics = [name for best in _best_metrics(results) for name in (best.removesuffix(BEST), best)]
+    best = _best_metrics(results)
+    metrics = [name for pair in ((name.removesuffix(BEST), name) for name in best) for name in pair]
     rows = [
         (case, label)
         for case in results.cases
         for label in results.layout.labels
-        if any(results.estimate(case.name, label, name) for name in metrics[1::2])
+        if any(results.estimate(case.name, label, name) for name in best)
     ]
     if not rows:
         return None
-    places = {name: metric_decimals(results, name) for name in metrics}
     return Table(
         id=slug(results.layout.name, "matches"),
         caption=f"Best-matched reference beside the mean over references: mean ± {OVER_SAMPLES}",
@@ -48,19 +53,9 @@ def best_reference_table(results: TaskResults) -> Table | None:
             *headings(["case", "entrant"], "text"),
             *headings([results.metrics[name].title for name in metrics]),
         ),
-        rows=tuple(
-            (
-                Cell(case.heading),
-                Cell(label, kind="text"),
-                *(_cell(results, case.name, label, name, places[name]) for name in metrics),
-            )
-            for case, label in rows
-        ),
+        rows=tuple(_row(results, case, label, metrics) for case, label in rows),
         data=_tidy(results, [(case.name, label) for case, label in rows], metrics),
-        notes=(
-            "Real motions differ, so no sample can resemble every reference. The thesis (§A.4.2) "
-            "therefore compares models by the best-matched reference. First rank in bold.",
-        ),
+        notes=(NOTE,),
     )
 
 
@@ -69,10 +64,18 @@ def _best_metrics(results: TaskResults) -> list[str]:
     return [name for name in results.metrics if name.endswith(BEST) and name in scored]
 
 
-def _cell(results: TaskResults, case: str, label: str, metric: str, places: int) -> Cell:
+def _row(
+    results: TaskResults, case: CaseLayout, label: str, metrics: Sequence[str]
+) -> tuple[Cell, ...]:
+    cells = (_cell(results, case.name, label, metric) for metric in metrics)
+    return (Cell(case.heading), Cell(label, kind="text"), *cells)
+
+
+def _cell(results: TaskResults, case: str, label: str, metric: str) -> Cell:
     estimate = results.estimate(case, label, metric)
     if estimate is None:
         return ABSENT
+    places = metric_decimals(results, metric)
     spread = plus_minus(estimate.spread, places)
     kind = "best" if label in results.best(case, metric) else ""
     return Cell(number(estimate.mean, places), spread=spread, kind=kind)

@@ -27,17 +27,16 @@ def calibration_table(results: TaskResults) -> Table | None:
         None where no entrant has a score by such a metric.
     """
     metrics = [name for name in _targets(results) if name not in results.layout.page.metrics]
-    values = {
-        (label, metric): _mean_over_cases(results, label, metric)
+    means = {
+        label: {metric: _mean_over_cases(results, label, metric) for metric in metrics}
         for label in results.layout.labels
-        for metric in metrics
     }
-    labels = [
-        label
-        for label in results.layout.labels
-        if any(values[label, metric] is not None for metric in metrics)
-    ]
-    if not labels:
+    scored = {
+        label: by_metric
+        for label, by_metric in means.items()
+        if any(mean is not None for mean in by_metric.values())
+    }
+    if not scored:
         return None
     return Table(
         id=slug(results.layout.name, "calibration"),
@@ -46,13 +45,11 @@ def calibration_table(results: TaskResults) -> Table | None:
         rows=(
             (Cell("nominal"), *(_nominal(results, metric) for metric in metrics)),
             *(
-                (Cell(label), *(_fraction(values[label, metric]) for metric in metrics))
-                for label in labels
+                (Cell(label), *map(_fraction, by_metric.values()))
+                for label, by_metric in scored.items()
             ),
         ),
-        data=pd.DataFrame(
-            [{"label": label, **{m: values[label, m] for m in metrics}} for label in labels]
-        ),
+        data=pd.DataFrame([{"label": label, **by_metric} for label, by_metric in scored.items()]),
         notes=("Below nominal: predicted variances are too small. Above: too large.",),
     )
 

@@ -33,12 +33,7 @@ def cost_table(results: TaskResults) -> Table | None:
             if label in set(done["label"])
         ]
     )
-    columns = zip(*(_cost_row(row) for row in data.to_dict("records")), strict=True)
-    shown = {
-        title: cells
-        for title, cells in zip(_MEASURED + _OPTIONAL, columns, strict=True)
-        if title in _MEASURED or any(cell != ABSENT for cell in cells)
-    }
+    shown = _columns(data)
     return Table(
         id=slug(results.layout.name, "cost"),
         caption="Cost: over the jobs that finished",
@@ -46,6 +41,16 @@ def cost_table(results: TaskResults) -> Table | None:
         rows=tuple(zip(*shown.values(), strict=True)),
         data=data,
     )
+
+
+def _columns(data: pd.DataFrame) -> dict[str, tuple[Cell, ...]]:
+    """Return the columns by title, without optional ones that no label has a value in."""
+    columns = zip(*(_cost_row(row) for row in data.to_dict("records")), strict=True)
+    return {
+        title: cells
+        for title, cells in zip(_MEASURED + _OPTIONAL, columns, strict=True)
+        if title in _MEASURED or any(cell != ABSENT for cell in cells)
+    }
 
 
 def _cost(label: str, jobs: pd.DataFrame) -> dict[str, object]:

@@ -19,6 +19,10 @@ from mocapbench.reports.text import counted, number, plus_minus, slug
 __all__ = ["negative_control_table"]
 
 PLACES = 3
+CAPTION = (
+    "Negative control: each entrant’s score minus that of samples of an unrelated process, "
+    "cell by cell"
+)
 TOO_FEW = "too few cells to tell"
 """Note on a measure that fails although every single cell meets its criterion."""
 
@@ -31,19 +35,13 @@ def negative_control_table(results: TaskResults) -> Table | None:
     control, *entrants = checked
     return Table(
         id=slug(results.layout.name, "control"),
-        caption=(
-            f"Negative control: each entrant’s score minus that of {control.label}, which draws "
-            "samples of an unrelated process, cell by cell"
-        ),
+        caption=CAPTION,
         columns=(
             *headings(["entrant"]),
             *headings(["verdict"], "text"),
             *headings(["cells", "MLC", "MCC", "variance ratio"]),
         ),
-        rows=(
-            *(_row(entrant) for entrant in entrants),
-            _row(control, note="its MLC itself"),
-        ),
+        rows=(*map(_row, entrants), _row(control, note="its MLC, no difference")),
         data=pd.DataFrame([_tidy(entrant, m) for entrant in checked for m in entrant.measures]),
         notes=_notes(checked),
     )

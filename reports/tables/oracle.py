@@ -26,20 +26,15 @@ def oracle_table(results: TaskResults) -> Table | None:
     if not means:
         return None
     order = sorted(means, key=means.__getitem__)
+    rows = [(label, means[label], len(ratios[label])) for label in order]
     return Table(
         id=slug(results.layout.name, "oracle"),
         caption="Ratio to the oracle: pooled SMSE over that of the generating process itself",
         columns=headings(["entrant", "ratio", "cases"]),
         rows=tuple(
-            (Cell(label), Cell(f"{number(means[label], 2)}×"), Cell(str(len(ratios[label]))))
-            for label in order
+            (Cell(label), Cell(f"{number(ratio, 2)}×"), Cell(str(n))) for label, ratio, n in rows
         ),
-        data=pd.DataFrame(
-            [
-                {"label": label, "ratio": means[label], "cases": len(ratios[label])}
-                for label in order
-            ]
-        ),
+        data=pd.DataFrame(rows, columns=["label", "ratio", "cases"]),
         notes=(
             "Mean over cases. At 1.00× a model is as good as the generating process: the limit.",
         ),

@@ -10,6 +10,7 @@ import pandas as pd
 from mocapbench.reports.analysis.comparisons import Comparison, every_comparison
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.verdicts import PublishedVerdict
+from mocapbench.reports.paper.citations import CITATIONS
 from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.text import slug
@@ -17,6 +18,7 @@ from mocapbench.reports.text import slug
 __all__ = ["papers_table"]
 
 VERDICTS = tuple(verdict.value for verdict in PublishedVerdict)
+PAPERS = {name.lower(): name for name in CITATIONS}
 NO_SCORE = "no score of ours"
 COUNTS = ("values", *VERDICTS, NO_SCORE)
 NOTES = (
@@ -83,5 +85,6 @@ def _row(
 
 
 def _readable(source: str) -> str:
-    """Return "thesis table 1" for ``thesis-table-01``."""
-    return " ".join(part.lstrip("0") for part in source.split("-"))
+    """Return "thesis table 1" for ``thesis-table-01``, "GPDM table 2" for ``gpdm-table-2``."""
+    paper, *place = source.split("-")
+    return " ".join([PAPERS.get(paper, paper), *(part.lstrip("0") for part in place)])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -10,11 +10,11 @@ import pandas as pd
 from mocapbench.reports.analysis.fold_mean import FoldMean
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.paper.remarks import footnotes, marks
+from mocapbench.reports.paper.remarks import footnotes
 from mocapbench.reports.tables.base import Cell, Table, headings
 from mocapbench.reports.tables.published_columns import (
-    published_cell,
-    published_counterpart,
+    lettered_errata,
+    published_cells,
     unmatched_models,
 )
 from mocapbench.reports.tables.score_cells import folds_cell, score_cells
@@ -36,34 +36,31 @@ def metric_decimals(results: TaskResults, metric: str) -> int:
 
 def score_table(results: TaskResults, metric: str) -> Table:
     """Return the table of ``metric``; the paper's models that have no entrant here come last."""
-    cases, labels, models = results.cases, results.layout.labels, unmatched_models(results, metric)
-    columns, places = case_columns(cases), metric_decimals(results, metric)
-    published = {
-        (case.name, model): published_counterpart(results, case, metric, model)
-        for case in cases
-        for model in models
-    }
-    lettered = marks(value.erratum for value in published.values() if value is not None)
-    rows = tuple(
-        (
-            Cell(case.name, note=_case_note(case)),
-            *(Cell(str(case.columns.get(name, ""))) for name in columns),
-            folds_cell(results, case.name, metric),
-            *score_cells(results, case.name, metric, places),
-            *(published_cell(published[case.name, model], places, lettered) for model in models),
-        )
-        for case in cases
-    )
+    columns, models = case_columns(results.cases), unmatched_models(results, metric)
+    errata = lettered_errata(results, metric)
     return Table(
         id=slug(results.layout.name, metric),
         caption=score_caption(results, metric),
         columns=(
-            *headings(["case", *columns, "folds", *labels]),
+            *headings(["case", *columns, "folds", *results.layout.labels]),
             *headings([f"{model} (published)" for model in models], "published"),
         ),
-        rows=rows,
+        rows=tuple(_row(results, case, metric, errata) for case in results.cases),
         data=_tidy(results, metric),
-        notes=(*score_notes(results, metric), *footnotes(lettered)),
+        notes=(*score_notes(results, metric), *footnotes(errata)),
+    )
+
+
+def _row(
+    results: TaskResults, case: CaseLayout, metric: str, errata: Mapping[str, str]
+) -> tuple[Cell, ...]:
+    places = metric_decimals(results, metric)
+    return (
+        Cell(case.name, note=_case_note(case)),
+        *(Cell(str(case.columns.get(name, ""))) for name in case_columns(results.cases)),
+        folds_cell(results, case.name, metric),
+        *score_cells(results, case.name, metric, places),
+        *published_cells(results, case, metric, places, errata),
     )
 
 

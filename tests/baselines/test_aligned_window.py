@@ -24,7 +24,7 @@ def brute_force(train, given, gap, n_windows):
     """Try every window frame by frame; one gap away from the ends."""
     first, length = gap[0] - 3, len(gap) + 6
     context = [0, 1, 2, length - 3, length - 2, length - 1]
-    found = []
+    windows = []
     for scale in SCALES:
         for values in train:
             index = np.arange(len(values))
@@ -33,10 +33,10 @@ def brute_force(train, given, gap, n_windows):
                 places = start + scale * np.arange(length)
                 window = np.column_stack([np.interp(places, index, c) for c in values.T])
                 error = np.sum((window - given[first : first + length])[context] ** 2)
-                found.append((error, window[3:-3]))
+                windows.append((error, window[3:-3]))
                 start += 1
-    found.sort(key=lambda pair: pair[0])
-    return np.mean([window for _, window in found[:n_windows]], axis=0)
+    windows.sort(key=lambda pair: pair[0])
+    return np.mean([window for _, window in windows[:n_windows]], axis=0)
 
 
 @given(seed=st.integers(0, 2**32 - 1), n_hidden=st.integers(1, 6))

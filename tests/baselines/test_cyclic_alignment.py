@@ -116,8 +116,8 @@ def test_samples_look_like_a_walk_of_any_length(fitted):
     draws = fitted.sample(np.arange(100) / 30.0, 20, 0)
     stacked = np.concatenate([walk.values for walk in WALKS])
     assert draws.shape == (20, 100, 4)
-    spread = draws.reshape(-1, 4).std(axis=0) / stacked.std(axis=0)
-    assert ((spread > 0.7) & (spread < 1.4)).all()
+    ratio = draws.reshape(-1, 4).std(axis=0) / stacked.std(axis=0)
+    assert ((ratio > 0.7) & (ratio < 1.4)).all()
     assert fitted.sample(np.zeros(1), 2, 0).shape == (2, 1, 4)
 
 

@@ -52,5 +52,5 @@ def test_a_frame_with_nothing_visible_is_matched_by_interpolation():
 )
 def test_an_entry_without_a_donor_is_refused(values):
     train = recording("train", [[np.nan, 2.0], [np.nan, 3.0]])
-    with pytest.raises(ValueError, match=r"'new': no training frame shows \['c0'"):
+    with pytest.raises(ValueError, match=r"'new': expected a training frame in which \['c0'"):
         NN().fit([train]).impute([recording("new", values)])

@@ -20,7 +20,7 @@ ONE, TWO = recording("one", 1.0), recording("two", 2.0)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_every_sample_is_a_recording(seed):
     for sample in Replay().fit([ONE, TWO]).sample(TIMES, 5, seed):
-        assert any(np.array_equal(sample, each.values) for each in (ONE, TWO))
+        assert any(np.array_equal(sample, walk.values) for walk in (ONE, TWO))
 
 
 def test_all_recordings_are_drawn():

@@ -123,7 +123,7 @@ def test_more_groups_explain_more(recordings):
 
 
 def test_the_order_of_recordings_means_nothing(recordings):
-    one, two = (MOHGP(tree=TREE, max_iter=3).fit(each) for each in (recordings, recordings[::-1]))
+    one, two = (MOHGP(tree=TREE, max_iter=3).fit(order) for order in (recordings, recordings[::-1]))
     assert one.log_likelihood_ == pytest.approx(two.log_likelihood_, rel=1e-9)
 
 

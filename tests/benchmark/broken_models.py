@@ -1,4 +1,4 @@
-"""Models that misbehave, each in its own way, for the tests of the harness."""
+"""Models with one fault each, for the tests of the harness and of the conformance kit."""
 
 import os
 import time
@@ -152,7 +152,7 @@ class Restless(_Mean):
 
 
 class Global(_Mean):
-    """Seeds everybody."""
+    """Seeds NumPy's global random state."""
 
     def fit(self, recordings):
         np.random.seed(0)  # noqa: NPY002
@@ -310,4 +310,4 @@ NONCONFORMING = {
     Derails: r"expected states 0 to 0, got \[5\]",
     Bends: "expected the weighted mean of the styles, got a difference of",
 }
-"""What the conformance kit says of each."""
+"""The fault that the conformance kit finds in each, as a regular expression."""

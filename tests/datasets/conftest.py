@@ -1,4 +1,4 @@
-"""A small skeleton, real recordings where there are any, and a server on loopback."""
+"""A small skeleton, real recordings if there are any, and a server on the loopback interface."""
 
 import os
 import threading
@@ -109,7 +109,7 @@ def skeleton():
 
 @pytest.fixture(scope="session")
 def mutated():
-    """Replaces, inserts, removes or repeats pieces of some bytes."""
+    """Return a function that replaces, inserts, removes or repeats pieces of some bytes."""
 
     def mutate(data, rng):
         for _ in range(rng.randint(1, 8)):
@@ -137,7 +137,7 @@ def cmu(data_dir, tmp_path_factory):
 
 
 class Tree(BaseHTTPRequestHandler):
-    """Serves a dictionary of files and counts what it is asked for."""
+    """Serves a dictionary of files and counts the requests."""
 
     def __init__(self, server_state, *arguments):
         self.state = server_state
@@ -161,7 +161,7 @@ class Tree(BaseHTTPRequestHandler):
 
 
 class ServerState:
-    """What the server holds, how it will fail, and what it was asked for."""
+    """Files of the server, the failures it is to simulate, and the requests it received."""
 
     def __init__(self):
         self.files = {}

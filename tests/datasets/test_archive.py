@@ -101,14 +101,14 @@ def test_a_key_is_text_without_a_colon(archive, uri):
         archive.recording(uri)
 
 
-def test_status_tells_what_is_here(archive):
+def test_status_lists_what_is_here(archive):
     assert archive.status(["shelf:01_01", "shelf:01_03"]) == [
         ("shelf:01_01", "available", "shelf/01_01", ""),
         ("shelf:01_03", "missing", "", ""),
     ]
 
 
-def test_verify_tells_right_from_wrong_and_missing(archive):
+def test_verify_separates_right_wrong_missing_and_damaged_recordings(archive):
     right, wrong, missing, damaged = archive.verify(
         [f"shelf:{key}" for key in ("01_01", "01_02", "01_03", "01_04")]
     )
@@ -125,7 +125,7 @@ def test_fetch_gets_what_is_missing_and_verifies_it(archive):
     ]
 
 
-def test_the_whole_archive_serves_generated_gait_without_any_data(tmp_path, monkeypatch):
+def test_synthetic_gait_is_available_without_any_data(tmp_path, monkeypatch):
     monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
     archive = open_archive(cache_dir=tmp_path)
     assert archive.available("gait:01_01")

@@ -1,4 +1,4 @@
-"""The CMU library: folder before cache, cache before server, and only right files."""
+"""The CMU library: folder before cache, cache before server, and only verified files."""
 
 import pickle
 from hashlib import sha256
@@ -48,7 +48,7 @@ def store(folder, files):
         (folder / path).write_bytes(content)
 
 
-def test_a_recording_that_is_nowhere_is_not_downloaded_by_reading(library, server):
+def test_reading_never_downloads(library, server):
     assert library.where("01_02") == ""
     with pytest.raises(FileNotFoundError, match=ASF):
         library.motion("01_02")
@@ -61,7 +61,7 @@ def test_fetching_makes_it_readable(library, tmp_path):
     assert library.motion("01_02").values.shape == (3, 12)
 
 
-def test_fetching_again_asks_for_what_is_missing_only(library, server, files, known, tmp_path):
+def test_fetching_again_downloads_only_missing_files(library, server, files, known, tmp_path):
     library.fetch("01_02")
     server.files["subjects/01/01_03.amc"] = files[AMC]
     known["subjects/01/01_03.amc"] = known[AMC]
@@ -80,7 +80,7 @@ def test_the_users_folder_comes_first_and_needs_no_server(library, server, files
     assert not server.requests
 
 
-def test_folder_and_cache_complete_each_other(library, files, tmp_path):
+def test_one_file_may_be_in_the_folder_and_the_other_in_the_cache(library, files, tmp_path):
     store(tmp_path / "data", {ASF: files[ASF]})
     store(tmp_path / "cache", {AMC: files[AMC]})
     assert library.motion("01_02").values.shape == (3, 12)
@@ -91,7 +91,7 @@ def test_one_file_of_two_is_not_a_recording(library, files, tmp_path):
     assert library.where("01_02") == ""
 
 
-def test_the_digest_is_that_of_both_files_and_blind_to_line_ends(library, files, tmp_path):
+def test_the_digest_covers_both_files_and_ignores_line_ends(library, files, tmp_path):
     expected = sha256(files[ASF] + files[AMC]).hexdigest()
     store(tmp_path / "data", files)
     assert library.digest("01_02") == expected
@@ -122,7 +122,7 @@ def test_a_wrong_file_in_the_users_folder_is_refused_and_left_alone(library, fil
     assert (tmp_path / "data" / AMC).read_bytes() == b"mine"
 
 
-def test_without_a_registered_digest_the_first_one_seen_holds(library, known, files, tmp_path):
+def test_without_a_registered_digest_the_first_one_is_pinned(library, known, files, tmp_path):
     del known[AMC]
     with pytest.warns(UnregisteredDigestWarning, match=AMC):
         library.fetch("01_02")

@@ -1,4 +1,4 @@
-"""Digests are blind to line ends, and hold files to what they were first seen to be."""
+"""Digests of files ignore line ends; unknown ones are pinned when first seen."""
 
 import pickle
 
@@ -30,7 +30,7 @@ def test_a_mismatch_names_the_file_and_both_digests(pins):
         assert part in str(caught.value)
 
 
-def test_an_unknown_file_is_accepted_once_with_a_warning_and_held_to_it(pins):
+def test_the_digest_of_an_unknown_file_is_pinned_with_a_warning(pins):
     with pytest.warns(UnregisteredDigestWarning, match=ABC):
         DigestRegistry({}, pins).check("a.amc", b"abc\n", "a.amc")
     later = DigestRegistry({}, pins)
@@ -45,14 +45,14 @@ def test_a_known_digest_overrules_a_pinned_one(pins):
     DigestRegistry({"a.amc": ABC}, pins).check("a.amc", b"abc\n", "a.amc")
 
 
-def test_a_cache_that_cannot_be_written_to_pins_nothing(tmp_path):
+def test_nothing_is_pinned_in_a_cache_that_cannot_be_written(tmp_path):
     (tmp_path / "file").write_text("in the way of a folder")
     registry = DigestRegistry({}, tmp_path / "file" / "digests.tsv")
     with pytest.warns(UnregisteredDigestWarning):
         registry.check("a.amc", b"abc\n", "a.amc")
 
 
-def test_rows_that_a_killed_process_left_unfinished_are_passed_over(tmp_path):
+def test_incomplete_rows_of_a_killed_process_are_skipped(tmp_path):
     table = tmp_path / "digests.tsv"
     table.write_text(f"path\tsha256\na.amc\t{ABC}\nb.amc\t{ABC[:10]}")
     assert read_digests(table) == {"a.amc": ABC}

@@ -1,4 +1,4 @@
-"""Downloads against a real server on loopback."""
+"""Downloads from a real server on the loopback interface."""
 
 import pickle
 import socket
@@ -29,14 +29,14 @@ def test_a_file_arrives_under_its_path(downloader, tmp_path):
 
 
 @pytest.mark.parametrize("status", [500, 502, 503, 504])
-def test_an_overloaded_server_is_asked_again(downloader, server, tmp_path, status):
+def test_a_request_to_an_overloaded_server_is_repeated(downloader, server, tmp_path, status):
     server.failures = [status, status]
     downloader.fetch(PATH, accept)
     assert (tmp_path / PATH).read_bytes() == b"content\n"
     assert server.requests[PATH] == 3
 
 
-def test_patience_ends(downloader, server):
+def test_the_number_of_retries_is_limited(downloader, server):
     server.failures = [503] * 3
     with pytest.raises(FetchError, match="status 503") as caught:
         downloader.fetch(PATH, accept)
@@ -44,7 +44,7 @@ def test_patience_ends(downloader, server):
     assert server.requests[PATH] == 3
 
 
-def test_a_file_that_does_not_exist_is_asked_for_once(downloader, server, tmp_path):
+def test_a_request_for_a_file_that_does_not_exist_is_not_repeated(downloader, server, tmp_path):
     with pytest.raises(FetchError, match="404") as caught:
         downloader.fetch("subjects/01/01_99.amc", accept)
     assert caught.value.what == server.url + "subjects/01/01_99.amc"
@@ -78,7 +78,7 @@ def test_a_write_that_fails_leaves_nothing(downloader, tmp_path, monkeypatch):
     assert not [path for path in tmp_path.rglob("*") if path.is_file()]
 
 
-def test_no_network_says_so(tmp_path, monkeypatch):
+def test_without_a_network_the_error_names_it(tmp_path, monkeypatch):
     monkeypatch.setenv("NO_PROXY", "127.0.0.1")
     with socket.socket() as closed:
         closed.bind(("127.0.0.1", 0))  # bound and not listening: connections are refused

@@ -56,7 +56,7 @@ def test_hlm_keeps_all_62_channels(walk):
     np.testing.assert_array_equal(features.select(angles).values, walk.select(angles).values[::4])
 
 
-def test_hlm_takes_whole_turns_off_joints_and_leaves_the_root_its_heading(walk):
+def test_hlm_removes_whole_turns_from_joints_but_not_from_the_root(walk):
     turns = np.where([name in ("rthumb.rz", "root.ry") for name in walk.channels], 360.0, 0.0)
     turned = walk.with_values(walk.values - 3 * turns)
     joints = [name for name in walk.channels if not name.startswith("root.")]

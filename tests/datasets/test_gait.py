@@ -52,7 +52,7 @@ def test_subjects_and_trials_differ():
     assert len(set(starts)) == 24
 
 
-def test_the_version_stands_for_the_numbers(motions):
+def test_the_version_identifies_the_numbers(motions):
     # If this fails and the motion was meant to change, raise GAIT_VERSION with the new numbers.
     values = motions["01_01"].values
     assert GaitLibrary().digest("01_01") == "gait-1:01_01"
@@ -126,7 +126,7 @@ def test_clavicles_and_fingers_do_not_move(motions):
     assert {name.split(".")[0][1:] for name in constant} == {"clavicle", "fingers"}
 
 
-def test_its_skeleton_is_written_as_it_is_read(motions):
+def test_its_skeleton_is_the_same_after_writing_and_reading(motions):
     skeleton = motions["01_01"].skeleton
     assert parse_skeleton(format_skeleton(skeleton), "") == skeleton
     np.testing.assert_allclose(
@@ -136,6 +136,6 @@ def test_its_skeleton_is_written_as_it_is_read(motions):
 
 def test_a_malformed_key_is_refused():
     library = GaitLibrary()
-    for ask in (library.where, library.motion, library.digest, library.fetch):
+    for method in (library.where, library.recording, library.motion, library.digest, library.fetch):
         with pytest.raises(ValueError, match="SUBJECT_TRIAL"):
-            ask("1_1")
+            method("1_1")

@@ -1,4 +1,4 @@
-"""Forward kinematics: laws that any skeleton obeys, and poses that are known."""
+"""Forward kinematics: laws of any skeleton, and known poses."""
 
 import numpy as np
 import pytest
@@ -62,7 +62,7 @@ def test_at_rest_segments_point_in_their_directions(skeleton):
     np.testing.assert_allclose(bones(skeleton, joints)[0], expected, atol=1e-12)
 
 
-def test_a_bent_knee_is_where_trigonometry_says(skeleton):
+def test_the_position_of_a_bent_knee_follows_from_trigonometry(skeleton):
     recording = Recording("bend", [0.0], [[90.0]], ("shin.rx",), ("deg",))
     hip, knee, ankle = joint_positions(skeleton, recording)[0, [1, 3, 4]] / 5.08
     np.testing.assert_allclose(knee - hip, [0, -7.5, 0], atol=1e-12)

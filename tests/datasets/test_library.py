@@ -1,4 +1,6 @@
-"""A library of one's own: what a few lines give."""
+"""A library in ten lines: what the base class provides."""
+
+from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
@@ -28,6 +30,15 @@ def file(tmp_path):
 @pytest.fixture
 def archive(file):
     return Archive({"tables": Tables(file.parent)})
+
+
+def test_the_packages_own_libraries_are_found_and_built_like_any_other(tmp_path):
+    points = entry_points(group="mocapbench.libraries")
+    assert {point.name for point in points} == {"cmu", "gait"}
+    for point in points:
+        library = point.load()(tmp_path)
+        assert isinstance(library, Library)
+        assert library.data_dir == tmp_path
 
 
 def test_an_archive_reads_it(archive, file):

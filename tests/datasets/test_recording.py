@@ -1,4 +1,4 @@
-"""The laws of a recording: immutable, consistent, and honest about what is hidden."""
+"""Laws of a recording: immutable, consistent, with hidden entries."""
 
 import numpy as np
 import pytest

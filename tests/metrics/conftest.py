@@ -24,7 +24,7 @@ def imputation(truth, mean, variance=None, hidden=None, **visible):
 
 @pytest.fixture(scope="session")
 def make() -> Callable[..., Imputation]:
-    """Build an `Imputation`: all hidden and standard visible moments unless said."""
+    """Build an `Imputation`: by default all entries hidden, visible mean 0 and variance 1."""
     return imputation
 
 

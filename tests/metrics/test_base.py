@@ -6,7 +6,7 @@ import pytest
 
 from mocapbench.metrics import Clustering, Direction, Imputation, Recovery, Synthesis
 
-BUILTIN = [point.load() for point in entry_points(group="mocapbench.metrics")]
+METRICS = [point.load() for point in entry_points(group="mocapbench.metrics")]
 
 
 @pytest.fixture
@@ -20,12 +20,13 @@ def outcomes(draw):
 
 
 def test_names_are_distinct_and_targets_belong_to_targeted_metrics():
-    assert len({metric.name for metric in BUILTIN}) == len(BUILTIN)
-    for metric in BUILTIN:
+    names = [name for metric in METRICS for name in (metric.name, *metric.former_names)]
+    assert len(set(names)) == len(names)
+    for metric in METRICS:
         assert (metric.target is not None) == (metric.direction is Direction.TARGET)
 
 
-@pytest.mark.parametrize("metric", BUILTIN, ids=lambda metric: metric.name)
+@pytest.mark.parametrize("metric", METRICS, ids=lambda metric: metric.name)
 def test_score_is_finite_and_parts_are_along_known_axes(metric, outcomes):
     score = metric(outcomes[metric.outcome])
     lengths = {
@@ -40,24 +41,24 @@ def test_score_is_finite_and_parts_are_along_known_axes(metric, outcomes):
     }
 
 
-@pytest.mark.parametrize("metric", BUILTIN, ids=lambda metric: metric.name)
-def test_metrics_travel_to_other_processes(metric, outcomes):
+@pytest.mark.parametrize("metric", METRICS, ids=lambda metric: metric.name)
+def test_metrics_can_be_sent_to_other_processes(metric, outcomes):
     outcome = outcomes[metric.outcome]
     assert pickle.loads(pickle.dumps(metric))(outcome).value == metric(outcome).value
 
 
-@pytest.mark.parametrize("metric", [m for m in BUILTIN if m.needs_variance], ids=lambda m: m.name)
+@pytest.mark.parametrize("metric", [m for m in METRICS if m.needs_variance], ids=lambda m: m.name)
 @pytest.mark.parametrize(
     ("variance", "message"),
     [(None, "needs one"), (0.0, "positive"), (-1.0, "positive"), (np.nan, "positive")],
 )
-def test_metrics_of_distributions_refuse_what_is_none(make, metric, variance, message):
+def test_metrics_of_distributions_need_positive_variances(make, metric, variance, message):
     with pytest.raises(ValueError, match=message):
         metric(make([[1.0, 2.0]], 0.0, variance))
 
 
 @pytest.mark.parametrize(
-    "metric", [m for m in BUILTIN if m.outcome is Imputation], ids=lambda m: m.name
+    "metric", [m for m in METRICS if m.outcome is Imputation], ids=lambda m: m.name
 )
 @pytest.mark.parametrize(
     ("changes", "message"),
@@ -77,7 +78,7 @@ def test_unsound_outcomes_are_refused(make, metric, changes, message):
 
 
 @pytest.mark.parametrize(
-    "metric", [m for m in BUILTIN if m.outcome is Imputation], ids=lambda m: m.name
+    "metric", [m for m in METRICS if m.outcome is Imputation], ids=lambda m: m.name
 )
 def test_visible_entries_do_not_count(draw, make, metric):
     outcome = draw(3)

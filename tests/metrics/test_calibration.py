@@ -29,7 +29,7 @@ def exact(make):
 
 
 @pytest.mark.parametrize("metric", COVERAGES, ids=lambda metric: metric.name)
-def test_exact_gaussians_are_covered_as_often_as_they_say(exact, metric):
+def test_coverage_of_exact_gaussians_is_the_level(exact, metric):
     level = metric.target
     four_sd = 4 * np.sqrt(level * (1 - level) / exact.truth.size)
     assert metric(exact).value == pytest.approx(level, abs=four_sd)
@@ -54,13 +54,13 @@ def test_pit_of_evenly_spread_quantiles_is_uniform(make):
     assert score.value == pytest.approx(0.0, abs=1e-12)
 
 
-def test_pit_of_one_place_is_farthest_from_uniform(make):
+def test_pit_is_greatest_if_all_entries_fall_into_one_bin(make):
     score = pit(make(np.full((7, 1), 50.0), 0.0, 1.0))
     assert score.parts["bin"][-1] == 1.0
     assert score.value == pytest.approx(0.9)
 
 
-def test_pit_tells_too_wide_from_exact(exact):
+def test_pit_is_larger_for_too_wide_distributions(exact):
     wide = dataclasses.replace(exact, variance=4 * exact.variance)
     assert pit(exact).value < 0.02
     assert pit(wide).value > 0.1

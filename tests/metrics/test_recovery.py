@@ -1,4 +1,4 @@
-"""Recovery of covariances: closed forms, and what the metrics do not see."""
+"""Recovery of covariances: closed forms and invariances."""
 
 import numpy as np
 import pytest
@@ -61,20 +61,20 @@ def test_a_change_of_basis_changes_nothing(seed):
         assert one.value == pytest.approx(other.value, rel=1e-6)
 
 
-def test_what_is_far_below_the_noise_is_not_held_against_the_estimate():
+def test_errors_far_below_the_noise_hardly_count():
     truth = np.diag([1.0, 1.0, 1e-9])
     assert log_det_divergence(_recovery(truth, np.diag([1.0, 1.0, 0.0])), "child").value < 1e-12
     assert log_det_divergence(_recovery(truth, np.diag([1.0, 0.0, 0.0])), "child").value > 1.0
 
 
-def test_a_layer_that_the_model_lacks_is_not_judged():
+def test_metrics_of_a_layer_need_its_estimate():
     outcome = Recovery({"parent": np.eye(2), "child": np.eye(2)}, {"child": np.eye(2)}, NOISE)
     assert frobenius_child.applies(outcome)
     assert logdet_child.applies(outcome)
     assert not frobenius_parent.applies(outcome)
 
 
-def test_what_it_refuses():
+def test_malformed_recoveries_are_refused():
     with pytest.raises(ValueError, match=r"square matrices .* got shapes \(2, 2\) and \(3, 3\)"):
         relative_frobenius(_recovery(np.eye(2), np.eye(3)), "child")
     with pytest.raises(ValueError, match="positive variance of the noise, got 0"):

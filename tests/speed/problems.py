@@ -8,10 +8,11 @@ import numpy as np
 
 from mocapbench.baselines.gp.posterior.sampling import draw_layer
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.prior.kernels import KERNELS, Kernel
-from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, Layer, Parameters
+from mocapbench.baselines.gp.prior.kernels import KERNELS, StationaryKernel
+from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParameters, Parameters
 from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
-from mocapbench.baselines.gp.reduction.reduction import Reduction, independent
+from mocapbench.baselines.gp.reduction.independent import independent
+from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 
 __all__ = ["SIZES", "Problem", "Size", "pose"]
@@ -82,7 +83,7 @@ class Problem:
     reduction: Reduction
 
     @property
-    def kernel(self) -> Kernel:
+    def kernel(self) -> StationaryKernel:
         return KERNELS[self.kernel_name]
 
 
@@ -106,9 +107,9 @@ def pose(size: Size) -> Problem:
     return Problem(replicates, parameters, size.kernel, reduce(replicates))
 
 
-def _layer(size: Size, rng: np.random.Generator) -> Layer:
+def _layer(size: Size, rng: np.random.Generator) -> LayerParameters:
     shape = (size.n_components, size.n_outputs)
-    return Layer(
+    return LayerParameters(
         rng.uniform(-1.0, 0.0, size.n_components),
         Coregionalisation(rng.standard_normal((*shape, size.rank)), rng.uniform(0.2, 0.5, shape)),
     )

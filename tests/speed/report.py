@@ -37,6 +37,7 @@ RATIOS = (
     ("D62 N1000 R39, complete", "latent-split", "state-space", 1.7),
     ("D62 N1000 R39, one child", "latent-split", "state-space", 1.7),
     ("multitask D39 N90", "GPyTorch", "auto", 1.0),
+    ("command line", "imports", "help", 1 / 1.3),
 )
 """Size, the slower way, the faster one, and how many times as fast it must be."""
 

@@ -8,7 +8,7 @@ import pytest
 
 from mocapbench.baselines.alignment import ring
 from mocapbench.baselines.alignment.chain import Paths, forward_backward
-from mocapbench.baselines.alignment.fitting import Settings, best_fit
+from mocapbench.baselines.alignment.fitting import EMSettings, best_fit
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Sequences
@@ -102,7 +102,7 @@ def _sequences(n_sequences, n_frames):
 
 
 def _em(n_sequences, n_frames, max_iter):
-    settings = Settings(
+    settings = EMSettings(
         n_styles=N_STYLES,
         n_states=N_STATES,
         max_jump=MAX_JUMP,

@@ -1,10 +1,10 @@
-"""How often the first rank leaves out somebody who is as good: `python first_rank.py [PAGE]`.
+"""How often an equally good entrant misses the first rank: `python first_rank.py [PAGE]`.
 
-A simulated row has k entrants that are equally good over n folds: independent standard normal
-losses, so that whoever has the best mean has it by chance. The test is made against that best,
-which the same data chose, and so it errs more often than its level says.
+A simulated row has k equally good entrants over n folds: their losses are independent standard
+normal, so that the best mean is best by chance. The tests compare with that best, which was chosen
+on the same data, and so their error rate is above their level.
 
-Prints the table; puts it into the page as well where one is named.
+Prints the table, and writes it into the page if one is given.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ ENTRANTS = (2, 4, 8, 12)
 
 
 def left_out(n_folds: int, n_entrants: int) -> tuple[float, float]:
-    """Return the share of rows in which somebody is left out, and that of entrants left out."""
+    """Return the share of rows in which an entrant is left out, and the share of such entrants."""
     rng = np.random.default_rng([SEED, n_folds, n_entrants])
     missing = []
     for losses in rng.standard_normal((N_ROWS, n_folds, n_entrants)):

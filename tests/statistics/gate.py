@@ -1,11 +1,11 @@
 """False alarms and power of the regression gate: `python gate.py [PAGE]`.
 
 A simulated run is n paired folds. Fold i has the value exp(s a_i + u b_i / √2) in the reference and
-f exp(s a_i + u c_i / √2) in the run, with a, b, c standard normal: s is how uneven the folds are,
-u is what pairing does not cancel, and f is 1 for a run that is as good. s and u are the standard
-deviations that `noise.py` measures.
+f exp(s a_i + u c_i / √2) in the run, with a, b, c standard normal. s is the variation between
+folds, u the variation that pairing does not cancel, and f is 1 for an equally good run. s and u are
+the standard deviations that `noise.py` measures.
 
-Prints the tables; puts them into the page as well where one is named.
+Prints the tables, and writes them into the page if one is given.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Scenario:
 
 @dataclass(frozen=True)
 class Gate:
-    """What a change may be, and the verdicts that fail."""
+    """A tolerance of changes, and the verdicts that fail."""
 
     name: str
     tolerance: Tolerance
@@ -70,7 +70,7 @@ def failing(scenario: Scenario, n_folds: int, factor: float) -> Mapping[str, flo
     scenario : Scenario
     n_folds : int
     factor : float
-        What every value of the run is multiplied by.
+        Factor of every value of the run.
     """
     rng = np.random.default_rng([SEED, n_folds])
     a, b, c = rng.standard_normal((3, N_RUNS, n_folds))
@@ -96,7 +96,7 @@ def rows(factor: float) -> Iterator[list[str]]:
 
 
 def report() -> str:
-    """Return both tables, for runs that are as good and for worse ones."""
+    """Return both tables, for equally good and for worse runs."""
     head = ["what differs", "s", "u", "folds", *(gate.name for gate in GATES)]
     tails = " and ".join(f"{100.0 * stats.t.sf(3.0, n - 1):.2f} % at {n} folds" for n in FOLDS)
     return "\n\n".join(

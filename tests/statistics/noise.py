@@ -1,8 +1,8 @@
-"""How folds scatter: `python noise.py ONE.csv LABEL OTHER.csv LABEL [METRIC]`.
+"""Variation over folds: `python noise.py ONE.csv LABEL OTHER.csv LABEL [METRIC]`.
 
-Of two exports (`mocapbench export`) and one entrant in each, prints by case the standard deviation
-over folds of the log values (s: how uneven the folds are) and of the log ratio of the two
-(u: what pairing does not cancel).
+For one entrant in each of two exports (`mocapbench export`), prints by case the standard deviation
+over folds of the log values (s, the variation between folds) and of the log ratio of the two (u,
+the variation that pairing does not cancel).
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ import pandas as pd
 def log_values(path: str, label: str, metric: str) -> pd.Series[float]:
     """Return the log values of one entrant, by case and fold."""
     scores = pd.read_csv(path)
-    own = scores[(scores["label"] == label) & (scores["metric"] == metric)]
-    return np.log(own.set_index(["case", "fold"])["value"])
+    chosen = scores[(scores["label"] == label) & (scores["metric"] == metric)]
+    return np.log(chosen.set_index(["case", "fold"])["value"])
 
 
 def scatter(one: pd.Series[float], other: pd.Series[float]) -> pd.DataFrame:

@@ -1,4 +1,4 @@
-"""What docs/statistics.md says of the first rank."""
+"""The simulation of the first rank in docs/statistics.md."""
 
 import sys
 from pathlib import Path
@@ -11,7 +11,7 @@ import first_rank
 PAGE = Path(__file__).parents[2] / "docs" / "statistics.md"
 
 
-def test_two_equals_are_told_apart_as_often_as_the_level_says():
+def test_two_equal_entrants_are_separated_at_the_nominal_rate():
     rows, entrants = first_rank.left_out(5, 2)
     assert rows == entrants == pytest.approx(0.05, abs=3.0 * (0.05 * 0.95 / 1000) ** 0.5)
 

@@ -1,4 +1,4 @@
-"""The simulation behind docs/statistics.md: what it must show, and that the page shows it."""
+"""The simulation of the regression gate in docs/statistics.md."""
 
 import sys
 from pathlib import Path
@@ -15,7 +15,7 @@ EXACT = gate.Scenario("repeated exactly", 0.5, 0.0)
 
 
 @pytest.mark.parametrize("n_folds", gate.FOLDS)
-def test_a_run_that_repeats_itself_raises_no_alarm_and_hides_no_loss(n_folds):
+def test_exact_repetition_gives_no_false_alarm_and_full_power(n_folds):
     assert set(gate.failing(EXACT, n_folds, 1.0).values()) == {0.0}
     assert gate.failing(EXACT, n_folds, gate.DEGRADATION)[gate.SAME.name] == 1.0
 

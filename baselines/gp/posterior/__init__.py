@@ -1,1 +1,1 @@
-"""What a trained model says: predictions, joint covariances, draws and trends."""
+"""Posterior of a trained model: predictions, joint covariances, draws and trends."""

@@ -1,4 +1,4 @@
-"""A process whose parameters are known, given its recordings: curves in the outputs' own units."""
+"""A trained process and its recordings: inference of curves in the outputs' own units."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from mocapbench.baselines.gp.planner import with_mapper
 from mocapbench.baselines.gp.posterior.joint import draw_curves, joint_covariance
 from mocapbench.baselines.gp.posterior.prediction import infer
 from mocapbench.baselines.gp.posterior.sampling import draw_layer
-from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
-from mocapbench.baselines.gp.reduction.reduction import Reduction, Share
+from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
 from mocapbench.baselines.gp.solvers.solver import Solver
 from mocapbench.baselines.protocols import SampleByFrameByChannel
 from mocapbench.datasets import FrameByChannel, Frames
@@ -29,11 +29,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class FittedProcess:
-    """Everything that inference after training needs. Noise is left out unless said otherwise.
+    """A trained process, given its recordings.
+
+    All times are in seconds and in any order. Observation noise is left out unless a method says
+    otherwise.
 
     Parameters
     ----------
-    kernel : Kernel
+    kernel : StationaryKernel
         The kernel of every component.
     reduction : Reduction
         The likelihood as block problems.
@@ -45,34 +48,38 @@ class FittedProcess:
         The map to standard units.
     """
 
-    kernel: Kernel
+    kernel: StationaryKernel
     reduction: Reduction
     solvers: tuple[Solver, ...]
     parameters: Parameters
     scaling: Standardisation
 
-    def working_with(self, mapper: Mapper) -> Self:
+    def with_mapper(self, mapper: Mapper) -> Self:
         """Return the same process, whose solvers call functions of outputs through ``mapper``."""
         return replace(self, solvers=with_mapper(self.solvers, mapper))
 
     def infer(
-        self, curves: Sequence[tuple[Share, ...]], times: Sequence[Frames]
+        self, curves: Sequence[tuple[PosteriorTerm, ...]], times: Sequence[Frames]
     ) -> list[tuple[FrameByChannel, FrameByChannel]]:
-        """Return posterior mean and variance, (M, D) each, of curves at times of their own."""
+        """Return the posterior mean and variance of every curve at its times: (M, D) each."""
         inferred = infer(self.reduction, self.solvers, self.parameters, curves, times)
         return [
             (self.scaling.restore(mean), variance * self.scaling.scale**2)
             for mean, variance in inferred
         ]
 
-    def joint_covariance(self, curve: tuple[Share, ...], times: Frames) -> Array:
+    def joint_covariance(self, curve: tuple[PosteriorTerm, ...], times: Frames) -> Array:
         """Return the posterior covariance of a curve, (D M, D M), outputs slowest."""
         joint = joint_covariance(self.reduction, self.solvers, self.parameters, curve, times)
         scale = np.repeat(self.scaling.scale, len(times))
         return joint * np.outer(scale, scale)
 
     def draw(
-        self, curve: tuple[Share, ...], times: Frames, n_samples: int, rng: np.random.Generator
+        self,
+        curve: tuple[PosteriorTerm, ...],
+        times: Frames,
+        n_samples: int,
+        rng: np.random.Generator,
     ) -> SampleByFrameByChannel:
         """Return posterior draws of a curve, (n, M, D)."""
         draws = draw_curves(
@@ -86,7 +93,7 @@ class FittedProcess:
         )
         return self.scaling.restore(draws)
 
-    def observe_new(
+    def draw_recordings(
         self,
         layers: Sequence[str],
         trend: FrameByChannel,
@@ -94,7 +101,7 @@ class FittedProcess:
         n_samples: int,
         rng: np.random.Generator,
     ) -> SampleByFrameByChannel:
-        """Return draws of layers around a trend (M, D), with noise: (n, M, D)."""
+        """Return new recordings: a trend (M, D), plus draws of layers and noise: (n, M, D)."""
         draws = np.zeros((n_samples, len(times), len(self.parameters.log_noise)))
         for layer in layers:
             draws += draw_layer(self.kernel, self.parameters.layers[layer], times, n_samples, rng)

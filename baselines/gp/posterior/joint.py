@@ -1,8 +1,8 @@
 r"""The joint posterior of a curve at several times: its covariance, and draws from it.
 
-Conditioning is linear in the data, so a solver that gives posterior means of any data vectors
-gives all the rest. A target of a block, with values :math:`f_*` at the times asked for and cross
-covariance :math:`K_*` with the visible entries, has
+Conditioning is linear in the data, so posterior means of suitable data vectors are all that is
+needed of a solver (docs/inference.md, sections 8 and 9). A target of a block, with values
+:math:`f_*` at the requested times and cross covariance :math:`K_*` with the visible entries, has
 
 * the posterior covariance :math:`\tfrac{\rho}{h}(K_{**} - K_* K^{-1} K_*^\top)`, where
   :math:`K_* K^{-1} K_*^\top` is the posterior mean given the columns of :math:`K_*^\top` as data;
@@ -10,21 +10,19 @@ covariance :math:`K_*` with the visible entries, has
   where :math:`(\tilde z, \tilde f_*)` is a draw of the data and the target from the prior.
 
 The second is Matheron's rule (Wilson et al. 2021, *Pathwise Conditioning of Gaussian Processes*,
-JMLR 22, Theorem 1). It needs draws of the layers in time and outputs, and never a joint covariance.
+JMLR 22, Theorem 1). It needs draws of the layers at the times, but no joint covariance.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.gp.posterior.sampling import draw_layer
+from mocapbench.baselines.gp.posterior.term import TermInference
 from mocapbench.baselines.gp.prior.parameters import Parameters
-from mocapbench.baselines.gp.reduction.reduction import Reduction, Share
-from mocapbench.baselines.gp.solvers.block import Block, Target
+from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
 from mocapbench.baselines.gp.solvers.solver import Solver
 
 __all__ = ["draw_curves", "joint_covariance"]
@@ -36,13 +34,25 @@ def joint_covariance(
     reduction: Reduction,
     solvers: Sequence[Solver],
     parameters: Parameters,
-    shares: Sequence[Share],
+    terms: Sequence[PosteriorTerm],
     times: Array,
 ) -> Array:
-    """Return the posterior covariance of a noise-free curve at ``times`` (M,), in any order.
+    """Return the posterior covariance of a noise-free curve.
 
-    There is one solver for each block of the reduction. Each block that knows about the curve is
-    conditioned once, on D M data vectors.
+    The block of each term is conditioned once, on D M data vectors.
+
+    Parameters
+    ----------
+    reduction : Reduction
+        The likelihood as block problems.
+    solvers : sequence of Solver
+        One for each block.
+    parameters : Parameters
+        The parameters of the model.
+    terms : sequence of PosteriorTerm
+        The terms of the curve.
+    times : ndarray of shape (M,)
+        In any order.
 
     Returns
     -------
@@ -51,11 +61,12 @@ def joint_covariance(
     """
     size = len(parameters.log_noise) * len(times)
     total = np.zeros((size, size))
-    for share in shares:
-        block, solver = reduction.blocks[share.block], solvers[share.block]
-        part = _Part(block, solver, parameters, share.target, times)
-        explained = part.mean_given(part.cross()).reshape(size, size)
-        total += block.share_of_variance * (part.prior() - explained)
+    for term in terms:
+        block, solver = reduction.blocks[term.block], solvers[term.block]
+        inference = TermInference(block, solver, parameters, term.target, times)
+        # (ρ / h) (K_** − K_* K⁻¹ K_*ᵀ)
+        explained = inference.mean_given(inference.cross()).reshape(size, size)
+        total += block.variance_scale * (inference.prior() - explained)
     return 0.5 * (total + total.T)
 
 
@@ -63,17 +74,33 @@ def draw_curves(
     reduction: Reduction,
     solvers: Sequence[Solver],
     parameters: Parameters,
-    shares: Sequence[Share],
+    terms: Sequence[PosteriorTerm],
     times: Array,
     *,
     n_samples: int,
     rng: np.random.Generator,
 ) -> Array:
-    """Return posterior draws of a noise-free curve at ``times`` (M,), in any order.
+    """Return posterior draws of a noise-free curve.
 
-    There is one solver for each block of the reduction. Each block that knows about the curve is
-    conditioned once, on ``n_samples`` data vectors. The draws of a seed depend on the set of
-    times, but neither on their order nor on the solvers, rounding aside.
+    The block of each term is conditioned once, on ``n_samples`` data vectors. The draws of a seed
+    depend on the set of times, but not on their order, nor on the solvers except for rounding.
+
+    Parameters
+    ----------
+    reduction : Reduction
+        The likelihood as block problems.
+    solvers : sequence of Solver
+        One for each block.
+    parameters : Parameters
+        The parameters of the model.
+    terms : sequence of PosteriorTerm
+        The terms of the curve.
+    times : ndarray of shape (M,)
+        In any order.
+    n_samples : int
+        The number of draws.
+    rng : numpy.random.Generator
+        Source of the draws.
 
     Returns
     -------
@@ -81,75 +108,12 @@ def draw_curves(
         Equal times get equal values.
     """
     total = np.zeros((n_samples, len(times), len(parameters.log_noise)))
-    for share in shares:
-        block, solver = reduction.blocks[share.block], solvers[share.block]
-        part = _Part(block, solver, parameters, share.target, times)
-        data, curves = part.simulate(n_samples, rng)
-        scale = np.sqrt(block.share_of_variance)
-        correction = part.mean_given(block.data[share.column] - scale * data)
+    for term in terms:
+        block, solver = reduction.blocks[term.block], solvers[term.block]
+        inference = TermInference(block, solver, parameters, term.target, times)
+        # √(ρ/h) f̃_* + K_* K⁻¹ (z − √(ρ/h) z̃)
+        data, curves = inference.simulate(n_samples, rng)
+        scale = np.sqrt(block.variance_scale)
+        correction = inference.mean_given(block.data[term.column] - scale * data)
         total += scale * curves + correction.transpose(0, 2, 1)
     return total
-
-
-@dataclass(frozen=True, eq=False)
-class _Part:
-    """What one block knows about a curve at ``times`` (M,)."""
-
-    block: Block
-    solver: Solver
-    parameters: Parameters
-    target: Target
-    times: Array
-
-    def mean_given(self, data: Array) -> Array:
-        """Return K_* K⁻¹ z for data vectors (k, P, D, N), (k, D, M)."""
-        posterior = self.solver.condition(replace(self.block, data=data), self.parameters)
-        mean, _ = posterior.predict(self.target, self.times)
-        return mean
-
-    def prior(self) -> Array:
-        """Return K_**, (D M, D M)."""
-        size = len(self.parameters.log_noise) * len(self.times)
-        total = np.zeros((size, size))
-        for name in self.block.units:
-            covariance = self._layer(name, self.times).reshape(size, size)
-            total += self.target.prior_scale(name) * covariance
-        return total
-
-    def cross(self) -> Array:
-        """Return the rows of K_* as data vectors, (D M, P, D, N)."""
-        observed = self.block.observed
-        cross = np.zeros((observed.shape[1] * len(self.times), *observed.shape))
-        for name, factor in self.block.units.items():
-            covariance = self._layer(name, self.block.times)
-            by_row = covariance.reshape(len(cross), 1, *observed.shape[1:])
-            cross += (factor @ self.target.weights[name])[:, None, None] * by_row
-        return np.where(observed, cross, 0.0)
-
-    def simulate(self, n_samples: int, rng: np.random.Generator) -> tuple[Array, Array]:
-        """Draw data vectors (n, P, D, N) of covariance K, and with them the target (n, M, D)."""
-        block, times = self.block, np.concatenate([self.block.times, self.times])
-        grid, places = np.unique(times, return_inverse=True)
-        at_entries, at_times = np.split(places, [len(block.times)])
-        noise = np.sqrt(self.parameters.noise[:, None] * block.noise_scale)
-        data = noise * rng.standard_normal((n_samples, *noise.shape))
-        curves = np.zeros((n_samples, len(self.times), noise.shape[1]))
-        for name, factor in block.units.items():
-            draws = self._draw(name, grid, n_samples * factor.shape[1], rng)
-            draws = draws.reshape(n_samples, factor.shape[1], *draws.shape[1:])
-            data += np.einsum("pi,nitd->npdt", factor, draws[:, :, at_entries])
-            curves += np.einsum("i,nitd->ntd", self.target.weights[name], draws[:, :, at_times])
-        for name, variance in self.target.fresh.items():
-            draws = self._draw(name, grid, n_samples, rng)
-            curves += np.sqrt(variance) * draws[:, at_times]
-        return np.where(block.observed, data, 0.0), curves
-
-    def _draw(self, name: str, times: Array, n_samples: int, rng: np.random.Generator) -> Array:
-        """Return (n, M, D) draws of a layer at ``times`` (M,)."""
-        layer = self.parameters.layers[name]
-        return draw_layer(self.solver.kernel, layer, times, n_samples, rng)
-
-    def _layer(self, name: str, others: Array) -> Array:
-        """Return Σ_q B_q ⊗ k_q of a layer between the times and ``others`` (N,), (D, M, D, N)."""
-        lags = np.subtract.outer(self.times, others)
-        return self.parameters.layers[name].covariance(self.solver.kernel, lags)

@@ -1,4 +1,7 @@
-"""Posterior curves as sums of independent shares."""
+"""Posterior means and variances of curves, as sums of independent terms.
+
+See docs/inference.md, section 8.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
-from mocapbench.baselines.gp.reduction.reduction import Reduction, Share
+from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
 from mocapbench.baselines.gp.solvers.solver import Solver
 
 __all__ = ["infer"]
@@ -20,28 +23,41 @@ def infer(
     reduction: Reduction,
     solvers: Sequence[Solver],
     parameters: Parameters,
-    curves: Sequence[tuple[Share, ...]],
+    curves: Sequence[tuple[PosteriorTerm, ...]],
     times: Sequence[Array],
 ) -> list[tuple[Array, Array]]:
-    """Infer noise-free curves, given by their shares, each at times of its own.
+    """Return the posterior means and variances of noise-free curves.
 
-    There is one solver for each block of the reduction.
+    Every block that is needed is conditioned once.
+
+    Parameters
+    ----------
+    reduction : Reduction
+        The likelihood as block problems.
+    solvers : sequence of Solver
+        One for each block.
+    parameters : Parameters
+        The parameters of the model.
+    curves : sequence of tuple of PosteriorTerm
+        The terms of each curve.
+    times : sequence of ndarray of shape (M,)
+        The times of each curve, in any order.
 
     Returns
     -------
     list of tuple of two ndarrays of shape (M, D)
-        Posterior mean and variance of each curve. Every block that is needed is conditioned once.
+        Posterior mean and variance of each curve.
     """
     posteriors = {
         index: solvers[index].condition(reduction.blocks[index], parameters)
-        for index in sorted({share.block for shares in curves for share in shares})
+        for index in sorted({term.block for terms in curves for term in terms})
     }
     inferred = []
-    for shares, at in zip(curves, times, strict=True):
+    for terms, at in zip(curves, times, strict=True):
         mean, variance = np.zeros((2, len(at), len(parameters.log_noise)))
-        for share in shares:
-            means, of_share = posteriors[share.block].predict(share.target, at)
-            mean += means[share.column].T
-            variance += of_share.T
+        for term in terms:
+            means, term_variance = posteriors[term.block].predict(term.target, at)
+            mean += means[term.column].T
+            variance += term_variance.T
         inferred.append((mean, variance))
     return inferred

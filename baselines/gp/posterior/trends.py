@@ -1,8 +1,10 @@
 """The trend that new recordings are drawn around, once a model is fitted.
 
-The thesis (§5.2) infers it and takes it for known; new recordings then resemble each other, and the
-recordings fitted, a little more than they should. A draw from its posterior makes a set of new
-recordings an exact draw of further replicates, given all that is visible.
+J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+thesis, Universidad Tecnológica de Pereira, 2017, §5.2, takes the trend's posterior mean as if it
+were known. New recordings then resemble each other, and the fitted recordings, a little more than
+they should. Drawn around a draw from the trend's posterior, a set of new recordings is an exact
+draw of further replicates given all visible entries (docs/inference.md, section 9).
 """
 
 from __future__ import annotations
@@ -33,4 +35,4 @@ def _posterior(process: FittedProcess, times: Frames, rng: np.random.Generator) 
 
 
 TRENDS: Mapping[str, Trend] = MappingProxyType({"mean": _mean, "posterior": _posterior})
-"""The trends by the name that models take: its posterior mean, or a draw from its posterior."""
+"""The trends by the name that models take: the posterior mean, or a draw from the posterior."""

@@ -1,8 +1,10 @@
 r"""Coregionalisation matrices :math:`B_q = W_q W_q^\top + \operatorname{diag}(\kappa_q)`.
 
-They say how the outputs of a linear model of coregionalisation vary together (thesis eq. 15).
-The free parameters are :math:`W` and the *signed root* :math:`\sqrt\kappa`: with it an optimiser
-can reach, and leave, :math:`\kappa = 0`, towards which :math:`\log\kappa` crawls for ever.
+They are the covariances between the outputs of a linear model of coregionalisation (eq. 15 of
+J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+thesis, Universidad Tecnológica de Pereira, 2017). The free parameters are :math:`W` and the
+*signed root* :math:`\sqrt\kappa`. With the root an optimiser can reach, and leave,
+:math:`\kappa = 0`; with :math:`\log\kappa` it would approach that value ever more slowly.
 """
 
 from __future__ import annotations
@@ -19,12 +21,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Coregionalisation:
-    """Q matrices B_q in their free coordinates, or a gradient with respect to them.
+    """Q matrices B_q in their free coordinates, or a gradient in these coordinates.
 
     Parameters
     ----------
     weights : ndarray of shape (Q, D, rank)
-        The factors W_q; rank 0 leaves the diagonal alone.
+        The factors W_q; with rank 0 the matrices B_q are diagonal.
     kappa_roots : ndarray of shape (Q, D)
         Signed roots of κ_q.
     """
@@ -34,7 +36,7 @@ class Coregionalisation:
 
     @property
     def kappa(self) -> Array:
-        """(Q, D) variances that no other output shares."""
+        """(Q, D) variances κ_q, which are not shared between outputs."""
         return self.kappa_roots**2
 
     @property
@@ -54,8 +56,8 @@ class Coregionalisation:
         Parameters
         ----------
         adjoint : ndarray of shape (Q, D, D)
-            Derivatives with respect to the entries of B_q taken one by one; its antisymmetric
-            part is immaterial, since B_q is symmetric.
+            Derivatives with respect to the entries of B_q taken one by one. Its antisymmetric
+            part has no effect, since B_q is symmetric.
         """
         diagonal = np.diagonal(adjoint, axis1=1, axis2=2)
         return Coregionalisation(

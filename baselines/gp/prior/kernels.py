@@ -1,8 +1,9 @@
 r"""Stationary kernels of unit variance.
 
-Variance lives in the coregionalisation matrices, so a kernel has one parameter, its lengthscale
-:math:`\ell`. A kernel is written as a function of the scaled lag :math:`a \propto |t - t'| / \ell`,
-whence :math:`\partial k / \partial \log \ell = -a\, k'(a)`. Formulae: Rasmussen & Williams, §4.2.
+Variances are in the coregionalisation matrices, so a kernel has one parameter, its lengthscale
+:math:`\ell`. As a function of the scaled lag :math:`a \propto |t - t'| / \ell` its derivative is
+:math:`\partial k / \partial \log \ell = -a\, k'(a)`. The formulae are those of Rasmussen and
+Williams (2006), *Gaussian Processes for Machine Learning*, §4.2.
 """
 
 from __future__ import annotations
@@ -14,12 +15,12 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["KERNELS", "RBF", "Kernel", "Matern12", "Matern32", "Matern52"]
+__all__ = ["KERNELS", "RBF", "Matern12", "Matern32", "Matern52", "StationaryKernel"]
 
 Array = NDArray[np.float64]
 
 
-class Kernel(ABC):
+class StationaryKernel(ABC):
     """A unit-variance kernel k(t − t'; ℓ)."""
 
     @abstractmethod
@@ -31,7 +32,7 @@ class Kernel(ABC):
         """Return ∂k / ∂ log ℓ; ``lags`` and ``lengthscale`` broadcast."""
 
 
-class RBF(Kernel):
+class RBF(StationaryKernel):
     r"""Squared exponential, :math:`e^{-a^2/2}` with :math:`a = |t - t'| / \ell`."""
 
     def value(self, lags: Array, lengthscale: float | Array) -> Array:
@@ -44,7 +45,7 @@ class RBF(Kernel):
         return np.asarray(square * np.exp(-0.5 * square))
 
 
-class Matern12(Kernel):
+class Matern12(StationaryKernel):
     r"""Exponential, :math:`e^{-a}` with :math:`a = |t - t'| / \ell`."""
 
     def value(self, lags: Array, lengthscale: float | Array) -> Array:
@@ -57,7 +58,7 @@ class Matern12(Kernel):
         return np.asarray(a * np.exp(-a))
 
 
-class Matern32(Kernel):
+class Matern32(StationaryKernel):
     r"""Once differentiable, :math:`(1 + a) e^{-a}` with :math:`a = \sqrt 3 |t - t'| / \ell`."""
 
     def value(self, lags: Array, lengthscale: float | Array) -> Array:
@@ -71,7 +72,7 @@ class Matern32(Kernel):
         return np.asarray(a**2 * np.exp(-a))
 
 
-class Matern52(Kernel):
+class Matern52(StationaryKernel):
     r"""Twice differentiable.
 
     :math:`(1 + a + a^2 / 3) e^{-a}` with :math:`a = \sqrt 5 |t - t'| / \ell`.
@@ -88,7 +89,7 @@ class Matern52(Kernel):
         return np.asarray(a**2 * (1.0 + a) / 3.0 * np.exp(-a))
 
 
-KERNELS: Mapping[str, Kernel] = MappingProxyType(
+KERNELS: Mapping[str, StationaryKernel] = MappingProxyType(
     {"rbf": RBF(), "matern12": Matern12(), "matern32": Matern32(), "matern52": Matern52()}
 )
 """The kernels by the name that models take."""

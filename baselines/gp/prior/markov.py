@@ -10,14 +10,16 @@ beside the diagonal, and :math:`-m` in its last entry. Its only eigenvalue is �
 .. math:: \Phi = e^{-a} \sum_{k < m} \frac{a^k}{k!} (F + I)^k, \qquad
           Q = \int_0^a v v^\top ds, \quad v = \sqrt{2m}\, \Phi e_m.
 
-The entries of :math:`v v^\top` are polynomials times :math:`e^{-2s}`, which the regularised
-incomplete gamma function integrates; :math:`I - \Phi\Phi^\top` equals Q as well, but loses all
-digits of a short lag, where Q is of order :math:`a^{2m - 1}`.
+The entries of :math:`v v^\top` are polynomials times :math:`e^{-2s}`, whose integrals are given by
+the regularised incomplete gamma function. :math:`I - \Phi\Phi^\top` equals Q too, but loses all
+digits for a short lag, where Q is of order :math:`a^{2m - 1}` (docs/inference.md, sections 6
+and 12).
 
 References
 ----------
 Hartikainen, J. and Särkkä, S. (2010). Kalman filtering and smoothing solutions to temporal
-Gaussian process regression models. MLSP.
+Gaussian process regression models. IEEE International Workshop on Machine Learning for Signal
+Processing.
 """
 
 from __future__ import annotations
@@ -30,24 +32,24 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import factorial, gammainc
 
-from mocapbench.baselines.gp.prior.kernels import Kernel, Matern12, Matern32, Matern52
+from mocapbench.baselines.gp.prior.kernels import Matern12, Matern32, Matern52, StationaryKernel
 
 __all__ = ["Steps", "is_markov", "state_order", "steps"]
 
 Array = NDArray[np.float64]
 
-_COUPLINGS: Mapping[type[Kernel], tuple[float, ...]] = MappingProxyType(
+_COUPLINGS: Mapping[type[StationaryKernel], tuple[float, ...]] = MappingProxyType(
     {Matern12: (), Matern32: (1.0,), Matern52: (np.sqrt(1.0 / 3.0), np.sqrt(8.0 / 3.0))}
 )
 """The entries of the drift above its diagonal: its characteristic polynomial is (s + 1)^m."""
 
-FORGOTTEN = 700.0
-"""A scaled lag after which nothing is left of the past; it stands for longer ones."""
+LONGEST_LAG = 700.0
+"""Scaled lags are cut here: Φ is 0 in floating-point numbers from then on."""
 
 
 @dataclass(frozen=True, eq=False)
 class Steps:
-    """Conditional laws x' | x ~ N(Φ x, Q) over T lags, for J lengthscales.
+    """Conditional distributions x' | x ~ N(Φ x, Q) over T lags, for J lengthscales.
 
     Parameters
     ----------
@@ -65,12 +67,12 @@ class Steps:
     noise_gradient: Array
 
 
-def is_markov(kernel: Kernel) -> bool:
+def is_markov(kernel: StationaryKernel) -> bool:
     """Return whether a kernel has a finite state."""
     return type(kernel) in _COUPLINGS
 
 
-def state_order(kernel: Kernel) -> int:
+def state_order(kernel: StationaryKernel) -> int:
     """Return m, the length of a kernel's state.
 
     Raises
@@ -87,7 +89,7 @@ def state_order(kernel: Kernel) -> int:
     return len(_COUPLINGS[type(kernel)]) + 1
 
 
-def steps(kernel: Kernel, lags: Array, lengthscales: Array) -> Steps:
+def steps(kernel: StationaryKernel, lags: Array, lengthscales: Array) -> Steps:
     """Return the steps of a kernel's state over lags of shape (T,) that may be infinite.
 
     Raises
@@ -97,7 +99,7 @@ def steps(kernel: Kernel, lags: Array, lengthscales: Array) -> Steps:
     """
     order, drift = state_order(kernel), _drift(kernel)
     scaled = np.sqrt(2.0 * order - 1.0) * np.divide.outer(lags, lengthscales)
-    a = np.minimum(scaled, FORGOTTEN)[..., None, None]
+    a = np.minimum(scaled, LONGEST_LAG)[..., None, None]
     powers = np.stack([np.linalg.matrix_power(drift + np.eye(order), k) for k in range(order)])
     powers /= factorial(np.arange(order))[:, None, None]
     transition = np.exp(-a) * sum(a**k * power for k, power in enumerate(powers))
@@ -110,7 +112,7 @@ def steps(kernel: Kernel, lags: Array, lengthscales: Array) -> Steps:
     )
 
 
-def _drift(kernel: Kernel) -> Array:
+def _drift(kernel: StationaryKernel) -> Array:
     """Return F, (m, m)."""
     couplings = np.array(_COUPLINGS[type(kernel)])
     drift = np.diag(couplings, 1) - np.diag(couplings, -1)

@@ -1,8 +1,10 @@
-"""The parameters of a model as a point in the space of its free coordinates.
+"""The parameters of a model, by name and as one vector of free coordinates.
 
-A layer ('parent' g, 'child' f) is a linear model of coregionalisation, Σ_q B_q ⊗ k_q (thesis
-eq. 17); every output has a noise variance. The optimiser sees one flat vector of log ℓ, W, √κ and
-log β; everybody else sees names. A gradient is a `Parameters` as well: a vector of the same space.
+A layer ("parent" g, "child" f − g) is a linear model of coregionalisation, Σ_q B_q ⊗ k_q (eq. 17 of
+J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+thesis, Universidad Tecnológica de Pereira, 2017), and every output has a noise variance. The
+optimiser works on one flat vector of log ℓ, W, √κ and log β (docs/inference.md, section 10). A
+gradient is a `Parameters` too: its entries are the derivatives in the free coordinates.
 """
 
 from __future__ import annotations
@@ -14,20 +16,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 
-__all__ = ["CHILD", "PARENT", "Layer", "Parameters"]
+__all__ = ["CHILD", "PARENT", "LayerParameters", "Parameters"]
 
 Array = NDArray[np.float64]
 
 PARENT = "parent"
-"""Name of the layer g, which replicates share."""
+"""Name of the layer g, the draw of which all replicates share."""
 CHILD = "child"
-"""Name of the layer f − g, of which every replicate has its own draw."""
+"""Name of the layer f − g, of which every replicate has an independent draw."""
 
 
 @dataclass(frozen=True, eq=False)
-class Layer:
+class LayerParameters:
     """One linear model of coregionalisation, Σ_q B_q ⊗ k_q.
 
     Parameters
@@ -52,15 +54,15 @@ class Layer:
         b = self.coregionalisation
         return self.log_lengthscales, b.weights, b.kappa_roots
 
-    def __add__(self, other: Layer) -> Layer:
+    def __add__(self, other: LayerParameters) -> LayerParameters:
         """Return the sum, coordinate by coordinate."""
         a, b = self.coregionalisation, other.coregionalisation
-        return Layer(
+        return LayerParameters(
             self.log_lengthscales + other.log_lengthscales,
             Coregionalisation(a.weights + b.weights, a.kappa_roots + b.kappa_roots),
         )
 
-    def covariance(self, kernel: Kernel, lags: Array) -> Array:
+    def covariance(self, kernel: StationaryKernel, lags: Array) -> Array:
         """Return Σ_q B_q ⊗ k_q for ``lags`` (M, N), (D, M, D, N)."""
         matrices = self.coregionalisation.matrices
         n_components, n_outputs, _ = matrices.shape
@@ -68,10 +70,10 @@ class Layer:
         by_pair = matrices.reshape(n_components, -1).T @ kernels.reshape(n_components, -1)
         return by_pair.reshape(n_outputs, n_outputs, *lags.shape).transpose(0, 2, 1, 3)
 
-    def zeros(self) -> Layer:
-        """Return the origin of the same space."""
+    def zeros(self) -> LayerParameters:
+        """Return the layer of the same shapes whose free coordinates are all 0."""
         lengthscales, weights, roots = (np.zeros_like(leaf) for leaf in self.leaves)
-        return Layer(lengthscales, Coregionalisation(weights, roots))
+        return LayerParameters(lengthscales, Coregionalisation(weights, roots))
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,13 +82,13 @@ class Parameters:
 
     Parameters
     ----------
-    layers : mapping of str to Layer
-        `PARENT`, `CHILD` or both.
+    layers : mapping of str to LayerParameters
+        By name: `PARENT`, `CHILD`, and groups of replicates in between.
     log_noise : ndarray of shape (D,)
         log β_d, the noise variance of each output.
     """
 
-    layers: Mapping[str, Layer]
+    layers: Mapping[str, LayerParameters]
     log_noise: Array
 
     @property
@@ -106,11 +108,11 @@ class Parameters:
 
     @property
     def shapes(self) -> Mapping[str, tuple[int, int, int]]:
-        """(Q, D, rank) of each layer: what two points of one space have in common."""
+        """(Q, D, rank) of each layer."""
         return {name: layer.coregionalisation.weights.shape for name, layer in self.layers.items()}
 
     def at(self, flat: Array) -> Parameters:
-        """Return the point of the same space whose coordinates are ``flat``: the inverse."""
+        """Return the parameters of the same shapes whose `flat` is the given vector."""
         ends = np.cumsum([leaf.size for leaf in self.leaves])[:-1]
         pieces = np.split(np.asarray(flat, dtype=np.float64), ends)
         *layers, log_noise = (
@@ -119,7 +121,7 @@ class Parameters:
         triples = zip(layers[::3], layers[1::3], layers[2::3], strict=True)
         return Parameters(
             {
-                name: Layer(lengthscales, Coregionalisation(weights, roots))
+                name: LayerParameters(lengthscales, Coregionalisation(weights, roots))
                 for name, (lengthscales, weights, roots) in zip(self.layers, triples, strict=True)
             },
             log_noise,

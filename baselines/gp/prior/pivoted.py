@@ -1,10 +1,10 @@
-r"""Kernel matrices as :math:`\Lambda\Lambda^\top`, smooth ones included.
+r"""Kernel matrices as :math:`\Lambda\Lambda^\top`, those of smooth kernels included.
 
 The plain Cholesky factorisation fails on the Gram matrix of a smooth kernel, whose eigenvalues
 fall below rounding error. With complete pivoting it stops when the largest remaining variance is
-below 1e-12, so that the trace of what is left out is below 1e-12 of the matrix's; the number of
-columns is then the numerical rank (Higham 2002, *Accuracy and Stability of Numerical Algorithms*,
-§10.3).
+below 1e-12. The trace of the remainder is then below 1e-12 of the matrix's, and the number of
+columns is the numerical rank (Higham 2002, *Accuracy and Stability of Numerical Algorithms*,
+§10.3; docs/inference.md, section 5, "Root and trimming").
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack, solve_triangular
 
-from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 
 __all__ = ["PivotedRoot"]
 
@@ -26,30 +26,30 @@ TOLERANCE = 1e-12
 
 @dataclass(frozen=True, eq=False)
 class PivotedRoot:
-    """A draw of the kernel's process as Λ u with white u, at its own times and at others.
+    """The root Λ, such that Λ u with white u is a draw of the kernel's process.
 
     Parameters
     ----------
-    kernel : Kernel
+    kernel : StationaryKernel
         The kernel.
     lengthscale : float
         Its lengthscale.
     pivots : ndarray of shape (rank,)
-        The times that the factorisation picked.
+        The times that the factorisation chose as pivots.
     triangle : ndarray of shape (rank, rank)
         Lower Cholesky factor of the kernel matrix at the pivots.
     values : ndarray of shape (N, rank)
-        Λ at the times of the factorisation.
+        Λ at the times that were factorised.
     """
 
-    kernel: Kernel
+    kernel: StationaryKernel
     lengthscale: float
     pivots: Array
     triangle: Array
     values: Array
 
     @classmethod
-    def of(cls, kernel: Kernel, lengthscale: float, times: Array) -> PivotedRoot:
+    def of(cls, kernel: StationaryKernel, lengthscale: float, times: Array) -> PivotedRoot:
         """Factorise the kernel matrix at ``times`` (N,)."""
         gram = kernel.value(np.subtract.outer(times, times), lengthscale)
         factor, order, rank, _ = lapack.dpstrf(gram, tol=TOLERANCE, lower=1)
@@ -61,7 +61,7 @@ class PivotedRoot:
     def slope(self, times: Array) -> tuple[Array, Array]:
         r"""Return V (N, rank) and T (rank, rank) with ∂(Λ Λᵀ) = V Λᵀ + Λ Vᵀ − Λ T Λᵀ.
 
-        ``times`` are those of the factorisation, and ∂ is the derivative in log ℓ at fixed pivots
+        ``times`` are those that were factorised, and ∂ is the derivative in log ℓ at fixed pivots
         p: :math:`\Lambda\Lambda^\top = k_{\cdot p} k_{pp}^{-1} k_{p \cdot}`, so that
         :math:`V = \partial k_{\cdot p} L^{-\top}` and
         :math:`T = L^{-1} \partial k_{pp} L^{-\top}`.

@@ -1,1 +1,1 @@
-"""From recordings in a tree of replicates to the blocks that solvers solve, exactly."""
+"""From recordings in a tree of replicates to independent block problems, exactly."""

@@ -1,8 +1,8 @@
 """Recordings on one time grid, and the patterns in which they are visible.
 
-A *pattern* is a set of replicates with the same visible entries. Exact inference needs nothing of
-a pattern but its mean curve and the deviations from it, whence its cost does not grow with the
-number of replicates.
+A *pattern* is a set of replicates with the same visible entries. Exact inference needs only the
+mean curve of a pattern and the deviations from it, so its cost hardly grows with the number of
+replicates (docs/inference.md, section 2).
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ class Pattern:
     Parameters
     ----------
     members : ndarray of int, shape (R_p,)
-        Their indices.
+        The indices of the replicates.
     observed : ndarray of bool, shape (D, N)
-        What is visible of each.
+        Which entries of each are visible.
     """
 
     members: Index
@@ -63,7 +63,7 @@ class Replicates:
 
     @classmethod
     def align(cls, recordings: Sequence[Recording]) -> Replicates:
-        """Put recordings with the same channels on one grid."""
+        """Put recordings with the same channels on the union of their visible times."""
         seen = [recording.visible.any(axis=1) for recording in recordings]
         times = np.unique(
             np.concatenate([rec.times[rows] for rec, rows in zip(recordings, seen, strict=True)])
@@ -77,7 +77,7 @@ class Replicates:
 
     @cached_property
     def patterns(self) -> tuple[Pattern, ...]:
-        """The patterns in order of first appearance; replicates that show nothing have none."""
+        """The patterns, in order of first appearance, of replicates with a visible entry."""
         groups: dict[bytes, list[int]] = {}
         for r, visible in enumerate(self.observed):
             groups.setdefault(visible.tobytes(), []).append(r)

@@ -1,8 +1,9 @@
-"""Trees of replicates: whose draws each of them takes part in (thesis eq. 8).
+"""Trees of replicates, which say which draws each replicate is a sum of.
 
-A node is known by the labels on the way to it from the root, which is ``()``; the leaf of a
-replicate is its path and its name. A layer has a draw for each node of one depth, which all
-replicates below that node share.
+This is eq. 8 of J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion
+Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017. A node is named by the labels on the
+way to it from the root, which is ``()``; the leaf of a replicate is its path followed by its name.
+A layer has one draw for each node of one depth, common to all replicates below that node.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ Path = Sequence[str]
 Node = tuple[str, ...]
 """A node, by its labels from the root."""
 Tree = Mapping[str, Sequence[Node]]
-"""For each layer, from the trend down, the node whose draw each replicate takes part in."""
+"""For each layer, from the trend down, the node of each replicate at that depth."""
 
 
 def grow(names: Sequence[str], paths: Mapping[str, Path] | None = None) -> Tree:
@@ -33,14 +34,15 @@ def grow(names: Sequence[str], paths: Mapping[str, Path] | None = None) -> Tree:
 
     Returns
     -------
-    mapping of str to tuple
-        The layers are ``"parent"``, ``"group-1"`` and so on by their depth, and ``"child"``.
+    mapping of str to tuple of tuple of str
+        For each layer, the node of each replicate at that depth. The layers are ``"parent"``, then
+        ``"group-1"``, ``"group-2"`` and so on by their depth, and ``"child"``.
 
     Raises
     ------
     ValueError
-        If a replicate has no path, a path no replicate, a path is not a sequence of labels, or
-        lengths differ.
+        If a replicate has no path, a path has no replicate, a path is not a sequence of labels,
+        or paths differ in length.
     """
     by_name = dict.fromkeys(names, ()) if paths is None else _checked(names, paths)
     leaves = [(*by_name[name], name) for name in names]
@@ -66,8 +68,8 @@ def _checked(names: Sequence[str], paths: Mapping[str, Path]) -> Mapping[str, Pa
     if len(lengths) > 1:
         examples = ", ".join(f"{name!r} has {paths[name]!r}" for _, name in sorted(lengths.items()))
         raise ValueError(
-            f"expected all paths in tree to be equally long, got {examples}: a recording without "
-            "a group of some depth takes one of its own"
+            f"expected all paths in tree to be equally long, got {examples}: give a recording that "
+            "has no group at some depth a group with that recording alone"
         )
     return paths
 

@@ -1,1 +1,1 @@
-"""Exact inference in one block, by interchangeable solvers of one contract (`solver`)."""
+"""Exact inference in one block, by interchangeable methods with one interface (`solver`)."""

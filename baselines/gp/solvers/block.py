@@ -1,6 +1,7 @@
-r"""The one inference problem that every exact solver solves.
+r"""The inference problem that every exact solver solves (docs/inference.md, section 3).
 
-Units :math:`p = 1 \dots P` are observed at times :math:`t` and outputs :math:`d`, with covariance
+A *unit* is a curve with all outputs: a replicate, or a mean of replicates. Units
+:math:`p = 1 \dots P` are observed at times :math:`t` and outputs :math:`d`, with covariance
 
 .. math:: K = \sum_\tau U_\tau \otimes \Big(\sum_q B_{\tau q} \otimes k_{\tau q}\Big)
           + \operatorname{diag}(\beta_d s_{pdt}), \qquad U_\tau = C_\tau C_\tau^\top,
@@ -8,7 +9,7 @@ Units :math:`p = 1 \dots P` are observed at times :math:`t` and outputs :math:`d
 over the layers :math:`\tau`. The h data vectors of a block are jointly
 :math:`\mathcal N(0, \Pi \otimes K)`, where :math:`\Pi` is a projection of rank :math:`\rho` with a
 constant diagonal :math:`\rho / h`: the identity for independent draws, the centring matrix for
-deviations from a mean. Since the data lie in the range of :math:`\Pi`, their log-density on it is
+deviations from a mean. The data lie in the range of :math:`\Pi`, and their log-density there is
 
 .. math:: -\tfrac12 \Big[ \rho\,(\log|K| + n \log 2\pi) + \sum_{r=1}^h z_r^\top K^{-1} z_r \Big].
 """
@@ -83,8 +84,8 @@ class Block:
         return int(self.observed.sum())
 
     @property
-    def share_of_variance(self) -> float:
-        """The diagonal ρ / h of Π: each data vector has covariance (ρ / h) K."""
+    def variance_scale(self) -> float:
+        """ρ / h, the constant diagonal of Π: each data vector has covariance (ρ / h) K."""
         return self.multiplicity / len(self.data)
 
     def trimmed(self) -> Block:
@@ -104,20 +105,24 @@ class Block:
 class Target:
     """A function of time to be inferred from a block.
 
-    Layer by layer it is Σ_i a_i times the i-th independent draw of that layer, plus an
-    independent draw of variance ``fresh`` that the block knows nothing about.
+    In each layer it is Σ_i a_i times the i-th independent draw of that layer, plus a draw that is
+    independent of the block's data, scaled to the variance ``independent_variance``.
 
     Parameters
     ----------
     weights : mapping of str to ndarray of shape (I,)
         The coefficients a, for each layer of the block.
-    fresh : mapping of str to float
-        Variance of the independent part; layers left out have none.
+    independent_variance : mapping of str to float
+        Variance of the independent draw, relative to the layer's. Layers left out have none.
     """
 
     weights: Mapping[str, Array]
-    fresh: Mapping[str, float]
+    independent_variance: Mapping[str, float]
 
     def prior_scale(self, layer: str) -> float:
-        """Return aᵀa + fresh, the target's prior variance in units of the layer's."""
-        return float(self.weights[layer] @ self.weights[layer]) + self.fresh.get(layer, 0.0)
+        """Return aᵀa + φ, the target's prior variance relative to the layer's.
+
+        φ is the layer's ``independent_variance``.
+        """
+        weights = self.weights[layer]
+        return float(weights @ weights) + self.independent_variance.get(layer, 0.0)

@@ -1,9 +1,9 @@
 """The visible entries of a block, output by output.
 
 A *site* is a unit and a time at which some output is visible. Given the latent functions the
-outputs are independent, so that matrices come one for each output, over the sites and with zeros
-where the output is hidden: masks then vanish from the formulae. What must be factorised is picked
-from them first.
+outputs are independent, so there is one matrix for each output, over all sites, with zeros where
+the output is hidden: formulae then need no masks (docs/inference.md, section 5). Only what is
+factorised is first reduced to the sites at which the output is visible.
 """
 
 from __future__ import annotations
@@ -13,16 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Entries", "Everything", "Selection"]
+__all__ = ["AllSites", "Entries", "SomeSites"]
 
 Array = NDArray[np.float64]
 
 CHUNK = 2**18
-"""Entries of the matrices of a run of outputs: two megabytes."""
+"""Largest number of entries in the matrices of one chunk of outputs: two megabytes."""
 
 
-class Everything:
-    """The sites of an output that shows all of them: nothing need be copied."""
+class AllSites:
+    """The sites of an output that is visible at all of them: nothing is copied."""
 
     positions = slice(None)
 
@@ -36,8 +36,8 @@ class Everything:
 
 
 @dataclass(frozen=True, eq=False)
-class Selection:
-    """The sites that an output shows.
+class SomeSites:
+    """The sites at which an output is visible.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class Selection:
     positions: NDArray[np.intp]
 
     def pick(self, matrix: Array) -> Array:
-        """Return the part (n_d, n_d) of ``matrix`` (m, m) that is shown, C-ordered."""
+        """Return rows and columns of ``matrix`` (m, m) at these sites, (n_d, n_d), C-ordered."""
         return np.ascontiguousarray(matrix[self.positions][:, self.positions])
 
     def place(self, part: Array, matrix: Array) -> None:
@@ -61,7 +61,7 @@ class Selection:
 
 @dataclass(frozen=True, eq=False)
 class Entries:
-    """The m sites of a block and which of them each output shows.
+    """The m sites of a block, and at which of them each output is visible.
 
     Parameters
     ----------
@@ -69,8 +69,8 @@ class Entries:
         The sites, by unit and then by time.
     spans : tuple of slice
         The sites of each unit.
-    shown : tuple of Everything or Selection
-        The sites that each output shows.
+    sites : tuple of AllSites or SomeSites
+        The sites at which each output is visible.
     visible : ndarray of bool, shape (D, m)
         The same as a mask.
     n_times : int
@@ -80,7 +80,7 @@ class Entries:
     unit: NDArray[np.intp]
     time: NDArray[np.intp]
     spans: tuple[slice, ...]
-    shown: tuple[Everything | Selection, ...]
+    sites: tuple[AllSites | SomeSites, ...]
     visible: NDArray[np.bool_]
     n_times: int
 
@@ -91,10 +91,10 @@ class Entries:
         ends = np.cumsum(np.bincount(unit, minlength=len(observed))).tolist()
         spans = tuple(slice(start, end) for start, end in zip([0, *ends], ends, strict=False))
         visible = observed[unit, :, time].T
-        shown = tuple(
-            Everything() if seen.all() else Selection(np.flatnonzero(seen)) for seen in visible
+        sites = tuple(
+            AllSites() if seen.all() else SomeSites(np.flatnonzero(seen)) for seen in visible
         )
-        return cls(unit, time, spans, shown, visible, observed.shape[2])
+        return cls(unit, time, spans, sites, visible, observed.shape[2])
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -103,7 +103,7 @@ class Entries:
 
     @property
     def chunks(self) -> tuple[slice, ...]:
-        """The outputs in runs whose matrices fit into a processor's cache together."""
+        """Runs of consecutive outputs whose matrices together fit into a processor's cache."""
         n_outputs, n_sites = self.visible.shape
         size = max(1, CHUNK // max(n_sites, 1) ** 2)
         return tuple(slice(d, min(d + size, n_outputs)) for d in range(0, n_outputs, size))
@@ -120,12 +120,15 @@ class Entries:
         return folded
 
     def unfold(self, loadings: Array, curves: Array) -> Array:
-        """Return (m, …), at a site of unit p loadings[p] times ``curves`` (N, …): the adjoint."""
+        """Return (m, …), at a site of unit p loadings[p] times ``curves`` (N, …).
+
+        This is the adjoint of `fold`.
+        """
         scale = loadings[self.unit].reshape(-1, *(1,) * (curves.ndim - 1))
         return np.asarray(scale * curves[self.time])
 
     def add_unfolded(self, rows: Array, columns: Array, block: Array, total: Array) -> None:
-        """Add to ``total`` (m, m) what unfolds ``block`` (N, N) by ``rows`` and ``columns``."""
+        """Add ``block`` (N, N), unfolded by ``rows`` and ``columns`` (P,), to ``total`` (m, m)."""
         for p in np.flatnonzero(rows):
             part = rows[p] * block[self.time[self.spans[p]]]
             for q in np.flatnonzero(columns):

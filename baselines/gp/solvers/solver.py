@@ -1,38 +1,47 @@
-r"""The contract of exact inference.
+r"""What every exact solver computes.
 
-A solver knows one way to compute, for a `Block` with covariance :math:`K(\theta)` and data
-:math:`z_r`,
+For a `Block` with covariance :math:`K(\theta)` and data vectors :math:`z_r` a solver offers
 
 * `Solver.evaluate`: the log-density and its gradient in :math:`\theta`. With
-  :math:`\alpha_r = K^{-1} z_r` the gradient is :math:`\langle \bar K, \partial K\rangle`,
-  :math:`\bar K = \tfrac12 \big(\sum_r \alpha_r \alpha_r^\top - \rho K^{-1}\big)` (thesis eq. 25);
+  :math:`\alpha_r = K^{-1} z_r` the gradient is :math:`\langle \bar K, \partial K\rangle`, where
+  :math:`\bar K = \tfrac12 \big(\sum_r \alpha_r \alpha_r^\top - \rho K^{-1}\big)` (eq. 25 of
+  J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+  thesis, Universidad Tecnológica de Pereira, 2017);
 * `Solver.condition`: the posterior of any `Target` at any times, with mean
   :math:`K_* K^{-1} z_r` and variance
   :math:`\tfrac{\rho}{h}\operatorname{diag}(K_{**} - K_* K^{-1} K_*^\top)`.
 
-All solvers are exact: they differ in cost alone, which `Solver.work` predicts.
+All solvers are exact. They differ in cost only, which `Solver.work` estimates.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.threads import Mapper
-from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
 
-__all__ = ["Posterior", "SingularCovarianceError", "Solver"]
+__all__ = ["BlockPosterior", "SingularCovarianceError", "Solver", "refuse_singular"]
 
 Array = NDArray[np.float64]
 
 
 class SingularCovarianceError(np.linalg.LinAlgError):
-    """A covariance matrix is not numerically positive definite."""
+    """A covariance matrix is not numerically positive definite.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        The point at which the covariance was computed; the message shows it.
+    """
 
     def __init__(self, parameters: Parameters) -> None:
         super().__init__(
@@ -42,12 +51,21 @@ class SingularCovarianceError(np.linalg.LinAlgError):
         )
 
 
-class Posterior(ABC):
-    """A block's distribution given its data."""
+@contextmanager
+def refuse_singular(parameters: Parameters) -> Iterator[None]:
+    """Raise `SingularCovarianceError` where a factorisation inside raises `LinAlgError`."""
+    try:
+        yield
+    except np.linalg.LinAlgError:
+        raise SingularCovarianceError(parameters) from None
+
+
+class BlockPosterior(ABC):
+    """The distribution of a block's functions given the block's data."""
 
     @abstractmethod
     def predict(self, target: Target, times: Array) -> tuple[Array, Array]:
-        """Return the posterior of ``target`` at ``times`` (M,), noise left out.
+        """Return the posterior of ``target`` at ``times`` (M,), without observation noise.
 
         Returns
         -------
@@ -59,21 +77,22 @@ class Posterior(ABC):
 
 
 class Solver(ABC):
-    """A way to do exact inference in a block.
+    """One method of exact inference in a block.
 
     Parameters
     ----------
-    kernel : Kernel
+    kernel : StationaryKernel
         The kernel of every component.
     mapper : callable, default=map
-        Calls a function for every output, like the builtin, possibly in threads (`workers`).
+        Calls a function for every output, like the builtin ``map``, possibly in threads
+        (`mocapbench.baselines.common.threads`).
     """
 
     name: ClassVar[str]
     needs: ClassVar[str] = "nothing but memory"
-    """What a block must have for the solver to serve it."""
+    """What the solver requires of a block, for error messages."""
 
-    def __init__(self, kernel: Kernel, mapper: Mapper = map) -> None:
+    def __init__(self, kernel: StationaryKernel, mapper: Mapper = map) -> None:
         self.kernel = kernel
         self.mapper = mapper
 
@@ -88,7 +107,7 @@ class Solver(ABC):
         """
 
     @abstractmethod
-    def condition(self, block: Block, parameters: Parameters) -> Posterior:
+    def condition(self, block: Block, parameters: Parameters) -> BlockPosterior:
         """Return the posterior given the block's data.
 
         Raises
@@ -99,8 +118,8 @@ class Solver(ABC):
 
     @abstractmethod
     def work(self, block: Block, parameters: Parameters) -> float:
-        """Return the cost of `evaluate`, roughly, and infinity for a block it cannot serve.
+        """Return an estimate of the cost of `evaluate`; infinity for a block it cannot solve.
 
-        The unit is an operation of a small factorisation, of which a core does some 1.5e10 a
-        second; large matrix products, which run faster, count for less.
+        The unit is one floating-point operation of a small factorisation, of which a processor
+        core does about 1.5e10 a second. Large matrix products run faster and count for less.
         """

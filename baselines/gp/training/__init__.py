@@ -1,1 +1,1 @@
-"""Training by type-II maximum likelihood: start, coordinates, search."""
+"""Training by type-II maximum likelihood: starts, bounds, coordinates and search."""

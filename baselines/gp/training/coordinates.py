@@ -1,9 +1,10 @@
-r"""The coordinates of a search, in which the log-likelihood is rounder.
+r"""The coordinates of a search, in which the log-likelihood is better conditioned.
 
-They are the free coordinates of `Parameters` but for two changes. The noise enters by its root,
-:math:`\sqrt{\beta_d}` in units of the start's: with :math:`\log\beta` a search would crawl for ever
-to where the noise is next to nothing. And a layer's coordinates are scaled by the root of the
-number of its draws behind the data, for to that number its Fisher information is proportional.
+They are the free coordinates of `Parameters` with two changes (docs/inference.md, section 10). The
+noise enters by its root, :math:`\sqrt{\beta_d}` relative to the start's, because with
+:math:`\log\beta` a search approaches very small noise ever more slowly. And a layer's coordinates
+are scaled by the root of the number of its draws in the data, since its Fisher information is
+proportional to that number.
 """
 
 from __future__ import annotations
@@ -28,9 +29,9 @@ class Coordinates:
     Parameters
     ----------
     origin : Parameters
-        A point of the space, whose noise is the unit of noise.
+        Parameters of the same shapes, whose noise is the unit of noise.
     scale : ndarray of shape (n_parameters - D,)
-        What the coordinates of the layers are multiplied by.
+        Factors of the layers' coordinates.
     """
 
     origin: Parameters
@@ -38,7 +39,7 @@ class Coordinates:
 
     @classmethod
     def around(cls, origin: Parameters, draws: Mapping[str, int]) -> Coordinates:
-        """Return coordinates for layers of which so many ``draws`` are behind the data."""
+        """Return coordinates, given for each layer the number of its ``draws`` in the data."""
         most = max(draws.values())
         scales = [
             np.full(sum(leaf.size for leaf in layer.leaves), np.sqrt(draws[name] / most))
@@ -47,12 +48,12 @@ class Coordinates:
         return cls(origin, np.concatenate(scales))
 
     def of(self, parameters: Parameters) -> Array:
-        """Return the coordinates (n_parameters,) of a point."""
+        """Return the coordinates (n_parameters,) of parameters."""
         roots = np.exp(0.5 * (parameters.log_noise - self.origin.log_noise))
         return np.concatenate([self.scale * self._of_layers(parameters.flat), roots])
 
     def at(self, coordinates: Array) -> Parameters:
-        """Return the point with these coordinates: the inverse of `of`."""
+        """Return the parameters with these coordinates: the inverse of `of`."""
         roots = coordinates[len(self.scale) :]
         log_noise = self.origin.log_noise + 2.0 * np.log(roots)
         return self.origin.at(
@@ -60,7 +61,7 @@ class Coordinates:
         )
 
     def pull_back(self, coordinates: Array, gradient: Array) -> Array:
-        """Return the gradient in the coordinates of a function with this one in `flat`."""
+        """Return the gradient in the coordinates of a function, given that in `Parameters.flat`."""
         roots = coordinates[len(self.scale) :]
         return np.concatenate(
             [self._of_layers(gradient) / self.scale, 2.0 * gradient[len(self.scale) :] / roots]

@@ -10,10 +10,10 @@ from mocapbench.baselines.alignment.chain import forward_backward, viterbi
 N_STATES = 5
 
 
-def _problem(seed, lengths=(4, 1, 3), n_states=N_STATES, max_jump=2, spread=5.0):
+def _problem(seed, lengths=(4, 1, 3), n_states=N_STATES, max_jump=2, sd=5.0):
     rng = np.random.default_rng(seed)
     frames = np.arange(max(lengths)) < np.array(lengths)[:, None]
-    emission = rng.normal(0.0, spread, (*frames.shape, n_states)) * frames[:, :, None]
+    emission = rng.normal(0.0, sd, (*frames.shape, n_states)) * frames[:, :, None]
     return emission, rng.dirichlet(np.ones(max_jump), len(lengths)), frames
 
 
@@ -26,9 +26,9 @@ def _paths(emission, jumps):
             yield path, np.log(jumps)[steps - 1].sum() + emission[range(len(path)), path].sum()
 
 
-@given(seed=st.integers(0, 2**32 - 1), spread=st.sampled_from([0.1, 5.0, 500.0]))
-def test_posterior_and_best_path_are_those_of_all_paths(seed, spread):
-    emission, jumps, frames = _problem(seed, spread=spread)
+@given(seed=st.integers(0, 2**32 - 1), sd=st.sampled_from([0.1, 5.0, 500.0]))
+def test_posterior_and_best_path_are_those_of_all_paths(seed, sd):
+    emission, jumps, frames = _problem(seed, sd=sd)
     posterior, best = forward_backward(emission, jumps, frames), viterbi(emission, jumps, frames)
     for k, length in enumerate(frames.sum(axis=1)):
         paths, scores = zip(*_paths(emission[k, :length], jumps[k]), strict=True)

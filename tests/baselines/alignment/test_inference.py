@@ -1,13 +1,13 @@
 import numpy as np
 
-from mocapbench.baselines.alignment.fitting import Settings, best_fit
+from mocapbench.baselines.alignment.fitting import EMSettings, best_fit
 from mocapbench.baselines.alignment.inference import infer, moments, refine
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Sequences
 
 HYPER = Hyperparameters(0.1, PRIORS["normalised"])
-SETTINGS = Settings(
+SETTINGS = EMSettings(
     n_styles=2,
     n_states=12,
     max_jump=2,
@@ -35,9 +35,9 @@ def test_moments_are_those_of_the_mixture():
     weights = np.einsum("nm,c->nmc", state.paths.occupancy[1], state.labels[1])
     mu, noise = state.cycles.mean, 1.0 / state.parameters.precisions
     expected = np.einsum("nmc,mcf->nf", weights, mu)
-    spread = (mu[None] - expected[:, None, None]) ** 2 + state.cycles.variance + noise
+    squares = (mu[None] - expected[:, None, None]) ** 2 + state.cycles.variance + noise
     np.testing.assert_allclose(mean[1], expected, atol=1e-12)
-    np.testing.assert_allclose(variance[1], np.einsum("nmc,nmcf->nf", weights, spread), rtol=1e-9)
+    np.testing.assert_allclose(variance[1], np.einsum("nmc,nmcf->nf", weights, squares), rtol=1e-9)
 
 
 def test_a_new_sequence_changes_nothing_but_its_own_factors():

@@ -14,7 +14,7 @@ def recording(name, values):
 
 
 @given(seed=st.integers(0, 2**32 - 1))
-def test_moments_are_numpys_over_visible_entries(seed):
+def test_moments_are_those_of_the_visible_entries(seed):
     rng = np.random.default_rng(seed)
     values = rng.normal(5.0, 2.0, (12, 3))
     values[1:][rng.random((11, 3)) < 0.5] = np.nan
@@ -23,12 +23,12 @@ def test_moments_are_numpys_over_visible_entries(seed):
     np.testing.assert_allclose(variance, np.nanvar(values, axis=0), atol=1e-15)
 
 
-def test_moments_of_nothing_are_not_numbers():
+def test_moments_of_a_channel_without_visible_entries_are_nan():
     mean, variance = visible_moments([recording("a", [[np.nan, 1.0]])])
     np.testing.assert_array_equal([mean, variance], [[np.nan, 1.0], [np.nan, 0.0]])
 
 
-def test_a_pool_takes_each_name_once_as_given_last():
+def test_a_pool_has_each_name_once_as_given_to_impute():
     fitted = [recording("a", [[1.0]]), recording("b", [[2.0]])]
     given = [recording("b", [[3.0]]), recording("c", [[4.0]])]
     assert [one.values.item() for one in pool(fitted, given)] == [1.0, 3.0, 4.0]

@@ -39,19 +39,19 @@ def test_from_one_end_it_takes_the_steps_as_they_are(seed, end):
 
 
 @given(seed=seeds)
-def test_given_ends_stay(seed):
+def test_given_ends_do_not_change(seed):
     path, steps = gap(seed, (0, -1))
     filled = least_squares_path(steps, path)
     np.testing.assert_allclose(filled[[0, -1]], path[[0, -1]], atol=1e-12)
 
 
-def test_constant_steps_leave_the_straight_line():
+def test_constant_steps_give_the_straight_line():
     path, _ = gap(0, (0, -1))
     filled = fill_gap(path, np.ones_like)
     np.testing.assert_allclose(filled, np.linspace(path[0], path[-1], len(path)), atol=1e-12)
 
 
-def test_it_finds_the_path_that_moves_as_its_own_frames_do():
+def test_fill_gap_converges_to_the_path_whose_steps_are_those_expected_on_it():
     path, _ = gap(1, (0,))
     filled = fill_gap(path, lambda places: -0.5 * places)
     np.testing.assert_allclose(np.diff(filled, axis=0), -0.5 * filled[:-1], atol=1e-9)

@@ -10,10 +10,12 @@ import pytest
 from hypothesis import strategies as st
 
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.prior.kernels import KERNELS, Kernel
-from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, Layer, Parameters
+from mocapbench.baselines.gp.prior.kernels import KERNELS, StationaryKernel
+from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParameters, Parameters
 from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
-from mocapbench.baselines.gp.reduction.reduction import Reduction, independent, pooled
+from mocapbench.baselines.gp.reduction.independent import independent
+from mocapbench.baselines.gp.reduction.pooled import pooled
+from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow
 from mocapbench.baselines.gp.solvers.dense import Dense
@@ -39,13 +41,13 @@ STRUCTURES = {
 
 
 @dataclass(frozen=True)
-class Case:
+class ModelCase:
     """Everything that a likelihood depends on."""
 
     structure: Structure
     replicates: Replicates
     parameters: Parameters
-    kernel: Kernel
+    kernel: StationaryKernel
     paths: tuple[Path, ...] | None
 
     @property
@@ -60,9 +62,9 @@ class Case:
 
 
 class BruteForce:
-    """The dense joint Gaussian, from the definition of the model and nothing else."""
+    """The dense joint Gaussian, from the definition of the model, without the code under test."""
 
-    def __init__(self, case: Case) -> None:
+    def __init__(self, case: ModelCase) -> None:
         self.case = case
         self.rows = np.argwhere(case.replicates.observed)
         self.data = case.replicates.data[case.replicates.observed]
@@ -107,7 +109,7 @@ class BruteForce:
         return signal + np.diag(parameters.noise[self.rows[:, 1]])
 
     def _draws(self, name: str) -> np.ndarray:
-        """Return which draw of a layer each replicate takes part in, and last of all a new one."""
+        """Return the index of each replicate's draw of a layer, and last a new replicate's."""
         nodes = self.case.tree[name]
         known = list(dict.fromkeys(nodes))
         return np.array([*(known.index(node) for node in nodes), 0 if name == PARENT else -1])
@@ -142,7 +144,7 @@ def draw_case(
     n_components: int = 1,
     rank: int = 1,
     masks: str = "mixed",
-) -> Case:
+) -> ModelCase:
     """Draw data, masks and parameters."""
     shape = (n_replicates, n_outputs, n_times)
     observed = MASKS[masks](rng, shape)
@@ -151,7 +153,7 @@ def draw_case(
     data = np.where(observed, rng.standard_normal(shape), 0.0)
     times = np.sort(rng.uniform(0.0, 3.0, n_times)) + 0.05 * np.arange(n_times)
     layers = {
-        name: Layer(
+        name: LayerParameters(
             rng.uniform(-1.0, 0.5, n_components),
             Coregionalisation(
                 rng.standard_normal((n_components, n_outputs, rank)),
@@ -163,17 +165,17 @@ def draw_case(
     parameters = Parameters(layers, rng.uniform(-3.0, 0.0, n_outputs))
     replicates = Replicates(times, data, observed)
     paths = _paths(rng, n_replicates, STRUCTURES[structure].depth)
-    return Case(STRUCTURES[structure], replicates, parameters, KERNELS[kernel], paths)
+    return ModelCase(STRUCTURES[structure], replicates, parameters, KERNELS[kernel], paths)
 
 
 def _paths(rng: np.random.Generator, n_replicates: int, depth: int) -> tuple[Path, ...] | None:
-    """Return paths of a depth, of up to two branches a node, or None for two layers."""
+    """Return paths of a depth, with up to two branches at a node, or None for two layers."""
     labels = rng.integers(2, size=(n_replicates, depth)).astype(str)
     return tuple(tuple(path) for path in labels) if depth else None
 
 
 def _mixed(rng: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
-    """Half of the replicates complete, one empty at times, the others with masks of their own."""
+    """About half of the replicates complete, some empty, the others with different masks."""
     observed = rng.random(shape) < 0.6
     observed[rng.random(shape[0]) < 0.5] = True
     observed[rng.random(shape[0]) < 0.15] = False
@@ -191,7 +193,7 @@ MASKS: Mapping[str, Callable[..., np.ndarray]] = {
 
 
 @st.composite
-def _cases(draw: st.DrawFn) -> Case:
+def _cases(draw: st.DrawFn) -> ModelCase:
     return draw_case(
         np.random.default_rng(draw(st.integers(0, 2**32 - 1))),
         structure=draw(st.sampled_from(sorted(STRUCTURES))),
@@ -206,18 +208,18 @@ def _cases(draw: st.DrawFn) -> Case:
 
 
 @pytest.fixture(scope="session")
-def cases() -> st.SearchStrategy[Case]:
+def cases() -> st.SearchStrategy[ModelCase]:
     """A strategy over cases of every structure, kernel, size and mask."""
     return _cases()
 
 
 @pytest.fixture(scope="session")
-def case() -> Callable[..., Case]:
+def case() -> Callable[..., ModelCase]:
     """The function that draws one case."""
     return draw_case
 
 
-def _by(solver: type[Solver], case: Case) -> tuple[Solver, ...]:
+def _by(solver: type[Solver], case: ModelCase) -> tuple[Solver, ...]:
     able = [
         np.isfinite(solver(case.kernel).work(block, case.parameters))
         for block in case.reduction.blocks
@@ -226,13 +228,13 @@ def _by(solver: type[Solver], case: Case) -> tuple[Solver, ...]:
 
 
 @pytest.fixture(scope="session")
-def by() -> Callable[[type[Solver], Case], tuple[Solver, ...]]:
-    """From solver and case to one solver for each block: that one, or dense where it cannot."""
+def by() -> Callable[[type[Solver], ModelCase], tuple[Solver, ...]]:
+    """From solver and case to a solver for each block: the given one, or dense if it cannot."""
     return _by
 
 
-def _served(solver: type[Solver]) -> st.SearchStrategy[Case]:
-    def possible(case: Case) -> bool:
+def _served(solver: type[Solver]) -> st.SearchStrategy[ModelCase]:
+    def possible(case: ModelCase) -> bool:
         return any(
             np.isfinite(solver(case.kernel).work(block, case.parameters))
             for block in case.reduction.blocks
@@ -242,8 +244,8 @@ def _served(solver: type[Solver]) -> st.SearchStrategy[Case]:
 
 
 @pytest.fixture(scope="session")
-def served() -> Callable[[type[Solver]], st.SearchStrategy[Case]]:
-    """From a solver to the cases of which it can do at least one block."""
+def served() -> Callable[[type[Solver]], st.SearchStrategy[ModelCase]]:
+    """From a solver to the cases of which it can solve at least one block."""
     return _served
 
 
@@ -255,7 +257,7 @@ def with_outputs() -> Callable[[Parameters, np.ndarray], Parameters]:
 
 def _with_outputs(parameters: Parameters, index: np.ndarray) -> Parameters:
     layers = {
-        name: Layer(
+        name: LayerParameters(
             layer.log_lengthscales,
             Coregionalisation(
                 layer.coregionalisation.weights[:, index],
@@ -268,6 +270,6 @@ def _with_outputs(parameters: Parameters, index: np.ndarray) -> Parameters:
 
 
 @pytest.fixture(scope="session")
-def brute_force() -> Callable[[Case], BruteForce]:
+def brute_force() -> Callable[[ModelCase], BruteForce]:
     """The oracle of a case."""
     return BruteForce

@@ -1,27 +1,27 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gp.planner import PLANS, name_of, work
+from mocapbench.baselines.gp.planner import PLANS, solver_names, work
 
 
 def _plan(example, name="auto"):
-    return name_of(PLANS[name](example.kernel, example.reduction, example.parameters))
+    return solver_names(PLANS[name](example.kernel, example.reduction, example.parameters))
 
 
-def test_many_outputs_are_split_and_few_are_not(case):
+def test_latent_split_is_chosen_for_many_outputs_and_dense_for_few(case):
     rng = np.random.default_rng(0)
     assert _plan(case(rng, n_outputs=3, n_times=50, masks="complete", n_components=2)) == "dense"
     mocap = case(rng, n_outputs=39, n_times=90, masks="complete", n_components=2)
     assert _plan(mocap) == "latent-split"
 
 
-def test_many_patterns_are_not_split(case):
+def test_dense_is_chosen_for_many_patterns(case):
     rng = np.random.default_rng(0)
     example = case(rng, n_replicates=12, n_times=40, masks="frames", kernel="rbf")
     assert _plan(example) == "dense"
 
 
-def test_many_frames_are_passed_through_if_the_kernel_allows(case):
+def test_state_space_is_chosen_for_many_frames_if_the_kernel_has_a_finite_state(case):
     rng = np.random.default_rng(0)
     assert _plan(case(rng, n_outputs=5, n_times=600, masks="complete")) == "state-space"
     assert _plan(case(rng, n_outputs=5, n_times=600, masks="complete", kernel="rbf")) != (
@@ -30,16 +30,16 @@ def test_many_frames_are_passed_through_if_the_kernel_allows(case):
 
 
 @pytest.mark.parametrize("name", ["dense", "latent-split", "state-space"])
-def test_a_named_solver_is_taken(name, case):
+def test_a_named_solver_is_used(name, case):
     assert _plan(case(np.random.default_rng(0)), name) == name
 
 
-def test_complete_deviations_in_one_component_are_diagonalised(case):
+def test_kronecker_is_chosen_for_complete_deviations_in_one_component(case):
     example = case(np.random.default_rng(0), n_outputs=39, n_times=90, masks="complete")
     assert _plan(example) == "kronecker+latent-split"
 
 
-def test_a_solver_that_cannot_serve_every_block_says_what_it_needs(case):
+def test_the_error_of_a_solver_that_cannot_solve_every_block_says_what_it_needs(case):
     rng = np.random.default_rng(0)
     with pytest.raises(ValueError, match=r"every part.*'state-space'.*a Matérn kernel.*'dense'"):
         _plan(case(rng, kernel="rbf"), "state-space")
@@ -47,7 +47,7 @@ def test_a_solver_that_cannot_serve_every_block_says_what_it_needs(case):
         _plan(case(rng), "kronecker")
 
 
-def test_the_work_of_every_solver_is_counted_for_every_block(case):
+def test_the_work_of_every_solver_is_estimated_for_every_block(case):
     example = case(np.random.default_rng(0), kernel="rbf", masks="complete")
     counted = work(example.kernel, example.reduction, example.parameters)
     assert len(counted) == len(example.reduction.blocks) == 2

@@ -108,7 +108,7 @@ def test_mean_prediction_follows_the_dynamics(fitted):
     query = Query(model.poses[:12], (np.arange(12) < 5) | (np.arange(12) > 8))
     x = STARTS["mean-prediction"](model, query)
     for frame in (5, 6, 7, 8):
-        np.testing.assert_allclose(x[frame], model.motion.step(x[[frame - 1]][None])[0][0])
+        np.testing.assert_allclose(x[frame], model.dynamics.step(x[[frame - 1]][None])[0][0])
 
 
 def test_a_window_longer_than_training_is_followed_by_the_dynamics(fitted):

@@ -1,4 +1,4 @@
-"""What the README shows works as it stands."""
+"""The examples and commands of the README work as they stand."""
 
 import re
 import shlex
@@ -36,9 +36,9 @@ def test_its_engine_runs(capsys):
 
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 def test_its_commands_are_understood(cli, command):
-    """Each is asked for its help, which a misspelt command or option does not have."""
+    """The help of each command exists, and lists the options shown."""
     names = [word for word in command if word.startswith("--")]
     positional = [word for word in command[:2] if not word.startswith("--")]
-    with_help = positional[: 2 if positional[0] == "data" else 1]
+    with_help = positional[: 2 if positional[:1] == ["data"] else 1]
     assert cli(*with_help, "--help") == 0
     assert all(name in cli.printed for name in names)

@@ -1,42 +1,37 @@
-"""What models disclose of their latent spaces, and the figures made of it."""
-
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gpdm.model import GPDM
-from mocapbench.baselines.gplvm import GPLVM
-from mocapbench.benchmark.figures.gap_error import gap_sketch
-from mocapbench.benchmark.figures.latent_space import latent_sketch
-from mocapbench.benchmark.problems.internals import disclosed
-from mocapbench.benchmark.registry import TASKS
-from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import open_archive
+from mocapbench.baselines import GPDM, GPLVM
+from mocapbench.benchmark import Internals, LatentSpaces, Solved
+from mocapbench.benchmark.problems.internals import internals_of
 from mocapbench.reports import Space
 
-TASK, CASE = TASKS.get("missing-frames"), "synthetic 1"
+FIGURE = LatentSpaces(("gplvm-window", "gpdm-map-viterbi", "gpdm-6d", "absent"))
 
 
 @pytest.fixture(scope="module")
-def problem():
-    return TASK.problem(TASK.case(CASE), Seeds(0, TASK.name, 1, CASE, 0), open_archive())
+def problem(posed):
+    return posed("missing-frames", "synthetic 1")
 
 
 @pytest.fixture(scope="module")
-def solutions(problem):
+def solved(problem):
     models = {
-        "gplvm-window": GPLVM(max_iter=1),
         "gpdm-map-viterbi": GPDM("map", max_iter=1, fill_iter=1),
-        "gpdm-balanced-6d-viterbi": GPDM(n_latent=6, max_iter=1, fill_iter=1),
+        "gplvm-window": GPLVM(max_iter=1),
+        "gpdm-6d": GPDM(n_latent=6, max_iter=1, fill_iter=1),
     }
-    return {
-        label: {**problem.solve(problem.fit(model), 0), **disclosed(model, problem.train)}
+    internals = {
+        label: internals_of(model.fit(problem.train), problem.train)
         for label, model in models.items()
     }
+    return Solved("missing-frames", problem, {}, internals)
 
 
-def test_latent_spaces_of_three_dimensions_are_shown(problem, solutions):
-    gplvm, gpdm, walks = latent_sketch(problem, TASK, solutions)
+def test_latent_spaces_of_three_dimensions_are_shown(solved):
+    gplvm, gpdm, walks = FIGURE.pictures(solved)
     assert isinstance(gplvm, Space)
+    assert gplvm.title == "Latent space of gplvm-window"
     assert [path.group for path in gplvm.paths] == ["training"] * 3
     assert {path.group for path in gpdm.paths} == {"training", "fair sample", "mean prediction"}
     assert "SNR(β)" in gplvm.caption
@@ -47,21 +42,15 @@ def test_latent_spaces_of_three_dimensions_are_shown(problem, solutions):
     ]
 
 
-def test_other_spaces_tell_their_parameters_only(solutions):
-    told = {name for name in solutions["gpdm-balanced-6d-viterbi"] if not name.endswith("-0")}
-    assert told == {f"property-{name}" for name in ("SNR(α)", "CLS(α)", "SNR(β)", "CLS(β)")}
+def test_the_cloud_has_the_confidence_for_its_values(solved):
+    gplvm, *_ = FIGURE.pictures(solved)
+    stored = solved.internals["gplvm-window"].latent_space.cloud
+    np.testing.assert_array_equal(gplvm.cloud, stored[:, :3])
+    np.testing.assert_array_equal(gplvm.values, stored[:, 3])
 
 
-def test_the_cloud_is_as_confident_as_the_model(problem, solutions):
-    model = GPLVM(max_iter=1).fit(problem.train)
-    cloud = solutions["gplvm-window"]["latent-cloud"].astype(float)
-    np.testing.assert_allclose(model.confidence(cloud[:, :3]), cloud[:, 3], rtol=1e-4, atol=1e-4)
-
-
-def test_the_error_along_the_gap_is_that_of_hidden_frames(problem, solutions):
-    (illustration,) = gap_sketch(problem, TASK, solutions)
-    hidden = np.flatnonzero(~problem.given[0].visible[:, 0])
-    for curve in illustration.panels[0].curves:
-        error = solutions[curve.group]["mean-0"] - problem.truth[0]
-        np.testing.assert_array_equal(curve.x, hidden + 1)
-        np.testing.assert_allclose(curve.y, np.linalg.norm(error[hidden], axis=1))
+@pytest.mark.parametrize("label", ["gpdm-6d", "trivial"])
+def test_an_entrant_without_such_a_space_is_left_out(problem, solved, label):
+    internals = {"trivial": Internals(), **solved.internals}
+    alone = Solved("missing-frames", problem, {}, {label: internals[label]})
+    assert list(LatentSpaces((label,)).pictures(alone)) == []

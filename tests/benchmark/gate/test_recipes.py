@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from mocapbench.benchmark.gate.environment import Environment
-from mocapbench.benchmark.gate.reference import read_reference
+from mocapbench.benchmark.gate.reference_files import read_reference
 from mocapbench.benchmark.gate.rule import DEFAULT_TOLERANCES, Tolerance
 from mocapbench.benchmark.gate.tolerances import read_tolerances
 from mocapbench.benchmark.registry import METRICS, TASKS

@@ -5,12 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.gate.reference import (
-    Reference,
-    Series,
-    read_reference,
-    write_reference,
-)
+from mocapbench.benchmark.gate.reference import Reference, Series
+from mocapbench.benchmark.gate.reference_files import read_reference, write_reference
 from mocapbench.benchmark.tasks.address import Address
 
 ABOUT = {"profile": "smoke", "seed": "0", "machine": "m", "libc": "l", "BLAS": "b"} | {

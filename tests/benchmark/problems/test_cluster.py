@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import Aligner, Clusterer
-from mocapbench.benchmark.problems.base import InvalidPredictionError
-from mocapbench.benchmark.problems.cluster import ClusterProblem
+from mocapbench.benchmark import ClusterProblem, Clusters, InvalidPredictionError
+from mocapbench.benchmark.problems.blending import Blend
+from mocapbench.benchmark.problems.cycle import Alignment
 from mocapbench.datasets import Recording, Skeleton
 from mocapbench.metrics import purity
 
@@ -12,7 +13,7 @@ NOBODY = Skeleton("nobody", 1.0, ())
 
 
 class Fixed(Clusterer):
-    """Answers whatever it was built with."""
+    """Returns the labels that it was built with."""
 
     def __init__(self, labels=(0, 0, 1)):
         self.labels = labels
@@ -24,7 +25,7 @@ class Fixed(Clusterer):
 
 
 class FixedAligner(Fixed, Aligner):
-    """Aligns as it was told, too."""
+    """Aligns along the paths that it was built with, too."""
 
     def __init__(self, labels=(0, 0, 1), paths=((0, 1, 2), (1, 2, 3, 0, 1), (3, 0, 2, 3))):
         super().__init__(labels)
@@ -45,25 +46,26 @@ def problem():
         Recording(f"take {n}", np.arange(float(n)), np.zeros((n, 2)), ("a", "b"), ("deg", "deg"))
         for n in LENGTHS
     )
-    return ClusterProblem(train, None, ("walk", "walk", "run"), NOBODY)
+    return ClusterProblem(train, ("walk", "walk", "run"), NOBODY)
 
 
-def _solution(problem, model):
+def _answer(problem, model):
     return problem.solve(problem.fit(model), 0)
 
 
 def test_clusters_are_set_beside_the_classes(problem):
-    solution = _solution(problem, Fixed())
-    assert set(solution) == {"labels"}
-    assert purity(problem.outcome(solution)).value == 1.0
-    wrong = problem.outcome(_solution(problem, Fixed((0, 1, 1))))
+    answer = _answer(problem, Fixed())
+    assert set(answer.to_arrays()) == {"labels"}
+    assert answer.alignment is answer.blend is None
+    assert purity(problem.outcome(answer)).value == 1.0
+    wrong = problem.outcome(_answer(problem, Fixed((0, 1, 1))))
     assert purity(wrong).value == pytest.approx(2 / 3)
 
 
 def test_a_model_that_aligns_leaves_its_paths(problem):
-    solution = _solution(problem, FixedAligner())
-    assert int(solution["cycle_length"]) == 4
-    assert [solution[f"path-{k}"].tolist() for k in range(3)] == [
+    answer = _answer(problem, FixedAligner())
+    assert answer.alignment.cycle_length == 4
+    assert [path.tolist() for path in answer.alignment.paths] == [
         [0, 1, 2],
         [1, 2, 3, 0, 1],
         [3, 0, 2, 3],
@@ -73,19 +75,21 @@ def test_a_model_that_aligns_leaves_its_paths(problem):
 @pytest.mark.parametrize("labels", [(0, 0), (0.0, 0.5, 1.0), ("a", "a", "b"), ((0, 0, 1),)])
 def test_labels_that_are_none_are_refused(problem, labels):
     with pytest.raises(InvalidPredictionError, match="expected 3 integers"):
-        _solution(problem, Fixed(labels))
+        _answer(problem, Fixed(labels))
 
 
-@pytest.mark.parametrize(
-    ("paths", "complaint"),
-    [
-        (((0, 1, 2),), "a state for each frame"),
-        (((0, 1), (0, 1, 2, 3, 0), (0, 1, 2, 3)), "a state for each frame"),
-        (((0, 1, 4), (0, 1, 2, 3, 0), (0, 1, 2, 3)), "expected states 0 to 3"),
-        (((0, 1, -1), (0, 1, 2, 3, 0), (0, 1, 2, 3)), "expected states 0 to 3"),
-        (((0, 1, 0.5), (0, 1, 2, 3, 0), (0, 1, 2, 3)), "expected states 0 to 3"),
-    ],
-)
-def test_paths_that_are_none_are_refused(problem, paths, complaint):
-    with pytest.raises(InvalidPredictionError, match=complaint):
-        _solution(problem, FixedAligner(paths=paths))
+def test_paths_of_a_model_that_aligns_are_checked(problem):
+    with pytest.raises(InvalidPredictionError, match="a state for each frame"):
+        _answer(problem, FixedAligner(paths=((0, 1, 2),)))
+
+
+LABELS = np.array([0, 0, 2])
+ALIGNMENT = Alignment(4, tuple(np.arange(n) % 4 for n in range(1, 13)))
+BLEND = Blend(*np.random.default_rng(0).normal(size=(3, 75, 2)), clusters=(0, 2))
+
+
+@pytest.mark.parametrize("alignment", [None, ALIGNMENT])
+@pytest.mark.parametrize("blend", [None, BLEND])
+def test_an_answer_survives_the_store(survives, alignment, blend):
+    other = {"latent-path-0": np.zeros(3), "trend-mean": np.zeros(3)}
+    assert survives(Clusters(LABELS, alignment, blend), other)

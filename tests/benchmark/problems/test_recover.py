@@ -2,23 +2,18 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import Layered
-from mocapbench.benchmark.problems.base import InvalidPredictionError
-from mocapbench.benchmark.registry import METRICS, TASKS
-from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import open_archive
+from mocapbench.benchmark import METRICS, Covariances, InvalidPredictionError
 
-TASK = TASKS.get("covariance-recovery")
 METRIC_NAMES = ("frobenius_child", "frobenius_parent", "logdet_child", "logdet_parent")
 
 
 @pytest.fixture(scope="module")
-def problem():
-    case = TASK.cases[0]
-    return TASK.problem(case, Seeds(0, TASK.name, TASK.version, case.name, 0), open_archive())
+def problem(posed):
+    return posed("covariance-recovery", "correlated outputs")
 
 
-class _Told(Layered):
-    """Shows covariances that it was told."""
+class _Fixed(Layered):
+    """Shows the covariances that it was built with."""
 
     layers = ("parent", "child")
 
@@ -32,7 +27,7 @@ class _Told(Layered):
         return self.covariances[layer]
 
 
-class _Flat(_Told):
+class _Flat(_Fixed):
     layers = ("only",)
 
 
@@ -49,19 +44,26 @@ def test_the_data_are_as_the_paper_says(problem):
 
 
 def test_the_truth_has_no_error(problem):
-    solution = problem.solve(_Told(problem.truth), 0)
-    scores = _scores(problem.outcome(solution))
+    answer = problem.solve(_Fixed(problem.truth), 0)
+    scores = _scores(problem.outcome(answer))
     assert set(scores) == set(METRIC_NAMES)
     assert max(map(abs, scores.values())) < 1e-9
 
 
 def test_the_one_kernel_of_a_model_without_a_hierarchy_stands_for_the_childrens(problem):
-    solution = problem.solve(_Flat({"only": problem.truth["child"]}), 0)
-    assert set(solution) == {"covariance-child"}
-    assert set(_scores(problem.outcome(solution))) == {"frobenius_child", "logdet_child"}
+    answer = problem.solve(_Flat({"only": problem.truth["child"]}), 0)
+    assert set(answer.by_layer) == {"child"}
+    assert set(_scores(problem.outcome(answer))) == {"frobenius_child", "logdet_child"}
 
 
 @pytest.mark.parametrize("wrong", [np.eye(3), np.full((150, 150), np.nan)])
 def test_a_covariance_of_another_shape_or_with_nan_is_refused(problem, wrong):
     with pytest.raises(InvalidPredictionError, match=r"'only': .* shape \(150, 150\)"):
         problem.solve(_Flat({"only": wrong}), 0)
+
+
+@pytest.mark.parametrize("layers", [(), ("child",), ("parent", "child"), ("only", "a-b")])
+def test_an_answer_survives_the_store(survives, layers):
+    matrices = np.random.default_rng(0).normal(size=(len(layers), 6, 6))
+    answer = Covariances(dict(zip(layers, matrices, strict=True)))
+    assert survives(answer, {"coregionalisation-child": np.eye(3)})

@@ -1,19 +1,23 @@
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.results.frames import score_table
-from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark import Address, Record, Status, job_table, score_table
+
+ADDRESS = Address("t", 1, "c", 0, "l")
 
 
-def _spread(parts):
-    address = {"task": "t", "version": 1, "case": "c", "fold": 0, "seed": 0, "label": "l"}
-    record = Record(
-        **{"key": "k", "fit_key": "f", "model": "m", "parameters": {}, **address},
+def _record(parts):
+    return Record(
+        **{"key": "k", "fit_key": "f", "seed": 3, "model": "m", "parameters": {"n": 2}},
+        address=ADDRESS,
         status=Status.OK,
         scores={"mcc": 2.0},
         parts={"mcc": parts},
     )
-    (value,) = score_table([Record.from_json(record.to_json())])["sample_two_sd"]
+
+
+def _spread(parts):
+    (value,) = score_table([Record.from_json(_record(parts).to_json())])["sample_two_sd"]
     return value
 
 
@@ -28,3 +32,16 @@ def test_what_is_no_mean_over_samples_has_no_spread_over_them(parts):
 
 def test_a_sample_that_is_not_defined_leaves_none():
     assert np.isnan(_spread({"sample": [1.0, float("nan")]}))
+
+
+@pytest.mark.parametrize("table", [score_table, job_table])
+def test_a_row_has_the_whole_address_of_its_record(table):
+    (row,) = table([_record({})]).to_dict("records")
+    named = {name: row[name] for name in ("task", "case", "fold", "label")}
+    assert named == {name: getattr(ADDRESS, name) for name in named}
+    assert (row["model"], row["parameters"]) == ("m", "n=2")
+
+
+def test_what_tells_two_rows_of_one_address_apart_is_in_the_table():
+    (row,) = score_table([_record({})]).to_dict("records")
+    assert (row["version"], row["seed"], row["key"], row["value"]) == (1, 3, "k", 2.0)

@@ -1,11 +1,18 @@
+from dataclasses import replace
+
 import pytest
 
+from mocapbench.benchmark import (
+    TASKS,
+    FilledChannels,
+    GapError,
+    Record,
+    Store,
+    archive_at,
+    illustrations,
+)
 from mocapbench.benchmark.cli.main import main
-from mocapbench.benchmark.figures.illustrations import illustrations
-from mocapbench.benchmark.registry import TASKS
-from mocapbench.benchmark.runs.record import Record
-from mocapbench.benchmark.runs.store import Store
-from mocapbench.datasets import RecordingUnavailable, open_archive
+from mocapbench.datasets import RecordingUnavailable
 
 RUN = ("run", "--profile", "smoke", "--tasks", "upper-body-missing", "--offline")
 
@@ -25,8 +32,13 @@ def store(finished):
     return Store.open(finished)
 
 
+def _change_page(**changes):
+    task = TASKS.get("upper-body-missing")
+    TASKS.add(task.name, replace(task, page=replace(task.page, **changes)))
+
+
 def test_a_report_shows_what_was_filled(finished, store):
-    (illustration,) = illustrations(store.records(), store, open_archive())
+    (illustration,) = illustrations(store.records(), store, archive_at(None))
     assert illustration.task == "upper-body-missing"
     assert set(illustration.groups) == {"truth", "nn", "trivial"}
     assert illustration.title == "Filled channels: synthetic walks (synthetic)"
@@ -35,19 +47,27 @@ def test_a_report_shows_what_was_filled(finished, store):
 
 def test_predictions_that_are_gone_are_not_shown(store):
     records = [Record(**{**vars(record), "fit_key": "gone"}) for record in store.records()]
-    assert illustrations(records, store, open_archive()) == ()
+    assert illustrations(records, store, archive_at(None)) == ()
 
 
-def test_a_case_that_nobody_named_is_not_shown(store, monkeypatch):
-    monkeypatch.setattr(TASKS.get("upper-body-missing"), "illustrated", (), raising=False)
-    assert illustrations(store.records(), store, open_archive()) == ()
+def test_a_case_that_no_page_names_is_not_shown(store):
+    _change_page(illustrated=())
+    assert illustrations(store.records(), store, archive_at(None)) == ()
+
+
+def test_the_figures_are_those_that_the_page_declares(store):
+    channels = ("lfemur.rx", "thorax.ry", "lowerback.rx")
+    _change_page(figures=(GapError(), FilledChannels(channels[:1]), FilledChannels(channels)))
+    one, three = illustrations(store.records(), store, archive_at(None))
+    assert [panel.title for panel in one.panels] == list(channels[:1])
+    assert [panel.title for panel in three.panels] == list(channels)
 
 
 def test_recordings_that_are_gone_leave_the_report_without_them(store, monkeypatch):
-    archive = open_archive()
+    archive = archive_at(None)
 
     def unavailable(uri):
         raise RecordingUnavailable(uri, "fetch it")
 
-    monkeypatch.setattr(archive, "read", unavailable)
+    monkeypatch.setattr(archive, "recording", unavailable)
     assert illustrations(store.records(), store, archive) == ()

@@ -5,7 +5,7 @@ from itertools import groupby
 
 import pytest
 
-from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark import TASKS
 from mocapbench.benchmark.runs.plan import entrants
 from mocapbench.reports.paper.published import every_value
 
@@ -16,13 +16,17 @@ TABLES = {
 }
 
 
+def _rows(task):
+    """Return the names of published rows that the task's page sets its cases beside."""
+    return {task.page.notes(case.name).published for case in task.cases} - {None}
+
+
 def _has_counterpart(task, value):
     """Whether a case, a metric and an entrant of ``task`` stand for the number's."""
     labels = {entrant.label for entrant in entrants(task)}
-    models = {model for label, model in task.published_models.items() if label in labels}
-    cases = {case.published for case in task.cases}
-    metrics = set(task.published_metrics.values())
-    return value.case in cases and value.metric in metrics and value.model in models
+    models = {model for label, model in task.page.published_models.items() if label in labels}
+    metrics = set(task.page.published_metrics.values())
+    return value.case in _rows(task) and value.metric in metrics and value.model in models
 
 
 def test_every_number_has_one_address():
@@ -41,6 +45,6 @@ def test_every_counterpart_that_a_task_names_is_printed(name):
     """A misspelt row, metric or model would silently stand beside nothing."""
     task = TASKS.get(name)
     printed = [value for value in VALUES if value.task == name]
-    assert {case.published for case in task.cases} - {None} <= {value.case for value in printed}
-    assert set(task.published_metrics.values()) <= {value.metric for value in printed}
-    assert set(task.published_models.values()) <= {value.model for value in printed}
+    assert _rows(task) <= {value.case for value in printed}
+    assert set(task.page.published_metrics.values()) <= {value.metric for value in printed}
+    assert set(task.page.published_models.values()) <= {value.model for value in printed}

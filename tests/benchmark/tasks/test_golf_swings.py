@@ -5,12 +5,8 @@ import os
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.tasks.golf_swings import N_BESIDE, N_HIDDEN, N_WINDOWS
-from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import open_archive
 
-TASK = TASKS.get("golf-swings")
 needs_recordings = [
     pytest.mark.recordings,
     pytest.mark.skipif(
@@ -26,10 +22,10 @@ needs_recordings = [
         ("synthetic", [60, 60, 60, 60]),
     ],
 )
-def test_windows_reach_from_end_to_end_and_the_swing_is_in_no_training(case, lengths):
-    archive, hidden = open_archive(), []
+def test_windows_reach_from_end_to_end_and_the_swing_is_in_no_training(posed, case, lengths):
+    hidden = []
     for fold in range(N_WINDOWS):
-        problem = TASK.problem(TASK.case(case), Seeds(0, TASK.name, 1, case, fold), archive)
+        problem = posed("golf-swings", case, fold)
         assert [len(problem.given[0].times), *(len(r.times) for r in problem.train)] == lengths
         assert problem.given[0].name not in [recording.name for recording in problem.train]
         frames = np.flatnonzero(~problem.given[0].visible.any(axis=1))

@@ -5,58 +5,47 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mocapbench.baselines.control import Control
-from mocapbench.baselines.mohgp import MOHGP
-from mocapbench.baselines.oracle import Oracle
-from mocapbench.benchmark.registry import MODELS
-from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
-from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.benchmark.tasks.toy_interpolation_1 import toy_interpolation_1
-from mocapbench.benchmark.tasks.toy_synthesis import toy_synthesis
-from mocapbench.datasets import open_archive
+from mocapbench.baselines import MOHGP, Control, Oracle
+from mocapbench.benchmark import MODELS, TASKS, Address, Record, Status, Store
 from mocapbench.metrics import mcc, mlc, variance_ratio
 
+TASK, INTERPOLATION = TASKS.get("toy-synthesis"), TASKS.get("toy-interpolation-1")
+FIRST, *_ = NAMES = [case.name for case in TASK.cases]
 SAMPLERS = Path(__file__).parents[1] / "samplers.py"
 
 
-def posed(case, fold=0, root=0):
-    seeds = Seeds(root, toy_synthesis.name, toy_synthesis.version, case.name, fold)
-    return toy_synthesis.problem(case, seeds, open_archive(None))
-
-
-@pytest.mark.parametrize("case", toy_synthesis.cases, ids=lambda case: case.name)
-def test_children_references_and_control_are_as_the_table_says(case):
-    problem, d = posed(case), case.settings["outputs"]
-    assert len(problem.train) == case.settings["children"]
+@pytest.mark.parametrize("case", TASK.cases, ids=lambda case: case.name)
+def test_children_references_and_control_are_as_the_table_says(posed, case):
+    problem, d = posed(TASK.name, case.name), case.columns["outputs"]
+    assert len(problem.train) == case.columns["children"]
     assert len(problem.references) == problem.n_samples == 25
     assert {r.values.shape for r in problem.train} == {(30, d)}
     assert {reference.shape for reference in problem.references} == {(30, d)}
     for process in (problem.process, problem.control):
-        assert (process.n_outputs, process.noise) == (d, case.settings["noise"])
+        assert (process.n_outputs, process.noise) == (d, case.columns["noise"])
         assert len(process.parent.lengthscales) == len(process.child.lengthscales) == 3
 
 
 def test_it_takes_over_the_tests_of_the_interpolation():
-    for one, other in zip(toy_synthesis.cases, toy_interpolation_1.cases, strict=True):
-        assert (one.name, one.settings) == (other.name, other.settings)
+    for one, other in zip(TASK.cases, INTERPOLATION.cases, strict=True):
+        assert (one.name, one.columns) == (other.name, other.columns)
 
 
-def test_no_reference_is_a_training_recording():
-    problem = posed(toy_synthesis.cases[0])
+def test_no_reference_is_a_training_recording(posed):
+    problem = posed(TASK.name, FIRST)
     curves = [*problem.references, *(recording.values for recording in problem.train)]
     assert len({curve.tobytes() for curve in curves}) == len(curves)
 
 
-def test_outputs_are_all_correlated_positively():
+def test_outputs_are_all_correlated_positively(posed):
     """W from U(0, 1), unlike the interpolation's, has no signs (thesis §5.2.1)."""
-    problem = posed(toy_synthesis.cases[0])
+    problem = posed(TASK.name, FIRST)
     for layer in (problem.process.parent, problem.control.child):
         assert (layer.coregionalisation > 0.0).all()
 
 
-def test_the_control_is_drawn_apart_from_the_data_and_new_in_every_fold():
-    one, again, other = (posed(toy_synthesis.cases[0], fold) for fold in (0, 0, 1))
+def test_the_control_is_drawn_apart_from_the_data_and_new_in_every_fold(posed):
+    one, again, other = (posed(TASK.name, FIRST, fold) for fold in (0, 0, 1))
     scales = [p.control.parent.lengthscales for p in (one, again, other)]
     np.testing.assert_array_equal(scales[0], scales[1])
     assert not np.intersect1d(scales[0], scales[2]).size
@@ -64,13 +53,13 @@ def test_the_control_is_drawn_apart_from_the_data_and_new_in_every_fold():
 
 
 def test_only_a_task_with_a_control_takes_the_control_model():
-    assert toy_synthesis.accepts(MODELS.get("control"))
-    assert toy_synthesis.accepts(MODELS.get("oracle"))
-    assert not toy_interpolation_1.accepts(MODELS.get("control"))
+    assert TASK.accepts(MODELS.get("control"))
+    assert TASK.accepts(MODELS.get("oracle"))
+    assert not INTERPOLATION.accepts(MODELS.get("control"))
 
 
-def test_new_children_resemble_the_references_and_the_control_does_not():
-    problems = [posed(case) for case in toy_synthesis.cases[::3]]
+def test_new_children_resemble_the_references_and_the_control_does_not(posed):
+    problems = [posed(TASK.name, name) for name in NAMES[::3]]
     scores = {
         model: [problem.outcome(problem.solve(problem.fit(model()), 1)) for problem in problems]
         for model in (Oracle, Control)
@@ -84,16 +73,16 @@ def test_new_children_resemble_the_references_and_the_control_does_not():
 
 
 @pytest.mark.slow
-def test_the_hierarchy_comes_close_to_the_oracle():
+def test_the_hierarchy_comes_close_to_the_oracle(posed):
     """Over the nine tests: MLC within .05, MCC within 3 %, and the variance of new children."""
-    found = {"mohgp": [], "oracle": []}
-    for case in toy_synthesis.cases:
-        problem = posed(case)
-        models = {"mohgp": MOHGP(n_components=3, kernel="rbf"), "oracle": Oracle()}
-        for name, model in models.items():
-            outcome = problem.outcome(problem.solve(problem.fit(model), 1))
-            found[name].append([metric(outcome).value for metric in (mlc, mcc, variance_ratio)])
-    ours, limit = (np.array(scores).T for scores in found.values())
+    models = (MOHGP(n_components=3, kernel="rbf"), Oracle())
+    scores = []
+    for problem in (posed(TASK.name, name) for name in NAMES):
+        outcomes = [problem.outcome(problem.solve(problem.fit(model), 1)) for model in models]
+        scores.append(
+            [[metric(o).value for metric in (mlc, mcc, variance_ratio)] for o in outcomes]
+        )
+    ours, limit = np.array(scores).transpose(1, 2, 0)
     assert np.mean(ours[0] - limit[0]) == pytest.approx(0.0, abs=0.05)
     assert np.mean(ours[1] / limit[1]) == pytest.approx(1.0, abs=0.03)
     assert np.mean(ours[2]) == pytest.approx(1.0, abs=0.25)
@@ -105,7 +94,7 @@ def run(cli, tmp_path):
 
     def do(models):
         arguments = ("--tasks", "toy-synthesis", "--cases", "test 1,test 7", "--folds", 3)
-        files = ("--model-file", SAMPLERS, "--out", tmp_path / "run")
+        files = ("--plugin", SAMPLERS, "--out", tmp_path / "run")
         assert cli("run", *arguments, "--models", models, *files) == 0
         return cli("check", "--controls", tmp_path / "run")
 
@@ -138,13 +127,13 @@ def scored(tmp_path):
     def make(entrants):
         store, keys = Store.create(tmp_path), []
         for label, folds in entrants.items():
-            for fold, found in enumerate(folds):
-                fields = {"status": found, "message": "no luck"}
-                if isinstance(found, dict):
-                    fields = {"status": Status.OK, "scores": found}
+            for fold, ended in enumerate(folds):
+                fields = {"status": ended, "message": "no luck"}
+                if isinstance(ended, dict):
+                    fields = {"status": Status.OK, "scores": ended}
                 keys.append(key := f"{label}-{fold}")
-                where = ("toy-synthesis", 1, "test 1", fold, 0, label, label, {})
-                store.save(Record(key, key, *where, **fields, provenance={}))
+                address = Address(TASK.name, TASK.version, "test 1", fold, label)
+                store.save(Record(key, key, address, 0, label, {}, **fields))
         store.save_plan({"keys": keys, "provenance": {}})
         return store.path
 
@@ -173,8 +162,8 @@ def test_a_failed_job_is_never_a_passed_control_check(cli, scored, changed, code
     assert ("jobs failed and were not checked" in cli.printed) == bool(changed)
 
 
-def test_the_check_must_be_told_what_to_check(cli, tmp_path):
+def test_the_check_needs_something_to_check_against(cli, tmp_path):
     assert cli("check", tmp_path) == 2
-    assert "choose --baseline or --controls" in cli.printed
+    assert "choose --reference or --controls" in cli.printed
     assert cli("check", "--controls", tmp_path) == 2
     assert "is not a mocapbench run" in cli.printed

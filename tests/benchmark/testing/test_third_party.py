@@ -67,20 +67,20 @@ def test_what_it_adds_is_listed_and_keeps_the_protocols(python):
     assert code == 0, printed
 
 
-def test_its_metrics_are_as_good_as_its_baseline_says(python, results):
-    arguments = ("--baseline", "baseline", "--tolerances", "tolerances.toml")
+def test_its_metrics_are_as_good_as_its_reference_values(python, results):
+    arguments = ("--reference", "reference", "--tolerances", "tolerances.toml")
     code, printed = python("-c", MAIN, "check", results, *arguments)
     assert code == 0, printed
     assert " same" in printed
 
 
 def test_a_metric_of_its_own_that_got_worse_is_seen(source, python, results):
-    """As if the baseline had been better than the run."""
-    recorded = (source / "baseline" / "waves.csv").read_text()
+    """As if the reference values had been better than the run's."""
+    recorded = (source / "reference" / "waves.csv").read_text()
     better = re.sub(r"(straight-lines,median_absolute_error,)[^,]*", r"\g<1>0.001", recorded)
     assert better != recorded
     (source / "better.csv").write_text(better)
-    arguments = ("--baseline", "better.csv", "--environment", "same")
+    arguments = ("--reference", "better.csv", "--environment", "same")
     code, printed = python("-c", MAIN, "check", results, *arguments)
     assert code == 1, printed
     assert "straight-lines" in printed

@@ -1,4 +1,4 @@
-"""Motions: what is read, that what is written is read back, and what is refused where."""
+"""Motions: reading, writing and reading back, and errors with their lines."""
 
 import warnings
 
@@ -25,7 +25,7 @@ def motion(skeleton, motion_text):
     return parse_motion(motion_text, skeleton, "toy.amc")
 
 
-def test_values_stand_in_the_order_of_the_file(motion):
+def test_values_are_in_the_order_of_the_file(motion):
     assert motion.segments == SEGMENTS
     assert motion.channels[5:] == (
         *("root.rz", "thigh.rx", "thigh.ry", "thigh.rz", "arm.ry", "arm.rz", "shin.rx"),
@@ -66,7 +66,7 @@ def test_frames_may_begin_at_any_number(skeleton, motion, motion_text):
     arrays(np.float64, st.tuples(st.integers(1, 5), st.just(12)), elements=st.floats(-1e99, 1e99)),
     st.permutations(SEGMENTS),
 )
-def test_what_is_written_is_read_back(skeleton, values, segments):
+def test_writing_and_reading_gives_the_same(skeleton, values, segments):
     motion = Motion(skeleton, tuple(segments), values)
     back = parse_motion(format_motion(motion), skeleton, "")
     assert back.segments == motion.segments
@@ -112,7 +112,7 @@ def test_a_last_frame_that_was_cut_short_is_dropped_with_a_warning(
         (("shin 42", "shin"), 18, "'shin' with 1 finite numbers"),
     ],
 )
-def test_what_is_wrong_is_named_with_its_line(skeleton, motion_text, change, line, expected):
+def test_errors_name_the_line(skeleton, motion_text, change, line, expected):
     assert change[0] in motion_text
     with pytest.raises(AcclaimError) as caught:
         parse_motion(motion_text.replace(*change, 1), skeleton, "toy.amc")
@@ -128,7 +128,7 @@ def test_a_header_without_frames_and_a_single_short_frame_are_refused(skeleton, 
 
 
 @given(st.randoms(use_true_random=False))
-def test_mutations_raise_nothing_else(tmp_path_factory, skeleton, motion_text, mutated, rng):
+def test_mutated_files_raise_acclaim_errors(tmp_path_factory, skeleton, motion_text, mutated, rng):
     path = tmp_path_factory.mktemp("fuzz") / "mutated.amc"
     path.write_bytes(mutated(motion_text.encode(), rng))
     with warnings.catch_warnings():
@@ -174,7 +174,7 @@ def test_the_frame_that_the_capture_cut_short_is_dropped(cmu):
 
 
 @pytest.mark.recordings
-def test_real_values_are_read_as_they_stand(cmu, data_dir):
+def test_real_values_are_those_in_the_file(cmu, data_dir):
     recording = cmu.recording("cmu:35_02")
     lines = (data_dir / "subjects/35/35_02.amc").read_text().split("\n")
     frame = lines[lines.index("100") + 1 : lines.index("101")]

@@ -1,4 +1,4 @@
-"""Skeletons: what is read, that what is written is read back, and what is refused where."""
+"""Skeletons: reading, writing and reading back, and errors with their lines."""
 
 import math
 
@@ -77,7 +77,7 @@ def skeletons(draw):
 
 
 @given(skeletons())
-def test_what_is_written_is_read_back(any_skeleton):
+def test_writing_and_reading_gives_the_same(any_skeleton):
     assert parse_skeleton(format_skeleton(any_skeleton), "") == any_skeleton
 
 
@@ -117,7 +117,7 @@ def test_what_is_written_is_read_back(any_skeleton):
         ("  begin\n     id 3", "     id 3", 34, "'begin'"),
     ],
 )
-def test_what_is_wrong_is_named_with_its_line(skeleton_text, old, new, line, expected):
+def test_errors_name_the_line(skeleton_text, old, new, line, expected):
     assert old in skeleton_text
     with pytest.raises(AcclaimError) as caught:
         parse_skeleton(skeleton_text.replace(old, new, 1), "toy.asf")
@@ -126,7 +126,7 @@ def test_what_is_wrong_is_named_with_its_line(skeleton_text, old, new, line, exp
 
 
 @given(st.randoms(use_true_random=False))
-def test_mutations_raise_nothing_else(tmp_path_factory, skeleton_text, mutated, rng):
+def test_mutated_files_raise_acclaim_errors(tmp_path_factory, skeleton_text, mutated, rng):
     path = tmp_path_factory.mktemp("fuzz") / "mutated.asf"
     path.write_bytes(mutated(skeleton_text.encode(), rng))
     try:

@@ -1,4 +1,4 @@
-"""Reading text: whole, bounded, or refused with the place."""
+"""Reading text: complete, with bounded lines, and errors with their lines."""
 
 import pytest
 
@@ -6,7 +6,7 @@ from mocapbench.datasets import AcclaimError
 from mocapbench.datasets.acclaim.text import MAX_LINE, Line, finite_floats, read_text
 
 
-def test_text_is_returned_as_it_stands(tmp_path):
+def test_text_is_returned_unchanged(tmp_path):
     path = tmp_path / "a.asf"
     path.write_bytes("one\r\ntwö\n\nthree".encode())
     assert read_text(path) == "one\r\ntwö\n\nthree"

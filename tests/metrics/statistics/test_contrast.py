@@ -30,7 +30,7 @@ def units(rows):
 
 @settings(max_examples=25)
 @given(values)
-def test_exchanging_the_two_turns_the_contrast_round(rows):
+def test_exchanging_the_entrants_reverses_the_contrast(rows):
     there = contrast(units(rows), lower)
     back = contrast(units([(b, a) for a, b in rows]), lower)
     turned = (

@@ -49,7 +49,7 @@ def test_signed_ranks_in_closed_form(sample):
     assert signed_rank_test(sample) == np.mean(np.abs(sums) >= abs(np.sign(kept) @ ranks))
 
 
-def test_differences_that_rounding_sets_apart_are_no_cause_for_a_warning(recwarn):
+def test_differences_that_are_equal_but_for_rounding_give_no_warning(recwarn):
     sample = [0.1, np.nextafter(0.1, 1.0), 0.1]
     assert t_test(sample) == pytest.approx(0.0, abs=1e-12)
     assert mean_interval(sample) == pytest.approx((0.1, 0.1))
@@ -82,12 +82,12 @@ def test_the_interval_holds_zero_exactly_when_the_test_does_not_reject(sample):
 
 
 @pytest.mark.parametrize("test", TESTS)
-def test_no_difference_is_no_evidence_and_one_unit_none_either(test):
+def test_p_is_one_without_differences_and_nan_for_one_unit(test):
     assert test([0.0, 0.0, 0.0]) == 1.0
     assert math.isnan(test([0.3]))
 
 
-def test_equal_differences_leave_no_doubt_of_their_mean():
+def test_equal_differences_have_p_zero_and_an_interval_without_width():
     assert t_test([0.1, 0.1, 0.1]) == 0.0
     assert mean_interval([0.1, 0.1, 0.1]) == pytest.approx((0.1, 0.1), rel=1e-12)
     assert all(math.isnan(end) for end in mean_interval([0.1]))
@@ -117,7 +117,7 @@ def test_many_units_agree_with_the_normal_approximation():
 
 
 @pytest.mark.parametrize("bad", [[], [math.nan, 1.0], [math.inf], [[1.0, 2.0]]])
-def test_what_is_no_sample_is_refused(bad):
+def test_malformed_samples_are_refused(bad):
     with pytest.raises(ValueError, match="finite differences"):
         t_test(bad)
 

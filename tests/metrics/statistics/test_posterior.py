@@ -42,15 +42,15 @@ def test_the_unit_of_the_differences_does_not_matter(sample, rope, factor):
     ("difference", "expected"),
     [(0.0, (0, 1, 0)), (0.5, (0, 1, 0)), (2.0, (1, 0, 0)), (-2.0, (0, 0, 1))],
 )
-def test_equal_differences_leave_no_doubt(difference, expected):
+def test_equal_differences_give_a_probability_of_one(difference, expected):
     assert correlated_t_test([difference] * 3, 1.0) == Posterior(*expected)
 
 
-def test_one_unit_says_nothing():
+def test_one_unit_gives_nan():
     assert all(math.isnan(p) for p in vars(correlated_t_test([3.0], 1.0)).values())
 
 
-def test_correlated_folds_make_less_sure_than_independent_ones():
+def test_the_posterior_of_correlated_folds_is_wider():
     sample = [0.5, 0.7, 0.2, 0.9, 0.6]
     posterior = correlated_t_test(sample, 0.0)
     error = np.std(sample, ddof=1) / math.sqrt(5)

@@ -74,7 +74,7 @@ def test_too_little_to_rank_is_refused(shape):
         compare_ranks(np.zeros(shape))
 
 
-def test_a_hole_is_refused():
+def test_missing_values_are_refused():
     with pytest.raises(ValueError, match="got NaN"):
         compare_ranks([[1.0, 2.0, NAN]] * 2)
 
@@ -89,7 +89,7 @@ LOSSES = pd.DataFrame(
 )
 
 
-def test_who_cannot_be_told_from_the_best_shares_its_rank():
+def test_entrants_not_significantly_worse_than_the_best_share_its_rank():
     found = shared_rank(LOSSES, ("good", "as good", "bad", "broken"))
     assert (found.labels, found.n, found.tested) == (("good", "as good"), 5, True)
 

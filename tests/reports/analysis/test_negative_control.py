@@ -132,7 +132,7 @@ def test_a_control_must_be_near_zero(check, mlc, passes):
     assert bool(cells) is not passes
 
 
-def test_who_is_excused_is_shown_and_fails_nothing(check):
+def test_an_exempt_entrant_is_shown_and_fails_nothing(check):
     reason = "draws around no trend"
     results = check({"prior": CONTROL, "good": GOOD, "control": CONTROL}, exempt={"prior": reason})
     assert verdicts(results)["prior"] == "need not pass"
@@ -158,11 +158,18 @@ def test_without_a_control_or_with_one_cell_of_it_nothing_is_checked(check):
         assert negative_control_table(results) is None
 
 
-@pytest.mark.parametrize("label", ["oracle", "control", "replay"])
-def test_what_is_no_synthesiser_is_not_ranked_and_a_note_says_so(check, label):
+@pytest.mark.parametrize(
+    ("label", "reason"),
+    [
+        ("oracle", "knows the generating process: a limit"),
+        ("control", "negative control: samples of an unrelated process"),
+        ("replay", "repeats its training recordings: the score of samples that are not new"),
+    ],
+)
+def test_limits_and_controls_are_not_ranked_and_a_note_says_so(check, label, reason):
     results = check({"good": GOOD, label: {**CONTROL, "mlc": [0.99] * 4}})
     assert results.best("one", "mlc") == {"good"}
-    assert any(note.startswith(f"{label} ") for note in score_table(results, "mlc").notes)
+    assert f"{label} ({reason}) is not ranked." in score_table(results, "mlc").notes
 
 
 def test_a_failure_that_no_cell_explains_is_explained(check):

@@ -49,7 +49,7 @@ def test_the_ranking_follows_the_direction(small):
     assert results_of(small(near, metric="coverage_50")).ranking("row", "coverage_50")[0] == "b"
 
 
-def test_who_failed_on_a_hard_fold_does_not_lead(small):
+def test_an_entrant_that_lacks_a_fold_does_not_lead(small):
     table = {"row": {"a": [1.0, 9.0, 2.0], "fails": [1.1, np.nan, 2.1], "b": [2.0, 9.5, 3.0]}}
     results = results_of(small(table))
     assert results.estimate("row", "fails", "mse").mean < results.estimate("row", "a", "mse").mean
@@ -104,7 +104,7 @@ def test_values_that_are_no_means_over_samples_spread_over_folds():
 
 
 @pytest.mark.parametrize("rows", [{"one", "two", "both"}, {"one", "both"}, {"both"}])
-def test_a_row_that_pools_others_counts_only_where_it_is_alone(small, rows):
+def test_a_mean_over_references_counts_only_without_their_rows(small, rows):
     cases = tuple(
         CaseLayout(name, {}, averages_references=name == "both") for name in ("one", "two", "both")
     )

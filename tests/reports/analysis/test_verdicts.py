@@ -212,7 +212,7 @@ def test_a_row_may_have_a_reason_of_its_own(small):
     assert (pair.verdict, pair.reason) == (PublishedVerdict.NOT_COMPARABLE, "another training set")
 
 
-def test_what_the_papers_number_lacks_is_a_reason(small):
+def test_a_remark_on_the_published_value_is_a_reason(small):
     bundle = small(
         {"row": {"replay": [1.0]}},
         task="control-similarity",

@@ -8,7 +8,8 @@ from scipy import stats
 
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.figures.error_bars import error_bars, t_interval
+from mocapbench.reports.figures.error_bars import error_bars
+from mocapbench.reports.figures.point_axes import t_interval
 
 
 @pytest.fixture(scope="module")

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis.extra.numpy import arrays
 
 from mocapbench.reports import HeatMap, HeatMaps, render
+from mocapbench.reports.figures.cells import levels_of, rectangles
 from mocapbench.reports.figures.draw import draw
-from mocapbench.reports.figures.heat_maps import _rectangles, levels_of
 
 SMALL = HeatMaps(
     task="toy-interpolation-1",
@@ -42,7 +42,7 @@ def test_levels_are_nine_of_equal_width_and_what_lies_beyond_is_in_the_outermost
 
 @given(chosen=arrays(bool, (4, 6)))
 def test_the_rectangles_are_the_chosen_cells(chosen):
-    path, drawn = _rectangles(chosen), np.zeros((4, 6), dtype=int)
+    path, drawn = rectangles(chosen), np.zeros((4, 6), dtype=int)
     for (left, top), _, (right, bottom), *_ in path.vertices.reshape(-1, 5, 2).astype(int):
         drawn[top:bottom, left:right] += 1
     np.testing.assert_array_equal(drawn, chosen)
@@ -103,7 +103,7 @@ def test_the_page_has_a_colour_for_each_level_by_day_and_by_night(page):
     assert [page.count(f"--level-{level}: #") for level in range(9)] == [2] * 9
 
 
-def test_what_is_refused():
+def test_invalid_heat_maps_are_refused():
     with pytest.raises(ValueError, match=r"3 rows and columns, as many as labels, got .*\(2, 2\)"):
         replace(SMALL, maps=(HeatMap("", np.eye(2)),))
     with pytest.raises(ValueError, match=r"got shapes \[\]"):

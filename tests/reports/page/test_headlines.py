@@ -25,12 +25,12 @@ def test_the_best_entrant_of_each_case_is_named(small):
     assert {headline.subject for headline in headlines} == {"mohgp-3", "gp-independent"}
     texts = {headline.subject: headline.text for headline in headlines}
     assert texts["mohgp-3"] == (
-        "has the best mean MSE in 1 of 2 cases (observed 40): "
+        "is best in 1 of 2 cases (observed 40) by MSE: "
         "0.10 on average, next best 0.15. Not tested: one fold."
     )
 
 
-def test_a_model_that_the_paper_lacks_is_seen_to_win(small):
+def test_a_model_that_the_paper_lacks_can_win(small):
     found = wins(results_of(small(VALUES, published_models=PUBLISHED)), "mse")
     assert [(w.winner, w.loser, len(w.cases), w.shared) for w in found] == [
         ("gp-independent", "mohgp-1", 2, 2),
@@ -78,7 +78,7 @@ def rows(*pairs):
         ),
     ],
 )
-def test_a_lead_is_told_with_the_test_of_it(small, leads, words):
+def test_a_lead_is_reported_with_its_test(small, leads, words):
     (found,) = lead_headlines(results_of(small(rows(*leads))), "mse")
     assert found.text.endswith(words)
 
@@ -146,12 +146,12 @@ def spline_on_35_03(small, value, *, synthetic=False):
     )
 
 
-def test_a_printed_value_that_nobody_reaches_is_told(small):
+def test_a_published_value_better_than_all_of_ours_is_reported(small):
     (found,) = published_headlines(results_of(spline_on_35_03(small, 62.98)), "rms_per_frame")
     assert found.text == "in 1 of 1 case (row: B-GPDM 12.15)."
 
 
-def test_nothing_is_told_where_an_entrant_is_better_or_the_motion_generated(small):
+def test_no_published_headline_where_an_entrant_is_better_or_the_motion_generated(small):
     better = spline_on_35_03(small, 12.0)
     generated = spline_on_35_03(small, 62.98, synthetic=True)
     for bundle in (better, generated):
@@ -170,7 +170,7 @@ def test_a_win_follows_the_metrics_direction(small):
 @pytest.mark.parametrize(
     ("not_comparable", "found"), [({}, 1), ({"mohgp-1": "trained on other walks"}, 0)]
 )
-def test_what_cannot_be_compared_is_no_better_value(small, not_comparable, found):
+def test_a_value_that_is_not_comparable_is_no_better_value(small, not_comparable, found):
     """The paper prints 22.546 for its ICM, and otherwise 23.082 or more (less is taken as better).
 
     MOHGP-LMC, 25.248, is printed twice and counts once.

@@ -113,7 +113,7 @@ def test_one_of_each_is_singular(small):
     )
 
 
-def test_a_reduced_budget_is_told(small, page):
+def test_a_reduced_budget_is_reported(small, page):
     text = render(small({"row": {"a": [1.0]}}, budget="max_iter=200"))
     assert (
         "Reduced budget in this profile: max_iter=200. "
@@ -130,7 +130,7 @@ def test_a_long_list_of_cases_not_run_is_folded(small, absent, folded):
     assert ", ".join(map(str, range(absent))) in text
 
 
-def test_a_verdict_on_one_fold_is_never_told_without_saying_so(small):
+def test_a_verdict_on_one_fold_is_marked_everywhere(small):
     text = render(
         small(
             {"row": {"cubic-spline": [62.98]}},
@@ -141,12 +141,12 @@ def test_a_verdict_on_one_fold_is_never_told_without_saying_so(small):
             published_metrics={"rms_per_frame": "RMS per frame"},
         )
     )
-    told = re.findall(r"1 reproduced</span>(.*)", text)
-    assert [rest.split(")")[0] for rest in told] == [" (1 on one fold"] * 2
+    counts = re.findall(r"1 reproduced</span>(.*)", text)
+    assert [rest.split(")")[0] for rest in counts] == [" (1 on one fold"] * 2
     assert '<td class="reproduced">reproduced <small>one fold</small></td>' in text
 
 
-def test_each_failure_is_told_with_its_traceback(bundle, outline, page):
+def test_each_failure_is_shown_with_its_traceback(bundle, outline, page):
     failed = (~bundle.records["status"].isin(["ok", "data-missing"])).sum()
     classes = [each.get("class") for each in outline.of("details")]
     assert classes.count("failure") == failed

@@ -3,8 +3,8 @@ from dataclasses import replace
 import pytest
 
 from mocapbench.reports import RegressionCheck, render
+from mocapbench.reports.page.downloads import to_csv
 from mocapbench.reports.tables.check import LIMIT, check_table
-from mocapbench.reports.tables.downloads import to_csv
 
 
 def _finding(verdict, label="knn", **more):
@@ -39,12 +39,12 @@ def test_a_long_list_is_cut_and_says_so():
     assert len(to_csv(table).splitlines()) == 1 + len(findings)
 
 
-@pytest.mark.parametrize(("verdict", "told"), [("worse", "failed"), ("better", "passed")])
-def test_the_page_tells_the_check(small, verdict, told):
+@pytest.mark.parametrize(("verdict", "outcome"), [("worse", "failed"), ("better", "passed")])
+def test_the_page_shows_the_check(small, verdict, outcome):
     check = _check(_finding(verdict, label="<script>", **PAIRED))
     page = render(replace(small({"row": {"a": [1.0]}}), check=check))
-    assert f"the run <strong>{told}</strong>" in page
-    assert ("The regression check failed" in page) is (told == "failed")
+    assert f"the run <strong>{outcome}</strong>" in page
+    assert ("The regression check failed" in page) is (outcome == "failed")
     assert '<td class="text">&lt;script&gt;</td>' in page
 
 

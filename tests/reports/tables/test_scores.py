@@ -54,7 +54,7 @@ def bold(table):
     return {c.text for c, v in zip(table.columns, table.rows[0], strict=True) if v.kind == "best"}
 
 
-def test_what_is_not_separable_shares_the_rank_and_a_note_says_by_what_test(small):
+def test_entrants_not_separable_share_the_rank_and_a_note_names_the_test(small):
     table = table_of(small({"row": CLOSE}), "mse")
     assert bold(table) == {"a", "b"}
     assert table.notes == (
@@ -97,7 +97,7 @@ def test_every_way_of_failing_is_counted(small):
     assert found.note == "1 failed, 2 timeout"
 
 
-def test_what_does_not_apply_is_a_dash(bundle):
+def test_a_metric_that_does_not_apply_is_a_dash(bundle):
     assert cell(table_of(bundle, "msll"), "test 1", "cubic-spline").text == "–"
 
 
@@ -153,7 +153,7 @@ def test_the_tidy_data_hold_full_precision(bundle):
     ("independent", "words"),
     [(True, "mean ± 2 sd over folds"), (False, "mean ± spread over overlapping windows (2 sd)")],
 )
-def test_the_caption_says_what_the_spread_is(small, independent, words):
+def test_the_caption_names_the_spread(small, independent, words):
     bundle = small({"row": {"a": [1.0, 2.0]}}, independent_folds=independent)
     assert words in table_of(bundle, "mse").caption
 

@@ -1,1 +1,1 @@
-"""Inference by splitting outputs into what they share and their independent parts."""
+"""Inference by splitting outputs into shared latent functions and independent parts."""

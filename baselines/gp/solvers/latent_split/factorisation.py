@@ -1,7 +1,7 @@
-"""The factorisations of the latent split, shared by likelihood and prediction.
+"""The factorisations of the latent split, which likelihood and prediction share.
 
-The symbols are those of `mocapbench.baselines.gp.solvers.latent_split.solver`; m is the number of
-sites and K that of white coordinates.
+The symbols are those of docs/inference.md, section 5, "Value". m is the number of sites, K that of
+white coordinates.
 """
 
 from __future__ import annotations
@@ -11,33 +11,34 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.cholesky import invert
 from mocapbench.baselines.common.threads import Mapper
-from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block
-from mocapbench.baselines.gp.solvers.cholesky import invert
 from mocapbench.baselines.gp.solvers.entries import Entries
-from mocapbench.baselines.gp.solvers.latent_split.independent_parts import OwnParts
+from mocapbench.baselines.gp.solvers.latent_split.independent_parts import IndependentParts
 from mocapbench.baselines.gp.solvers.latent_split.latents import Latents
+from mocapbench.baselines.gp.solvers.solver import refuse_singular
 
-__all__ = ["Split"]
+__all__ = ["Factorisation"]
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Split:
-    """A block's covariance A K_v Aᵀ + blockdiag E_d, factorised, and its data, solved for.
+class Factorisation:
+    """The covariance A K_v Aᵀ + blockdiag E_d of a block, factorised, and α = K⁻¹ z.
 
     Parameters
     ----------
     block : Block
         The problem.
     parameters : Parameters
-        Where it is evaluated.
+        The parameters at which it is evaluated.
     latents : Latents
         The latent functions.
-    own : OwnParts
+    independent : IndependentParts
         E and F.
     rooted_gram : tuple of ndarray of shape (N, K)
         G Λ, the rows of each latent function.
@@ -48,7 +49,8 @@ class Split:
     white : ndarray of shape (K, h)
         u, the posterior mean of the white coordinates.
     shared : ndarray of shape (n, m, h)
-        The posterior mean of what each column of weights multiplies, at the sites.
+        Σ_i c_i ⊗ Λ_i u_i, the sum of the posterior means of each column's functions, at the
+        sites.
     residual, alpha : ndarray of shape (D, m, h)
         r = z − A Λ u and α = K⁻¹ z = F r at the sites.
     """
@@ -56,7 +58,7 @@ class Split:
     block: Block
     parameters: Parameters
     latents: Latents
-    own: OwnParts
+    independent: IndependentParts
     rooted_gram: tuple[Array, ...]
     inverse: Array
     log_determinant: float
@@ -66,34 +68,46 @@ class Split:
     alpha: Array
 
     @classmethod
-    def of(cls, kernel: Kernel, block: Block, parameters: Parameters, mapper: Mapper) -> Split:
-        """Factorise ``block`` at ``parameters``."""
+    def of(
+        cls, kernel: StationaryKernel, block: Block, parameters: Parameters, mapper: Mapper
+    ) -> Factorisation:
+        """Factorise ``block`` at ``parameters``.
+
+        Raises
+        ------
+        SingularCovarianceError
+            If some E_d or S is not numerically positive definite.
+        """
         latents, entries = Latents.of(kernel, block, parameters), block.entries
-        own = OwnParts.of(kernel, block, parameters, mapper)
-        rooted = _rooted_gram(latents, entries, own.precision)
+        # F_d, G Λ, S and S⁻¹.
+        independent = IndependentParts.of(kernel, block, parameters, mapper)
+        rooted = _rooted_gram(latents, entries, independent.precision)
         inverse = _system(latents, rooted)
-        log_system = invert(inverse, parameters)
+        with refuse_singular(parameters):
+            log_system = invert(inverse)
+        # u = S⁻¹ Λᵀ Aᵀ F z, A Λ u, the residual r and α = F r.
         data = entries.at_sites(block.data)
-        white = inverse @ whiten(latents, entries, own.precision @ data)
+        white = inverse @ whiten(latents, entries, independent.precision @ data)
         shared = _shared(latents, entries, white)
         residual = data - np.tensordot(latents.weights.T, shared, axes=1)
         return cls(
             block,
             parameters,
             latents,
-            own,
+            independent,
             rooted,
             inverse,
-            own.log_determinant + log_system,
+            independent.log_determinant + log_system,
             white,
             shared,
             residual,
-            own.precision @ residual,
+            independent.precision @ residual,
         )
 
     @property
     def log_density(self) -> float:
         """The log-density of the block's data."""
+        # zᵀ K⁻¹ z = rᵀ F r + uᵀ u, and ρ (log|K| + n log 2π).
         squares = np.vdot(self.residual, self.alpha) + np.vdot(self.white, self.white)
         log_scale = self.log_determinant + self.block.n_visible * np.log(2.0 * np.pi)
         return float(-0.5 * (self.block.multiplicity * log_scale + squares))
@@ -114,11 +128,13 @@ def project(latents: Latents, entries: Entries, values: Array) -> list[Array]:
 
 
 def _rooted_gram(latents: Latents, entries: Entries, precision: Array) -> tuple[Array, ...]:
-    """Return G Λ; the blocks of G are the foldings of Σ_d w_a w_b F_d."""
+    """Return G Λ, (N, K) for each latent function."""
+    # Σ_d w_ad w_bd F_d for each pair of columns a ≤ b: section 5, "Value".
     n_times, n_sites = entries.n_times, len(entries.unit)
     rooted = tuple(np.empty((n_times, latents.n_white)) for _ in latents.functions)
     weighted = latents.products @ precision.reshape(len(precision), -1)
     by_pair = weighted.reshape(-1, n_sites, n_sites)
+    # Block (i, j) of G is that of its columns, folded by the loadings of the units on i and on j.
     for (a, b), matrix in zip(latents.pairs, by_pair, strict=True):
         for i in latents.by_column[a]:
             one = latents.functions[i]
@@ -132,7 +148,7 @@ def _rooted_gram(latents: Latents, entries: Entries, precision: Array) -> tuple[
 
 
 def _system(latents: Latents, rooted: tuple[Array, ...]) -> Array:
-    """Return S = I + Λᵀ G Λ, (K, K), on the diagonal and below."""
+    """Return the diagonal and lower triangle of S = I + Λᵀ G Λ, (K, K)."""
     system = np.eye(latents.n_white)
     for latent, row in zip(latents.functions, rooted, strict=True):
         before = slice(latent.white.stop)

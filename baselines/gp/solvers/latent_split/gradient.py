@@ -1,4 +1,4 @@
-r"""The gradient of the latent split.
+r"""The gradient of the latent split (docs/inference.md, section 5, "Gradient").
 
 With :math:`M = \Lambda S^{-1} \Lambda^\top` the posterior covariance of the latent functions, let
 :math:`Z_{ab} = \sum_{i \in a, j \in b} c_i c_j^\top \otimes M_{ij}` collect it by columns of
@@ -7,8 +7,9 @@ weights, and :math:`X_d = \sum_{ab} w_{ad} w_{bd} Z_{ab}` be its image in output
 .. math:: (K^{-1})_{dd} = F_d - F_d X_d F_d, \qquad
           \bar E_d = \tfrac12 \big(\alpha_d \alpha_d^\top - \rho (K^{-1})_{dd}\big)
 
-is all that κ, β and a lengthscale's effect on the outputs' own parts need. The shared parts give,
-with :math:`\partial(\Lambda_i \Lambda_i^\top) = V_i \Lambda_i^\top + \Lambda_i V_i^\top -
+give the gradients in κ and β and the effect of a lengthscale on the independent parts. The shared
+parts give, with
+:math:`\partial(\Lambda_i \Lambda_i^\top) = V_i \Lambda_i^\top + \Lambda_i V_i^\top -
 \Lambda_i T_i \Lambda_i^\top`,
 
 .. math::
@@ -30,33 +31,39 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.common.threads import Mapper
 from mocapbench.baselines.gp.prior.parameters import Parameters
-from mocapbench.baselines.gp.solvers.latent_split.factorisation import Split, project
+from mocapbench.baselines.gp.solvers.latent_split.factorisation import Factorisation, project
 
 __all__ = ["split_gradient"]
 
 Array = NDArray[np.float64]
 
 
-def split_gradient(split: Split, mapper: Mapper) -> Parameters:
-    """Return the gradient of the log-density of the split's block."""
+def split_gradient(split: Factorisation, mapper: Mapper) -> Parameters:
+    """Return the gradient of the log-density of the factorised block."""
+    # Z_ab of each pair of columns, and with them ∂w.
     covariance = _by_pairs(split)
     weights = _weight_gradient(split, covariance)
-    gradient = split.own.gradient(lambda outputs: _own_adjoint(split, covariance, outputs), mapper)
+    # Ē_d of each output, and with it ∂κ, ∂β and the independent parts' term of ∂ log ℓ.
+    gradient = split.independent.gradient(
+        lambda outputs: _independent_adjoint(split, covariance, outputs), mapper
+    )
     for (name, q, number), by_weight in zip(split.latents.columns, weights, strict=True):
         gradient.layers[name].coregionalisation.weights[q, :, number] += by_weight
     _add_scale_gradient(split, gradient)
     return gradient
 
 
-def _by_pairs(split: Split) -> Array:
+def _by_pairs(split: Factorisation) -> Array:
     """Return Z_aa and Z_ab + Z_abᵀ for the pairs a ≤ b of columns, (n_pairs, m²)."""
     latents, entries = split.latents, split.block.entries
     n_sites = len(entries.unit)
+    # The rows of M = Λ S⁻¹ Λᵀ, but for the last factor.
     rows = [latent.values @ split.inverse[latent.white] for latent in latents.functions]
     total = np.zeros((len(latents.pairs), n_sites, n_sites))
     for (a, b), matrix in zip(latents.pairs, total, strict=True):
         for i in latents.by_column[a]:
             for j in latents.by_column[b]:
+                # c_i c_jᵀ ⊗ M_ij
                 other = latents.functions[j]
                 block = rows[i][:, other.white] @ other.values.T
                 entries.add_unfolded(latents.functions[i].units, other.units, block, matrix)
@@ -65,11 +72,12 @@ def _by_pairs(split: Split) -> Array:
     return total.reshape(len(total), n_sites**2)
 
 
-def _weight_gradient(split: Split, covariance: Array) -> Array:
+def _weight_gradient(split: Factorisation, covariance: Array) -> Array:
     """Return ∂w, (n, D)."""
     weights = split.latents.weights
+    # α_dᵀ Σ_i c_i ⊗ Λ_i u_i, then ⟨F_d, Z_ab + Z_ba⟩ of each pair and output.
     gradient = np.tensordot(split.shared, split.alpha, axes=((1, 2), (1, 2)))
-    overlaps = covariance @ split.own.precision.reshape(weights.shape[1], -1).T
+    overlaps = covariance @ split.independent.precision.reshape(weights.shape[1], -1).T
     for (a, b), overlap in zip(split.latents.pairs, overlaps, strict=True):
         # Each pair stands for Z_ab and Z_ba, whose inner products with F_d are equal.
         gradient[a] -= 0.5 * split.block.multiplicity * weights[b] * overlap
@@ -77,34 +85,42 @@ def _weight_gradient(split: Split, covariance: Array) -> Array:
     return np.asarray(gradient)
 
 
-def _own_adjoint(split: Split, covariance: Array, outputs: slice) -> Array:
+def _independent_adjoint(split: Factorisation, covariance: Array, outputs: slice) -> Array:
     """Return Ē of a run of outputs, (·, m, m)."""
     entries, rho = split.block.entries, split.block.multiplicity
+    # X_d = Σ_ab w_ad w_bd Z_ab
     images = split.latents.products[:, outputs].T @ covariance
     adjoint = images.reshape(-1, *entries.shape[1:])
     for d, matrix in zip(range(*outputs.indices(entries.shape[0])), adjoint, strict=True):
-        shown = entries.shown[d]
-        precision, alpha = shown.pick(split.own.precision[d]), split.alpha[d, shown.positions]
-        own = precision @ shown.pick(matrix) @ precision
-        own -= precision
-        own *= rho
-        own += alpha @ alpha.T
-        own *= 0.5
-        shown.place(own, matrix)
+        sites = entries.sites[d]
+        precision, alpha = (
+            sites.pick(split.independent.precision[d]),
+            split.alpha[d, sites.positions],
+        )
+        # ½ (Σ_r α_d α_dᵀ − ρ (F_d − F_d X_d F_d))
+        visible = precision @ sites.pick(matrix) @ precision
+        visible -= precision
+        visible *= rho
+        visible += alpha @ alpha.T
+        visible *= 0.5
+        sites.place(visible, matrix)
     return adjoint
 
 
-def _add_scale_gradient(split: Split, gradient: Parameters) -> None:
-    """Add what the lengthscales do to the latent functions."""
+def _add_scale_gradient(split: Factorisation, gradient: Parameters) -> None:
+    """Add the derivatives of the latent functions' covariances in the lengthscales."""
     rho = split.block.multiplicity
+    # Aᵀ α of each latent function.
     projected = project(split.latents, split.block.entries, split.alpha)
     for latent, row, curve in zip(
         split.latents.functions, split.rooted_gram, projected, strict=True
     ):
         name, q, _ = split.latents.columns[latent.column]
+        # V_i and T_i, the factors of ∂(Λ_i Λ_iᵀ).
         slope, inner = latent.root.slope(split.block.times[latent.seen])
-        white, own = split.white[latent.white], split.inverse[latent.white, latent.white]
+        white, inverse = split.white[latent.white], split.inverse[latent.white, latent.white]
+        # (Aᵀ α)_i u_iᵀ − ρ (G Λ S⁻¹)_ii and u_i u_iᵀ − ρ (I − S⁻¹)_ii
         outer = curve @ white.T - rho * row @ split.inverse[:, latent.white]
-        square = white @ white.T - rho * (np.eye(len(own)) - own)
+        square = white @ white.T - rho * (np.eye(len(inverse)) - inverse)
         gradient.layers[name].log_lengthscales[q] += np.vdot(slope, outer[latent.seen])
         gradient.layers[name].log_lengthscales[q] -= 0.5 * np.vdot(inner, square)

@@ -1,7 +1,9 @@
-r"""The outputs' own parts: :math:`E_d = \sum_\tau \kappa_{\tau d}\, U_\tau \otimes k_\tau + \nu_d`.
+r"""The independent part of each output.
 
-:math:`\tau` runs over the components of all layers, :math:`U_\tau` is the layer's Gram matrix over
-units and :math:`\nu_d` the noise. Matrices are over the m sites of the block, one for each output.
+:math:`E_d = \sum_\tau \kappa_{\tau d}\, U_\tau \otimes k_\tau + \nu_d`, where :math:`\tau` runs
+over the components of all layers, :math:`U_\tau` is the layer's Gram matrix over units and
+:math:`\nu_d` the noise (docs/inference.md, section 5). There is one matrix for each output, over
+the m sites of the block.
 """
 
 from __future__ import annotations
@@ -12,26 +14,27 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.cholesky import invert
 from mocapbench.baselines.common.threads import Mapper
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.prior.kernels import Kernel
-from mocapbench.baselines.gp.prior.parameters import Layer, Parameters
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
+from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.block import Block
-from mocapbench.baselines.gp.solvers.cholesky import invert
+from mocapbench.baselines.gp.solvers.solver import refuse_singular
 
-__all__ = ["OwnParts"]
+__all__ = ["IndependentParts"]
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class OwnParts:
-    """The covariances of the outputs' own parts, inverted.
+class IndependentParts:
+    """The covariances of the outputs' independent parts, inverted.
 
     Parameters
     ----------
-    kernel, block, parameters : Kernel, Block, Parameters
-        What they are made of.
+    kernel, block, parameters : StationaryKernel, Block, Parameters
+        The problem.
     kernels : ndarray of shape (n_components, m²)
         U_τ ⊗ k_τ, for the components of all layers of the block.
     precision : ndarray of shape (D, m, m)
@@ -40,7 +43,7 @@ class OwnParts:
         Σ_d log|E_d|.
     """
 
-    kernel: Kernel
+    kernel: StationaryKernel
     block: Block
     parameters: Parameters
     kernels: Array
@@ -48,8 +51,10 @@ class OwnParts:
     log_determinant: float
 
     @classmethod
-    def of(cls, kernel: Kernel, block: Block, parameters: Parameters, mapper: Mapper) -> OwnParts:
-        """Invert the own part of every output.
+    def of(
+        cls, kernel: StationaryKernel, block: Block, parameters: Parameters, mapper: Mapper
+    ) -> IndependentParts:
+        """Invert E_d for every output.
 
         Raises
         ------
@@ -62,23 +67,31 @@ class OwnParts:
         precision = np.empty(entries.shape)
 
         def invert_chunk(outputs: slice) -> float:
+            # Σ_τ κ_τd U_τ ⊗ k_τ of a run of outputs at once.
             matrices = (kappa[:, outputs].T @ kernels).reshape(-1, *entries.shape[1:])
             total = 0.0
             for d, matrix in zip(range(*outputs.indices(len(noise))), matrices, strict=True):
-                shown = entries.shown[d]
-                own = shown.pick(matrix)
-                own.reshape(-1)[:: len(own) + 1] += noise[d, shown.positions]
-                total += invert(own, parameters)
-                shown.place(own, precision[d])
+                # E_d at the visible sites, its inverse F_d, and F_d over all sites.
+                sites = entries.sites[d]
+                covariance = sites.pick(matrix)
+                covariance.reshape(-1)[:: len(covariance) + 1] += noise[d, sites.positions]
+                total += invert(covariance)
+                sites.place(covariance, precision[d])
             return total
 
-        log_determinant = sum(mapper(invert_chunk, entries.chunks))
+        with refuse_singular(parameters):
+            log_determinant = sum(mapper(invert_chunk, entries.chunks))
         return cls(kernel, block, parameters, kernels, precision, log_determinant)
 
     def gradient(self, adjoint: Callable[[slice], Array], mapper: Mapper) -> Parameters:
-        """Return the gradient of a function whose gradient in E is Ē.
+        """Return the gradient of a function of E whose adjoint is Ē.
 
-        ``adjoint`` gives Ē of a run of outputs, (·, m, m).
+        Parameters
+        ----------
+        adjoint : callable
+            From a run of outputs, a slice, to their Ē, (·, m, m).
+        mapper : callable
+            Calls a function for every run of outputs.
         """
         scale = _noise_scale(self.block)
         functions = np.vstack(
@@ -86,9 +99,10 @@ class OwnParts:
         )
 
         def contract(outputs: slice) -> tuple[Array, Array]:
-            own = adjoint(outputs)
-            by_noise = np.einsum("dmm,dm->d", own, scale[outputs])
-            return functions @ own.reshape(len(own), -1).T, by_noise
+            # ⟨Ē_d, U_τ ⊗ k_τ⟩ and ⟨Ē_d, U_τ ⊗ ∂k_τ⟩, and the diagonal of Ē_d times s.
+            adjoints = adjoint(outputs)
+            by_noise = np.einsum("dmm,dm->d", adjoints, scale[outputs])
+            return functions @ adjoints.reshape(len(adjoints), -1).T, by_noise
 
         products, by_noise = zip(*mapper(contract, self.block.entries.chunks), strict=True)
         by_kappa, by_scale = np.split(np.hstack(products), 2)
@@ -100,12 +114,12 @@ class OwnParts:
         for name, layer in self.parameters.layers.items():
             layers[name] = layer.zeros()
             if name in self.block.units:
-                own = slice(start, start + len(layer.lengthscales))
-                start = own.stop
+                components = slice(start, start + len(layer.lengthscales))
+                start = components.stop
                 b = layer.coregionalisation
-                by_root = 2.0 * b.kappa_roots * by_kappa[own]
-                layers[name] = Layer(
-                    (b.kappa * by_scale[own]).sum(axis=1),
+                by_root = 2.0 * b.kappa_roots * by_kappa[components]
+                layers[name] = LayerParameters(
+                    (b.kappa * by_scale[components]).sum(axis=1),
                     Coregionalisation(np.zeros_like(b.weights), by_root),
                 )
         return Parameters(layers, by_noise)

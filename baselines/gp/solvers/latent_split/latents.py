@@ -1,7 +1,7 @@
-"""The latent functions behind the shared part of a block's covariance.
+"""The latent functions of the shared part of a block's covariance (docs/inference.md, section 5).
 
-Every column of a W_q mixes one latent function for each independent draw of its layer. A column
-says how the outputs load on its functions, a draw how the units do.
+Every column of a factor W_q has one latent function for each independent draw of its layer. The
+column holds the loadings of the outputs on these functions, the draw those of the units.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.prior.pivoted import PivotedRoot
 from mocapbench.baselines.gp.solvers.block import Block, Target
@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 
 class Column(NamedTuple):
-    """A column of a coregionalisation factor: layer, component q, number within W_q."""
+    """A column of a coregionalisation factor: layer, component q, index within W_q."""
 
     layer: str
     component: int
@@ -43,15 +43,15 @@ class Latent:
     draw : int
         Index of its draw of the layer.
     units : ndarray of shape (P,)
-        c, how the units load on it.
+        c, the loadings of the units on it.
     seen : ndarray of int
-        The times at which a unit that loads on it has a visible entry.
+        Indices of the times at which a unit that loads on it has a visible entry.
     root : PivotedRoot
-        Λ as a function of time, factorised at the times seen.
+        Λ as a function of time, factorised at those times.
     white : slice
-        Its coordinates u among those of all latent functions.
+        The slice of its coordinates u among those of all latent functions.
     values : ndarray of shape (N, rank)
-        Λ at the block's times, 0 at those not seen.
+        Λ at the block's times, with rows of zeros at times not in ``seen``.
     """
 
     column: int
@@ -72,7 +72,7 @@ class Latents:
     columns : tuple of Column
         Names of the n columns.
     weights : ndarray of shape (n, D)
-        w, how the outputs load on the functions of each column.
+        w, the loadings of the outputs on the functions of each column.
     functions : tuple of Latent
         The latent functions, by column.
     """
@@ -82,7 +82,7 @@ class Latents:
     functions: tuple[Latent, ...]
 
     @classmethod
-    def of(cls, kernel: Kernel, block: Block, parameters: Parameters) -> Latents:
+    def of(cls, kernel: StationaryKernel, block: Block, parameters: Parameters) -> Latents:
         """List the latent functions of ``block``."""
         columns = tuple(_columns(block, parameters))
         weights = np.zeros((len(columns), block.observed.shape[1]))
@@ -97,7 +97,7 @@ class Latents:
 
     @cached_property
     def by_column(self) -> tuple[tuple[int, ...], ...]:
-        """The indices of the functions of each column."""
+        """For each column, the indices of its functions."""
         return tuple(
             tuple(i for i, latent in enumerate(self.functions) if latent.column == a)
             for a in range(len(self.columns))
@@ -121,12 +121,12 @@ class Latents:
         return np.hstack([np.empty((len(times), 0)), *roots])
 
     def coefficients(self, target: Target) -> Array:
-        """Return (K, D), how the outputs of ``target`` load on each white coordinate's function."""
-        spread = np.empty((self.n_white, self.weights.shape[1]))
+        """Return the loadings of the target's outputs on each coordinate's function, (K, D)."""
+        loadings = np.empty((self.n_white, self.weights.shape[1]))
         for latent in self.functions:
             of_draw = target.weights[self.columns[latent.column].layer][latent.draw]
-            spread[latent.white] = of_draw * self.weights[latent.column]
-        return spread
+            loadings[latent.white] = of_draw * self.weights[latent.column]
+        return loadings
 
 
 def _columns(block: Block, parameters: Parameters) -> Iterator[Column]:
@@ -137,7 +137,7 @@ def _columns(block: Block, parameters: Parameters) -> Iterator[Column]:
 
 
 def _functions(
-    kernel: Kernel, block: Block, parameters: Parameters, columns: tuple[Column, ...]
+    kernel: StationaryKernel, block: Block, parameters: Parameters, columns: tuple[Column, ...]
 ) -> Iterator[Latent]:
     roots: dict[tuple[float, bytes], PivotedRoot] = {}
     start = 0

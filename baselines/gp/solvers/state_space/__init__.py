@@ -1,1 +1,1 @@
-"""Inference by a Kalman filter and smoother over the frames."""
+"""Inference in a state-space model: Kalman filter and smoother, linear in frames."""

@@ -1,9 +1,9 @@
-r"""The state behind a block: one Markov chain for each component and draw of a layer.
+r"""The state of a block: one Markov chain for each component and draw of a layer.
 
-Chain j has the state of its kernel once per output, with stationary covariance
-:math:`I \otimes B_j`; since the coregionalisation matrices enter as they are, and never by their
-inverses, rank and definiteness are immaterial. The states of all chains form one vector of length
-s = J m D with axes (chain, coordinate, output).
+Chain j holds the state of its kernel once per output, with stationary covariance
+:math:`I \otimes B_j` (docs/inference.md, section 6). The coregionalisation matrices are used as
+they are and never inverted, so they may be singular. The states of all chains form one vector of
+length s = J m D with axes (chain, coordinate, output).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.gp.prior.parameters import Layer, Parameters
+from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
 
 __all__ = ["Chains"]
@@ -28,15 +28,15 @@ class Chains:
 
     Parameters
     ----------
-    layers : mapping of str to Layer
-        The layers that take part. Chains run over layers, then components, then draws.
+    layers : mapping of str to LayerParameters
+        The layers of the block. Chains are ordered by layer, then component, then draw.
     n_draws : mapping of str to int
         The number of draws of each layer.
     units : ndarray of shape (P, J)
-        How the units load on the chains.
+        The loading of each unit on each chain.
     """
 
-    layers: Mapping[str, Layer]
+    layers: Mapping[str, LayerParameters]
     n_draws: Mapping[str, int]
     units: Array
 
@@ -69,7 +69,7 @@ class Chains:
         )
 
     def coefficients(self, target: Target) -> Array:
-        """Return (J,), how ``target`` loads on the chains."""
+        """Return the loadings of ``target`` on the chains, (J,)."""
         return np.concatenate(
             [
                 np.tile(target.weights[name], layer.lengthscales.size)
@@ -77,16 +77,16 @@ class Chains:
             ]
         )
 
-    def pull_back(self, log_lengthscales: Array, matrices: Array) -> dict[str, Layer]:
+    def pull_back(self, log_lengthscales: Array, matrices: Array) -> dict[str, LayerParameters]:
         """Return the layers' gradients from those in log ℓ_j, (J,), and in B_j, (J, D, D)."""
         gradients, start = {}, 0
         for name, layer in self.layers.items():
             by_draw = (layer.lengthscales.size, self.n_draws[name])
-            own = slice(start, start + by_draw[0] * by_draw[1])
-            by_matrix = matrices[own].reshape(*by_draw, *matrices.shape[1:]).sum(axis=1)
-            gradients[name] = Layer(
-                log_lengthscales[own].reshape(by_draw).sum(axis=1),
+            chains = slice(start, start + by_draw[0] * by_draw[1])
+            by_matrix = matrices[chains].reshape(*by_draw, *matrices.shape[1:]).sum(axis=1)
+            gradients[name] = LayerParameters(
+                log_lengthscales[chains].reshape(by_draw).sum(axis=1),
                 layer.coregionalisation.pull_back(by_matrix),
             )
-            start = own.stop
+            start = chains.stop
         return gradients

@@ -1,13 +1,13 @@
-r"""Forward in time: the Kalman filter.
+r"""The Kalman filter: the forward pass through time.
 
 At frame t the state is predicted, :math:`x^- = \Phi x`, :math:`P^- = \Phi P \Phi^\top + Q`, and
-corrected by the visible entries, whose innovations are independent of everything before:
+then updated with the visible entries. Their innovations e are independent of all earlier data:
 
 .. math:: e = z - H x^-, \quad S = H P^- H^\top + R = L L^\top, \quad A = L^{-1} H P^-, \quad
           x = x^- + A^\top L^{-1} e, \quad P = P^- - A^\top A.
 
 Hence :math:`\log|K| = \sum_t \log|S_t|` and :math:`z^\top K^{-1} z = \sum_t |L_t^{-1} e_t|^2`, a
-sum of squares. The covariances are common to all data vectors.
+sum of squares. The covariances are common to all data vectors (docs/inference.md, section 6).
 """
 
 from __future__ import annotations
@@ -18,36 +18,44 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
-from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.markov import Steps
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block
-from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
+from mocapbench.baselines.gp.solvers.solver import refuse_singular
 from mocapbench.baselines.gp.solvers.state_space.model import StateModel
 
-__all__ = ["Belief", "Filtered", "Innovation"]
+__all__ = ["FilterPass", "FilteredState", "Innovation"]
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Belief:
-    """What is known of the state: x (s, h), a column for each data vector, and P (s, s)."""
+class FilteredState:
+    """The distribution of the state given the data so far.
+
+    Parameters
+    ----------
+    mean : ndarray of shape (s, h)
+        x, a column for each data vector.
+    covariance : ndarray of shape (s, s)
+        P.
+    """
 
     mean: Array
     covariance: Array
 
-    def carried(self, model: StateModel, transition: Array, noise: Array) -> Belief:
-        """Return Φ x and Φ P Φᵀ + Q ⊗ B; ``transition`` and ``noise`` are (J, m, m)."""
-        return Belief(
+    def predicted(self, model: StateModel, transition: Array, noise: Array) -> FilteredState:
+        """Return the prediction Φ x, Φ P Φᵀ + Q ⊗ B; both arrays are (J, m, m)."""
+        return FilteredState(
             model.propagate(transition, self.mean),
-            model.spread(transition, noise, self.covariance),
+            model.predict_covariance(transition, noise, self.covariance),
         )
 
-    def corrected(self, innovation: Innovation) -> Belief:
-        """Return x + Aᵀ L⁻¹ e and P − Aᵀ A."""
+    def updated(self, innovation: Innovation) -> FilteredState:
+        """Return the update x + Aᵀ L⁻¹ e, P − Aᵀ A."""
         explained = innovation.explained
-        return Belief(
+        return FilteredState(
             self.mean + explained.T @ innovation.white,
             self.covariance - explained.T @ explained,
         )
@@ -55,7 +63,7 @@ class Belief:
 
 @dataclass(frozen=True, eq=False)
 class Innovation:
-    """What the V visible entries of a frame add.
+    """The innovation of the V visible entries of a frame.
 
     Parameters
     ----------
@@ -76,21 +84,21 @@ class Innovation:
 
 
 @dataclass(frozen=True, eq=False)
-class Filtered:
-    """A block's filter.
+class FilterPass:
+    """The result of filtering a block.
 
     Parameters
     ----------
     model : StateModel
-        The block as chains in time.
+        The block as a state-space model.
     block : Block
-        The problem, without frames that show nothing.
+        The problem, without frames in which nothing is visible.
     parameters : Parameters
-        Where it is evaluated.
+        The parameters at which it is evaluated.
     steps : Steps
-        The steps into each of the N frames, the first from nowhere.
-    beliefs : list of Belief
-        N + 1 of them: after no frame, after the first, …, after the last.
+        The steps into each of the N frames; the first starts from the stationary distribution.
+    states : list of FilteredState
+        N + 1 of them: before the first frame, after the first, …, after the last.
     innovations : list of Innovation
         Those of the N frames.
     """
@@ -99,44 +107,52 @@ class Filtered:
     block: Block
     parameters: Parameters
     steps: Steps
-    beliefs: list[Belief]
+    states: list[FilteredState]
     innovations: list[Innovation]
 
     @classmethod
-    def of(cls, kernel: Kernel, block: Block, parameters: Parameters) -> Filtered:
-        """Pass through ``block`` at ``parameters``."""
+    def of(cls, kernel: StationaryKernel, block: Block, parameters: Parameters) -> FilterPass:
+        """Filter ``block`` at ``parameters``.
+
+        Raises
+        ------
+        SingularCovarianceError
+            If the covariance S of an innovation is not numerically positive definite.
+        """
         block = block.trimmed()
         model = StateModel.of(kernel, block, parameters)
         steps = model.steps(np.diff(block.times, prepend=-np.inf))
         size, n_vectors = model.size, len(block.data)
-        beliefs, innovations = [Belief(np.zeros((size, n_vectors)), np.zeros((size, size)))], []
+        states = [FilteredState(np.zeros((size, n_vectors)), np.zeros((size, size)))]
+        innovations: list[Innovation] = []
         for t, (transition, noise) in enumerate(zip(steps.transition, steps.noise, strict=True)):
-            predicted = beliefs[-1].carried(model, transition, noise)
+            predicted = states[-1].predicted(model, transition, noise)
             innovations.append(_innovation(model, block, parameters, predicted, t))
-            beliefs.append(predicted.corrected(innovations[-1]))
-        return cls(model, block, parameters, steps, beliefs, innovations)
+            states.append(predicted.updated(innovations[-1]))
+        return cls(model, block, parameters, steps, states, innovations)
 
     @property
     def log_density(self) -> float:
         """The log-density of the block's data."""
-        log_roots = sum(np.log(np.diagonal(each.whitening)).sum() for each in self.innovations)
-        squares = sum(np.vdot(each.white, each.white) for each in self.innovations)
+        log_roots = sum(np.log(np.diagonal(frame.whitening)).sum() for frame in self.innovations)
+        squares = sum(np.vdot(frame.white, frame.white) for frame in self.innovations)
         log_scale = self.block.n_visible * np.log(2.0 * np.pi) - 2.0 * log_roots
         return float(-0.5 * (self.block.multiplicity * log_scale + squares))
 
 
 def _innovation(
-    model: StateModel, block: Block, parameters: Parameters, predicted: Belief, t: int
+    model: StateModel, block: Block, parameters: Parameters, predicted: FilteredState, t: int
 ) -> Innovation:
+    """Return the innovation of frame t, given the predicted state x⁻, P⁻."""
+    # H P⁻ and S = H P⁻ Hᵀ + R of the visible entries.
     entries = np.flatnonzero(block.observed[..., t])
-    cross = model.read(model.units, predicted.covariance)[entries]
-    covariance = model.read(model.units, cross.T)[entries]
+    cross = model.observe(model.units, predicted.covariance)[entries]
+    covariance = model.observe(model.units, cross.T)[entries]
     noise = parameters.noise * block.noise_scale[..., t]
     covariance.flat[:: len(entries) + 1] += noise.flat[entries]
-    try:
+    with refuse_singular(parameters):
         whitening, _ = lapack.dtrtri(np.linalg.cholesky(covariance), lower=1)
-    except np.linalg.LinAlgError:
-        raise SingularCovarianceError(parameters) from None
+    # e = z − H x⁻
     data = block.data[..., t].reshape(len(block.data), -1).T[entries]
-    residual = data - model.read(model.units, predicted.mean)[entries]
+    residual = data - model.observe(model.units, predicted.mean)[entries]
     return Innovation(entries, whitening, whitening @ residual, whitening @ cross)

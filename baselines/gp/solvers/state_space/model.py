@@ -1,7 +1,7 @@
-"""The linear maps of a block's state-space model, applied without forming them.
+"""The matrices of a block's state-space model, applied without forming them.
 
-A state is a column of length s = J m D with axes (chain, coordinate, output). What can be read of
-it are first coordinates, weighted over the chains.
+A state is a column of length s = J m D with axes (chain, coordinate, output). An observation is a
+weighted sum of the chains' first coordinates (docs/inference.md, section 6).
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.gp.prior.kernels import Kernel
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.markov import Steps, state_order, steps
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block
@@ -28,7 +28,7 @@ class StateModel:
 
     Parameters
     ----------
-    kernel : Kernel
+    kernel : StationaryKernel
         A half-integer Matérn kernel, of state order m.
     chains : Chains
         The J chains.
@@ -38,20 +38,20 @@ class StateModel:
         Their coregionalisation matrices B_j.
     """
 
-    kernel: Kernel
+    kernel: StationaryKernel
     chains: Chains
     lengthscales: Array
     matrices: Array
 
     @classmethod
-    def of(cls, kernel: Kernel, block: Block, parameters: Parameters) -> StateModel:
+    def of(cls, kernel: StationaryKernel, block: Block, parameters: Parameters) -> StateModel:
         """Build the model of ``block``."""
         chains = Chains.of(block, parameters)
         return cls(kernel, chains, chains.lengthscales, chains.matrices)
 
     @property
     def units(self) -> Array:
-        """(P, J) how the units load on the chains."""
+        """(P, J) loadings of the units on the chains."""
         return self.chains.units
 
     @property
@@ -74,23 +74,23 @@ class StateModel:
         by_chain = states.reshape(*self.shape[:2], -1)
         return np.asarray((transition @ by_chain).reshape(states.shape))
 
-    def spread(self, transition: Array, noise: Array, covariance: Array) -> Array:
+    def predict_covariance(self, transition: Array, noise: Array, covariance: Array) -> Array:
         """Return Φ P Φᵀ + Q ⊗ B for a covariance P (s, s)."""
-        spread = self.propagate(transition, self.propagate(transition, covariance).T)
+        predicted = self.propagate(transition, self.propagate(transition, covariance).T)
         chain = np.arange(len(noise))
-        spread.reshape(*self.shape, *self.shape)[chain, :, :, chain] += (
+        predicted.reshape(*self.shape, *self.shape)[chain, :, :, chain] += (
             noise[:, :, None, :, None] * self.matrices[:, None, :, None, :]
         )
-        return spread
+        return predicted
 
-    def read(self, loadings: Array, states: Array) -> Array:
+    def observe(self, loadings: Array, states: Array) -> Array:
         """Return H x for states (s, k), (L D, k), with loadings (L, J) on the chains."""
         first = states.reshape(*self.shape, -1)[:, 0]
-        read = np.tensordot(loadings, first, axes=1)
-        return np.asarray(read.reshape(-1, states.shape[1]))
+        observed = np.tensordot(loadings, first, axes=1)
+        return np.asarray(observed.reshape(-1, states.shape[1]))
 
-    def write(self, loadings: Array, entries: Array) -> Array:
-        """Return Hᵀ y for entries (L D, k), (s, k): the adjoint of `read`."""
+    def observe_adjoint(self, loadings: Array, entries: Array) -> Array:
+        """Return Hᵀ y for entries (L D, k), (s, k): the adjoint of `observe`."""
         states = np.zeros((*self.shape, entries.shape[1]))
         by_row = entries.reshape(len(loadings), -1, entries.shape[1])
         states[:, 0] = np.tensordot(loadings.T, by_row, axes=1)

@@ -2,53 +2,32 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from mocapbench.baselines import FrameImputer
-from mocapbench.benchmark.problems.impute import ImputeProblem, Unit
-from mocapbench.benchmark.problems.masks import hide_frames
-from mocapbench.benchmark.tasks.base import Case, Selection, Task
-from mocapbench.benchmark.tasks.seeds import Seeds
+from mocapbench.benchmark import Case, ImputeProblem, Profile, Seeds, Task, hide_frames
 from mocapbench.datasets import Archive, Recording
+from mocapbench.reports import TaskPage
 
-__all__ = ["Waves", "waves"]
+__all__ = ["waves", "waves_problem"]
 
 N_FRAMES = 60
 N_WAVES = 4
 NOISE = 0.05
 
 
-class Waves(Task):
-    """Three whole waves and one with a gap, each of two channels."""
+def waves_problem(length: int, seeds: Seeds, archive: Archive) -> ImputeProblem:
+    """Return three whole waves and one with a gap of ``length`` frames, each of two channels.
 
-    name = "waves"
-    version = 1
-    title = "Waves with a gap"
-    reference = "mocapbench-waves"
-    description = "Fill a gap in a noisy wave, having seen three whole ones of other phases."
-    requires = (FrameImputer,)
-    cases = tuple(Case(f"gap of {length}", {"gap": length}) for length in (5, 15))
-    metrics = ("mse", "median_absolute_error")
-    profiles = {
-        "smoke": Selection(("gap of 5",), folds=3),
-        "quick": Selection(("gap of 5", "gap of 15"), folds=5),
-        "paper": Selection(("gap of 5", "gap of 15"), folds=20),
-    }
-
-    def problem(self, case: Case, seeds: Seeds, archive: Archive) -> ImputeProblem:
-        """Draw phases and noise from the stream ``data``, the gap from ``mask``."""
-        del archive  # nothing is read
-        rng, length = seeds.generator("data"), int(case.settings["gap"])
-        *whole, last = (_wave(rng, f"wave-{number}") for number in range(N_WAVES))
-        start = int(seeds.generator("mask").integers(1, N_FRAMES - length))
-        given = last.hide(hide_frames(start, start + length, N_FRAMES, 2))
-        return ImputeProblem(
-            train=(*whole, given),
-            process=None,
-            given=(given,),
-            truth=(last.values,),
-            unit=Unit.natural(2),
-        )
+    Phases and noise are drawn from the stream ``data``, the place of the gap from ``mask``.
+    """
+    del archive  # nothing is read
+    rng = seeds.generator("data")
+    *whole, last = (_wave(rng, f"wave-{number}") for number in range(N_WAVES))
+    start = int(seeds.generator("mask").integers(1, N_FRAMES - length))
+    return ImputeProblem.of_one(last, hide_frames(start, start + length, N_FRAMES, 2), whole)
 
 
 def _wave(rng: np.random.Generator, name: str) -> Recording:
@@ -59,4 +38,24 @@ def _wave(rng: np.random.Generator, name: str) -> Recording:
     return Recording(name, times, values, ("sine", "cosine"), ("", ""))
 
 
-waves = Waves()
+waves = Task(
+    name="waves",
+    version=1,
+    requires=(FrameImputer,),
+    cases=tuple(
+        Case(f"gap of {length}", partial(waves_problem, length), {"gap": length})
+        for length in (5, 15)
+    ),
+    profiles={
+        "smoke": Profile(("gap of 5",), folds=3),
+        "quick": Profile(("gap of 5", "gap of 15"), folds=5),
+        "paper": Profile(("gap of 5", "gap of 15"), folds=20),
+    },
+    page=TaskPage(
+        title="Waves with a gap",
+        reference="mocapbench-waves",
+        description="Fill a gap in a noisy wave, given three whole ones of other phases.",
+        metrics=("mse", "median_absolute_error"),
+    ),
+)
+"""Five or fifteen of sixty frames are hidden in the last of four waves."""

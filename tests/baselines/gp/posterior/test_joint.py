@@ -1,4 +1,4 @@
-"""Joint posteriors against conditioning the joint Gaussian of all that is visible."""
+"""Joint posteriors, compared with the joint Gaussian conditioned on all visible entries."""
 
 from dataclasses import replace
 from functools import partial
@@ -18,11 +18,11 @@ from mocapbench.baselines.gp.solvers.state_space.solver import StateSpace
 
 SOLVERS = (Dense, LatentSplit, StateSpace, Kronecker)
 AT = np.array([1.3, -0.4, 0.7, 5.0, 0.7])
-"""Off the grid, not in order, and one of them twice."""
+"""Times off the grid, unordered, one of them twice."""
 
 
 class CountedNoise(np.random.Generator):
-    """White noise that is counted."""
+    """White noise, with a count of the numbers drawn."""
 
     def __init__(self):
         super().__init__(np.random.PCG64(0))
@@ -46,7 +46,7 @@ class UnitNoise:
 
 
 def moments_of_draws(*problem):
-    """Return mean (D M,) and covariance of `draw_curves`, an affine map of white noise, exactly."""
+    """Return the exact mean (D M,) and covariance of `draw_curves`, which is affine in noise."""
     noise = CountedNoise()
     draw_curves(*problem, n_samples=1, rng=noise)
     unit = UnitNoise(noise.count)
@@ -75,7 +75,7 @@ def conditioned(brute_force, case, times):
 
 
 def curve(case, by, solver, which, times):
-    """Return the arguments that say which curve, and the index of its replicate."""
+    """Return the arguments for the curve of a replicate, and the index of the replicate."""
     reduction, r = case.reduction, which % len(case.replicates.data)
     return (reduction, by(solver, case), case.parameters, reduction.replicates[r], times), r
 
@@ -95,7 +95,7 @@ def test_the_covariance_conditions_the_joint_gaussian(solver, by, served, brute_
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_the_covariance_is_one_and_has_the_predicted_variances(solver, by, served):
+def test_the_covariance_is_semi_definite_and_has_the_predicted_variances(solver, by, served):
     @settings(deadline=None)
     @given(served(solver), st.integers(0, 3))
     def law(case, which):
@@ -104,8 +104,8 @@ def test_the_covariance_is_one_and_has_the_predicted_variances(solver, by, serve
         covariance = joint_covariance(*problem)
         np.testing.assert_array_equal(covariance, covariance.T)
         assert np.linalg.eigvalsh(covariance).min() > -1e-10 * max(1.0, np.trace(covariance))
-        reduction, solvers, parameters, shares, _ = problem
-        ((_, variance),) = infer(reduction, solvers, parameters, [shares], [times])
+        reduction, solvers, parameters, terms, _ = problem
+        ((_, variance),) = infer(reduction, solvers, parameters, [terms], [times])
         diagonal = np.diagonal(covariance).reshape(-1, len(times)).T
         np.testing.assert_allclose(diagonal, variance, atol=1e-8)
 
@@ -129,7 +129,7 @@ def test_draws_have_exactly_the_moments_of_the_conditioned_gaussian(
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_unseen_replicates_covary_as_their_trend_does(solver, by, case, brute_force):
+def test_the_covariance_between_unseen_replicates_is_the_trends(solver, by, case, brute_force):
     example = case(np.random.default_rng(3), n_components=2, n_replicates=5, masks="complete")
     example.replicates.observed[3:] = False
     example.replicates.data[3:] = 0.0
@@ -164,7 +164,7 @@ def test_the_order_of_replicates_does_not_matter(by, cases):
     law()
 
 
-def test_draws_depend_on_the_seed_and_the_times_alone(by, cases):
+def test_draws_depend_only_on_the_seed_and_the_times(by, cases):
     @settings(deadline=None, max_examples=30)
     @given(cases, st.integers(0, 3), st.integers(0, 2**32 - 1))
     def law(case, which, seed):
@@ -183,7 +183,7 @@ def test_draws_depend_on_the_seed_and_the_times_alone(by, cases):
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_draws_of_two_shares_have_their_moments(solver, by, case, brute_force):
+def test_draws_of_two_terms_have_their_moments(solver, by, case, brute_force):
     example = case(np.random.default_rng(5), n_components=1, n_times=5, masks="complete")
     problem, r = curve(example, by, solver, 1, AT[:3])
     assert len(problem[3]) == 2
@@ -200,8 +200,8 @@ def test_draws_of_two_shares_have_their_moments(solver, by, case, brute_force):
     assert (np.abs(scatter - covariance) < bound).all()
 
 
-class Watching(Dense):
-    """Counts how often it conditions, on data vectors that respect the mask."""
+class CountingDense(Dense):
+    """Counts its calls of `condition` and checks that hidden entries of the data are 0."""
 
     def __init__(self, kernel):
         super().__init__(kernel)
@@ -222,7 +222,7 @@ class Watching(Dense):
 def test_each_block_of_a_curve_is_conditioned_once(structure, use, case):
     example = case(np.random.default_rng(0), structure=structure, masks="shared")
     reduction = example.reduction
-    solvers = tuple(Watching(example.kernel) for _ in reduction.blocks)
+    solvers = tuple(CountingDense(example.kernel) for _ in reduction.blocks)
     use(reduction, solvers, example.parameters, reduction.replicates[0], AT)
     assert [solver.calls for solver in solvers] == [1] * len(reduction.blocks)
 

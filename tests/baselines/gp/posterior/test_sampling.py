@@ -22,7 +22,7 @@ def test_draws_have_the_covariance_of_the_layer(name, rank, case):
     assert (np.abs(flat.mean(axis=0)) < 5 * np.sqrt(expected.diagonal() / n_samples)).all()
 
 
-def test_draws_depend_on_the_seed_alone_and_are_functions_of_time(case):
+def test_draws_depend_only_on_the_seed_and_are_functions_of_time(case):
     parameters = case(np.random.default_rng(0), n_components=2, rank=0).parameters
     for kernel in KERNELS.values():
         first, again = (

@@ -25,7 +25,7 @@ def test_variances_are_the_diagonals(b):
 
 
 @given(coregionalisations())
-def test_signs_of_the_free_parameters_mean_nothing(b):
+def test_signs_of_the_free_parameters_do_not_matter(b):
     flipped = Coregionalisation(-b.weights, -b.kappa_roots)
     np.testing.assert_array_equal(b.matrices, flipped.matrices)
 

@@ -66,7 +66,7 @@ def test_the_noise_of_a_short_step_keeps_its_digits(kernel, lag):
     np.testing.assert_allclose(transition @ half @ transition.T + half, whole, rtol=1e-11)
 
 
-def test_no_time_leaves_the_state_and_infinite_time_forgets_it(kernel):
+def test_a_lag_of_zero_keeps_the_state_and_an_infinite_lag_forgets_it(kernel):
     identity = np.eye(state_order(kernel))
     for lag, law in ((0.0, (identity, 0.0 * identity)), (np.inf, (0.0 * identity, identity))):
         for value, expected in zip(_one(kernel, lag), law, strict=True):

@@ -27,7 +27,7 @@ def test_natural_parameters_are_positive(cases):
     law()
 
 
-def test_sum_and_origin_of_layers(case):
+def test_sum_and_zeros_of_layers(case):
     layer = case(np.random.default_rng(0), n_components=2, rank=2).parameters.layers["child"]
     for one, two in zip((layer + layer.zeros()).leaves, layer.leaves, strict=True):
         np.testing.assert_array_equal(one, two)
@@ -35,7 +35,7 @@ def test_sum_and_origin_of_layers(case):
         np.testing.assert_array_equal(one, 2.0 * two)
 
 
-def test_points_of_one_space_have_the_same_shapes(case):
+def test_at_keeps_the_shapes(case):
     parameters = case(np.random.default_rng(1), n_components=2, rank=2, n_outputs=3).parameters
     assert parameters.shapes == {"parent": (2, 3, 2), "child": (2, 3, 2)}
     assert parameters.at(0.0 * parameters.flat).shapes == parameters.shapes

@@ -1,4 +1,4 @@
-"""Trees of replicates against the joint Gaussian, and against each other.
+"""Trees of replicates, compared with the joint Gaussian and with each other.
 
 Likelihoods, gradients, predictions and draws of random trees are compared with the joint Gaussian
 where those of the other structures are, in `test_solvers` and `test_joint`.
@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from mocapbench.baselines.gp.posterior.prediction import infer
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.prior.parameters import Layer, Parameters
+from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.dense import Dense
 
 AT = np.array([-0.4, 0.7, 1.3, 5.0])
@@ -57,7 +57,7 @@ def test_likelihood_and_gradient_are_those_of_the_joint_gaussian(
     np.testing.assert_allclose(gradient, expected, atol=1e-6 * np.abs(expected).max())
 
 
-def check_way(case, truth, replicate):
+def check_nodes_above(case, truth, replicate):
     """Check the curves of all nodes on the way from the root to a replicate."""
     reduction, layers = case.reduction, case.structure.layers
     solvers = [Dense(case.kernel)] * len(reduction.blocks)
@@ -73,7 +73,7 @@ def test_every_node_conditions_the_joint_gaussian(cases, brute_force):
     @settings(deadline=None, max_examples=50)
     @given(cases.filter(lambda case: case.structure.depth), st.integers(0, 4))
     def law(case, which):
-        check_way(case, brute_force(case), which % len(case.replicates.data))
+        check_nodes_above(case, brute_force(case), which % len(case.replicates.data))
 
     law()
 
@@ -82,14 +82,14 @@ def test_every_node_conditions_the_joint_gaussian(cases, brute_force):
 def test_siblings_of_one_shape_keep_their_own_curves(paths, example, brute_force):
     drawn = example(paths)
     for replicate in range(len(paths)):
-        check_way(drawn, brute_force(drawn), replicate)
+        check_nodes_above(drawn, brute_force(drawn), replicate)
 
 
-def test_a_group_of_which_nothing_shows_is_a_draw_around_its_parent(example, brute_force):
+def test_a_group_without_visible_entries_is_a_draw_around_its_parent(example, brute_force):
     drawn = example((("a", "x"), ("a", "x"), ("b", "x"), ("b", "y")))
     drawn.replicates.observed[2:] = False
     drawn.replicates.data[2:] = 0.0
-    check_way(drawn, brute_force(drawn), 3)
+    check_nodes_above(drawn, brute_force(drawn), 3)
 
 
 def test_the_cost_of_a_balanced_tree_does_not_grow_with_its_groups_or_their_sizes(example):
@@ -105,7 +105,7 @@ def test_the_cost_of_a_balanced_tree_does_not_grow_with_its_groups_or_their_size
         assert [len(block.units) for block in blocks] == [4, 1, 2, 3]
 
 
-def test_groups_have_one_shape_in_whatever_order_their_replicates_come(example):
+def test_the_order_of_replicates_does_not_change_the_shape_of_a_group(example):
     """Two groups, each with one replicate that is complete and one that is not."""
     drawn = example((("a",), ("a",), ("b",), ("b",)))
     drawn.replicates.observed[[0, 3], 1] = False
@@ -116,7 +116,7 @@ def test_groups_have_one_shape_in_whatever_order_their_replicates_come(example):
     assert deviations.multiplicity == 1
 
 
-def test_names_and_order_of_groups_mean_nothing(cases):
+def test_names_and_order_of_groups_do_not_matter(cases):
     @settings(deadline=None, max_examples=50)
     @given(cases.filter(lambda case: case.structure.depth))
     def law(case):
@@ -171,7 +171,7 @@ def test_without_variance_of_groups_there_are_two_layers(masks, case, example):
 def _sum(one, two):
     """Return the layer whose components are those of both."""
     a, b = one.coregionalisation, two.coregionalisation
-    return Layer(
+    return LayerParameters(
         np.concatenate([one.log_lengthscales, two.log_lengthscales]),
         Coregionalisation(
             np.concatenate([a.weights, b.weights]),

@@ -1,4 +1,4 @@
-"""What the likelihood of replicates must not depend on."""
+"""Changes of the replicates that must not change the likelihood."""
 
 from dataclasses import replace
 
@@ -28,7 +28,7 @@ def reordered(replicates, index, axis):
 
 
 @pytest.mark.parametrize("axis", [0, 2], ids=["replicates", "frames"])
-def test_order_means_nothing(axis, cases):
+def test_the_order_of_replicates_and_frames_does_not_matter(axis, cases):
     @settings(deadline=None, max_examples=50)
     @given(cases, st.randoms(use_true_random=False))
     def law(case, random):
@@ -42,7 +42,7 @@ def test_order_means_nothing(axis, cases):
     law()
 
 
-def test_the_order_of_outputs_means_nothing(cases, with_outputs):
+def test_the_order_of_outputs_does_not_matter(cases, with_outputs):
     @settings(deadline=None, max_examples=50)
     @given(cases, st.randoms(use_true_random=False))
     def law(case, random):
@@ -59,7 +59,7 @@ def test_the_order_of_outputs_means_nothing(cases, with_outputs):
 
 
 @pytest.mark.parametrize("structure", STRUCTURES)
-def test_a_replicate_that_shows_nothing_changes_nothing(structure, case):
+def test_a_replicate_without_visible_entries_does_not_change_the_likelihood(structure, case):
     example = case(np.random.default_rng(3), structure=structure)
     shape = (1, *example.replicates.data.shape[1:])
     more = Replicates(
@@ -79,7 +79,7 @@ def test_one_replicate_of_a_hierarchy_is_one_draw_of_the_summed_layers(case, bru
 
 
 @pytest.mark.parametrize("structure", STRUCTURES)
-def test_copies_of_one_replicate(structure, case, brute_force):
+def test_the_likelihood_of_copies_of_one_replicate(structure, case, brute_force):
     example = case(np.random.default_rng(5), structure=structure, n_replicates=1)
     copies = Replicates(
         example.replicates.times,

@@ -9,23 +9,23 @@ OBSERVED = arrays(bool, array_shapes(min_dims=3, max_dims=3, max_side=4), elemen
 
 
 @given(OBSERVED)
-def test_the_sites_show_what_is_visible_and_no_more(observed):
+def test_the_sites_are_the_visible_entries(observed):
     entries = Entries.of(observed)
-    shown = np.zeros_like(observed)
-    shown[entries.unit, :, entries.time] = entries.visible.T
-    np.testing.assert_array_equal(shown, observed)
+    sites = np.zeros_like(observed)
+    sites[entries.unit, :, entries.time] = entries.visible.T
+    np.testing.assert_array_equal(sites, observed)
     assert entries.visible.any(axis=0).all()
     for p, span in enumerate(entries.spans):
         assert (entries.unit[span] == p).all()
 
 
 @given(OBSERVED, st.integers(0, 99))
-def test_placing_what_was_picked_keeps_the_visible_pairs_and_clears_the_rest(observed, seed):
+def test_place_after_pick_keeps_visible_pairs_and_sets_all_others_to_zero(observed, seed):
     entries = Entries.of(observed)
     matrices = np.random.default_rng(seed).standard_normal(entries.shape)
     for d, (matrix, seen) in enumerate(zip(matrices, entries.visible, strict=True)):
         placed = np.full_like(matrix, np.nan)
-        entries.shown[d].place(entries.shown[d].pick(matrix), placed)
+        entries.sites[d].place(entries.sites[d].pick(matrix), placed)
         np.testing.assert_array_equal(placed, np.where(np.outer(seen, seen), matrix, 0.0))
 
 

@@ -1,4 +1,4 @@
-"""Every solver against the joint Gaussian of all visible entries, and against each other."""
+"""Every solver, compared with the joint Gaussian of all visible entries and with the others."""
 
 import numpy as np
 import pytest
@@ -48,7 +48,7 @@ def test_solvers_agree(solver, by, served):
     @given(served(solver))
     def law(case):
         (one, by_one), (two, by_two) = (
-            case.reduction.evaluate(by(each, case), case.parameters) for each in (Dense, solver)
+            case.reduction.evaluate(by(method, case), case.parameters) for method in (Dense, solver)
         )
         assert relative(one, two) < 1e-9
         assert relative(by_one, by_two) < 1e-8
@@ -92,7 +92,7 @@ def test_the_trend_conditions_the_joint_gaussian(solver, by, case, brute_force):
 
 
 @pytest.mark.parametrize("solver", [Dense, LatentSplit])
-def test_a_singular_covariance_names_its_cause(solver, by, case):
+def test_the_error_of_a_singular_covariance_names_the_cause(solver, by, case):
     example = case(np.random.default_rng(1), kernel="rbf", n_times=20, rank=0, masks="complete")
     flat = example.parameters.flat
     flat[-2:] = -80.0

@@ -1,4 +1,4 @@
-"""What the state-space solver promises beside the laws of all solvers."""
+"""Properties of the state-space solver beside those of all solvers."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
-from mocapbench.baselines.gp.prior.parameters import Layer, Parameters
+from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.solvers.block import Target
 from mocapbench.baselines.gp.solvers.dense import Dense
@@ -18,7 +18,7 @@ MATERN = ("matern12", "matern32", "matern52")
 
 
 @pytest.mark.parametrize("kernel", MATERN)
-def test_the_order_of_outputs_is_immaterial(kernel, by, case, with_outputs):
+def test_the_order_of_outputs_does_not_matter(kernel, by, case, with_outputs):
     rng = np.random.default_rng(2)
     example = case(rng, kernel=kernel, n_outputs=4, n_components=2)
     order = rng.permutation(4)
@@ -69,7 +69,7 @@ def test_predictions_are_continuous_across_frames(kernel, case):
 
 
 @pytest.mark.parametrize("kernel", MATERN)
-def test_far_from_the_data_the_prior_returns(kernel, case):
+def test_far_from_the_data_the_posterior_is_the_prior(kernel, case):
     example = case(np.random.default_rng(5), kernel=kernel, n_components=2)
     block = example.reduction.blocks[0]
     posterior = StateSpace(example.kernel).condition(block, example.parameters)
@@ -83,21 +83,21 @@ def test_far_from_the_data_the_prior_returns(kernel, case):
     np.testing.assert_allclose(variance, np.stack([prior, prior], axis=1), rtol=1e-12)
 
 
-def test_writing_is_the_adjoint_of_reading(case):
+def test_observe_adjoint_is_the_adjoint_of_observe(case):
     example = case(np.random.default_rng(6), n_components=2, n_outputs=3)
     block = example.reduction.blocks[0]
     model = StateModel.of(example.kernel, block, example.parameters)
     rng = np.random.default_rng(7)
     states = rng.standard_normal((model.size, 1))
     entries = rng.standard_normal((block.observed[..., 0].size, 1))
-    assert np.vdot(entries, model.read(model.units, states)) == pytest.approx(
-        np.vdot(model.write(model.units, entries), states), rel=1e-12
+    assert np.vdot(entries, model.observe(model.units, states)) == pytest.approx(
+        np.vdot(model.observe_adjoint(model.units, entries), states), rel=1e-12
     )
 
 
 def test_copies_without_noise_are_singular(by, case):
     example = case(np.random.default_rng(8), structure="independent", masks="complete")
-    copies = Layer(np.zeros(1), Coregionalisation(np.ones((1, 2, 1)), np.zeros((1, 2))))
+    copies = LayerParameters(np.zeros(1), Coregionalisation(np.ones((1, 2, 1)), np.zeros((1, 2))))
     hopeless = Parameters({"child": copies}, np.full(2, -80.0))
     with pytest.raises(SingularCovarianceError, match=r"raise the noise.*"):
         example.reduction.evaluate(by(StateSpace, example), hopeless)

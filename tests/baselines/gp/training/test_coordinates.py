@@ -39,7 +39,7 @@ def test_the_pulled_back_gradient_is_that_of_finite_differences(case):
     )
 
 
-def test_layers_of_few_draws_move_faster_and_noise_has_the_unit_of_the_origin(case):
+def test_layers_of_few_draws_have_smaller_coordinates_and_noise_is_relative_to_the_origin(case):
     example = case(np.random.default_rng(0))
     point = _around(example).of(example.parameters)
     n_outputs, n_layer = 2, len(example.parameters.flat) // 2 - 1

@@ -6,9 +6,11 @@ import pytest
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
 from mocapbench.baselines.gp.training import maximum_likelihood as module
+from mocapbench.baselines.gp.training.bounds import bounds
 from mocapbench.baselines.gp.training.coordinates import Coordinates
-from mocapbench.baselines.gp.training.maximum_likelihood import Budget, Space, maximise
-from mocapbench.baselines.gp.training.start import bounds, data_driven, perturbed
+from mocapbench.baselines.gp.training.maximum_likelihood import maximise
+from mocapbench.baselines.gp.training.search import Budget, SearchSpace
+from mocapbench.baselines.gp.training.start import data_driven, perturbed
 
 
 @pytest.fixture
@@ -33,7 +35,7 @@ def _likelihood(example):
 
 def _train(example, likelihood, starts, *, report=None, **budget):
     draws = {name: 1 + (name == "child") for name in example.structure.layers}
-    space = Space(
+    space = SearchSpace(
         Coordinates.around(starts[0], draws), *bounds(starts[0], example.replicates.times)
     )
     spent = Budget(**({"tol": 1e-7, "max_iter": 200, "max_seconds": None} | budget))
@@ -54,7 +56,7 @@ def test_training_improves_on_every_start_and_keeps_the_best(example):
     assert training.best.log_likelihood == max(s.log_likelihood for s in training.searches)
 
 
-def test_the_trace_climbs_to_the_outcome_and_is_what_was_reported(example):
+def test_the_trace_rises_to_the_result_and_equals_the_reports(example):
     start, reported = _start(example), []
     (search,) = _train(
         example, _likelihood(example), [start], report=lambda *line: reported.append(line)
@@ -69,7 +71,7 @@ def test_the_trace_climbs_to_the_outcome_and_is_what_was_reported(example):
         assert one.seconds <= two.seconds
 
 
-def test_a_search_that_is_cut_short_says_so(example):
+def test_a_search_that_runs_out_of_iterations_has_not_converged(example):
     (search,) = _train(example, _likelihood(example), [_start(example)], max_iter=2).searches
     assert not search.converged
     assert search.n_iterations == 2
@@ -84,7 +86,7 @@ def test_a_looser_tolerance_ends_sooner_and_lower(example):
     assert loose.log_likelihood < tight.log_likelihood
 
 
-def test_spent_time_ends_a_search_at_its_best_point_and_begins_no_other(example, monkeypatch):
+def test_a_spent_time_limit_ends_all_searches_at_the_best_point(example, monkeypatch):
     clock = count()
     monkeypatch.setattr(module, "perf_counter", lambda: float(next(clock)))
     likelihood, start = _likelihood(example), _start(example)
@@ -97,7 +99,7 @@ def test_spent_time_ends_a_search_at_its_best_point_and_begins_no_other(example,
     assert search.log_likelihood > likelihood(start)[0]
 
 
-def test_no_time_at_all_is_one_evaluation(example, monkeypatch):
+def test_with_no_time_there_is_one_evaluation(example, monkeypatch):
     clock = count()
     monkeypatch.setattr(module, "perf_counter", lambda: float(next(clock)))
     likelihood, start = _likelihood(example), _start(example)
@@ -130,7 +132,7 @@ def test_a_search_survives_singular_covariances(example):
     assert "lengthscales" in search.message
 
 
-def test_going_on_after_a_singular_covariance_spends_one_budget(example):
+def test_a_restart_after_a_singular_covariance_stays_within_the_budget(example):
     likelihood, start = _likelihood(example), _start(example)
     reported, evaluations = [], count(1)
 

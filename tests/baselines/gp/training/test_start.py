@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gp.training.start import bounds, data_driven, perturbed
+from mocapbench.baselines.gp.training.bounds import bounds
+from mocapbench.baselines.gp.training.start import data_driven, perturbed
 
 
 def _start(example, n_components=2, rank=1):
@@ -13,7 +14,9 @@ def _start(example, n_components=2, rank=1):
 @pytest.mark.parametrize("structure", ["hierarchical", "pooled", "independent"])
 @pytest.mark.parametrize("masks", ["complete", "mixed", "frames"])
 @pytest.mark.parametrize("n_components", [1, 4])
-def test_starts_lie_within_bounds_where_gradients_are_alive(structure, masks, n_components, case):
+def test_starts_are_within_bounds_where_gradients_do_not_vanish(
+    structure, masks, n_components, case
+):
     example = case(np.random.default_rng(2), structure=structure, masks=masks, n_times=9)
     start = _start(example, n_components, rank=2)
     lower, upper = bounds(start, example.replicates.times)
@@ -34,7 +37,7 @@ def test_every_layer_has_its_own_number_of_components(case):
     )
 
 
-def test_random_starts_are_points_of_the_same_space_and_differ(case):
+def test_random_starts_have_the_same_shapes_and_differ(case):
     start = _start(case(np.random.default_rng(4), n_times=9), rank=2)
     rng = np.random.default_rng(0)
     one, two = perturbed(start, rng), perturbed(start, rng)

@@ -4,9 +4,9 @@ import pandas as pd
 import pytest
 
 from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.page.downloads import to_csv, to_latex
 from mocapbench.reports.page.sections import task_view
 from mocapbench.reports.tables.base import Cell, Table
-from mocapbench.reports.tables.downloads import to_csv, to_latex
 from mocapbench.reports.tables.scores import score_table
 
 

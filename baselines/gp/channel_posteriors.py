@@ -1,0 +1,175 @@
+"""What models with one Gaussian process for each channel predict and draw."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import block_diag
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.gp.estimator import GaussianProcess
+from mocapbench.baselines.protocols import (
+    Imputer,
+    Prediction,
+    SampleByFrameByChannel,
+    Synthesiser,
+)
+from mocapbench.datasets import Frames, Recording
+
+__all__ = ["ChannelPosteriors", "Single"]
+
+Single = TypeVar("Single", bound=GaussianProcess)
+"""The model of one channel."""
+
+
+class ChannelPosteriors(Imputer, Synthesiser, Generic[Single]):
+    """The fitted models of all channels, side by side; channels are independent."""
+
+    channels_: tuple[str, ...]
+    models_: tuple[Single, ...]
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictive distributions of recordings given to `fit`.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+            Recordings given to `fit`, in any order, with the same names, times and values.
+
+        Returns
+        -------
+        list of Prediction
+            One for each recording, with a mean and a variance of shape (N, D) in the channels' own
+            units and their squares. Variances include the noise. Visible entries are copied, with
+            variance 0.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If a recording was not given to `fit`, or not with these times and values.
+        """
+        check_is_fitted(self)
+        by_channel = [
+            model.impute([recording.select([channel]) for recording in recordings])
+            for channel, model in zip(self.channels_, self.models_, strict=True)
+        ]
+        return [
+            Prediction(
+                np.hstack([prediction.mean for prediction in predictions]),
+                np.hstack([prediction.variance for prediction in predictions]),
+            )
+            for predictions in zip(*by_channel, strict=True)
+        ]
+
+    def sample(
+        self, times: Frames, n_samples: int, random_state: int | np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Return draws of new recordings, noise included, as `GaussianProcess.sample` does.
+
+        Parameters
+        ----------
+        times : ndarray of shape (N,)
+            In seconds, in any order.
+        n_samples : int
+            Number n of recordings.
+        random_state : int or numpy.random.Generator
+            Seed of the draws.
+
+        Returns
+        -------
+        ndarray of shape (n, N, D)
+            In the channels' own units.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If the number of recordings is not a positive integer.
+        """
+        check_is_fitted(self)
+        rng = np.random.default_rng(random_state)
+        return np.dstack([model.sample(times, n_samples, rng) for model in self.models_])
+
+    def posterior_covariance(
+        self, recording: Recording, times: Frames | None = None
+    ) -> NDArray[np.float64]:
+        """Return the joint covariance of a recording's curve given all visible entries.
+
+        Noise is left out. Covariances between different channels are 0.
+
+        Parameters
+        ----------
+        recording : Recording
+            One that was given to `fit`.
+        times : ndarray of shape (M,), optional
+            In seconds, in any order; the recording's times if left out.
+
+        Returns
+        -------
+        ndarray of shape (D M, D M)
+            In the channels' own units, with channels slowest.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If the recording was not given to `fit`, or not with these times and values.
+        """
+        check_is_fitted(self)
+        return np.asarray(
+            block_diag(
+                *(
+                    model.posterior_covariance(recording.select([channel]), times)
+                    for channel, model in zip(self.channels_, self.models_, strict=True)
+                )
+            )
+        )
+
+    def posterior_draws(
+        self,
+        recording: Recording,
+        n_samples: int,
+        random_state: int | np.random.Generator,
+        times: Frames | None = None,
+    ) -> SampleByFrameByChannel:
+        """Return draws of a recording's curve given all visible entries, without noise.
+
+        Parameters
+        ----------
+        recording : Recording
+            One that was given to `fit`.
+        n_samples : int
+            Number n of draws.
+        random_state : int or numpy.random.Generator
+            Seed of the draws.
+        times : ndarray of shape (M,), optional
+            In seconds, in any order; the recording's times if left out.
+
+        Returns
+        -------
+        ndarray of shape (n, M, D)
+            In the channels' own units.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If the recording was not given to `fit`, or not with these times and values, or the
+            number of draws is not a positive integer.
+        """
+        check_is_fitted(self)
+        rng = np.random.default_rng(random_state)
+        return np.dstack(
+            [
+                model.posterior_draws(recording.select([channel]), n_samples, rng, times)
+                for channel, model in zip(self.channels_, self.models_, strict=True)
+            ]
+        )

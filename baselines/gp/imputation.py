@@ -1,0 +1,156 @@
+"""What a trained model predicts: posteriors of the recordings that it was fitted to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.common.validation import check_count
+from mocapbench.baselines.gp.covariances import LearntCovariances
+from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
+from mocapbench.baselines.protocols import Imputer, Prediction, SampleByFrameByChannel
+from mocapbench.datasets import Frames, Recording
+
+__all__ = ["RecordingPosterior"]
+
+Array = NDArray[np.float64]
+
+
+class RecordingPosterior(LearntCovariances, Imputer):
+    """A trained model that conditions on the recordings given to `fit`."""
+
+    recordings_: Mapping[str, Recording]
+    reduction_: Reduction
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictive distributions of recordings given to `fit`.
+
+        Each is conditioned on the visible entries of *all* recordings given to `fit`.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+            Recordings given to `fit`, in any order, with the same names, times and values.
+
+        Returns
+        -------
+        list of Prediction
+            One for each recording, with a mean and a variance of shape (N, D) in the outputs' own
+            units and their squares. Variances include the noise. Visible entries are copied, with
+            variance 0.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If a recording was not given to `fit`, or not with these times and values.
+        """
+        check_is_fitted(self)
+        terms = [self._terms(recording) for recording in recordings]
+        with self._threaded_process() as process:
+            curves = process.infer(terms, [recording.times for recording in recordings])
+        return [
+            Prediction.around(recording, mean, variance + self.noise_)
+            for recording, (mean, variance) in zip(recordings, curves, strict=True)
+        ]
+
+    def posterior_covariance(self, recording: Recording, times: Frames | None = None) -> Array:
+        """Return the joint covariance of a recording's curve given all visible entries.
+
+        Noise is left out: for observations add `noise_` to the diagonal.
+
+        Parameters
+        ----------
+        recording : Recording
+            One that was given to `fit`.
+        times : ndarray of shape (M,), optional
+            In seconds, in any order; the recording's times if left out.
+
+        Returns
+        -------
+        ndarray of shape (D M, D M)
+            In the outputs' own units; outputs are slowest, as in `covariance`. Symmetric, and
+            positive semi-definite up to rounding. It takes memory for D M data vectors; if only
+            draws of the curve are needed, `posterior_draws` is cheaper.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If the recording was not given to `fit`, or not with these times and values.
+        """
+        check_is_fitted(self)
+        curve, times = self._terms(recording), _times_or_those_of(recording, times)
+        with self._threaded_process() as process:
+            return process.joint_covariance(curve, times)
+
+    def posterior_draws(
+        self,
+        recording: Recording,
+        n_samples: int,
+        random_state: int | np.random.Generator,
+        times: Frames | None = None,
+    ) -> SampleByFrameByChannel:
+        """Return draws of a recording's curve given all visible entries.
+
+        Noise is left out. A draw is one function of time, at hidden and at visible entries.
+
+        Parameters
+        ----------
+        recording : Recording
+            One that was given to `fit`.
+        n_samples : int
+            Number n of draws.
+        random_state : int or numpy.random.Generator
+            Seed of the draws; rounding aside, they do not depend on the solver.
+        times : ndarray of shape (M,), optional
+            In seconds, in any order; the recording's times if left out.
+
+        Returns
+        -------
+        ndarray of shape (n, M, D)
+            In the outputs' own units.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If the recording was not given to `fit`, or not with these times and values, or the
+            number of draws is not a positive integer.
+        """
+        check_is_fitted(self)
+        check_count("n_samples", n_samples, 1)
+        curve, times = self._terms(recording), _times_or_those_of(recording, times)
+        with self._threaded_process() as process:
+            return process.draw(curve, times, n_samples, np.random.default_rng(random_state))
+
+    def _terms(self, recording: Recording) -> tuple[PosteriorTerm, ...]:
+        """Return the posterior terms of a recording that was given to `fit`."""
+        self._check_fitted_to(recording)
+        return self.reduction_.replicates[list(self.recordings_).index(recording.name)]
+
+    def _check_fitted_to(self, recording: Recording) -> None:
+        fitted = self.recordings_.get(recording.name)
+        if fitted is None:
+            raise ValueError(
+                f"expected recordings that were given to fit, {sorted(self.recordings_)}, got "
+                f"{recording.name!r}: give it to fit together with the others"
+            )
+        same = np.array_equal(fitted.times, recording.times) and np.array_equal(
+            fitted.values, recording.values, equal_nan=True
+        )
+        if not same:
+            raise ValueError(
+                f"recording {recording.name!r} differs from the one of that name given to fit: "
+                "expected the same times, visible values and hidden entries; fit again"
+            )
+
+
+def _times_or_those_of(recording: Recording, times: Frames | None) -> Frames:
+    return recording.times if times is None else np.asarray(times, dtype=np.float64)

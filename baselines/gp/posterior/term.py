@@ -1,0 +1,99 @@
+"""Inference of one term of a curve in its block: covariances, means and prior draws."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.gp.posterior.sampling import draw_layer
+from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.baselines.gp.solvers.block import Block, Target
+from mocapbench.baselines.gp.solvers.solver import Solver
+
+__all__ = ["TermInference"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class TermInference:
+    """Inference of one term of a curve in its block.
+
+    The symbols are those of docs/inference.md, sections 8 and 9.
+
+    Parameters
+    ----------
+    block : Block
+        The problem.
+    solver : Solver
+        The solver of the block.
+    parameters : Parameters
+        The parameters of the model.
+    target : Target
+        The term.
+    times : ndarray of shape (M,)
+        In any order.
+    """
+
+    block: Block
+    solver: Solver
+    parameters: Parameters
+    target: Target
+    times: Array
+
+    def mean_given(self, data: Array) -> Array:
+        """Return K_* K⁻¹ z for data vectors (k, P, D, N), (k, D, M)."""
+        posterior = self.solver.condition(replace(self.block, data=data), self.parameters)
+        mean, _ = posterior.predict(self.target, self.times)
+        return mean
+
+    def prior(self) -> Array:
+        """Return K_**, (D M, D M)."""
+        size = len(self.parameters.log_noise) * len(self.times)
+        total = np.zeros((size, size))
+        for name in self.block.units:
+            covariance = self._layer(name, self.times).reshape(size, size)
+            total += self.target.prior_scale(name) * covariance
+        return total
+
+    def cross(self) -> Array:
+        """Return the rows of K_* as data vectors, (D M, P, D, N), 0 where hidden."""
+        observed = self.block.observed
+        cross = np.zeros((observed.shape[1] * len(self.times), *observed.shape))
+        for name, factor in self.block.units.items():
+            covariance = self._layer(name, self.block.times)
+            by_row = covariance.reshape(len(cross), 1, *observed.shape[1:])
+            cross += (factor @ self.target.weights[name])[:, None, None] * by_row
+        return np.where(observed, cross, 0.0)
+
+    def simulate(self, n_samples: int, rng: np.random.Generator) -> tuple[Array, Array]:
+        """Return joint prior draws of data vectors (n, P, D, N) and of the target (n, M, D)."""
+        block, times = self.block, np.concatenate([self.block.times, self.times])
+        # All times once, in order, so that equal times get equal values.
+        grid, places = np.unique(times, return_inverse=True)
+        at_entries, at_times = np.split(places, [len(block.times)])
+        # The noise of the data, then the layers' draws in data and target.
+        noise = np.sqrt(self.parameters.noise[:, None] * block.noise_scale)
+        data = noise * rng.standard_normal((n_samples, *noise.shape))
+        curves = np.zeros((n_samples, len(self.times), noise.shape[1]))
+        for name, factor in block.units.items():
+            draws = self._draw(name, grid, n_samples * factor.shape[1], rng)
+            draws = draws.reshape(n_samples, factor.shape[1], *draws.shape[1:])
+            data += np.einsum("pi,nitd->npdt", factor, draws[:, :, at_entries])
+            curves += np.einsum("i,nitd->ntd", self.target.weights[name], draws[:, :, at_times])
+        for name, variance in self.target.independent_variance.items():
+            draws = self._draw(name, grid, n_samples, rng)
+            curves += np.sqrt(variance) * draws[:, at_times]
+        return np.where(block.observed, data, 0.0), curves
+
+    def _draw(self, name: str, times: Array, n_samples: int, rng: np.random.Generator) -> Array:
+        """Return (n, M, D) draws of a layer at ``times`` (M,)."""
+        layer = self.parameters.layers[name]
+        return draw_layer(self.solver.kernel, layer, times, n_samples, rng)
+
+    def _layer(self, name: str, others: Array) -> Array:
+        """Return Σ_q B_q ⊗ k_q of a layer between the times and ``others`` (N,), (D, M, D, N)."""
+        lags = np.subtract.outer(self.times, others)
+        return self.parameters.layers[name].covariance(self.solver.kernel, lags)

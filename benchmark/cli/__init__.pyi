@@ -1,0 +1,3 @@
+from .failures import explain
+
+__all__ = ["explain"]

@@ -1,0 +1,69 @@
+"""EM from random starts."""
+
+import numpy as np
+import pytest
+
+from mocapbench.baselines.alignment.fitting import (
+    EMSettings,
+    best_fit,
+    random_cycle,
+    random_start,
+    split,
+)
+from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.priors import PRIORS
+from mocapbench.baselines.alignment.sequences import Sequences
+
+SETTINGS = EMSettings(
+    n_styles=2,
+    n_states=8,
+    max_jump=2,
+    closeness=0.1,
+    learn_closeness=False,
+    smoothness=0.1,
+    hyper=Hyperparameters(0.1, PRIORS["normalised"]),
+    n_inner=1,
+    tolerance=1e-4,
+)
+
+
+@pytest.fixture
+def sequences():
+    rng = np.random.default_rng(0)
+    waves = [np.sin(1.5 * np.arange(n)[:, None] + np.arange(2)) for n in (12, 9, 15, 10)]
+    return Sequences.of([wave + 0.1 * rng.normal(size=wave.shape) for wave in waves])
+
+
+def test_the_run_with_the_highest_bound_is_kept(sequences):
+    rng = np.random.default_rng(0)
+    best, ends = best_fit(sequences, SETTINGS, n_restarts=3, max_iter=4, rng=rng)
+    assert len(ends) == 3
+    assert best.bounds[-1] == max(ends)
+    assert (np.diff(best.bounds) >= -1e-9 * np.abs(best.bounds[1:])).all()
+
+
+def test_a_start_has_random_styles_of_equal_size(sequences):
+    state = random_start(sequences, SETTINGS, np.random.default_rng(0))
+    assert state.labels.sum(axis=0).tolist() == [2.0, 2.0]
+    assert state.cycles.mean.shape == (8, 2, 2)
+    np.testing.assert_array_equal(state.cycles.mean[:, 0], state.cycles.mean[:, 1])
+
+
+def test_a_split_copies_the_one_style(sequences):
+    one = EMSettings(**{**vars(SETTINGS), "n_styles": 1})
+    state = random_start(sequences, one, np.random.default_rng(0))
+    labels = np.eye(3)[[0, 1, 2, 0]]
+    copies = split(state, labels)
+    np.testing.assert_array_equal(copies.labels, labels)
+    np.testing.assert_allclose(copies.parameters.weights, np.full(3, 1 / 3))
+    for name in ("mean", "variance", "neighbour"):
+        original = getattr(state.cycles, name)
+        np.testing.assert_array_equal(getattr(copies.cycles, name), original.repeat(3, axis=1))
+
+
+def test_a_first_cycle_is_that_of_a_sequence_that_is_long_enough():
+    short, long = np.zeros((2, 1)), np.arange(4.0)[:, None]
+    sequences = Sequences.of([short, long, np.full((9, 1), np.nan)])
+    for seed in range(5):
+        cycle = random_cycle(sequences, 8, np.random.default_rng(seed))
+        np.testing.assert_allclose(cycle[:7, 0], 0.5 * np.arange(7))

@@ -1,0 +1,17 @@
+import numpy as np
+import pytest
+
+from mocapbench.benchmark.figures.stick_figures import N_FIGURES, STRIDE, strip
+from mocapbench.datasets import GaitLibrary, hlm_features
+
+
+def test_figures_are_set_apart_on_the_ground_at_even_times():
+    motion = GaitLibrary().motion("01_01")
+    walk = hlm_features(motion.recording("walk"))
+    panel = strip(walk, motion.skeleton, "walk", "a walk, ")
+    assert len(panel.curves) == N_FIGURES
+    span = walk.times[-1] - walk.times[0]
+    assert panel.title == f"a walk, every {span / (N_FIGURES - 1):.2g} s"
+    for place, figure in enumerate(panel.curves):
+        assert np.nanmin(figure.y) == pytest.approx(0.0)
+        assert abs(np.nanmean(figure.x) - STRIDE * place) < STRIDE / 2

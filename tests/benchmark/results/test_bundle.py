@@ -1,0 +1,41 @@
+import pytest
+
+from mocapbench.benchmark import TASKS, Address, Record, Status, bundle
+
+NAME = "upper-body-missing"
+TASK = TASKS.get(NAME)
+
+
+def _record(label, scores):
+    address = Address(NAME, TASK.version, "subject 07 walks", 0, label)
+    fields = {"key": label, "fit_key": label, "seed": 0, "model": label, "parameters": {}}
+    return Record(**fields, address=address, status=Status.OK, scores=scores)
+
+
+@pytest.fixture(scope="module")
+def made():
+    records = [_record("nn", {"mse": 2.0}), _record("knn", {"mse": 1.0, "smse": 0.5})]
+    return bundle(records, {"profile": "smoke"})
+
+
+def test_a_layout_has_the_page_of_its_task_and_a_row_per_case(made):
+    (layout,) = made.layouts
+    assert (layout.name, layout.page) == (NAME, TASK.page)
+    assert [(c.name, c.columns, c.synthetic) for c in layout.cases] == [
+        (case.name, case.columns, case.synthetic) for case in TASK.cases
+    ]
+    assert [case.notes.published for case in layout.cases] == ["subject 07 walk", None]
+
+
+def test_entrants_are_in_the_order_of_the_records(made):
+    assert made.layouts[0].labels == ("nn", "knn")
+
+
+def test_the_budget_of_the_profile_is_written_out(made):
+    assert made.layouts[0].budget == "max_iter=3, n_restarts=1, n_styles=2"
+    assert bundle([_record("nn", {})], {"profile": "paper"}).layouts[0].budget == ""
+
+
+def test_metrics_are_those_that_the_page_shows_and_those_that_were_scored(made):
+    assert list(made.metrics) == ["mse", "msll", "smse"]
+    assert made.metrics["mse"].title == "Mean squared error (MSE)"

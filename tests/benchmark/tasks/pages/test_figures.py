@@ -1,0 +1,71 @@
+"""Every figure that a page declares has something to show, and can be drawn."""
+
+import joblib
+import pytest
+
+from mocapbench.benchmark import MODELS, TASKS, Internals, Request, Solved, archive_at, plan
+from mocapbench.benchmark.runs.solve import solve
+from mocapbench.reports.figures.draw import draw
+
+BUDGET = {"max_iter": 1, "n_restarts": 1, "fill_iter": 1, "refine_iter": 1}
+ENTRANTS = {
+    "toy-interpolation-1": ("mohgp-3", "trivial"),
+    "toy-interpolation-2": ("mohgp-1", "trivial"),
+    "toy-interpolation-3": ("mohgp-1", "trivial"),
+    "toy-synthesis": ("mohgp-3", "replay"),
+    "covariance-recovery": ("mohgp-3-starts-10", "moa-3"),
+    "walking-interpolation": ("mohgp-3", "cubic-spline"),
+    "walking-synthesis": ("mohgp-3", "replay"),
+    "missing-frames": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
+    "golf-swings": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
+    "upper-body-missing": ("nn", "trivial"),
+    "style-clustering": ("cyclic-alignment", "k-means"),
+}
+"""What has something to show in every figure, and something that has little to show."""
+
+
+SLOW = {"golf-swings", "style-clustering", "walking-interpolation"}
+NAMES = [pytest.param(name, marks=[pytest.mark.slow] if name in SLOW else []) for name in ENTRANTS]
+
+
+def _fit(job, problem):
+    budget = {name: value for name, value in BUDGET.items() if name in job.parameters}
+    return solve(problem, MODELS.get(job.model), {**job.parameters, **budget}, job.seeds)
+
+
+@pytest.fixture(scope="module", params=NAMES)
+def stored(request, posed):
+    """Return a task, the problem of its smoke profile, and the arrays of each entrant's fit."""
+    task = TASKS.get(request.param)
+    jobs = plan(Request("smoke", (task.name,), ENTRANTS[task.name], folds=1), archive_at(None))
+    (case,) = {job.address.case for job in jobs}
+    assert case in task.page.illustrated
+    problem = posed(task.name, case)
+    arrays = {job.address.label: _fit(job, problem).arrays for job in jobs}
+    assert set(arrays) == set(ENTRANTS[task.name])
+    return task, problem, arrays
+
+
+def test_every_task_with_figures_is_tried():
+    assert set(ENTRANTS) == {name for name in TASKS.names() if TASKS.get(name).page.figures}
+
+
+def test_what_a_fit_stores_comes_back_whole(stored):
+    _, problem, fits = stored
+    for label, arrays in fits.items():
+        parts = (kind.from_arrays(arrays) for kind in (problem.answer_type, Internals))
+        again = {name: a for part in parts for name, a in part.to_arrays().items()}
+        assert joblib.hash(again) == joblib.hash(dict(arrays)), label
+
+
+def test_every_figure_of_a_page_draws(stored):
+    task, problem, fits = stored
+    answers = {label: problem.answer_type.from_arrays(a) for label, a in fits.items()}
+    internals = {label: Internals.from_arrays(a) for label, a in fits.items()}
+    solved = Solved(task.name, problem, answers, internals, task.page.published_models)
+    pictures = [list(figure.pictures(solved)) for figure in task.page.figures]
+    assert all(pictures)
+    shown = [picture for of_figure in pictures for picture in of_figure]
+    assert {picture.task for picture in shown} == {task.name}
+    assert len({picture.title for picture in shown}) == len(shown)
+    assert all("<svg" in draw(picture).svg for picture in shown)

@@ -1,0 +1,74 @@
+"""The conformance kit names the fault of a metric that does not conform."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocapbench.benchmark.testing import ConformanceError, check_metric
+from mocapbench.metrics import Direction, Imputation, Metric, Score
+
+
+def _value(outcome):
+    """Return one."""
+    return Score(1.0)
+
+
+def test_what_is_no_metric_is_refused():
+    with pytest.raises(ConformanceError, match=r"expected a mocapbench\.metrics\.Metric"):
+        check_metric(_value)
+
+
+def _undocumented(outcome):
+    return Score(1.0)
+
+
+def _nan(outcome):
+    """Return NaN."""
+    return Score(np.nan)
+
+
+def _number(outcome):
+    """Return no Score."""
+    return 1.0
+
+
+def _random(outcome):
+    """Return something else every time."""
+    return Score(float(np.random.default_rng().random()))
+
+
+def _everything(outcome):
+    """Return the error over all entries."""
+    return Score(float(((outcome.truth - outcome.mean) ** 2).mean()))
+
+
+def _raises(outcome):
+    """Raise."""
+    raise ZeroDivisionError("no frames")
+
+
+GOOD = Metric("m", "M", Direction.LOWER, Imputation, _value)
+
+
+def test_a_metric_that_conforms_passes():
+    check_metric(GOOD)
+
+
+@pytest.mark.parametrize(
+    ("changes", "complaint"),
+    [
+        ({"statistic": _undocumented}, "a docstring of the statistic"),
+        ({"statistic": _nan}, "a finite value of a plain outcome, got nan"),
+        ({"statistic": _number}, "expected a Score, got float"),
+        ({"statistic": _random}, "draw nothing in a metric"),
+        ({"statistic": _everything}, "whatever the visible entries are"),
+        ({"statistic": _raises}, "got ZeroDivisionError: no frames"),
+        ({"direction": Direction.TARGET}, "expected a target, got None"),
+        ({"target": 1.0}, "expected no target where lower is better, got 1.0"),
+        ({"outcome": int}, "expected an outcome among"),
+    ],
+)
+def test_the_fault_of_a_metric_is_named(changes, complaint):
+    with pytest.raises(ConformanceError, match=rf"^metric m: .*{complaint}"):
+        check_metric(replace(GOOD, **changes))

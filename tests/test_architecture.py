@@ -1,0 +1,53 @@
+"""The page on architecture names the folders that there are, and no folder is crowded."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+FOLDERS = ("datasets", "metrics", "baselines", "reports", "benchmark")
+PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+
+MOST_MODULES = 16
+LISTS = {
+    "baselines": 30,  # one module a model
+    "benchmark/tasks": 18,  # one module a protocol
+    "baselines/alignment": 17,
+}
+
+
+def holding_modules():
+    """Return the folders that hold modules, as paths below the root."""
+    return {
+        path.parent.relative_to(ROOT).as_posix()
+        for top in FOLDERS
+        for path in (ROOT / top).rglob("*.py")
+    }
+
+
+def on_the_page():
+    """Return the folders of the page's tree, whose depth is two blanks a level."""
+    (tree,) = re.findall(r"^## The tree\n\n```\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
+    above, folders = [], []
+    for line in tree.splitlines():
+        indent, name, about = re.fullmatch(r"( *)([a-z_]+)/ +(\S.*)", line).groups()
+        above = [*above[: len(indent) // 2], name]
+        assert about
+        folders.append("/".join(above))
+    return folders
+
+
+def test_the_tree_names_every_folder_once():
+    assert sorted(on_the_page()) == sorted(holding_modules())
+
+
+@pytest.mark.parametrize("folder", sorted(holding_modules()))
+def test_a_folder_is_seen_at_a_glance(folder):
+    modules = [path.name for path in (ROOT / folder).glob("[!_]*.py")]
+    assert len(modules) <= LISTS.get(folder, MOST_MODULES), modules
+
+
+def test_every_path_that_the_page_names_exists():
+    for path in re.findall(r"`((?:[a-z_]+/)+[a-z_.]*)`", PAGE):
+        assert (ROOT / path).exists(), path

@@ -1,0 +1,60 @@
+"""Links of the documentation lead to files that exist, and the README names what is registered."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+METADATA = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+SOURCE = METADATA["urls"]["Source"]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
+PAGES += sorted((ROOT / "docs").glob("*.md"))
+
+
+def links(text):
+    """Return the targets of inline links and of link definitions, code blocks aside."""
+    prose = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
+    inline = re.findall(r"\]\(([^)\s]+)\)", prose)
+    return [*inline, *re.findall(r"^\[[^\]]+\]: (\S+)$", prose, re.MULTILINE)]
+
+
+def test_the_readme_works_on_a_package_index():
+    """There, links relative to the source tree lead nowhere."""
+    assert links(README)
+    assert all(link.startswith("https://") for link in links(README))
+
+
+def test_every_reference_link_of_the_readme_is_defined_and_used():
+    defined = re.findall(r"^\[([^\]]+)\]: ", README, re.MULTILINE)
+    assert sorted(set(re.findall(r"\]\[([^\]]+)\]", README))) == sorted(defined)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_links_into_the_source_tree_lead_to_files(page):
+    for link in links(page.read_text(encoding="utf-8")):
+        path, _, _ = link.partition("#")
+        if path.startswith(SOURCE):
+            kind, _, name = path.removeprefix(f"{SOURCE}/").partition("/main/")
+            target = ROOT / name
+            assert kind == ("tree" if target.is_dir() else "blob"), link
+        elif "://" in path or not path:
+            continue
+        else:
+            target = page.parent / path
+        assert target.exists(), link
+
+
+@pytest.mark.parametrize("name", ["Documentation", "Changelog"])
+def test_addresses_of_the_package_index_lead_to_files(name):
+    kind, _, path = METADATA["urls"][name].removeprefix(f"{SOURCE}/").partition("/main/")
+    assert (ROOT / path).is_dir() == (kind == "tree")
+    assert (ROOT / path).exists()
+
+
+@pytest.mark.parametrize("group", ["mocapbench.models", "mocapbench.tasks"])
+def test_the_readme_names_all_that_is_registered(group):
+    for name in METADATA["entry-points"][group]:
+        assert f"`{name}`" in README, name
