@@ -11,12 +11,12 @@ from __future__ import annotations
 import ast
 import hashlib
 import importlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.util import decode_source
 from pathlib import Path
-from types import ModuleType
+from types import FunctionType, ModuleType
 from typing import NamedTuple
 
 from mocapbench.reports.bundle.task_page import TaskPage
@@ -32,7 +32,8 @@ def source_digest(module: str, within: tuple[str, ...]) -> str:
     """Return the digest of a module's code and of the code that it imports.
 
     Imports are followed to the module that defines the imported name, so that a package's
-    ``__init__`` does not bring in all that it offers.
+    ``__init__`` does not bring in all that it offers; a package that is imported whole does.
+    Compiled code counts by its bytes.
 
     Parameters
     ----------
@@ -132,7 +133,7 @@ def _imported(module: str) -> ModuleType | None:
     """Return a module; None if it is an optional part that cannot be imported here."""
     try:
         return importlib.import_module(module)
-    except ImportError:
+    except Exception:  # whatever such a module raises where it does not work
         return None
 
 
@@ -154,21 +155,32 @@ def _imports(module: str, tree: ast.Module) -> Iterator[_Import]:
 @cache
 def _definer(module: str, name: str) -> str:
     """Return the module that ``name`` comes from, if ``module`` is a package that passes it on."""
-    for node in _passed_on(module):
-        for alias in node.names:
-            if name == (alias.asname or alias.name):
-                return _definer(_absolute(node, module), alias.name)
-    submodule = f"{module}.{name}"
-    return submodule if name and _is_package(module) and _imported(submodule) else module
+    passed = _Import(module, name)
+    visited: set[_Import] = set()
+    while passed not in visited:
+        visited.add(passed)
+        passed = _passed_on(passed.module).get(passed.name, passed)
+    module, name = passed
+    if not (name and _is_package(module)):
+        return module
+    if _imported(f"{module}.{name}"):
+        return f"{module}.{name}"
+    value = getattr(_imported(module), name, None)  # perhaps made by the package's __getattr__
+    return value.__module__ if isinstance(value, type | FunctionType) else module
 
 
 @cache
-def _passed_on(package: str) -> tuple[ast.ImportFrom, ...]:
-    """Return the imports by which a package offers what its modules define."""
+def _passed_on(package: str) -> Mapping[str, _Import]:
+    """Return what a package offers of its modules, by name, and where it takes it from."""
     if not _is_package(package):
-        return ()
-    nodes = (*_stub(package), *ast.walk(ast.parse(_source(package))))
-    return tuple(node for node in nodes if isinstance(node, ast.ImportFrom))
+        return {}
+    nodes = (*ast.walk(ast.parse(_source(package))), *_stub(package))
+    return {
+        alias.asname or alias.name: _Import(_absolute(node, package), alias.name)
+        for node in nodes
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    }
 
 
 @cache

@@ -74,6 +74,14 @@ OFFERED = {
     "walks/__init__.py": LAZY,
     "walks/__init__.pyi": "from .engine import HALF, solve\nfrom .other import UNUSED\n",
 }
+MODULES = {"walks/__init__.py": "from . import engine, other\n"}
+LOOKED_UP = {
+    "walks/__init__.py": (
+        "import importlib\n"
+        "def __getattr__(name):\n"
+        "    return getattr(importlib.import_module('walks.engine'), name)\n"
+    )
+}
 DEEP = {
     "walks/deep/__init__.py": "from .inner import solve\n",
     "walks/deep/inner.py": "from ..engine import solve\n",
@@ -90,6 +98,8 @@ WAYS = {
     "a value of a package": _package("from walks import HALF\n", **EAGER),
     "a value of a module": _package("from walks.engine import HALF\n"),
     "of a lazy package": _package("from walks import solve\n", **OFFERED),
+    "a module of a package": _package("from walks import engine\n", **MODULES),
+    "of a package that looks names up": _package("from walks import Engine\n", **LOOKED_UP),
     "a value of a lazy package": _package("from walks import HALF\n", **OFFERED),
     "through modules": _package("from .deep.inner import solve\n", **DEEP),
     "through a package": _package("from .deep import solve\n", **DEEP),
@@ -203,9 +213,10 @@ def test_circular_imports_end(project):
 
 
 def test_an_optional_module_counts_where_it_can_be_imported(project):
-    optional = "try:\n    import walks.fast\nexcept ImportError:\n    pass\n"
+    optional = "try:\n    import walks.fast\nexcept (ImportError, OSError):\n    pass\n"
     without = project(_package(optional))
-    assert project(_package(optional, **{"walks/fast.py": "import no_such_library\n"})) == without
+    for broken in ("import no_such_library\n", "raise OSError('no such device')\n"):
+        assert project(_package(optional, **{"walks/fast.py": broken})) == without
     assert project(_package(optional, **{"walks/fast.py": "SPEED = 2\n"})) != without
 
 
