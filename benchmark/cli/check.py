@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["app"]
 
-app = typer.Typer()
+app = typer.Typer(add_completion=False)
 
 NOTHING_COMPARED = (
     "nothing was compared: expected values that both {run} and {reference} hold; "

@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 __all__ = ["app", "fetch_missing"]
 
-app = typer.Typer(help="Look for, fetch and verify recordings.", no_args_is_help=True)
+app = typer.Typer(
+    help="Look for, fetch and verify recordings.", no_args_is_help=True, add_completion=False
+)
 
 Trials = Annotated[
     list[str] | None, typer.Argument(help="Such as 35_02; all that the tasks use if none.")

@@ -16,7 +16,7 @@ from mocapbench.benchmark.files import atomic_write
 
 __all__ = ["app"]
 
-app = typer.Typer()
+app = typer.Typer(add_completion=False)
 
 
 @app.command()

@@ -11,7 +11,7 @@ from mocapbench import datasets
 
 __all__ = ["app"]
 
-app = typer.Typer()
+app = typer.Typer(add_completion=False)
 
 _CITATION = """\
 @software{mocapbench,

@@ -16,7 +16,7 @@ from mocapbench.benchmark.cli.options import Plugins, load_plugins
 
 __all__ = ["app"]
 
-app = typer.Typer()
+app = typer.Typer(add_completion=False)
 
 _ABILITIES = {
     "Imputer": "imputes any mask",

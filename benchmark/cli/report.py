@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["app", "write_report"]
 
-app = typer.Typer()
+app = typer.Typer(add_completion=False)
 
 
 @app.command()
