@@ -3,7 +3,7 @@
 The *fit key* covers the problem (its address and root seed, the function that poses it with its
 arguments, data digests), the model (name, parameters, source) and the numerical libraries. The
 *score key* adds the metrics, so that a changed metric scores stored predictions again without
-fitting again. `sources` says which code counts.
+fitting again. `sources` says which code counts, and `descriptions` how values are told apart.
 """
 
 from __future__ import annotations
@@ -11,16 +11,12 @@ from __future__ import annotations
 import hashlib
 import importlib.metadata
 import json
-import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache, partial
-from types import MethodType
 from typing import Any
 
-import numpy as np
-
-from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs import solve
+from mocapbench.benchmark.runs.descriptions import described
 from mocapbench.benchmark.runs.sources import source_digest
 from mocapbench.benchmark.tasks.base import Case
 from mocapbench.benchmark.tasks.seeds import Seeds
@@ -68,13 +64,14 @@ def fit_key(
     )
 
 
-def _problem(case: Case) -> list[str]:
-    """Describe what poses the problem; where cases share it, without what each binds to it."""
+def _problem(case: Case) -> Any:
+    """Describe what poses the problem; where cases share it, without the references of each."""
     match case.problem:
-        case partial(func=function) if case.problem_name != case.name:
-            return _description(function, _FITTING)
+        case partial(func=function, args=args, keywords=keywords) if case.shares_problem:
+            shared = {name: value for name, value in keywords.items() if name != "references"}
+            return described(partial(function, *args, **shared), _FITTING)
         case function:
-            return _description(function, _FITTING)
+            return described(function, _FITTING)
 
 
 @cache
@@ -97,41 +94,8 @@ def score_key(
     references : mapping of str to str
         Digest of each recording that only the scores depend on.
     """
-    scored = {metric.name: _description(metric.statistic, _SCORING) for metric in metrics}
+    scored = {metric.name: described(metric.statistic, _SCORING) for metric in metrics}
     return _digest({"fit": fit, "metrics": scored, "scored against": [case, dict(references)]})
-
-
-def _description(function: Callable[..., Any], within: tuple[str, ...]) -> list[str]:
-    """Name a function, the arguments that are bound to it, and the source of both."""
-    match function:
-        case partial():
-            bound = [*enumerate(function.args), *sorted(function.keywords.items())]
-            return [
-                *_description(function.func, within),
-                *(part for name, value in bound for part in (str(name), *_value(value, within))),
-            ]
-        case MethodType():
-            return [*_description(function.__func__, within), *_value(function.__self__, within)]
-        case _ if not hasattr(function, "__qualname__"):  # an object that can be called
-            return [_text(function), source_digest(type(function).__module__, within)]
-        case _:
-            return [function.__qualname__, source_digest(function.__module__, within)]
-
-
-def _value(value: object, within: tuple[str, ...]) -> list[str]:
-    return _description(value, within) if callable(value) else [_text(value)]
-
-
-def _text(value: object) -> str:
-    """Return a text that tells ``value`` apart from every other."""
-    with np.printoptions(threshold=sys.maxsize, floatmode="unique"):
-        text = repr(value)
-    if " at 0x" in text:
-        raise UsageError(
-            "expected arguments of a problem or a metric whose text tells them apart (numbers, "
-            f"texts, tuples, dataclasses), got {text}; use a dataclass, or give it a __repr__"
-        )
-    return text
 
 
 def _digest(document: Mapping[str, Any]) -> str:

@@ -39,7 +39,8 @@ class Case:
         Addresses of the recordings that no model sees, and that answers are compared with.
     problem_name : str
         Cases that differ only in their references pose one problem: they share its name, and with
-        it their seeds and fits. By default the case's own name.
+        it their seeds and fits. Their ``problem`` binds the references as a keyword argument
+        ``references``, the one argument that may differ. By default the case's own name.
     synthetic : bool
         Whether it stands on generated gait rather than recordings of people.
     parameters : mapping
@@ -57,6 +58,11 @@ class Case:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "problem_name", self.problem_name or self.name)
+
+    @property
+    def shares_problem(self) -> bool:
+        """Whether other cases may pose the same problem."""
+        return self.problem_name != self.name
 
     @property
     def recordings(self) -> tuple[str, ...]:

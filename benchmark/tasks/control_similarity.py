@@ -19,16 +19,16 @@ SYNTHETIC = {"synthetic 1": "gait:01_01", "synthetic 2": "gait:02_01"}
 
 
 def similarity_problem(
-    source: str, other: str, seeds: Seeds, archive: Archive
+    source: str, seeds: Seeds, archive: Archive, *, references: tuple[str, ...]
 ) -> SynthesiseProblem:
     """Let one recording stand for the samples, and another for the references."""
     del seeds  # nothing is drawn
-    recording, reference = (read_excerpt(archive, uri, EVALUATION) for uri in (source, other))
+    recording = read_excerpt(archive, source, EVALUATION)
     return SynthesiseProblem(
         train=(recording,),
         times=recording.times,
         n_samples=1,
-        references=(reference.values,),
+        references=tuple(read_excerpt(archive, uri, EVALUATION).values for uri in references),
     )
 
 
@@ -38,7 +38,7 @@ def _pairs(
     return tuple(
         Case(
             f"{row} vs {column}",
-            partial(similarity_problem, rows[row], columns[column]),
+            partial(similarity_problem, rows[row], references=(columns[column],)),
             {"recording": row, "reference": column},
             (rows[row],),
             (columns[column],),

@@ -46,10 +46,11 @@ _SECOND_KERNEL = tuple(entrant.label for entrant in _WITH_RBF)
 
 def motion_problem(
     sources: tuple[str, ...],
-    references: tuple[str, ...],
     windows: Mapping[str, Window],
     seeds: Seeds,
     archive: Archive,
+    *,
+    references: tuple[str, ...],
 ) -> SynthesiseProblem:
     """Train on excerpts of ``sources`` within ``windows``; draw at the first one's times."""
     del seeds  # the recordings are all there is
@@ -80,7 +81,7 @@ def _rows(
     return tuple(
         Case(
             f"{name}{suffix}",
-            partial(motion_problem, sources, uris, windows),
+            partial(motion_problem, sources, windows, references=uris),
             {"trained on": ", ".join(trained_on), "reference": name},
             sources,
             uris,
@@ -96,7 +97,7 @@ def _synthetic(trained_on: tuple[str, ...], compared_with: tuple[str, ...]) -> C
     references = tuple(f"gait:{key}" for key in compared_with)
     return Case(
         "synthetic",
-        partial(motion_problem, sources, references, TRAINING),
+        partial(motion_problem, sources, TRAINING, references=references),
         {"trained on": "generated gait", "reference": f"{len(references)} generated"},
         sources,
         references,

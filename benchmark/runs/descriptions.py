@@ -1,0 +1,127 @@
+"""Descriptions of functions and values, by which keys tell two of them apart.
+
+A function is described by its name, by the source that it stands on, and by the values that are
+bound to it or that it closes over; a value by its content and, if its class is not a builtin one,
+by the source of that class. What has no such description is refused, because a key that overlooks
+a difference would take one result for another.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import json
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from enum import Enum
+from functools import partial, singledispatch
+from pathlib import PurePath
+from types import BuiltinFunctionType, FunctionType, MethodType
+from typing import Any
+
+import numpy as np
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.runs.sources import source_digest
+
+__all__ = ["described"]
+
+Packages = tuple[str, ...]
+
+
+@singledispatch
+def described(value: object, within: Packages) -> Any:
+    """Return what JSON can hold of a function or value, the same in every process.
+
+    Parameters
+    ----------
+    value : object
+        A function, also with arguments bound to it; a number, text, enum member, path, array, or a
+        tuple, list, set, mapping, dataclass or other object of such values.
+    within : tuple of str
+        Packages of ours whose source counts; see `source_digest`.
+
+    Raises
+    ------
+    UsageError
+        If the value is of a kind that cannot be told from others of its kind.
+    """
+    try:
+        return [described(type(value), within), described(_content(value), within)]
+    except (TypeError, RecursionError) as error:  # it has no content that Python can see
+        raise UsageError(
+            "expected arguments of a problem or a metric that can be told apart (numbers, texts, "
+            f"tuples, mappings, arrays, dataclasses of these), got {value!r:.200}; use a dataclass"
+        ) from error
+
+
+def _content(value: Any) -> dict[str, Any]:
+    if is_dataclass(value):
+        return {field.name: getattr(value, field.name) for field in fields(value)}
+    return dict(vars(value))
+
+
+@described.register(type(None))
+@described.register(int | float | complex | str | bytes | np.generic)
+def _plain(value: object, within: Packages) -> Any:
+    del within  # its text has all of it
+    return repr(value)
+
+
+@described.register(Enum | PurePath)
+def _named(value: Enum | PurePath, within: Packages) -> Any:
+    del within  # its text has all of it
+    return [type(value).__qualname__, str(value)]
+
+
+@described.register
+def _array(value: np.ndarray, within: Packages) -> Any:
+    if value.dtype.hasobject:
+        return ["objects", list(value.shape), described(value.ravel().tolist(), within)]
+    content = hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()
+    return ["array", value.dtype.str, list(value.shape), content]
+
+
+@described.register(tuple | list)
+def _sequence(value: tuple[Any, ...] | list[Any], within: Packages) -> Any:
+    return [type(value).__qualname__, *(described(item, within) for item in value)]
+
+
+@described.register(set | frozenset)
+def _set(value: set[Any] | frozenset[Any], within: Packages) -> Any:
+    return ["set", *sorted(json.dumps(described(item, within)) for item in value)]
+
+
+@described.register
+def _mapping(value: Mapping, within: Packages) -> Any:  # type: ignore[type-arg]  # as registered
+    pairs = ([described(key, within), described(item, within)] for key, item in value.items())
+    return ["mapping", *pairs]
+
+
+@described.register
+def _partial(value: partial, within: Packages) -> Any:  # type: ignore[type-arg]  # as registered
+    bound = (value.func, value.args, dict(sorted(value.keywords.items())))
+    return ["partial", *(described(part, within) for part in bound)]
+
+
+@described.register
+def _function(value: FunctionType, within: Packages) -> Any:
+    enclosed = dict(inspect.getclosurevars(value).nonlocals)
+    source = source_digest(value.__module__, within)
+    return [value.__qualname__, source, described(enclosed, within)]
+
+
+@described.register
+def _method(value: MethodType, within: Packages) -> Any:
+    return ["method", described(value.__func__, within), described(value.__self__, within)]
+
+
+@described.register(BuiltinFunctionType | np.ufunc)
+def _builtin(value: BuiltinFunctionType | np.ufunc, within: Packages) -> Any:
+    del within  # versions of the libraries are part of every key
+    return ["builtin", value.__name__]
+
+
+@described.register
+def _class(value: type, within: Packages) -> Any:
+    return [value.__qualname__, source_digest(value.__module__, within)]
