@@ -26,7 +26,7 @@ def archive_at(data_dir: Path | None) -> Archive:
     """
     if data_dir is not None and not data_dir.is_dir():
         raise UsageError(
-            f"--data-dir: expected a folder that holds subjects/NN/NN.asf, got {str(data_dir)!r}; "
+            f"--data-dir: expected an existing folder of recordings, got {str(data_dir)!r}; "
             "name one, or leave the option out to download"
         )
     return Archive({name: LIBRARIES.get(name)(data_dir) for name in LIBRARIES.names()})

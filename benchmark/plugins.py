@@ -22,7 +22,7 @@ __all__ = ["load_plugin"]
 
 
 @dataclass(frozen=True)
-class _Door:
+class _PluginKind:
     """What a file may define under one name: a mapping from names to values of one kind.
 
     Parameters
@@ -33,11 +33,14 @@ class _Door:
         What the values are.
     fits : callable
         Whether a value is of the kind.
+    arguments : tuple
+        With which a class of the kind is built.
     """
 
     registry: Registry[Any]
     expected: str
     fits: Callable[[object], bool]
+    arguments: tuple[object, ...] = ()
 
 
 def _subclass_of(kind: type) -> Callable[[object], bool]:
@@ -48,12 +51,15 @@ def _instance_of(kind: type) -> Callable[[object], bool]:
     return lambda value: isinstance(value, kind)
 
 
-_DOORS: Mapping[str, _Door] = {
-    "MODELS": _Door(MODELS, "subclasses of mocapbench.baselines.Model", _subclass_of(Model)),
-    "TASKS": _Door(TASKS, "mocapbench.benchmark.Task objects", _instance_of(Task)),
-    "METRICS": _Door(METRICS, "mocapbench.metrics.Metric objects", _instance_of(Metric)),
-    "LIBRARIES": _Door(
-        LIBRARIES, "subclasses of mocapbench.datasets.Library", _subclass_of(Library)
+_PLUGIN_KINDS: Mapping[str, _PluginKind] = {
+    "MODELS": _PluginKind(MODELS, "subclasses of mocapbench.baselines.Model", _subclass_of(Model)),
+    "TASKS": _PluginKind(TASKS, "mocapbench.benchmark.Task objects", _instance_of(Task)),
+    "METRICS": _PluginKind(METRICS, "mocapbench.metrics.Metric objects", _instance_of(Metric)),
+    "LIBRARIES": _PluginKind(
+        LIBRARIES,
+        "subclasses of mocapbench.datasets.Library",
+        _subclass_of(Library),
+        arguments=(None,),  # no folder of recordings is named
     ),
 }
 
@@ -79,35 +85,42 @@ def load_plugin(path: Path) -> tuple[str, ...]:
         If the file cannot be run, defines none of these, or something else under their names.
     """
     module = _execute(path)
-    defined = {name: vars(module)[name] for name in _DOORS if name in vars(module)}
+    defined = {
+        name: value
+        for name, value in vars(module).items()
+        if name in _PLUGIN_KINDS and not isinstance(value, Registry)  # ours, which it may import
+    }
     if not defined:
         raise UsageError(
-            f"{path}: expected one or more of {', '.join(_DOORS)}, each a mapping such as "
+            f"{path}: expected one or more of {', '.join(_PLUGIN_KINDS)}, each a mapping such as "
             'MODELS = {"name": ModelClass}, got none'
         )
     for attribute, values in defined.items():
         _check(path, attribute, values)
     for attribute, values in defined.items():
         for name, value in values.items():
-            _DOORS[attribute].registry.add(name, value)
+            _PLUGIN_KINDS[attribute].registry.add(name, value)
     return tuple(name for values in defined.values() for name in values)
 
 
 def _check(path: Path, attribute: str, values: object) -> None:
-    door = _DOORS[attribute]
-    if not (isinstance(values, dict) and values and all(map(door.fits, values.values()))):
+    kind = _PLUGIN_KINDS[attribute]
+    if not (isinstance(values, dict) and values and all(map(kind.fits, values.values()))):
         raise UsageError(
-            f"{path}: expected {attribute} to map one or more names to {door.expected}, got "
+            f"{path}: expected {attribute} to map one or more names to {kind.expected}, got "
             f'{values!r}; write {attribute} = {{"name": …}}'
         )
     for name, value in values.items():
-        _check_name(path, door.registry, name, value)
+        _check_name(path, kind.registry, name, value)
+        _check_constructor(path, name, value, kind.arguments)
 
 
 def _check_name(path: Path, registry: Registry[Any], name: object, value: Any) -> None:
     """Refuse a name that stands for something else already, and what cannot be used under it."""
-    labels = {entrant.label for task in map(TASKS.get, TASKS.names()) for entrant in task.entrants}
-    taken = registry is MODELS and name in labels
+    tasks = map(TASKS.get, TASKS.names())
+    entrants = (entrant for task in tasks for entrant in task.entrants)
+    others = {entrant.label for entrant in entrants if entrant.model != name}
+    taken = registry is MODELS and name in others
     if not isinstance(name, str) or taken or registry.is_installed(name):
         raise UsageError(
             f"{path}: expected a name that no {registry.kind} or entrant has, got {name!r}; "
@@ -118,18 +131,17 @@ def _check_name(path: Path, registry: Registry[Any], name: object, value: Any) -
             f"{path}: expected the {registry.kind} under its own name {value.name!r}, got "
             f"{name!r}; rename one of the two"
         )
-    _check_constructor(path, name, value)
 
 
-def _check_constructor(path: Path, name: str, value: object) -> None:
+def _check_constructor(path: Path, name: str, value: object, arguments: tuple[object, ...]) -> None:
     if not isinstance(value, type):
         return
     try:
-        value()
-    except TypeError as error:
+        value(*arguments)
+    except Exception as error:
         raise UsageError(
-            f"{path}: expected a class that can be built without arguments, got {name!r}: {error}; "
-            "give every parameter a default and define every abstract method"
+            f"{path}: expected a class that can be built with the arguments {arguments}, got "
+            f"{name!r}: {error}; give other parameters a default, and define abstract methods"
         ) from error
 
 

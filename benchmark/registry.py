@@ -1,4 +1,4 @@
-"""Models, tasks, metrics and libraries of recordings by name: four doors, alike.
+"""Models, tasks, metrics and libraries of recordings by name: four kinds of plug-in.
 
 Ours and third parties' are found in the same way: by entry points of the groups
 ``mocapbench.models``, ``mocapbench.tasks``, ``mocapbench.metrics`` and ``mocapbench.libraries``. A

@@ -11,7 +11,13 @@ from rich.console import Console
 
 from mocapbench import benchmark as bench
 from mocapbench.benchmark import gate
-from mocapbench.benchmark.cli.options import DEFAULT_OUT, Plugins, load_plugins, show_left_out
+from mocapbench.benchmark.cli.options import (
+    DEFAULT_OUT,
+    Plugins,
+    load_plugins,
+    require_writable,
+    show_left_out,
+)
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.benchmark.files import atomic_write
 from mocapbench.benchmark.gate.environment import Environment
@@ -76,9 +82,7 @@ def check(
         if any(of_reference):
             raise UsageError("--controls: expected no other option: they all go with --reference")
         raise typer.Exit(_check_controls(run, Console()))
-    for path in (junit, markdown):
-        if path is not None and (path.is_dir() or not path.parent.is_dir()):
-            raise UsageError(f"{path}: expected a file in a folder that exists")
+    require_writable(junit, markdown)
     store, console = bench.Store.open(run), Console()
     records, plan = store.planned(), store.load_plan()
     known, values = gate.read_reference(reference), gate.of_records(records, plan)

@@ -1,4 +1,4 @@
-"""``mocapbench compare``: two runs, or two models of one run, with honest statistics."""
+"""``mocapbench compare``: two runs, or two models of one run, with paired tests and intervals."""
 
 from __future__ import annotations
 
@@ -11,7 +11,14 @@ from rich.console import Console
 
 from mocapbench import benchmark as bench
 from mocapbench.benchmark import comparison
-from mocapbench.benchmark.cli.options import Names, Plugins, load_plugins, show_left_out, split
+from mocapbench.benchmark.cli.options import (
+    Names,
+    Plugins,
+    load_plugins,
+    require_writable,
+    show_left_out,
+    split,
+)
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
 
@@ -39,9 +46,7 @@ def compare(
     """Compare two runs, or two models of one run, fold by fold."""
     load_plugins(plugin)
     console = Console()
-    for path in (markdown, csv):
-        if path is not None and not path.parent.is_dir():
-            raise UsageError(f"{path}: expected a file in a folder that exists")
+    require_writable(markdown, csv)
     for name in split(tasks):
         bench.TASKS.get(name)
     for name in split(metrics):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import track
 from rich.table import Table
 
@@ -106,5 +107,5 @@ def _addresses(trials: Iterable[str] | None, archive: Archive) -> list[str]:
 def _show(rows: Sequence[RecordingStatus]) -> None:
     table = Table("recording", "state", "where", "SHA-256")
     for row in rows:
-        table.add_row(row.uri, row.state, row.where, row.digest[:16])
+        table.add_row(escape(row.uri), row.state, escape(row.where), row.digest[:16])
     Console().print(table)

@@ -22,7 +22,7 @@ def explain(error: Exception) -> ExitCode:
         ``USAGE`` for an error of the request or of a file, ``DEFECT`` for any other: else the
         interpreter's own exit code, 1, would say that a metric got worse.
     """
-    console = Console(stderr=True)
+    console = Console(stderr=True, emoji=False)
     match error:
         case UsageError() | DigestMismatch() | AcclaimError():
             console.print(f"[bold red]error:[/] {escape(str(error))}", soft_wrap=True)

@@ -10,6 +10,7 @@ import typer
 from rich.console import Console
 
 from mocapbench import benchmark as bench
+from mocapbench.benchmark.errors import UsageError
 
 __all__ = [
     "DEFAULT_OUT",
@@ -18,6 +19,7 @@ __all__ = [
     "Out",
     "Plugins",
     "load_plugins",
+    "require_writable",
     "show_left_out",
     "split",
 ]
@@ -52,6 +54,19 @@ def load_plugins(paths: Sequence[Path] | None) -> tuple[Path, ...]:
     for path in files:
         bench.load_plugin(path)
     return files
+
+
+def require_writable(*paths: Path | None) -> None:
+    """Refuse a file that cannot be written, before anything is computed for it.
+
+    Raises
+    ------
+    UsageError
+        If a path is a folder, or in a folder that does not exist.
+    """
+    for path in paths:
+        if path is not None and (path.is_dir() or not path.parent.is_dir()):
+            raise UsageError(f"{path}: expected a file in a folder that exists")
 
 
 def show_left_out(damaged: Iterable[str], console: Console) -> None:

@@ -11,7 +11,14 @@ from rich.console import Console
 
 from mocapbench import benchmark as bench
 from mocapbench import reports
-from mocapbench.benchmark.cli.options import DEFAULT_OUT, DataDir, Out, Plugins, load_plugins
+from mocapbench.benchmark.cli.options import (
+    DEFAULT_OUT,
+    DataDir,
+    Out,
+    Plugins,
+    load_plugins,
+    require_writable,
+)
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
 
@@ -33,6 +40,7 @@ def report(
 ) -> None:
     """Write the HTML report of a run directory."""
     load_plugins(plugin)
+    require_writable(to)
     store, console = bench.Store.open(out), Console()
     plan, records = store.load_plan(), store.planned()
     if not records:

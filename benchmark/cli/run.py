@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from mocapbench import benchmark as bench
@@ -148,7 +149,7 @@ def _plan_table(planned: Sequence[Job]) -> Table:
     table = Table("task", "case", "entrant", "folds", title=f"{len(planned)} jobs")
     rows = Counter((job.address.task, job.address.case, job.address.label) for job in planned)
     for address, count in rows.items():
-        table.add_row(*address, str(count))
+        table.add_row(*map(escape, address), str(count))
     return table
 
 

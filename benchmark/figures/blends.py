@@ -22,7 +22,7 @@ TRANSITION = "transition"
 
 @dataclass(frozen=True)
 class Blends:
-    """Stick figures of each transition, and channels of it between those of the two styles.
+    """Stick figures of each transition between two styles, and its channels beside theirs.
 
     Parameters
     ----------

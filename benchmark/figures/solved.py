@@ -17,7 +17,7 @@ A = TypeVar("A", bound=Answer)
 
 @dataclass(frozen=True, eq=False)
 class Solved(Generic[P, A]):
-    """One problem of a task, and what became of it.
+    """One problem of a task, with the answers of all entrants.
 
     Parameters
     ----------

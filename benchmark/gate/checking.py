@@ -115,7 +115,7 @@ def _unforeseen(reference: Reference, troubles: Troubles) -> Iterator[Finding]:
 
 
 def updated(reference: Reference, run: Reference, records: Sequence[Record]) -> Reference:
-    """Return the run's values as reference values, with the old ones of what it could not compute.
+    """Return the run's values as the new reference; where the run has none, the old one is kept.
 
     Those are values whose recordings are missing where it ran, and those of failed jobs.
     """

@@ -71,7 +71,7 @@ class Check:
 
     @property
     def exit_code(self) -> ExitCode:
-        """Worse before broken before nothing; a run that was compared to nothing is never fine."""
+        """1 if a metric got worse, else 3 if jobs failed, else 4 if nothing could be compared."""
         if self.failing & self.counts.keys():
             return ExitCode.REGRESSION
         if Verdict.BROKEN in self.counts:

@@ -73,7 +73,7 @@ def _estimate(measure: Measure) -> str:
 
 
 def _reasons(findings: Sequence[NegativeControlResult]) -> Iterator[str]:
-    """Yield why an entrant failed, with the cells that speak against it, or need not pass."""
+    """Yield why each entrant that failed did so, with its worst cells, or why it is exempt."""
     for finding in findings:
         if finding.failed:
             yield from (
@@ -89,4 +89,7 @@ def _offences(measure: Measure) -> str:
     if measure.estimate is None:
         return "it has no score to set beside the control's"
     cells = [f"{cell.case} fold {cell.fold} {cell.value:.3f}" for cell in measure.offending]
-    return ", ".join(cells) or "no cell by itself, but too few to tell; run more cases or folds"
+    return (
+        ", ".join(cells)
+        or "no single case and fold, but there are too few to decide; run more of them"
+    )

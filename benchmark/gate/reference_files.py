@@ -71,7 +71,7 @@ def _joined(path: Path, parts: Sequence[Reference]) -> Reference:
 
 
 def _distinct(rows: Iterable[tuple[Series, Folds]]) -> dict[Series, Folds]:
-    """Return ``rows`` by series: which of two rows a merge meant cannot be known."""
+    """Return the rows by series, each of which must stand once: a merge may leave two."""
     values: dict[Series, Folds] = {}
     for series, folds in rows:
         if series in values:

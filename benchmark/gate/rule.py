@@ -30,7 +30,7 @@ __all__ = ["DEFAULT_TOLERANCES", "FAILING", "Judgement", "Tolerance", "Verdict",
 
 
 class Verdict(StrEnum):
-    """What became of the values of one metric, the gravest first."""
+    """The possible verdicts on one metric, the gravest first."""
 
     WORSE = "worse"
     LOST = "lost"
@@ -75,7 +75,7 @@ FAILING = {Environment.SAME: _ALWAYS | {Verdict.MOVED}, Environment.CROSS: _ALWA
 
 @dataclass(frozen=True)
 class Judgement:
-    """The paired values of one metric, judged.
+    """The paired values of one metric, and the verdict on them.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The problem of finding a process's covariances again from what it drew."""
+"""The problem of estimating the covariances of a known process from curves that it drew."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Covariances:
     Parameters
     ----------
     by_layer : mapping of str to ndarray of shape (D N, D N)
-        Outputs slowest, without noise.
+        Without noise; ordered by output, then by frame.
     """
 
     by_layer: Mapping[str, NDArray[np.float64]]
@@ -79,7 +79,7 @@ class RecoverProblem(Problem[Covariances]):
 
     @property
     def truth(self) -> dict[str, NDArray[np.float64]]:
-        """The process's covariances (D N, D N) by layer, outputs slowest."""
+        """The process's covariances (D N, D N) by layer; ordered by output, then frame."""
         return {
             "parent": self.process.parent.covariance(self.times),
             "child": self.process.child.covariance(self.times),

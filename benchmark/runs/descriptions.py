@@ -47,12 +47,13 @@ def described(value: object, within: Packages) -> Any:
         If the value is of a kind that cannot be told from others of its kind.
     """
     try:
-        return [described(type(value), within), described(_content(value), within)]
+        content = described(_content(value), within)  # first, since a class may have much source
     except (TypeError, RecursionError) as error:  # it has no content that Python can see
         raise UsageError(
             "expected arguments of a problem or a metric that can be told apart (numbers, texts, "
             f"tuples, mappings, arrays, dataclasses of these), got {value!r:.200}; use a dataclass"
         ) from error
+    return [described(type(value), within), content]
 
 
 def _content(value: Any) -> dict[str, Any]:

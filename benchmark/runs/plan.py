@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -61,12 +62,26 @@ def plan(request: Request, archive: Archive) -> tuple[Job, ...]:
         If a recording is here but is not the registered one.
     """
     _check_names(request)
+    for task in _tasks(request):
+        _check_distinct(task)
     return tuple(
         job
         for task in _tasks(request)
         for case in _cases(request, task)
         for job in _case_jobs(request, task, case, archive)
     )
+
+
+def _check_distinct(task: Task) -> None:
+    """Refuse a task two of whose rows would be taken for one."""
+    named = {"entrant": [e.label for e in task.entrants], "case": [c.name for c in task.cases]}
+    for kind, names in named.items():
+        twice = sorted(name for name, count in Counter(names).items() if count > 1)
+        if twice:
+            raise UsageError(
+                f"task {task.name!r}: expected every {kind} under a name of its own, got "
+                f"{twice[0]!r} twice; rename one"
+            )
 
 
 def required_sources(request: Request) -> tuple[str, ...]:
@@ -163,8 +178,15 @@ def _check_plain(entrant: Entrant, name: str, value: object) -> None:
         ) from error
 
 
+def _missing(task: Task, case: Case, archive: Archive) -> tuple[str, ...]:
+    try:
+        return tuple(uri for uri in case.recordings if not archive.available(uri))
+    except ValueError as error:  # no such library, or a malformed address
+        raise UsageError(f"task {task.name!r}, case {case.name!r}: {error}") from error
+
+
 def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> Iterator[Job]:
-    missing = tuple(uri for uri in case.recordings if not archive.available(uri))
+    missing = _missing(task, case, archive)
     digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.recordings}
     seen, compared = ({uri: digests[uri] for uri in of} for of in (case.sources, case.references))
     metrics = tuple(sorted(set(map(METRICS.current_name, request.metrics or METRICS.names()))))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterator, Sequence
 
 from rich.console import Console
@@ -54,10 +55,12 @@ def _records(jobs: Sequence[Job], config: WorkerConfig, n_workers: int) -> Itera
     """Yield at once the jobs whose recordings cannot be had, then the others as they end."""
     for job in jobs:
         if job.missing:
-            trials = " ".join(uri.partition(":")[2] for uri in job.missing)
+            trials = " ".join(uri.removeprefix("cmu:") for uri in job.missing)
+            plugins = "".join(f" --plugin {shlex.quote(str(path))}" for path in config.plugins)
+            command = f"{Archive.fetch_command(*job.missing)}{plugins}"
             yield job.record(
                 Status.DATA_MISSING,
-                f"{trials} cannot be had: get it with `{Archive.fetch_command(*job.missing)}`",
+                f"{trials} cannot be had: get it with `{command}`",
                 provenance=config.provenance,
             )
     yield from execute([job for job in jobs if not job.missing], config, n_workers)
