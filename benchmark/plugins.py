@@ -35,12 +35,15 @@ class _PluginKind:
         Whether a value is of the kind.
     arguments : tuple
         With which a class of the kind is built.
+    built : str
+        The same in words.
     """
 
     registry: Registry[Any]
     expected: str
     fits: Callable[[object], bool]
     arguments: tuple[object, ...] = ()
+    built: str = "without arguments"
 
 
 def _subclass_of(kind: type) -> Callable[[object], bool]:
@@ -60,6 +63,7 @@ _PLUGIN_KINDS: Mapping[str, _PluginKind] = {
         "subclasses of mocapbench.datasets.Library",
         _subclass_of(Library),
         arguments=(None,),  # no folder of recordings is named
+        built="with one argument, a folder of recordings or None",
     ),
 }
 
@@ -112,7 +116,7 @@ def _check(path: Path, attribute: str, values: object) -> None:
         )
     for name, value in values.items():
         _check_name(path, kind.registry, name, value)
-        _check_constructor(path, name, value, kind.arguments)
+        _check_constructor(path, name, value, kind)
 
 
 def _check_name(path: Path, registry: Registry[Any], name: object, value: Any) -> None:
@@ -133,15 +137,15 @@ def _check_name(path: Path, registry: Registry[Any], name: object, value: Any) -
         )
 
 
-def _check_constructor(path: Path, name: str, value: object, arguments: tuple[object, ...]) -> None:
+def _check_constructor(path: Path, name: str, value: object, kind: _PluginKind) -> None:
     if not isinstance(value, type):
         return
     try:
-        value(*arguments)
+        value(*kind.arguments)
     except Exception as error:
         raise UsageError(
-            f"{path}: expected a class that can be built with the arguments {arguments}, got "
-            f"{name!r}: {error}; give other parameters a default, and define abstract methods"
+            f"{path}: expected a class that can be built {kind.built}, got {name!r}: "
+            f"{error}; give every other parameter a default, and define abstract methods"
         ) from error
 
 

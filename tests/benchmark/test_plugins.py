@@ -153,7 +153,7 @@ WRONG = {
     "LIBRARIES = {'cmu': Gait}": "expected a name that no library .* has, got 'cmu'; choose",
     "TASKS = {'a': task('b')}": "expected the task under its own name 'b', got 'a'",
     "METRICS = {'a': mine('b')}": "expected the metric under its own name 'b', got 'a'",
-    "LIBRARIES = {'a': Library}": "a class that can be built without arguments, got 'a': .*abstra",
+    "LIBRARIES = {'a': Library}": "can be built with one argument, a folder .*, got 'a': .*abstra",
     f"{ABSTRACT}MODELS = {{'a': Imputer}}": "that can be built without arguments, got 'a': .*abst",
 }
 
@@ -163,7 +163,12 @@ def test_a_wrong_entry_says_what_was_expected_and_got(load, text, complaint):
     with pytest.raises(UsageError, match=f"mine.py: .*{complaint}") as raised:
         load(text)
     message = str(raised.value)
-    advice = ("choose another", '= {"name": …}', "rename one of the two", "give every parameter")
+    advice = (
+        "choose another",
+        '= {"name": …}',
+        "rename one of the two",
+        "give every other parameter",
+    )
     assert [part in message for part in ("expected", ", got ")] == [True, True]
     assert sum(part in message.rpartition("; ")[2] for part in advice) == 1
 

@@ -222,7 +222,7 @@ def test_a_report_can_be_written_elsewhere(cli, tmp_path):
 def test_a_report_into_a_folder_that_is_not_there_exits_with_2(cli, tmp_path):
     assert cli(*FAST, "--out", tmp_path / "run") == 0
     assert cli("report", "--out", tmp_path / "run", "--to", tmp_path / "no" / "page.html") == 2
-    assert "cannot read or write" in cli.printed
+    assert "page.html: expected a file in a folder that exists" in cli.printed
 
 
 def test_a_defect_is_told_from_a_worse_metric(tmp_path, monkeypatch, capsys):

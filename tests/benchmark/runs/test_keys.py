@@ -77,7 +77,7 @@ def test_rows_and_references_change_the_score_key_alone():
     mse = METRICS.get("mse")
     shared = dataclasses.replace(TASK.cases[0], problem_name="what is posed")
     row, other = (dataclasses.replace(shared, name=name, columns={"row": name}) for name in "ab")
-    assert _key(row) == _key(other) != _key()
+    assert _key(row) == _key(other) == _key()
     keys = [_score_key([mse], "a"), _score_key([mse], "b"), _score_key([mse], "a", {"r": "0"})]
     assert len({*keys, _score_key([mse], "a", {"r": "1"})}) == 4
 
