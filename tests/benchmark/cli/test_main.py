@@ -225,6 +225,23 @@ def test_a_report_into_a_folder_that_is_not_there_exits_with_2(cli, tmp_path):
     assert "page.html: expected a file in a folder that exists" in cli.printed
 
 
+UNWRITABLE = {
+    "check": ("check", "RUN", "--junit", "FILE", "--reference", "RUN"),
+    "compare": ("compare", "RUN", "RUN", "--csv", "FILE"),
+    "report": ("report", "--out", "RUN", "--to", "FILE"),
+}
+
+
+@pytest.mark.parametrize("command", UNWRITABLE.values(), ids=UNWRITABLE)
+@pytest.mark.parametrize("file", ["no/file", "."])
+def test_a_file_that_cannot_be_written_is_refused_before_anything_is_read(
+    cli, tmp_path, command, file
+):
+    places = {"RUN": tmp_path / "absent", "FILE": tmp_path / file}
+    assert cli(*(places.get(word, word) for word in command)) == 2
+    assert "expected a file in a folder that exists" in cli.printed
+
+
 def test_a_defect_is_told_from_a_worse_metric(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(gate, "read_reference", lambda path: 1 / 0)
     Store.create(tmp_path).save_plan({"keys": [], "provenance": {}})

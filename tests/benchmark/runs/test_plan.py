@@ -1,8 +1,12 @@
+import dataclasses
+
 import pytest
 
 from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.plan import Request, plan, required_sources
+from mocapbench.benchmark.tasks.base import Entrant
 
 
 def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
@@ -37,3 +41,28 @@ def test_generated_gait_stands_in_for_recordings_but_not_among_the_rows_of_the_p
     for profile in ("smoke", "quick"):
         chosen = [task.case(case) for case in task.profile(profile).cases]
         assert any(case.synthetic or not case.recordings for case in chosen)
+
+
+TASK = TASKS.get("toy-interpolation-1")
+FIRST = TASK.cases[0]
+TWICE = {
+    "entrant 'trivial' twice": {"entrants": (Entrant("trivial", "trivial"),) * 2},
+    "case 'test 1' twice": {"cases": (*TASK.cases, FIRST)},
+}
+
+
+@pytest.mark.parametrize(("complaint", "changes"), TWICE.items(), ids=TWICE)
+def test_two_rows_of_one_name_are_refused(complaint, changes):
+    kind, name = complaint.split(" ")[0], complaint.split("'")[1]
+    TASKS.add("mine", dataclasses.replace(TASK, name="mine", **changes))
+    expected = f"expected every {kind} under a name of its own, got '{name}' twice"
+    with pytest.raises(UsageError, match=expected):
+        plan(Request("smoke", tasks=("mine",)), archive_at(None))
+
+
+@pytest.mark.parametrize("uri", ["nowhere:01_01", "01_01", "cmu:"])
+def test_an_address_that_no_library_can_have_is_refused_by_task_and_case(uri):
+    case = dataclasses.replace(FIRST, sources=(uri,))
+    TASKS.add("mine", dataclasses.replace(TASK, name="mine", cases=(case, *TASK.cases[1:])))
+    with pytest.raises(UsageError, match=f"task 'mine', case '{FIRST.name}': .* got '{uri}'"):
+        plan(Request("paper", tasks=("mine",), cases=(FIRST.name,)), archive_at(None))
