@@ -112,6 +112,10 @@ class Recording:
                 f"recording {self.name!r}: expected finite values or NaN, got infinity"
             )
 
+    def __reduce__(self) -> tuple[type[Recording], tuple[object, ...]]:
+        """Have copies made by the constructor, so that they cannot be changed either."""
+        return Recording, (self.name, self.times, self.values, self.channels, self.units)
+
     @property
     def visible(self) -> Mask:
         """(N, D) True where an entry is known."""

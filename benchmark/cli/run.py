@@ -96,7 +96,6 @@ def run(
         **_acknowledgement(planned),
     }
     config = bench.WorkerConfig(
-        out.resolve(),
         data_dir.resolve() if data_dir else None,
         plugins,
         timeout,

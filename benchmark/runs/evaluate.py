@@ -1,4 +1,4 @@
-"""Evaluation of one job, in the worker process that runs it."""
+"""Evaluation of one job: pose its problem, fit, answer and score."""
 
 from __future__ import annotations
 
@@ -8,54 +8,52 @@ from dataclasses import asdict
 from typing import Any
 
 from joblib import parallel_config
-from threadpoolctl import threadpool_limits
 
-from mocapbench.benchmark.archives import archive_at
-from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.fit import Fit
-from mocapbench.benchmark.runs.job import Job, WorkerConfig
+from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.solve import solve
-from mocapbench.benchmark.runs.store import Store
+from mocapbench.datasets import Archive
 
 __all__ = ["evaluate"]
 
 
-def evaluate(job: Job, config: WorkerConfig) -> Record:
-    """Return the record of ``job``; whatever the model raises becomes a failed record.
+def evaluate(work: Work, config: WorkerConfig, archive: Archive) -> tuple[Record, Fit | None]:
+    """Return the record of a job, and its predictions if they are new.
 
-    The predictions are kept in the store, and taken from there if they exist already.
+    Whatever the model raises becomes a failed record. The process's memory is limited from now on.
+
+    Parameters
+    ----------
+    work : Work
+    config : WorkerConfig
+    archive : Archive
+        Where recordings come from.
     """
+    job, fit, new = work.job, work.fit, None
     try:
         resource.setrlimit(resource.RLIMIT_AS, (config.memory, resource.RLIM_INFINITY))
-        # One BLAS thread, so that results do not depend on how many jobs run at once.
-        with threadpool_limits(1), parallel_config("threading", n_jobs=config.threads):
-            return _evaluate(job, config)
+        problem = TASKS.get(job.address.task).case(job.address.case).problem(job.seeds, archive)
+        if fit is None:
+            with parallel_config("threading", n_jobs=config.threads):
+                fit = new = solve(problem, MODELS.get(job.model), job.parameters, job.seeds)
+        return _scored(work, fit, problem, config), new
     except MemoryError:
         limit = config.memory / 2**30
         message = f"the job needed more than its {limit:.1f} GiB; raise --memory or lower --jobs"
-        return job.record(Status.OUT_OF_MEMORY, message, traceback=traceback.format_exc())
+        return job.record(Status.OUT_OF_MEMORY, message, traceback=traceback.format_exc()), new
     except BaseException as error:  # a model that calls sys.exit has failed like any other
         message = f"{type(error).__name__}: {error}"
-        return job.record(Status.FAILED, message, traceback=traceback.format_exc())
+        return job.record(Status.FAILED, message, traceback=traceback.format_exc()), new
 
 
-def _evaluate(job: Job, config: WorkerConfig) -> Record:
-    for path in config.plugins:
-        load_plugin(path)
-    case = TASKS.get(job.address.task).case(job.address.case)
-    problem = case.problem(job.seeds, archive_at(config.data_dir))
-    store = Store(config.out)
-    fit = store.load_fit(job.fit_key)
-    if fit is None:
-        fit = solve(problem, MODELS.get(job.model), job.parameters, job.seeds)
-        store.save_fit(job.fit_key, fit)
+def _scored(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
     costs = {name: value for name, value in asdict(fit).items() if name != "arrays"}
-    costs["warnings"] = (*fit.warnings, *store.damaged)
-    results = {**costs, **_scores(job, problem, fit), "provenance": _provenance(job, config)}
-    return job.record(Status.OK, **results)
+    costs["warnings"] = (*fit.warnings, *work.remarks)
+    results = {**costs, **_scores(work.job, problem, fit)}
+    return work.job.record(Status.OK, **results, provenance=_provenance(work.job, config))
 
 
 def _scores(job: Job, problem: Problem[Any], fit: Fit) -> dict[str, Any]:

@@ -1,17 +1,18 @@
-"""Jobs: one (task, case, fold, entrant) each, with the keys of what it computes."""
+"""Jobs: one (task, case, fold, entrant) each, with the keys of what it computes; their outcomes."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+from mocapbench.benchmark.runs.fit import Fit
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.seeds import Seeds
 
-__all__ = ["Job", "WorkerConfig"]
+__all__ = ["Job", "Outcome", "Work", "WorkerConfig"]
 
 
 @dataclass(frozen=True)
@@ -20,8 +21,6 @@ class WorkerConfig:
 
     Parameters
     ----------
-    out : Path
-        The run directory.
     data_dir : Path or None
         A folder of recordings that the user names.
     plugins : tuple of Path
@@ -36,7 +35,6 @@ class WorkerConfig:
         Copied into every record.
     """
 
-    out: Path
     data_dir: Path | None
     plugins: tuple[Path, ...]
     timeout: float
@@ -90,3 +88,28 @@ class Job:
             message=message,
             **results,
         )
+
+    def timed_out(self, seconds: float) -> Record:
+        """Return a record of this job that was killed after so many seconds."""
+        message = f"killed after {seconds:g} s; raise --timeout or lower the budget"
+        return self.record(Status.TIMEOUT, message)
+
+
+class Work(NamedTuple):
+    """A job as it is handed to a worker."""
+
+    job: Job
+    fit: Fit | None
+    """The predictions, where the store has them: then they are only scored."""
+    remarks: tuple[str, ...] = ()
+    """What the record is to say besides, such as that predictions were damaged."""
+
+
+class Outcome(NamedTuple):
+    """A job as a worker hands it back."""
+
+    record: Record
+    fit: Fit | None
+    """The predictions, if they are new."""
+    seconds: float
+    """From when the worker took the job up."""

@@ -1,73 +1,89 @@
-"""Execution: every job in a killable process of its own.
+"""Execution: workers that live for many jobs, each of which runs in a killable process.
 
-A crash, a hang or a kill costs one record alone, and a job's peak memory is its own. Processes
-are forked from a server that has the libraries loaded but has computed nothing.
+A crash, a hang or a kill costs one record alone. Workers are forked from a server that has the
+libraries loaded but has computed nothing, and one that dies is replaced.
 """
 
 from __future__ import annotations
 
 import multiprocessing
-from collections.abc import Iterator, Sequence
-from concurrent.futures import CancelledError, Future, as_completed
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 
-from pebble import CONSTS, ProcessExpired, ProcessPool
+from pebble import ProcessExpired, ProcessPool
 
-from mocapbench.benchmark.runs.evaluate import evaluate
-from mocapbench.benchmark.runs.job import Job, WorkerConfig
-from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
+from mocapbench.benchmark.runs.job_queue import JobQueue
+from mocapbench.benchmark.runs.record import Status
+from mocapbench.benchmark.runs.spool import Spool
+from mocapbench.benchmark.runs.worker import prepare_worker, run_job
 
 __all__ = ["execute"]
 
-# How often the pool looks whether a worker has ended and the next may start, in seconds. A process
-# a job, at pebble's tenth of a second an idle core would wait as long as most baselines compute.
-CONSTS.sleep_unit = 0.01
-
 _PRELOAD = [
-    "mocapbench.benchmark.runs.evaluate",
+    "mocapbench.benchmark.runs.worker",
     "scipy.interpolate",
     "scipy.optimize",
     "sklearn.impute",
 ]
 
+_GRACE = 60.0
+"""Seconds beyond its timeout after which a job's worker, which should have killed it, is killed."""
 
-def execute(jobs: Sequence[Job], config: WorkerConfig, n_workers: int) -> Iterator[Record]:
-    """Run ``jobs`` and yield each one's record as it ends.
+
+def execute(
+    queue: JobQueue,
+    work: Callable[[Job], Work],
+    config: WorkerConfig,
+    spool: Spool,
+    n_workers: int,
+) -> Iterator[Outcome]:
+    """Run the jobs of ``queue`` and yield each one's outcome as it ends.
 
     Closing the iterator, or an interrupt, kills what still runs.
 
     Parameters
     ----------
-    jobs : sequence of Job
+    queue : JobQueue
+    work : callable
+        Returns what a worker needs for a job; called shortly before the job starts.
     config : WorkerConfig
+    spool : Spool
+        The recordings that jobs read.
     n_workers : int
         How many jobs run at once.
     """
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(_PRELOAD)
-    pool = ProcessPool(max_workers=n_workers, max_tasks=1, context=context)
+    pool = ProcessPool(max_workers=n_workers, context=context, initializer=prepare_worker)
+    running: dict[Future[Outcome], Job] = {}
     try:
-        futures: dict[Future[Record], Job] = {
-            pool.schedule(evaluate, args=[job, config], timeout=config.timeout): job for job in jobs
-        }
-        for future in as_completed(futures):
-            yield _record(future, futures[future], config)
+        while True:
+            # As many again wait in the pool, so that no worker waits for the store.
+            while len(running) < 2 * n_workers and (job := queue.take()):
+                arguments = (work(job), config, spool)
+                running[pool.schedule(run_job, arguments, timeout=config.timeout + _GRACE)] = job
+            if not running:
+                return
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                job = running.pop(future)
+                outcome = _outcome(future, job, config)
+                queue.ended(job, outcome.seconds)
+                yield outcome
     finally:
         pool.stop()  # type: ignore[no-untyped-call]
         pool.join()
 
 
-def _record(future: Future[Record], job: Job, config: WorkerConfig) -> Record:
-    """Return the job's record, or one that says why its process gave none."""
+def _outcome(future: Future[Outcome], job: Job, config: WorkerConfig) -> Outcome:
+    """Return the job's outcome, or one that says why its worker gave none."""
     try:
         return future.result()
     except TimeoutError:
-        message = (
-            f"killed after {config.timeout:g} s, or exited without reporting; "
-            "raise --timeout or lower the budget"
-        )
-        return job.record(Status.TIMEOUT, message)
+        return Outcome(job.timed_out(config.timeout), None, config.timeout)
     except ProcessExpired as error:
-        message = f"the process died with exit code {error.exitcode} before it could report"
-        return job.record(Status.FAILED, message)
+        message = f"the worker died with exit code {error.exitcode} before it could report"
+        return Outcome(job.record(Status.FAILED, message), None, 0.0)
     except (Exception, CancelledError) as error:
-        return job.record(Status.FAILED, f"no report came back: {type(error).__name__}: {error}")
+        message = f"no report came back: {type(error).__name__}: {error}"
+        return Outcome(job.record(Status.FAILED, message), None, 0.0)

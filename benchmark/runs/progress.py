@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from rich.console import Console
 from rich.progress import (
@@ -13,9 +13,9 @@ from rich.progress import (
     Progress,
     TextColumn,
     TimeElapsedColumn,
-    TimeRemainingColumn,
 )
 
+from mocapbench.benchmark.runs.job import Outcome
 from mocapbench.benchmark.runs.record import Record, Status
 
 __all__ = ["watch"]
@@ -23,55 +23,77 @@ __all__ = ["watch"]
 _PLAIN_INTERVAL = 5.0
 
 
-def watch(records: Iterable[Record], total: int, console: Console) -> Iterator[Record]:
-    """Yield ``records`` as they come, showing how many are done, failed and left.
+def watch(
+    outcomes: Iterable[Outcome], total: int, time_left: Callable[[], float], console: Console
+) -> Iterator[Outcome]:
+    """Yield ``outcomes`` as they come, showing how many are done, failed and left.
 
     Parameters
     ----------
-    records : iterable of Record
+    outcomes : iterable of Outcome
     total : int
         How many are expected.
+    time_left : callable
+        Returns the seconds that the others are expected to take.
     console : rich.console.Console
         Where to show it; a live bar if it is a terminal.
     """
     display = _bar if console.is_terminal else _lines
-    yield from display(records, total, console)
+    yield from display(outcomes, total, time_left, console)
 
 
-def _bar(records: Iterable[Record], total: int, console: Console) -> Iterator[Record]:
+def _bar(
+    outcomes: Iterable[Outcome], total: int, time_left: Callable[[], float], console: Console
+) -> Iterator[Outcome]:
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
         TextColumn("{task.fields[failed]} failed"),
         TimeElapsedColumn(),
-        TimeRemainingColumn(),
+        TextColumn("about {task.fields[left]} left"),
     )
     counts: Counter[Status] = Counter()
     with Progress(*columns, console=console) as progress:
-        bar = progress.add_task("jobs", total=total, failed=0)
-        for record in records:
-            counts[record.status] += 1
-            progress.update(bar, advance=1, failed=_broken(counts), description=str(record.address))
-            _announce(record, console)
-            yield record
+        bar = progress.add_task("jobs", total=total, failed=0, left="…")
+        for outcome in outcomes:
+            counts[outcome.record.status] += 1
+            progress.update(
+                bar,
+                advance=1,
+                failed=_broken(counts),
+                left=_in_words(time_left()),
+                description=str(outcome.record.address),
+            )
+            _announce(outcome.record, console)
+            yield outcome
 
 
-def _lines(records: Iterable[Record], total: int, console: Console) -> Iterator[Record]:
+def _lines(
+    outcomes: Iterable[Outcome], total: int, time_left: Callable[[], float], console: Console
+) -> Iterator[Outcome]:
     counts: Counter[Status] = Counter()
-    started = shown = time.monotonic()
-    for record in records:
-        counts[record.status] += 1
-        _announce(record, console)
+    shown = time.monotonic()
+    for outcome in outcomes:
+        counts[outcome.record.status] += 1
+        _announce(outcome.record, console)
         now, done = time.monotonic(), counts.total()
         if now - shown >= _PLAIN_INTERVAL or done == total:
-            left = (now - started) / done * (total - done)
             console.print(
-                f"{done}/{total} jobs done, {_broken(counts)} failed, about {left:.0f} s left",
+                f"{done}/{total} jobs done, {_broken(counts)} failed, "
+                f"about {_in_words(time_left())} left",
                 highlight=False,
             )
             shown = now
-        yield record
+        yield outcome
+
+
+def _in_words(seconds: float) -> str:
+    """Return a duration in the unit that people would name it in."""
+    minutes, hours = round(seconds / 60), seconds / 3600
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{minutes} min" if minutes < 90 else f"{hours:.1f} h"
 
 
 def _announce(record: Record, console: Console) -> None:

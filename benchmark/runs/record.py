@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import dataclass, field, fields
 from enum import StrEnum
 from typing import Any, Self
 
@@ -91,9 +91,9 @@ class Record:
 
     def to_json(self) -> str:
         """Return the record as strict JSON; NaN becomes null, the address five entries."""
-        document = {**self.address._asdict(), **asdict(self)}
-        del document["address"]
-        return json.dumps({"format": FORMAT, **_without_nan(document)}, indent=1)
+        document = {item.name: getattr(self, item.name) for item in fields(self)}
+        document |= document.pop("address")._asdict()
+        return json.dumps({"format": FORMAT, **_without_nan(document)})
 
     @classmethod
     def from_json(cls, text: str) -> Self:

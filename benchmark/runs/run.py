@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from rich.console import Console
 
-from mocapbench.benchmark.runs.job import Job, WorkerConfig
+from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
+from mocapbench.benchmark.runs.job_queue import JobQueue
 from mocapbench.benchmark.runs.pool import execute
 from mocapbench.benchmark.runs.progress import watch
 from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.runs.spool import Spool
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.datasets import Archive
 
@@ -28,7 +34,8 @@ def run(
     """Return the records of ``jobs``, in their order.
 
     A record that exists is not computed again, unless its job broke, in which case it is tried
-    once more. Records are written as they come, so that an interrupted run loses nothing.
+    once more. Records and predictions are written as they come, so that an interrupted run loses
+    nothing.
 
     Parameters
     ----------
@@ -45,22 +52,43 @@ def run(
     todo = [job for job in jobs if job.key not in finished]
     if finished:
         console.print(f"{len(finished)} of {len(jobs)} jobs are in {store.path} already")
-    for record in watch(_records(todo, config, n_workers), len(todo), console):
-        store.save(record)
+    for job in todo:
+        if job.missing:
+            finished[job.key] = _without_data(job, config)
+            store.save(finished[job.key])
+    todo = [job for job in todo if not job.missing]
+    for record in _computed(todo, store, config, n_workers, console):
         finished[record.key] = record
     return [finished[job.key] for job in jobs]
 
 
-def _records(jobs: Sequence[Job], config: WorkerConfig, n_workers: int) -> Iterator[Record]:
-    """Yield at once the jobs whose recordings cannot be had, then the others as they end."""
-    for job in jobs:
-        if job.missing:
-            trials = " ".join(uri.removeprefix("cmu:") for uri in job.missing)
-            plugins = "".join(f" --plugin {shlex.quote(str(path))}" for path in config.plugins)
-            command = f"{Archive.fetch_command(*job.missing)}{plugins}"
-            yield job.record(
-                Status.DATA_MISSING,
-                f"{trials} cannot be had: get it with `{command}`",
-                provenance=config.provenance,
-            )
-    yield from execute([job for job in jobs if not job.missing], config, n_workers)
+def _computed(
+    jobs: Sequence[Job], store: Store, config: WorkerConfig, n_workers: int, console: Console
+) -> Iterator[Record]:
+    """Yield the record of each job as it ends, once it is in the store."""
+    archive, queue = archive_at(config.data_dir), JobQueue(jobs)
+    with TemporaryDirectory(prefix="mocapbench-") as folder:
+        spool = Spool(Path(folder))
+
+        def work(job: Job) -> Work:
+            spool.add(archive, job.digests)
+            already_damaged = len(store.damaged)
+            fit = store.load_fit(job.fit_key)
+            return Work(job, fit, tuple(store.damaged[already_damaged:]))
+
+        outcomes = execute(queue, work, config, spool, n_workers)
+        left = partial(queue.time_left, n_workers)
+        for outcome in watch(outcomes, len(jobs), left, console):
+            if outcome.fit is not None:
+                store.save_fit(outcome.record.fit_key, outcome.fit)
+            store.save(outcome.record)
+            yield outcome.record
+
+
+def _without_data(job: Job, config: WorkerConfig) -> Record:
+    """Return the record of a job whose recordings cannot be had."""
+    trials = " ".join(uri.removeprefix("cmu:") for uri in job.missing)
+    plugins = "".join(f" --plugin {shlex.quote(str(path))}" for path in config.plugins)
+    command = f"{Archive.fetch_command(*job.missing)}{plugins}"
+    message = f"{trials} cannot be had: get it with `{command}`"
+    return job.record(Status.DATA_MISSING, message, provenance=config.provenance)

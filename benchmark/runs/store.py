@@ -7,11 +7,12 @@
         mocapbench.lock             held by a run that writes
         plan.json                   the keys of the last run, in table order
         check.json                  what the last regression check of that run found
-        records/<score key>.json
-        predictions/<fit key>.npz
+        records/ab/<score key>.json
+        predictions/ab/<fit key>.npz
 
-Resuming skips what exists; merging two machines' work is copying files. A truncated or foreign
-file is reported in `Store.damaged` and treated as absent.
+The folders between are named by the first two digits of the keys, so that none gets slow to list;
+earlier versions wrote without them, which is read too. Resuming skips what exists. A truncated or
+foreign file is reported in `Store.damaged` and treated as absent.
 """
 
 from __future__ import annotations
@@ -125,7 +126,7 @@ class Store:
 
     def load(self, key: str) -> Record | None:
         """Return the record called ``key``, or None if it is absent or damaged."""
-        path = self._record_path(key)
+        path = _there(self._record_path(key))
         if not path.is_file():
             return None
         try:
@@ -144,12 +145,12 @@ class Store:
 
     def save(self, record: Record) -> None:
         """Write ``record`` whole or not at all."""
-        with atomic_write(self._record_path(record.key)) as file:
+        with atomic_write(_made(self._record_path(record.key))) as file:
             file.write(record.to_json().encode())
 
     def records(self) -> list[Record]:
         """Return every whole record, by name of file."""
-        keys = sorted(path.stem for path in (self.path / "records").glob("*.json"))
+        keys = sorted({path.stem for path in (self.path / "records").rglob("*.json")})
         return [record for key in keys if (record := self.load(key)) is not None]
 
     def planned(self) -> list[Record]:
@@ -165,7 +166,7 @@ class Store:
 
     def load_fit(self, key: str) -> Fit | None:
         """Return the fit called ``key``, or None if it is absent or damaged."""
-        path = self._fit_path(key)
+        path = _there(self._fit_path(key))
         if not path.is_file():
             return None
         try:
@@ -183,7 +184,7 @@ class Store:
         """Write ``fit`` whole or not at all."""
         about = {name: value for name, value in asdict(fit).items() if name != "arrays"}
         about["key"] = key
-        with atomic_write(self._fit_path(key)) as file:
+        with atomic_write(_made(self._fit_path(key))) as file:
             arrays: dict[str, Any] = {**fit.arrays, "about": np.array(json.dumps(about))}
             np.savez_compressed(file, **arrays)
 
@@ -235,10 +236,22 @@ class Store:
             return None
 
     def _record_path(self, key: str) -> Path:
-        return self.path / "records" / f"{key}.json"
+        return self.path / "records" / key[:2] / f"{key}.json"
 
     def _fit_path(self, key: str) -> Path:
-        return self.path / "predictions" / f"{key}.npz"
+        return self.path / "predictions" / key[:2] / f"{key}.npz"
+
+
+def _made(path: Path) -> Path:
+    """Return ``path``, whose folder is there from now on."""
+    path.parent.mkdir(exist_ok=True)
+    return path
+
+
+def _there(path: Path) -> Path:
+    """Return where a file is: earlier versions put it one folder higher."""
+    flat = path.parents[1] / path.name
+    return path if path.is_file() or not flat.is_file() else flat
 
 
 def _renamed(by_metric: Mapping[str, Any]) -> dict[str, Any]:

@@ -36,7 +36,7 @@ def broken_models():
 
 
 def _records(out):
-    documents = [json.loads(p.read_text()) for p in (Path(out) / "records").glob("*.json")]
+    documents = [json.loads(p.read_text()) for p in (Path(out) / "records").rglob("*.json")]
     return {(d["task"], d["case"], d["label"], d["fold"]): d for d in documents}
 
 

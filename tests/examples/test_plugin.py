@@ -41,7 +41,7 @@ def test_from_one_file_one_runs_reports_checks_and_compares(tmp_path):
         *("run", *plugin, "--tasks", "pendulums", "--offline", "--out", "run"),
         *("--models", "linear-dynamics,cubic-spline,trivial"),
     )
-    documents = [json.loads(p.read_text()) for p in (tmp_path / "run" / "records").glob("*.json")]
+    documents = [json.loads(p.read_text()) for p in (tmp_path / "run" / "records").rglob("*.json")]
     assert len(documents) == 3 * 3 * 3
     assert all(document["status"] == "ok" for document in documents)
     assert all(document["scores"]["worst_error"] >= 0 for document in documents)

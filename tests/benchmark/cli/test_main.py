@@ -91,28 +91,28 @@ def test_scores_do_not_depend_on_the_order_of_registration(cli, records, tmp_pat
 
 def test_a_second_run_computes_nothing(cli, tmp_path):
     assert cli(*FAST, "--out", tmp_path / "run") == 0
-    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/records").iterdir()}
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/records").glob("*/*")}
     assert cli(*FAST, "--out", tmp_path / "run") == 0
     assert "4 of 4 jobs are in" in cli.printed
     assert before == {
-        path: path.stat().st_mtime_ns for path in (tmp_path / "run/records").iterdir()
+        path: path.stat().st_mtime_ns for path in (tmp_path / "run/records").glob("*/*")
     }
 
 
 def test_new_metrics_are_scored_without_refitting(cli, tmp_path):
     assert cli(*FAST, "--metrics", "mse", "--out", tmp_path / "run") == 0
-    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/predictions").iterdir()}
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/predictions").glob("*/*")}
     assert cli(*FAST, "--metrics", "mse,smse", "--out", tmp_path / "run") == 0
-    after = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/predictions").iterdir()}
+    after = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/predictions").glob("*/*")}
     assert before == after
-    rescored = [p for p in (tmp_path / "run/records").iterdir() if '"smse"' in p.read_text()]
+    rescored = [p for p in (tmp_path / "run/records").glob("*/*") if '"smse"' in p.read_text()]
     assert len(rescored) == 4
 
 
 def test_a_damaged_record_is_reported_and_computed_again(cli, records, tmp_path):
     assert cli(*FAST, "--out", tmp_path / "run") == 0
     whole = _scores(records(tmp_path / "run"))
-    victim = next((tmp_path / "run" / "records").iterdir())
+    victim = next((tmp_path / "run" / "records").glob("*/*"))
     victim.write_text(victim.read_text()[:100])
     assert cli(*FAST, "--out", tmp_path / "run") == 0
     assert "damaged, so not trusted" in cli.printed
@@ -353,7 +353,7 @@ def test_an_interrupted_run_resumes_to_the_same_scores(cli, records, tmp_path, h
         stderr=subprocess.PIPE,
         text=True,
     )
-    while len(list(out.glob("records/*.json"))) < 3:
+    while len(list(out.glob("records/*/*.json"))) < 3:
         assert process.poll() is None
         time.sleep(0.01)
     os.killpg(process.pid, how)

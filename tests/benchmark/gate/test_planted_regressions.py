@@ -14,7 +14,7 @@ from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.problems.masks import hide_all_but
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.runs.evaluate import evaluate
-from mocapbench.benchmark.runs.job import WorkerConfig
+from mocapbench.benchmark.runs.job import Work, WorkerConfig
 from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.runs.provenance import provenance
 from mocapbench.benchmark.runs.store import Store
@@ -47,11 +47,12 @@ def run(tmp_path):
         store = Store.create(tmp_path / name)
         about = {**provenance(["test"], threads=1), "profile": "smoke", "seed": "0"}
         unlimited = resource.RLIM_INFINITY
-        config = WorkerConfig(store.path, None, (), 60.0, unlimited, 1, about)
+        config = WorkerConfig(None, (), 60.0, unlimited, 1, about)
         request = Request("smoke", ("toy-interpolation-1",), (model,), folds=n_folds)
-        jobs = plan(request, archive_at(None))
+        archive = archive_at(None)
+        jobs = plan(request, archive)
         for job in jobs:
-            record = evaluate(job, config)
+            record, _ = evaluate(Work(job, None), config, archive)
             assert not record.message
             store.save(record)
         store.save_plan({"keys": [job.key for job in jobs], "provenance": about})

@@ -1,3 +1,4 @@
+import hashlib
 import json
 import math
 from dataclasses import replace
@@ -88,7 +89,7 @@ def test_scores_of_a_metric_that_was_renamed_are_loaded_under_its_name(store, re
 
 def test_a_damaged_record_is_reported_and_not_trusted(store, record):
     store.save(record)
-    path = store.path / "records" / f"{record.key}.json"
+    path = store.path / "records" / record.key[:2] / f"{record.key}.json"
     path.write_bytes(path.read_bytes()[:-20])
     assert store.load(record.key) is None
     assert str(path) in store.damaged[0]
@@ -97,7 +98,7 @@ def test_a_damaged_record_is_reported_and_not_trusted(store, record):
 def test_a_record_under_another_name_is_not_trusted(store, record):
     store.save(record)
     folder = store.path / "records"
-    (folder / f"{record.key}.json").rename(folder / f"{'x' * 64}.json")
+    (folder / record.key[:2] / f"{record.key}.json").rename(folder / f"{'x' * 64}.json")
     assert store.load("x" * 64) is None
     assert "holds the record" in store.damaged[0]
 
@@ -113,7 +114,7 @@ def test_predictions_survive_and_truncated_ones_are_reported(store, data):
     np.testing.assert_array_equal(back.arrays["mean-0"], fit.arrays["mean-0"])
     assert (back.fit_seconds, back.iterations, back.engine) == (1.5, 7, "dense")
     assert back.warnings == ("careful",)
-    path = store.path / "predictions" / "key.npz"
+    path = store.path / "predictions" / "ke" / "key.npz"
     path.write_bytes(path.read_bytes()[: data.draw(st.integers(0, path.stat().st_size - 1))])
     store.damaged.clear()
     assert store.load_fit("key") is None
@@ -123,7 +124,7 @@ def test_predictions_survive_and_truncated_ones_are_reported(store, data):
 def test_predictions_under_another_name_are_not_trusted(store):
     store.save_fit("key", Fit({"mean-0": np.zeros((2, 3))}, 1.0, 1.0, 1.0, None, None))
     folder = store.path / "predictions"
-    (folder / "key.npz").rename(folder / "other.npz")
+    (folder / "ke" / "key.npz").rename(folder / "other.npz")
     assert store.load_fit("other") is None
     assert "another job" in store.damaged[0]
 
@@ -175,3 +176,22 @@ def test_a_damaged_plan_says_what_to_do(store):
     (store.path / "plan.json").write_text("{")
     with pytest.raises(UsageError, match="run `mocapbench run` again"):
         store.load_plan()
+
+
+def test_records_and_predictions_of_earlier_versions_are_read(store, record):
+    """They lay side by side, without the folders between."""
+    store.save(record)
+    store.save_fit("key", Fit({"mean-0": np.zeros((2, 3))}, 1.0, 1.0, 1.0, None, None))
+    for path in [*store.path.glob("records/*/*"), *store.path.glob("predictions/*/*")]:
+        path.rename(path.parents[1] / path.name)
+    assert store.load(record.key) == record
+    assert store.records() == [record]
+    assert store.load_fit("key") is not None
+
+
+def test_no_folder_holds_more_than_a_small_part_of_many_records(store, record):
+    keys = [hashlib.sha256(bytes([n, m])).hexdigest() for n in range(8) for m in range(125)]
+    for key in keys:
+        store.save(replace(record, key=key))
+    assert [found.key for found in store.records()] == sorted(keys)
+    assert max(len([*folder.iterdir()]) for folder in (store.path / "records").iterdir()) < 20

@@ -29,8 +29,8 @@ def similarity(posed):
 def test_rows_of_one_recording_are_fitted_once(cli, tmp_path):
     arguments = ("--tasks", TASK.name, "--cases", "synthetic 1 vs *", "--offline")
     assert cli("run", *arguments, "--out", tmp_path) == 0
-    assert len(list((tmp_path / "records").glob("*.json"))) == 2
-    assert len(list((tmp_path / "predictions").glob("*.npz"))) == 1
+    assert len(list((tmp_path / "records").rglob("*.json"))) == 2
+    assert len(list((tmp_path / "predictions").rglob("*.npz"))) == 1
 
 
 def test_real_recordings_are_replayed_and_no_model_takes_part():

@@ -1,0 +1,111 @@
+"""The jobs that wait: the longest go first, as far as it is known how long they take."""
+
+from __future__ import annotations
+
+import time
+from collections import defaultdict, deque
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from mocapbench.benchmark.runs.job import Job
+
+__all__ = ["JobQueue"]
+
+
+class _Kind(NamedTuple):
+    """Jobs that are expected to take equally long."""
+
+    task: str
+    label: str
+    rescored: bool
+    """Whether the predictions are there already."""
+
+
+class _Mean:
+    def __init__(self) -> None:
+        self.count, self.total = 0, 0.0
+
+    def add(self, value: float) -> None:
+        self.count, self.total = self.count + 1, self.total + value
+
+    @property
+    def value(self) -> float | None:
+        return self.total / self.count if self.count else None
+
+
+class JobQueue:
+    """Jobs in an order that keeps all workers busy to the end.
+
+    One job of each entrant and task goes first, to learn how long they take; then those of the
+    slowest entrants. Of jobs that share their predictions only one waits at first, since the
+    others can score what it predicts.
+
+    Parameters
+    ----------
+    jobs : iterable of Job
+    """
+
+    def __init__(self, jobs: Iterable[Job]) -> None:
+        self._waiting: dict[_Kind, deque[Job]] = defaultdict(deque)
+        self._followers: dict[str, list[Job]] = defaultdict(list)
+        self._leads: set[str] = set()
+        self._running: dict[str, tuple[_Kind, float]] = {}
+        self._untried: deque[_Kind] = deque()
+        self._seconds: dict[_Kind, _Mean] = defaultdict(_Mean)
+        self._by_label: dict[str, _Mean] = defaultdict(_Mean)
+        self._overall = _Mean()
+        for job in jobs:
+            if job.fit_key in self._leads:
+                self._followers[job.fit_key].append(job)
+            else:
+                self._leads.add(job.fit_key)
+                self._append(job, rescored=False)
+
+    def _append(self, job: Job, *, rescored: bool) -> None:
+        kind = _Kind(job.address.task, job.address.label, rescored)
+        if kind not in self._waiting:
+            self._untried.append(kind)
+        self._waiting[kind].append(job)
+
+    def take(self) -> Job | None:
+        """Return the job to start next; None if none can start now."""
+        kind = self._next_kind()
+        if kind is None:
+            return None
+        job = self._waiting[kind].popleft()
+        self._running[job.key] = (kind, time.monotonic())
+        return job
+
+    def _next_kind(self) -> _Kind | None:
+        if self._untried:
+            return self._untried.popleft()
+        waiting = [kind for kind, jobs in self._waiting.items() if jobs]
+        return max(waiting, key=self._expected, default=None)
+
+    def ended(self, job: Job, seconds: float) -> None:
+        """Take note that a job that was taken has ended after so many seconds."""
+        kind, _ = self._running.pop(job.key)
+        self._learn(kind, seconds)
+        for follower in self._followers.pop(job.fit_key, ()):
+            self._append(follower, rescored=True)
+
+    def _learn(self, kind: _Kind, seconds: float) -> None:
+        for mean in (self._seconds[kind], self._by_label[kind.label], self._overall):
+            mean.add(seconds)
+
+    def _expected(self, kind: _Kind) -> float:
+        """Return the seconds that a job takes, from those most like it that have ended."""
+        known = (self._seconds[kind], self._by_label[kind.label], self._overall)
+        return next((mean.value for mean in known if mean.value is not None), 0.0)
+
+    def time_left(self, n_workers: int) -> float:
+        """Return about how many seconds it takes until all jobs have ended."""
+        now = time.monotonic()
+        running = [
+            max(self._expected(kind) - (now - started), 0.0)
+            for kind, started in self._running.values()
+        ]
+        waiting = [(self._expected(kind), len(jobs)) for kind, jobs in self._waiting.items()]
+        work = sum(running) + sum(seconds * count for seconds, count in waiting)
+        longest = max([*running, *(seconds for seconds, count in waiting if count)], default=0.0)
+        return max(work / n_workers, longest)

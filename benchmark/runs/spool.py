@@ -1,0 +1,107 @@
+"""The recordings of a run, each read once and kept as a file that every worker loads.
+
+To read an original again for every job would cost more than most baselines' fits.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import pickle
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+from mocapbench.benchmark.files import atomic_write
+from mocapbench.datasets import Archive, Library, Recording, Skeleton, SkeletonUnavailable
+
+__all__ = ["Spool", "SpooledArchive"]
+
+
+class _Content(NamedTuple):
+    recording: Recording
+    skeleton: Skeleton | None
+
+
+class Spool:
+    """A folder of recordings that belongs to one run.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the files are; each is named by the address and the digest of its recording.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def add(self, archive: Archive, digests: Mapping[str, str]) -> None:
+        """Read those recordings that are not here yet.
+
+        One that cannot be read is left out: the job that needs it says why.
+
+        Parameters
+        ----------
+        archive : Archive
+            Where they come from.
+        digests : mapping of str to str
+            Their digests by address.
+        """
+        for uri, digest in digests.items():
+            path = self.path(uri, digest)
+            if not path.exists():
+                try:
+                    content = _Content(archive.recording(uri), _skeleton(archive, uri))
+                except Exception:
+                    continue
+                with atomic_write(path) as file:
+                    pickle.dump(content, file, protocol=pickle.HIGHEST_PROTOCOL)
+
+    def load(self, uri: str, digest: str) -> _Content | None:
+        """Return a recording and its skeleton, or None if they are not here."""
+        path = self.path(uri, digest)
+        return pickle.loads(path.read_bytes()) if path.exists() else None
+
+    def path(self, uri: str, digest: str) -> Path:
+        """Return the file of a recording."""
+        return self.folder / hashlib.sha256(f"{uri}\0{digest}".encode()).hexdigest()
+
+
+def _skeleton(archive: Archive, uri: str) -> Skeleton | None:
+    try:
+        return archive.skeleton(uri)
+    except SkeletonUnavailable:
+        return None
+
+
+class SpooledArchive(Archive):
+    """An archive that takes from a spool what is there.
+
+    Parameters
+    ----------
+    libraries : mapping of str to Library
+        For all else.
+    spool : Spool
+    digests : mapping of str to str
+        The digests, by address, of the recordings wanted.
+    """
+
+    def __init__(
+        self, libraries: Mapping[str, Library], spool: Spool, digests: Mapping[str, str]
+    ) -> None:
+        super().__init__(libraries)
+        self.spool = spool
+        self.digests = digests
+
+    def recording(self, uri: str) -> Recording:
+        """Return a recording, named by its address; see `Archive.recording`."""
+        content = self._spooled(uri)
+        return super().recording(uri) if content is None else content.recording
+
+    def skeleton(self, uri: str) -> Skeleton:
+        """Return the skeleton of a recording; see `Archive.skeleton`."""
+        content = self._spooled(uri)
+        known = None if content is None else content.skeleton
+        return super().skeleton(uri) if known is None else known
+
+    def _spooled(self, uri: str) -> _Content | None:
+        return self.spool.load(uri, self.digests[uri]) if uri in self.digests else None

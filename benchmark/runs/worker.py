@@ -1,0 +1,74 @@
+"""One worker: it lives for many jobs, and gives each of them a process of its own.
+
+It loads what the jobs need; its children, which share its memory, fit and score.
+"""
+
+from __future__ import annotations
+
+import gc
+import time
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+
+from threadpoolctl import threadpool_limits
+
+from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.plugins import load_plugin
+from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.runs.child import ProcessDiedError, call_in_child, die_with_parent
+from mocapbench.benchmark.runs.evaluate import evaluate
+from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
+from mocapbench.benchmark.runs.record import Status
+from mocapbench.benchmark.runs.spool import Spool, SpooledArchive
+
+__all__ = ["prepare_worker", "run_job"]
+
+
+def prepare_worker() -> None:
+    """Make this process a worker: it ends with its parent and computes with one thread."""
+    die_with_parent()
+    # One BLAS thread, so that results do not depend on how many jobs run at once.
+    threadpool_limits(1)
+
+
+def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
+    """Return the outcome of one job; whatever its model does becomes a failed record.
+
+    Parameters
+    ----------
+    work : Work
+    config : WorkerConfig
+    spool : Spool
+        The recordings that the run has read.
+    """
+    job, started = work.job, time.perf_counter()
+    _load_plugins(config.plugins)
+    _import_code(job.model, job.address.task, job.metrics)
+    archive = SpooledArchive(archive_at(config.data_dir).libraries, spool, job.digests)
+    try:
+        record, fit = call_in_child(evaluate, work, config, archive, timeout=config.timeout)
+    except TimeoutError:
+        record, fit = job.timed_out(config.timeout), None
+    except ProcessDiedError as error:
+        message = f"the process died with exit code {error.exit_code} before it could report"
+        record, fit = job.record(Status.FAILED, message), None
+    return Outcome(record, fit, time.perf_counter() - started)
+
+
+@cache
+def _load_plugins(paths: tuple[Path, ...]) -> None:
+    for path in paths:
+        load_plugin(path)
+
+
+@cache
+def _import_code(model: str, task: str, metrics: tuple[str, ...]) -> None:
+    """Import what every child would import again; of what fails, the child gives the reason."""
+    with suppress(Exception):
+        TASKS.get(task)
+        MODELS.get(model)
+        list(map(METRICS.get, metrics))
+    # What lives as long as the worker is no garbage; to look for garbage there would copy that
+    # memory into every child.
+    gc.freeze()
