@@ -8,21 +8,27 @@ from __future__ import annotations
 
 import ctypes
 import multiprocessing
+import os
 import pickle
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkProcess
-from typing import Any
+from pathlib import Path
+from typing import Any, cast
 
-import psutil
-
-__all__ = ["ProcessDiedError", "call_in_child", "die_with_parent"]
+__all__ = [
+    "ProcessDiedError",
+    "adopt_orphans",
+    "call_in_child",
+    "die_with_parent",
+    "kill_children",
+]
 
 _FORK = multiprocessing.get_context("fork")
-_PR_SET_PDEATHSIG = 1  # of prctl(2)
+_PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36  # of prctl(2)
 
 
 class ProcessDiedError(Exception):
@@ -51,7 +57,7 @@ def call_in_child(function: Callable[..., Any], *arguments: Any, timeout: float)
     *arguments
         What it is called with.
     timeout : float
-        Seconds after which the process and its descendants are killed.
+        Seconds after which the process is killed.
 
     Raises
     ------
@@ -64,19 +70,12 @@ def call_in_child(function: Callable[..., Any], *arguments: Any, timeout: float)
     process = _FORK.Process(target=_report, args=(sender, function, arguments))
     process.start()
     sender.close()
-    with receiver:
-        try:
-            return pickle.loads(_received(receiver, process, timeout))
-        except EOFError:
-            process.join(timeout)
-            raise ProcessDiedError(process.exitcode) from None
-        except TimeoutError:
-            _kill_descendants(process)
-            raise
-        finally:
-            process.kill()
-            process.join()
-            process.close()
+    try:
+        return pickle.loads(_received(receiver, process, timeout))
+    finally:
+        process.kill()
+        process.join()
+        process.close()
 
 
 def _report(sender: Connection, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
@@ -88,18 +87,38 @@ def _report(sender: Connection, function: Callable[..., Any], arguments: tuple[A
 
 
 def _received(receiver: Connection, process: ForkProcess, timeout: float) -> bytes:
-    # The process is waited for as well: one that it started may keep its end of the pipe open.
-    if not wait([receiver, process.sentinel], timeout):
-        raise TimeoutError
-    if not receiver.poll():
-        raise EOFError
-    return receiver.recv_bytes()
+    # Not the process's sentinel, a pipe which stays open while a process that it started runs on.
+    ended = os.pidfd_open(cast(int, process.pid))
+    try:
+        with receiver:
+            if not wait([receiver, ended], timeout):
+                raise TimeoutError
+            if receiver.poll():
+                return receiver.recv_bytes()
+    except EOFError:  # it closed the pipe, and should end now
+        wait([ended], timeout)
+    finally:
+        os.close(ended)
+    raise ProcessDiedError(process.exitcode)
 
 
-def _kill_descendants(process: ForkProcess) -> None:
-    with suppress(psutil.NoSuchProcess):  # it may end at this very moment
-        for descendant in psutil.Process(process.pid).children(recursive=True):
-            descendant.kill()
+def adopt_orphans() -> None:
+    """Become the parent of what descendants of this process leave behind, so that it is found."""
+    ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1)
+
+
+def kill_children() -> None:
+    """Kill every child of this process, and those that it then adopts."""
+    while children := [*_children()]:
+        for child in children:
+            os.kill(child, signal.SIGKILL)
+            os.waitpid(child, 0)
+
+
+def _children() -> Iterator[int]:
+    for thread in Path("/proc/self/task").iterdir():
+        with suppress(FileNotFoundError):  # a kernel that does not list children
+            yield from map(int, (thread / "children").read_text().split())
 
 
 def die_with_parent() -> None:

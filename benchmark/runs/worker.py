@@ -16,7 +16,13 @@ from threadpoolctl import threadpool_limits
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
-from mocapbench.benchmark.runs.child import ProcessDiedError, call_in_child, die_with_parent
+from mocapbench.benchmark.runs.child import (
+    ProcessDiedError,
+    adopt_orphans,
+    call_in_child,
+    die_with_parent,
+    kill_children,
+)
 from mocapbench.benchmark.runs.evaluate import evaluate
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Status
@@ -28,6 +34,7 @@ __all__ = ["prepare_worker", "run_job"]
 def prepare_worker() -> None:
     """Make this process a worker: it ends with its parent and computes with one thread."""
     die_with_parent()
+    adopt_orphans()
     # One BLAS thread, so that results do not depend on how many jobs run at once.
     threadpool_limits(1)
 
@@ -53,6 +60,8 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
     except ProcessDiedError as error:
         message = f"the process died with exit code {error.exit_code} before it could report"
         record, fit = job.record(Status.FAILED, message), None
+    finally:
+        kill_children()  # what the job started and left running
     return Outcome(record, fit, time.perf_counter() - started)
 
 

@@ -61,7 +61,7 @@ style_clustering = Task(
     ),
     profiles={
         "smoke": Profile(("synthetic C = 2",), folds=1, budget={"max_iter": 3, "n_restarts": 1}),
-        "quick": Profile(("C = 2", "C = 4", "C = 6", "C = 8", "synthetic C = 4"), folds=3),
+        "quick": Profile(("C = 2", "C = 4", "C = 8", "synthetic C = 4"), folds=3),
         "paper": Profile(on_recordings(_CASES), folds=50),
     },
 )

@@ -75,7 +75,10 @@ walking_interpolation = Task(
             ("synthetic observed 40",), folds=1, budget={"max_iter": 5, "n_restarts": 1}
         ),
         "quick": Profile(
-            ("observed 40", "synthetic observed 40"), folds=1, budget={"max_iter": 200}
+            ("observed 40", "synthetic observed 40"),
+            folds=1,
+            budget={"max_iter": 200},
+            opt_in=("mohgp-1+5",),  # as long as all others together
         ),
         "paper": Profile(on_recordings(_CASES), folds=5, budget={"max_iter": 500}),
     },

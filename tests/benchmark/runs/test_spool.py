@@ -1,0 +1,84 @@
+"""Recordings are read once, and what comes back is the same and cannot be changed."""
+
+import dataclasses
+import pickle
+
+import numpy as np
+import pytest
+
+from mocapbench.benchmark.runs.spool import Spool, SpooledArchive
+from mocapbench.datasets import Archive, GaitLibrary, Library
+
+URI = "gait:01_01"
+
+
+class Counting(GaitLibrary):
+    """Counts how often a recording is read."""
+
+    def __init__(self):
+        super().__init__()
+        self.read = 0
+
+    def recording(self, key):
+        self.read += 1
+        return super().recording(key)
+
+
+class Broken(Library):
+    def where(self, key):
+        return "here"
+
+    def recording(self, key):
+        raise RuntimeError("cannot be read")
+
+
+@pytest.fixture
+def library():
+    return Counting()
+
+
+@pytest.fixture
+def spooled(library, tmp_path):
+    libraries = {"gait": library}
+    digests = {URI: Archive(libraries).digest(URI)}
+    spool = Spool(tmp_path)
+    for _ in range(3):
+        spool.add(Archive(libraries), digests)
+    return SpooledArchive(libraries, spool, digests)
+
+
+def test_it_is_read_once(spooled, library):
+    for _ in range(3):
+        spooled.recording(URI)
+    assert library.read == 1
+
+
+def test_what_comes_back_is_the_same(spooled, library):
+    original, copy = Archive({"gait": library}).recording(URI), spooled.recording(URI)
+    for field in dataclasses.fields(original):
+        np.testing.assert_array_equal(getattr(copy, field.name), getattr(original, field.name))
+    assert spooled.skeleton(URI) == library.skeleton("01_01")
+
+
+def test_no_copy_can_be_changed(spooled):
+    for recording in (spooled.recording(URI), pickle.loads(pickle.dumps(spooled.recording(URI)))):
+        for array in (recording.values, recording.times):
+            with pytest.raises(ValueError, match="cannot set WRITEABLE flag"):
+                array.setflags(write=True)
+
+
+def test_a_recording_that_is_not_in_it_comes_from_its_library(spooled, library):
+    assert spooled.recording("gait:01_02").name == "gait:01_02"
+    assert library.read == 2
+
+
+def test_another_digest_is_another_recording(spooled):
+    assert spooled.spool.load(URI, "another") is None
+
+
+def test_what_cannot_be_read_is_left_to_the_job_that_wants_it(tmp_path):
+    libraries = {"broken": Broken()}
+    Spool(tmp_path).add(Archive(libraries), {"broken:a": "digest"})
+    assert not [*tmp_path.iterdir()]
+    with pytest.raises(RuntimeError, match="cannot be read"):
+        SpooledArchive(libraries, Spool(tmp_path), {"broken:a": "digest"}).recording("broken:a")
