@@ -7,24 +7,28 @@ real captures only gives a warning: a last frame without its last segments is dr
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
+from io import StringIO
+from itertools import chain, takewhile
 from math import degrees
 from pathlib import Path
 
 import numpy as np
 
 from mocapbench.datasets.acclaim.errors import AcclaimError, TruncatedFrameWarning
+from mocapbench.datasets.acclaim.frames import Frame, Layout, frames
 from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.skeleton import Skeleton
-from mocapbench.datasets.acclaim.text import Line, finite_floats, read_text
+from mocapbench.datasets.acclaim.text import name_list, read_text
 
 __all__ = ["parse_motion", "read_motion"]
 
 _FULLY_SPECIFIED = ":FULLY-SPECIFIED"
 _DEGREES_PER = {":DEGREES": 1.0, ":RADIANS": degrees(1.0)}
-
-_Layout = Sequence[tuple[str, int]]
+_N_KEYWORDS = 2
+_MAX_DIGITS = 9  # of a frame number: 96 days
+_MAX_BYTES = 2**28  # about 45 minutes of all channels
 
 
 def read_motion(path: str | Path, skeleton: Skeleton) -> Motion:
@@ -46,12 +50,17 @@ def read_motion(path: str | Path, skeleton: Skeleton) -> Motion:
     Raises
     ------
     AcclaimError
-        If the file is missing, malformed or of another skeleton.
+        If the file is missing, malformed, of another skeleton or larger than 256 MiB.
 
     Warns
     -----
     TruncatedFrameWarning
         If the last frame is incomplete and was dropped.
+
+    Notes
+    -----
+    Reading takes at most 0.13 MB of memory, 16 bytes for each byte of the file, whatever it
+    contains, and 80 for each of the skeleton's; files of the CMU database take 7 for each byte.
 
     Examples
     --------
@@ -70,7 +79,11 @@ def read_motion(path: str | Path, skeleton: Skeleton) -> Motion:
     >>> again.channels[-1], again.values.shape
     ('ltoes.rx', (331, 62))
     """
-    return parse_motion(read_text(path), skeleton, str(path))
+    try:
+        return parse_motion(read_text(path, _MAX_BYTES), skeleton, str(path))
+    except AcclaimError as problem:
+        # The frames of the parser would keep the whole file in memory as long as the error.
+        raise problem.with_traceback(None) from problem.__cause__
 
 
 def parse_motion(text: str, skeleton: Skeleton, file: str) -> Motion:
@@ -95,110 +108,77 @@ def parse_motion(text: str, skeleton: Skeleton, file: str) -> Motion:
     TruncatedFrameWarning
         If the last frame is incomplete and was dropped.
     """
-    source = _Source(file, text.rstrip().split("\n"))
-    start, degrees_per_unit = _header(source)
-    first = _first(source, start)
-    segments = _segments(source, start, skeleton)
-    dof = [skeleton.moving[name] for name in segments]
-    rows = _rows(source, start, first, list(zip(segments, map(len, dof), strict=True)))
-    scale = [degrees_per_unit if name[0] == "r" else 1.0 for names in dof for name in names]
-    return Motion(skeleton, segments, np.array(rows) * scale)
+    text = text.rstrip()
+    start, degrees_per_unit = _header(text, file)
+    moving = skeleton.moving
+    split = partial(frames, text, file, start, 1 + len(moving))
+    opening = next(split(), Frame(file, start, ()))
+    first = _first(opening)
+    segments = _segments(opening, moving)
+    layout = [(name, len(moving[name])) for name in segments]
+    rows = _rows(split(), first, layout)
+    dof = [name for segment in segments for name in moving[segment]]
+    # Numbers go into the array at once: in lists, they would take four times the memory.
+    values = np.fromiter(chain.from_iterable(rows), dtype=np.float64).reshape(-1, len(dof))
+    values *= [degrees_per_unit if name[0] == "r" else 1.0 for name in dof]
+    return Motion(skeleton, segments, values)
 
 
-@dataclass(frozen=True)
-class _Source:
-    """The lines of a file."""
-
-    file: str
-    lines: Sequence[str]
-
-    def line(self, index: int) -> Line:
-        """Return the line at a 0-based index, an empty one after the last."""
-        text = self.lines[index] if index < len(self.lines) else ""
-        return Line(self.file, index + 1, text.rstrip())
-
-
-def _header(source: _Source) -> tuple[int, float]:
+def _header(text: str, file: str) -> tuple[int, float]:
     """Return the index of the first frame and the unit of its angles."""
-    keywords = []
+    keywords: list[str] = []
     index = 0
-    while index < len(source.lines) and source.lines[index].lstrip()[:1] in ("", "#", ":"):
-        keywords += [word for word in source.line(index).words[:1] if word.startswith(":")]
+    for line in takewhile(_is_header, StringIO(text)):
+        keywords += [word for word in line.split(maxsplit=1)[:1] if word.startswith(":")]
         index += 1
+        if len(keywords) > _N_KEYWORDS:
+            break
     units = [word for word in keywords if word in _DEGREES_PER]
     if len(units) != 1 or sorted(keywords) != sorted((*units, _FULLY_SPECIFIED)):
         expected = f"a header of {_FULLY_SPECIFIED!r} and one of {', '.join(_DEGREES_PER)}"
-        raise AcclaimError(source.file, index + 1, expected, " ".join(keywords) or "none")
+        raise AcclaimError(file, index + 1, expected, name_list(keywords) or "none")
     return index, _DEGREES_PER[units[0]]
 
 
-def _segments(source: _Source, start: int, skeleton: Skeleton) -> tuple[str, ...]:
-    """Return the order of the segments, from the first frame."""
-    moving = skeleton.moving
-    segments: list[str] = []
-    index = start + 1
-    while len(segments) < len(moving):
-        line = source.line(index)
-        name = line.words[0] if line.words else ""
-        if name not in moving or name in segments:
-            missing = ", ".join(name for name in moving if name not in segments)
-            raise line.error(f"one of the segments of the skeleton that remain: {missing}")
-        segments.append(name)
-        index += 1
-    return tuple(segments)
+def _is_header(line: str) -> bool:
+    return line.lstrip()[:1] in ("", "#", ":")
 
 
-def _rows(source: _Source, start: int, first: int, layout: _Layout) -> list[list[float]]:
-    """Return the values of each whole frame."""
-    size = 1 + len(layout)
-    rows = [
-        _row(source, index, number, layout)
-        for number, index in enumerate(range(start, len(source.lines), size), first)
-    ]
-    lacking = -(len(source.lines) - start) % size
-    if lacking:
-        warnings.warn(
-            f"{source.file}: the last frame lacks {lacking} of its {len(layout)} segments "
-            "and was dropped",
-            TruncatedFrameWarning,
-            stacklevel=4,
-        )
-        rows.pop()
-    return rows
-
-
-def _first(source: _Source, start: int) -> int:
-    line = source.line(start)
+def _first(opening: Frame) -> int:
+    """Return the number of the first frame."""
+    line = opening.line(0)
     number = line.words[0] if len(line.words) == 1 else ""
-    if not (number.isascii() and number.isdigit()):
-        raise line.error("the number of the first frame")
+    if not (number.isascii() and number.isdigit() and len(number) <= _MAX_DIGITS):
+        raise line.error(f"the number of the first frame, of at most {_MAX_DIGITS} digits")
     return int(number)
 
 
-def _row(source: _Source, start: int, number: int, layout: _Layout) -> list[float]:
-    """Return the values of the frame at line index ``start``; the last frame may be incomplete."""
-    if source.lines[start].split() != [str(number)]:
-        raise source.line(start).error(f"the frame number {number}")
-    shape = layout[: len(source.lines) - start - 1]  # fewer in an incomplete last frame
-    block = [text.split() for text in source.lines[start + 1 : start + 1 + len(shape)]]
-    try:
-        # All numbers of a frame at once: twice as fast as line by line.
-        if all(map(_has_shape, block, shape)):
-            return finite_floats([word for words in block for word in words[1:]])
-    except ValueError:
-        pass
-    wrong = next(k for k, words in enumerate(block) if not _is_segment(words, shape[k]))
-    name, count = shape[wrong]
-    raise source.line(start + 1 + wrong).error(f"segment {name!r} with {count} finite numbers")
+def _segments(opening: Frame, moving: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
+    """Return the order of the segments, from the first frame."""
+    remaining = dict(moving)
+    segments = []
+    for index in range(1, 1 + len(moving)):
+        line = opening.line(index)
+        name = line.words[0] if line.words else ""
+        if name not in remaining:
+            missing = name_list(remaining)
+            raise line.error(f"one of the segments of the skeleton that remain: {missing}")
+        del remaining[name]
+        segments.append(name)
+    return tuple(segments)
 
 
-def _has_shape(words: Sequence[str], segment: tuple[str, int]) -> bool:
-    return words[:1] == [segment[0]] and len(words) == 1 + segment[1]
-
-
-def _is_segment(words: Sequence[str], segment: tuple[str, int]) -> bool:
-    try:
-        finite_floats(words[1:])
-    except ValueError:
-        return False
-    return _has_shape(words, segment)
+def _rows(split: Iterable[Frame], first: int, layout: Layout) -> Iterator[list[float]]:
+    """Yield the values of each whole frame."""
+    for number, frame in enumerate(split, first):
+        row = frame.values(number, layout)
+        lacking = 1 + len(layout) - len(frame.texts)
+        if lacking:
+            warnings.warn(
+                f"{frame.file}: the last frame lacks {lacking} of its {len(layout)} segments "
+                "and was dropped",
+                TruncatedFrameWarning,
+                stacklevel=4,
+            )
+            return
+        yield row

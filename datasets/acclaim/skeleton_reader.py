@@ -13,10 +13,11 @@ from pathlib import Path
 from mocapbench.datasets.acclaim.blocks import Fields, blocks, sections
 from mocapbench.datasets.acclaim.errors import AcclaimError
 from mocapbench.datasets.acclaim.skeleton import Segment, Skeleton, Vector
-from mocapbench.datasets.acclaim.text import Line, read_text
+from mocapbench.datasets.acclaim.text import Line, name_list, read_text
 
 __all__ = ["parse_skeleton", "read_skeleton"]
 
+_MAX_BYTES = 2**20  # a file of the CMU database has 7,000
 _KEPT = {"name", "direction", "length", "axis", "dof"}
 _BONE_FIELDS = _KEPT | {"id", "limits", "bodymass", "cofmass"}
 _ROOT_FIELDS = {"order", "axis", "position", "orientation"}
@@ -42,7 +43,12 @@ def read_skeleton(path: str | Path) -> Skeleton:
     Raises
     ------
     AcclaimError
-        If the file is missing or malformed.
+        If the file is missing, malformed or larger than 1 MiB.
+
+    Notes
+    -----
+    Reading takes at most 0.13 MB of memory and 80 bytes for each byte of the file, whatever it
+    contains; files of the CMU database take 13 for each byte.
 
     Examples
     --------
@@ -56,7 +62,11 @@ def read_skeleton(path: str | Path) -> Skeleton:
     >>> skeleton.segments[2].name, skeleton.segments[2].dof
     ('upperback', ('rx', 'ry', 'rz'))
     """
-    return parse_skeleton(read_text(path), str(path))
+    try:
+        return parse_skeleton(read_text(path, _MAX_BYTES), str(path))
+    except AcclaimError as problem:
+        # The frames of the parser would keep the whole file in memory as long as the error.
+        raise problem.with_traceback(None) from problem.__cause__
 
 
 def parse_skeleton(text: str, file: str) -> Skeleton:
@@ -130,7 +140,7 @@ def _hang(section: Sequence[Line], segments: Mapping[str, Segment]) -> tuple[Seg
             placed[child] = replace(segments[child], parent=parent)
     lost = sorted(segments.keys() - placed.keys())
     if lost:
-        raise section[0].error(f"a place in the hierarchy for {', '.join(lost)}")
+        raise section[0].error(f"a place in the hierarchy for {name_list(lost)}")
     return tuple(placed.values())
 
 

@@ -1,22 +1,29 @@
-"""The text of an Acclaim file: bounded reading, and lines with file and number for errors."""
+"""The text of an Acclaim file: bounded reading, and lines with file and number for errors.
+
+Lines are taken from the text one after another: a list of all of them would need up to 30 times the
+memory of the text, as every short string has a header of its own.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
+from io import StringIO
 from math import isfinite
 from pathlib import Path
 from typing import BinaryIO
 
 from mocapbench.datasets.acclaim.errors import AcclaimError
 
-__all__ = ["MAX_LINE", "Line", "content_lines", "finite_floats", "read_text"]
+__all__ = ["MAX_LINE", "Line", "content_lines", "finite_floats", "name_list", "read_text"]
 
 MAX_LINE = 4096
 """Longest line in bytes that is accepted; the CMU database has lines of about a hundred."""
 
 _SHOWN = 60
+_SHOWN_NAMES = 400  # all segments of the CMU database's skeletons
 _HUGE = 1e100  # far from where arithmetic on the values could overflow
 
 
@@ -37,7 +44,7 @@ def finite_floats(words: Sequence[str]) -> list[float]:
     return values
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Line:
     """One line of a file.
 
@@ -62,8 +69,7 @@ class Line:
 
     def error(self, expected: str) -> AcclaimError:
         """Return an error for this line, given what was expected."""
-        shown = self.text if len(self.text) <= _SHOWN else self.text[:_SHOWN] + "…"
-        return AcclaimError(self.file, self.number, expected, repr(shown))
+        return AcclaimError(self.file, self.number, expected, repr(_beginning(self.text, _SHOWN)))
 
     def floats(self, start: int, stop: int) -> tuple[float, ...]:
         """Return the words from ``start`` to ``stop`` (exclusive) as finite numbers.
@@ -74,49 +80,75 @@ class Line:
             If there are fewer words, or one is not a finite number.
         """
         words = self.words[start:stop]
-        expected = f"{self.words[0]!r} with {stop - start} finite numbers"
-        if len(words) != stop - start:
-            raise self.error(expected)
-        try:
-            return tuple(finite_floats(words))
-        except ValueError:
-            raise self.error(expected) from None
+        if len(words) == stop - start:
+            with suppress(ValueError):
+                return tuple(finite_floats(words))
+        # Not in the clause: an error keeps the one before it, and with that the parser's frames.
+        raise self.error(f"{self.words[0]!r} with {stop - start} finite numbers")
 
 
 def content_lines(text: str, file: str) -> Iterator[Line]:
     """Yield the lines that are neither blank nor a comment."""
-    for number, line in enumerate(text.split("\n"), 1):
+    for number, line in enumerate(StringIO(text), 1):
         if line.strip() and not line.lstrip().startswith("#"):
             yield Line(file, number, line.rstrip())
 
 
-def read_text(path: str | Path) -> str:
-    """Return the text of a file, without loading any line longer than `MAX_LINE` bytes.
+def name_list(names: Iterable[str]) -> str:
+    """Return the names with commas between them, or their beginning if they are many."""
+    return _beginning(", ".join(names), _SHOWN_NAMES)
+
+
+def read_text(path: str | Path, max_bytes: int) -> str:
+    """Return the text of a file, without loading more than is accepted.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    max_bytes : int
+        Size of the largest file that is accepted; of its lines, none may exceed `MAX_LINE` bytes.
 
     Raises
     ------
     AcclaimError
-        If the file cannot be opened, has an over-long line, is empty or is not UTF-8.
+        If the file cannot be opened, is too large, has an over-long line, is empty or is not UTF-8.
     """
     file = str(path)
+    data = bytearray()
     try:
         with Path(path).open("rb") as stream:
-            data = b"".join(_bounded_lines(stream, file))
+            for line in _bounded_lines(stream, file, max_bytes):
+                data += line
     except OSError as problem:
         raise AcclaimError(file, None, "a readable file", str(problem)) from problem
-    if not data.strip():
+    if not data or data.isspace():
         raise AcclaimError(file, None, "an Acclaim file", "an empty file")
-    try:
-        return data.decode("utf-8")
-    except UnicodeDecodeError as problem:
-        line = data.count(b"\n", 0, problem.start) + 1
-        got = f"the byte {data[problem.start]:#04x}"
-        raise AcclaimError(file, line, "UTF-8 text", got) from problem
+    return _decoded(data, file)
 
 
-def _bounded_lines(stream: BinaryIO, file: str) -> Iterator[bytes]:
+def _bounded_lines(stream: BinaryIO, file: str, max_bytes: int) -> Iterator[bytes]:
+    size = 0
     for number, line in enumerate(iter(partial(stream.readline, MAX_LINE + 1), b""), 1):
         if len(line) > MAX_LINE:
             expected = f"a line of at most {MAX_LINE} bytes"
             raise AcclaimError(file, number, expected, "a longer one")
+        size += len(line)
+        if size > max_bytes:
+            expected = f"a file of at most {max_bytes / 2**20:g} MiB"
+            raise AcclaimError(file, None, expected, "a larger one")
         yield line
+
+
+def _decoded(data: bytearray, file: str) -> str:
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as problem:
+        start = problem.start
+    # Not in the clause, as the other error keeps all of the data.
+    line = data.count(b"\n", 0, start) + 1
+    raise AcclaimError(file, line, "UTF-8 text", f"the byte {data[start]:#04x}")
+
+
+def _beginning(text: str, length: int) -> str:
+    return text if len(text) <= length else text[:length] + "…"

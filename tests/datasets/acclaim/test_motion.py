@@ -62,6 +62,12 @@ def test_frames_may_begin_at_any_number(skeleton, motion, motion_text):
     np.testing.assert_array_equal(parse_motion(text, skeleton, "").values, motion.values)
 
 
+def test_the_largest_number_of_a_first_frame_is_counted_on_from(skeleton, motion, motion_text):
+    text = motion_text.replace("\n1\n", "\n999999999\n").replace("\n2\n", "\n1000000000\n")
+    text = text.replace("\n3\n", "\n1000000001\n")
+    np.testing.assert_array_equal(parse_motion(text, skeleton, "").values, motion.values)
+
+
 @given(
     arrays(np.float64, st.tuples(st.integers(1, 5), st.just(12)), elements=st.floats(-1e99, 1e99)),
     st.permutations(SEGMENTS),
@@ -94,6 +100,9 @@ def test_a_last_frame_that_was_cut_short_is_dropped_with_a_warning(
         (("\n1\n", "\n1 2\n"), 4, "the number of the first frame"),
         (("\n1\n", "\n²\n"), 4, "the number of the first frame"),
         (("\n1\n", "\none\n"), 4, "the number of the first frame"),
+        (("\n1\n", "\n1000000000\n"), 4, "the number of the first frame, of at most 9 digits"),
+        (("\n1\n", f"\n{'1' * 5000}\n"), 4, "the number of the first frame, of at most 9 digits"),
+        ((":DEGREES\n", ":DEGREES\n" * 50_000), 5, "header"),
         (("\n2\n", "\n3\n"), 9, "frame number 2"),
         (("\n2\n", "\n02\n"), 9, "frame number 2"),
         (("thigh -20 5 1", "thigh -20 5"), 6, "'thigh' with 3 finite numbers"),
