@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from mocapbench import benchmark as bench
+from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DEFAULT_OUT, Out, show_left_out
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.files import atomic_write
@@ -28,7 +28,7 @@ def export(
 
     As CSV, and as Parquet where pyarrow is installed.
     """
-    store, console = bench.Store.open(out), Console()
+    store, console = bench.Store.open(out), LiteralConsole()
     folder, with_parquet = to or out, find_spec("pyarrow") is not None
     folder.mkdir(parents=True, exist_ok=True)
     records = store.records()
@@ -43,7 +43,7 @@ def export(
         console.print(f"{len(table)} rows: {folder / name}{suffixes}", soft_wrap=True)
     if not with_parquet:
         advice = "no Parquet files, which need pyarrow: `pip install 'mocapbench[parquet]'`"
-        console.print(advice, markup=False)
+        console.print(advice)
     show_left_out(store.damaged, console)
     if not records:
         raise typer.Exit(ExitCode.NOTHING_RAN)

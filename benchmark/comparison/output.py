@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from rich.box import SIMPLE
-from rich.markup import escape
 from rich.table import Table
 
 from mocapbench.benchmark.comparison.contrasts import Row
@@ -30,15 +29,18 @@ def outcome(row: Row, sides: tuple[str, str]) -> str:
 
 
 def terminal(rows: Sequence[Row], sides: tuple[str, str]) -> Iterator[Table]:
-    """Yield one table per task and metric; rows that are identical are left out."""
+    """Yield one table per task and metric; rows that are identical are left out.
+
+    They are for a console that knows no markup.
+    """
     for title, group in _by_metric(rows):
         shown = [row for row in group if outcome(row, sides) != "identical"]
-        table = Table(box=SIMPLE, padding=0, title=escape(title), title_justify="left")
+        table = Table(box=SIMPLE, padding=0, title=title, title_justify="left")
         for head in _columns(sides):
-            table.add_column(escape(head), overflow="fold")
+            table.add_column(head, overflow="fold")
         for row in shown:
             style = "bold" if outcome(row, sides).endswith("better") else ""
-            table.add_row(*map(escape, _cells(row, sides)), style=style)
+            table.add_row(*_cells(row, sides), style=style)
         if shown:
             yield table
 

@@ -7,7 +7,6 @@ from typing import Any
 from xml.etree import ElementTree
 
 from rich.box import SIMPLE
-from rich.markup import escape
 from rich.table import Table
 
 from mocapbench.benchmark.gate.findings import Check, Finding
@@ -32,7 +31,10 @@ def summary(check: Check) -> str:
 
 
 def terminal(check: Check) -> Table:
-    """Return what is worth a look, the gravest first, as a table of at most fifty rows."""
+    """Return what is worth a look, the gravest first, as a table of at most fifty rows.
+
+    It is for a console that knows no markup.
+    """
     groups = _notable(check)
     hidden = len(groups) - SHOWN
     more = f"{hidden} more: --markdown and --junit name them all" if hidden > 0 else None
@@ -43,7 +45,7 @@ def terminal(check: Check) -> Table:
         cells = dict(zip(HEADS, _cells(group), strict=True))
         what = "\n".join(filter(None, (cells[WHERE], cells["metric"], cells["why"])))
         style = "bold red" if _fails(check, group[0]) else ""
-        table.add_row(cells["verdict"], escape(what), *(cells[head] for head in SHORT), style=style)
+        table.add_row(cells["verdict"], what, *(cells[head] for head in SHORT), style=style)
     return table
 
 

@@ -40,7 +40,7 @@ def watch(records: Iterable[Record], total: int, console: Console) -> Iterator[R
 
 def _bar(records: Iterable[Record], total: int, console: Console) -> Iterator[Record]:
     columns = (
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
         TextColumn("{task.fields[failed]} failed"),
