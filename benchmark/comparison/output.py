@@ -10,6 +10,7 @@ from rich.box import SIMPLE
 from rich.table import Table
 
 from mocapbench.benchmark.comparison.contrasts import Row
+from mocapbench.benchmark.markdown import escape, table_lines
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.metrics.statistics import ALPHA, Contrast, least_signed_rank_p
 
@@ -47,11 +48,10 @@ def terminal(rows: Sequence[Row], sides: tuple[str, str]) -> Iterator[Table]:
 
 def markdown(rows: Sequence[Row], sides: tuple[str, str]) -> str:
     """Return every row, and the notes."""
-    lines = [f"# {sides[0]} against {sides[1]}", ""]
+    lines = [f"# {escape(' against '.join(sides))}", ""]
     for title, group in _by_metric(rows):
-        columns = _columns(sides)
-        lines += [f"## {title}", "", _line(columns), _line(["---"] * len(columns))]
-        lines += [*(_line(_cells(row, sides)) for row in group), ""]
+        cells = [_cells(row, sides) for row in group]
+        lines += [f"## {escape(title)}", "", *table_lines(_columns(sides), cells), ""]
     return "\n".join([*lines, *(f"- {note}" for note in notes(rows, sides)), ""])
 
 
@@ -114,7 +114,3 @@ def _probabilities(contrast: Contrast) -> str:
 
 def _digits(value: float) -> str:
     return "–" if math.isnan(value) else f"{value:.3g}"
-
-
-def _line(cells: Sequence[str]) -> str:
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

@@ -12,6 +12,7 @@ from rich.table import Table
 from mocapbench.benchmark.gate.findings import Check, Finding
 from mocapbench.benchmark.gate.reference import COLUMNS
 from mocapbench.benchmark.gate.rule import Verdict
+from mocapbench.benchmark.markdown import table_lines
 
 __all__ = ["junit", "markdown", "plain", "summary", "terminal"]
 
@@ -53,9 +54,9 @@ def markdown(check: Check) -> str:
     """Return a summary for a pull request."""
     state = "passed" if check.exit_code == 0 else f"failed, exit code {int(check.exit_code)}"
     lines = [f"### Metrics: {state}", "", summary(check), ""]
-    rows = [[text.replace("|", "\\|") for text in _cells(group)] for group in _notable(check)]
+    rows = [_cells(group) for group in _notable(check)]
     if rows:
-        lines += [_line(HEADS), _line(["---"] * len(HEADS)), *map(_line, rows), ""]
+        lines += [*table_lines(HEADS, rows), ""]
     return "\n".join(lines)
 
 
@@ -120,10 +121,6 @@ def _cells(group: Sequence[Finding]) -> list[str]:
         f"{judgement.worst:+.3g}",
         finding.reason,
     ]
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(' '.join(cell.split()) for cell in cells)} |"
 
 
 def _add_case(suite: ElementTree.Element, check: Check, finding: Finding) -> str:
