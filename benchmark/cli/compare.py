@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench import reports
 from mocapbench.benchmark import comparison
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
@@ -58,7 +59,7 @@ def compare(
     for note in comparison.notes(rows, sides):
         console.print(note, highlight=False)
     _write(markdown, comparison.markdown(rows, sides))
-    _write(csv, comparison.tidy(rows).to_csv(index=False, lineterminator="\n"))
+    _write(csv, reports.csv_text(comparison.tidy(rows)))
 
 
 def _sides(

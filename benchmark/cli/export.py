@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench import reports
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DEFAULT_OUT, Out, show_left_out
 from mocapbench.benchmark.errors import ExitCode
@@ -35,7 +36,7 @@ def export(
     tables = {"scores": bench.score_table(records), "jobs": bench.job_table(records)}
     for name, table in tables.items():
         with atomic_write(folder / f"{name}.csv") as file:
-            table.to_csv(file, index=False)
+            file.write(reports.csv_text(table).encode())
         if with_parquet:
             with atomic_write(folder / f"{name}.parquet") as file:
                 table.to_parquet(file, index=False)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
+from mocapbench.reports.spreadsheet import csv_text
 from mocapbench.reports.tables.base import Cell, Table
 from mocapbench.reports.text import MINUS
 
@@ -27,7 +28,7 @@ LATEX = str.maketrans(
 
 def to_csv(table: Table) -> str:
     """Return the tidy, unrounded data of ``table``."""
-    return str(table.data.to_csv(index=False, lineterminator="\n"))
+    return csv_text(table.data)
 
 
 def to_latex(table: Table) -> str:

@@ -168,6 +168,13 @@ def test_markdown_shows_names_as_they_are():
     assert "<th>a&lt;b&gt;|c</th>" in page
 
 
+def test_no_name_in_the_csv_begins_a_formula(cli, run, tmp_path):
+    good, bad = (run(f"{value}", records("knn", {"=1+1": [value]})) for value in (1.0, 2.0))
+    rows = compared(cli, tmp_path, bad, good)
+    assert set(rows.index) == {"'=1+1"}
+    assert rows["advantage"].to_list() == [-1.0]
+
+
 def test_a_metric_may_be_given_by_its_former_name(cli, run, tmp_path):
     given = {"task": "toy-synthesis", "metric": "variance_ratio"}
     both = run("run", records("moa", GOOD, **given), records("mohgp", BAD, **given))

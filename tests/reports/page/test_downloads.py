@@ -44,3 +44,9 @@ def test_latex_escapes_names_and_sets_the_best_in_bold():
     assert r"\textbf{$-$1.0 $\pm$ 0.5}" in text
     assert r"na\#me" in text
     assert r"x\textbackslash{}y" in text
+
+
+def test_no_name_begins_a_formula():
+    data = pd.DataFrame({"label": ["=1+1", "@sum", "knn"], "mean": [-1.5, 0.5, 2.0]})
+    table = Table("t", "T", (), (), data)
+    assert to_csv(table) == "label,mean\n'=1+1,-1.5\n'@sum,0.5\nknn,2.0\n"
