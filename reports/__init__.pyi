@@ -15,6 +15,7 @@ from .bundle.pictures import (
 from .bundle.regression_check import RegressionCheck
 from .bundle.task_page import Figure, RowNotes, TaskPage
 from .page.page import render
+from .spreadsheet import csv_text
 
 __all__ = [
     "Band",
@@ -34,5 +35,6 @@ __all__ = [
     "Space",
     "TaskLayout",
     "TaskPage",
+    "csv_text",
     "render",
 ]

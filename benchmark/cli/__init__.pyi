@@ -1,3 +1,3 @@
-from .failures import explain
+from .failures import explain, show_warning
 
-__all__ = ["explain"]
+__all__ = ["explain", "show_warning"]

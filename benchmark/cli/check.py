@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
 from mocapbench import benchmark as bench
 from mocapbench.benchmark import gate
+from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
     DEFAULT_OUT,
     Plugins,
@@ -81,9 +81,9 @@ def check(
         of_reference = (tolerances, environment, strict, junit, markdown, update, allow_failures)
         if any(of_reference):
             raise UsageError("--controls: expected no other option: they all go with --reference")
-        raise typer.Exit(_check_controls(run, Console()))
+        raise typer.Exit(_check_controls(run, LiteralConsole()))
     require_writable(junit, markdown)
-    store, console = bench.Store.open(run), Console()
+    store, console = bench.Store.open(run), LiteralConsole()
     records, plan = store.planned(), store.load_plan()
     known, values = gate.read_reference(reference), gate.of_records(records, plan)
     show_left_out(store.damaged, console)
@@ -112,7 +112,7 @@ def check(
     raise typer.Exit(result.exit_code)
 
 
-def _check_controls(run: Path, console: Console) -> ExitCode:
+def _check_controls(run: Path, console: LiteralConsole) -> ExitCode:
     store = bench.Store.open(run)
     records = store.planned()
     show_left_out(store.damaged, console)
@@ -141,11 +141,11 @@ def _refuse_to_update(
         raise UsageError("--update: the run holds no value; run it first")
 
 
-def _show(result: Check, console: Console) -> None:
+def _show(result: Check, console: LiteralConsole) -> None:
     table = gate.terminal(result)
     if table.row_count:
         console.print(table)
-    console.print(f"check: {gate.summary(result)}", soft_wrap=True, markup=False)
+    console.print(f"check: {gate.summary(result)}", soft_wrap=True)
 
 
 def _write(path: Path | None, content: bytes) -> None:

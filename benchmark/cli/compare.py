@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
 from mocapbench import benchmark as bench
+from mocapbench import reports
 from mocapbench.benchmark import comparison
+from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
     Names,
     Plugins,
@@ -45,7 +46,7 @@ def compare(
 ) -> None:
     """Compare two runs, or two models of one run, fold by fold."""
     load_plugins(plugin)
-    console = Console()
+    console = LiteralConsole()
     require_writable(markdown, csv)
     for name in split(tasks):
         bench.TASKS.get(name)
@@ -56,13 +57,13 @@ def compare(
     for table in comparison.terminal(rows, sides):
         console.print(table)
     for note in comparison.notes(rows, sides):
-        console.print(note, markup=False, highlight=False)
+        console.print(note, highlight=False)
     _write(markdown, comparison.markdown(rows, sides))
-    _write(csv, comparison.tidy(rows).to_csv(index=False, lineterminator="\n"))
+    _write(csv, reports.csv_text(comparison.tidy(rows)))
 
 
 def _sides(
-    runs: Sequence[Path], models: Sequence[str], console: Console
+    runs: Sequence[Path], models: Sequence[str], console: LiteralConsole
 ) -> tuple[Side, Side, tuple[str, str]]:
     """Return the two sides, and what to call them."""
     match runs:
@@ -84,7 +85,7 @@ def _names(one: Path, other: Path) -> tuple[str, str]:
     return names if names[0] != names[1] else (str(one), str(other))
 
 
-def _records(run: Path, console: Console) -> Side:
+def _records(run: Path, console: LiteralConsole) -> Side:
     store = bench.Store.open(run)
     records = store.planned()
     show_left_out(store.damaged, console)

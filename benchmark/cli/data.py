@@ -6,13 +6,12 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
-from rich.markup import escape
 from rich.progress import track
 from rich.table import Table
 
 from mocapbench import benchmark as bench
 from mocapbench import datasets
+from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DataDir, Plugins, load_plugins
 from mocapbench.benchmark.errors import ExitCode, UsageError
 
@@ -30,7 +29,7 @@ Trials = Annotated[
 ]
 
 
-def fetch_missing(archive: Archive, uris: Sequence[str], console: Console) -> None:
+def fetch_missing(archive: Archive, uris: Sequence[str], console: LiteralConsole) -> None:
     """Download what is not here; what cannot be had is said once and left missing.
 
     A recording whose digest is wrong is an error; a server that does not answer, or does not have
@@ -41,13 +40,13 @@ def fetch_missing(archive: Archive, uris: Sequence[str], console: Console) -> No
         try:
             archive.fetch([uri])
         except (datasets.ServerUnreachable, OSError) as error:
-            console.print(f"working without {len(missing)} recordings: {error}", markup=False)
+            console.print(f"working without {len(missing)} recordings: {error}")
             return
         except datasets.FetchError as error:
-            console.print(f"working without {uri}: {error}", markup=False)
+            console.print(f"working without {uri}: {error}")
 
 
-def _tracked(uris: Sequence[str], console: Console) -> Iterable[str]:
+def _tracked(uris: Sequence[str], console: LiteralConsole) -> Iterable[str]:
     return track(uris, "fetching recordings", console=console, disable=not uris, transient=True)
 
 
@@ -63,7 +62,7 @@ def status(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
 def fetch(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = None) -> None:
     """Download recordings; those that are here and right are left alone."""
     load_plugins(plugin)
-    archive, console = bench.archive_at(data_dir), Console()
+    archive, console = bench.archive_at(data_dir), LiteralConsole()
     addresses = _addresses(trials, archive)
     failures = []
     for uri in _tracked(addresses, console):
@@ -84,7 +83,8 @@ def verify(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
     load_plugins(plugin)
     archive = bench.archive_at(data_dir)
     addresses = _addresses(trials, archive)
-    rows = [row for uri in track(addresses, "verifying") for row in archive.verify([uri])]
+    tracked = track(addresses, "verifying", console=LiteralConsole())
+    rows = [row for uri in tracked for row in archive.verify([uri])]
     _show(rows)
     if any(row.state == "wrong" for row in rows):
         raise typer.Exit(ExitCode.USAGE)
@@ -107,5 +107,5 @@ def _addresses(trials: Iterable[str] | None, archive: Archive) -> list[str]:
 def _show(rows: Sequence[RecordingStatus]) -> None:
     table = Table("recording", "state", "where", "SHA-256")
     for row in rows:
-        table.add_row(escape(row.uri), row.state, escape(row.where), row.digest[:16])
-    Console().print(table)
+        table.add_row(row.uri, row.state, row.where, row.digest[:16])
+    LiteralConsole().print(table)

@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from mocapbench import benchmark as bench
+from mocapbench import reports
+from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DEFAULT_OUT, Out, show_left_out
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.files import atomic_write
@@ -28,14 +29,14 @@ def export(
 
     As CSV, and as Parquet where pyarrow is installed.
     """
-    store, console = bench.Store.open(out), Console()
+    store, console = bench.Store.open(out), LiteralConsole()
     folder, with_parquet = to or out, find_spec("pyarrow") is not None
     folder.mkdir(parents=True, exist_ok=True)
     records = store.records()
     tables = {"scores": bench.score_table(records), "jobs": bench.job_table(records)}
     for name, table in tables.items():
         with atomic_write(folder / f"{name}.csv") as file:
-            table.to_csv(file, index=False)
+            file.write(reports.csv_text(table).encode())
         if with_parquet:
             with atomic_write(folder / f"{name}.parquet") as file:
                 table.to_parquet(file, index=False)
@@ -43,7 +44,7 @@ def export(
         console.print(f"{len(table)} rows: {folder / name}{suffixes}", soft_wrap=True)
     if not with_parquet:
         advice = "no Parquet files, which need pyarrow: `pip install 'mocapbench[parquet]'`"
-        console.print(advice, markup=False)
+        console.print(advice)
     show_left_out(store.damaged, console)
     if not records:
         raise typer.Exit(ExitCode.NOTHING_RAN)

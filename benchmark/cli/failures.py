@@ -1,16 +1,18 @@
-"""What the command line says of an error, and the exit code for it."""
+"""What the command line says of errors and warnings, and the exit code for an error."""
 
 from __future__ import annotations
 
 import traceback
+import warnings
+from typing import TextIO
 
-from rich.console import Console
-from rich.markup import escape
+from rich.text import Text
 
+from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.datasets import AcclaimError, DigestMismatch
 
-__all__ = ["explain"]
+__all__ = ["explain", "show_warning"]
 
 
 def explain(error: Exception) -> ExitCode:
@@ -22,16 +24,35 @@ def explain(error: Exception) -> ExitCode:
         ``USAGE`` for an error of the request or of a file, ``DEFECT`` for any other: else the
         interpreter's own exit code, 1, would say that a metric got worse.
     """
-    console = Console(stderr=True, emoji=False)
     match error:
         case UsageError() | DigestMismatch() | AcclaimError():
-            console.print(f"[bold red]error:[/] {escape(str(error))}", soft_wrap=True)
+            _say(str(error))
             return ExitCode.USAGE
         case OSError():
-            console.print(f"[bold red]error:[/] cannot read or write: {escape(str(error))}")
+            _say(f"cannot read or write: {error}")
             return ExitCode.USAGE
         case _:
-            traceback.print_exception(error)
-            advice = "a defect of mocapbench or an added package; see above"
-            console.print(f"[bold red]error:[/] {advice}")
+            _quote("".join(traceback.format_exception(error)))
+            _say("a defect of mocapbench or an added package; see above")
             return ExitCode.DEFECT
+
+
+def show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """Show a warning on standard error as Python does; in place of `warnings.showwarning`."""
+    del file
+    _quote(warnings.formatwarning(message, category, filename, lineno, line))
+
+
+def _say(message: str) -> None:
+    LiteralConsole(stderr=True).print(Text("error:", "bold red"), message, soft_wrap=True)
+
+
+def _quote(text: str) -> None:
+    LiteralConsole(stderr=True).print(text, end="", soft_wrap=True, highlight=False)

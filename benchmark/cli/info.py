@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from mocapbench import benchmark as bench
 from mocapbench import datasets
+from mocapbench.benchmark.cli.console import LiteralConsole
 
 __all__ = ["app"]
 
@@ -27,7 +27,7 @@ def info() -> None:
     table = Table(show_header=False, box=None)
     for name, value in bench.provenance(["mocapbench", "info"], threads=1).items():
         table.add_row(name, value)
-    console = Console()
+    console = LiteralConsole()
     console.print(table)
     text = f"\n{_CITATION}\n\n{datasets.CMU_ACKNOWLEDGEMENT}"
-    console.print(text, markup=False, highlight=False)
+    console.print(text, highlight=False)

@@ -7,11 +7,11 @@ from enum import StrEnum
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from mocapbench import baselines
 from mocapbench import benchmark as bench
+from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
 
 __all__ = ["app"]
@@ -52,7 +52,7 @@ def list_registered(
         Kind.METRICS: _metric_table,
         Kind.LIBRARIES: _library_table,
     }
-    Console().print(tables[kind]())
+    LiteralConsole().print(tables[kind]())
 
 
 def _task_table() -> Table:

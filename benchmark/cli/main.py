@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from collections.abc import Sequence
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -63,10 +64,16 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; errors become one line and an exit code."""
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]  # terminals that know ASCII only
-    try:
-        app(args=None if arguments is None else list(arguments))
-    except Exception as error:  # the module that explains errors takes time to import
-        sys.exit(cli.explain(error))
+    with warnings.catch_warnings():  # which puts the function back
+        warnings.showwarning = _show_warning
+        try:
+            app(args=None if arguments is None else list(arguments))
+        except Exception as error:
+            sys.exit(cli.explain(error))
+
+
+def _show_warning(*warning: Any, **origin: Any) -> None:
+    cli.show_warning(*warning, **origin)  # the module takes time to import, so not before
 
 
 if __name__ == "__main__":

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from mocapbench import benchmark as bench
+from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import UsageError
 
 __all__ = [
@@ -69,7 +69,7 @@ def require_writable(*paths: Path | None) -> None:
             raise UsageError(f"{path}: expected a file in a folder that exists")
 
 
-def show_left_out(damaged: Iterable[str], console: Console) -> None:
+def show_left_out(damaged: Iterable[str], console: LiteralConsole) -> None:
     """Name the damaged files of a run directory."""
     for message in dict.fromkeys(damaged):
-        console.print(f"damaged, so left out: {message}", markup=False)
+        console.print(f"damaged, so left out: {message}")

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
 from mocapbench import benchmark as bench
 from mocapbench import reports
+from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
     DEFAULT_OUT,
     DataDir,
@@ -41,7 +41,7 @@ def report(
     """Write the HTML report of a run directory."""
     load_plugins(plugin)
     require_writable(to)
-    store, console = bench.Store.open(out), Console()
+    store, console = bench.Store.open(out), LiteralConsole()
     plan, records = store.load_plan(), store.planned()
     if not records:
         raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
@@ -55,7 +55,7 @@ def write_report(
     store: Store,
     archive: Archive,
     path: Path,
-    console: Console,
+    console: LiteralConsole,
 ) -> None:
     """Write the page of ``records`` to ``path``, and name what of the store is damaged."""
     figures = bench.illustrations(records, store, archive)
@@ -64,4 +64,4 @@ def write_report(
         file.write(page.encode())
     console.print(f"report: {path.resolve()}", soft_wrap=True, highlight=False)
     for message in dict.fromkeys(store.damaged):
-        console.print(f"damaged, so not trusted: {message}", markup=False)
+        console.print(f"damaged, so not trusted: {message}")

@@ -12,12 +12,11 @@ from types import FrameType
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
 
 from mocapbench import benchmark as bench
 from mocapbench import datasets
+from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.data import fetch_missing
 from mocapbench.benchmark.cli.options import (
     DEFAULT_OUT,
@@ -71,7 +70,7 @@ def run(
 
     What the run directory holds already is not computed again, so that the same command resumes.
     """
-    console, plugins = Console(), load_plugins(plugin)
+    console, plugins = LiteralConsole(), load_plugins(plugin)
     request = bench.Request(
         profile, split(tasks), split(models), split(cases), split(metrics), folds, seed
     )
@@ -113,7 +112,11 @@ def _interrupt(_signal: int, _frame: FrameType | None) -> None:
 
 
 def _run(
-    planned: Sequence[Job], store: Store, config: WorkerConfig, n_workers: int, console: Console
+    planned: Sequence[Job],
+    store: Store,
+    config: WorkerConfig,
+    n_workers: int,
+    console: LiteralConsole,
 ) -> ExitCode:
     keys = [job.key for job in planned]
     store.save_plan({"keys": keys, "provenance": dict(config.provenance)})
@@ -131,13 +134,13 @@ def _run(
     return code
 
 
-def _ending(records: Sequence[Record], console: Console) -> ExitCode:
+def _ending(records: Sequence[Record], console: LiteralConsole) -> ExitCode:
     """Say in one line how the run ended, and return the exit code for it."""
     counts = Counter(record.status for record in records)
     summary = ", ".join(f"{counts[status]} {status}" for status in bench.Status if counts[status])
     missing = (r.message for r in records if r.status is bench.Status.DATA_MISSING)
     for message in dict.fromkeys(missing):
-        console.print(f"data missing: {message}", markup=False, soft_wrap=True)
+        console.print(f"data missing: {message}", soft_wrap=True)
     console.print(f"{len(records)} jobs: {summary}")
     if any(record.status.broken for record in records):
         return ExitCode.JOBS_FAILED
@@ -148,7 +151,7 @@ def _plan_table(planned: Sequence[Job]) -> Table:
     table = Table("task", "case", "entrant", "folds", title=f"{len(planned)} jobs")
     rows = Counter((job.address.task, job.address.case, job.address.label) for job in planned)
     for address, count in rows.items():
-        table.add_row(*map(escape, address), str(count))
+        table.add_row(*address, str(count))
     return table
 
 

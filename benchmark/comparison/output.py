@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from rich.box import SIMPLE
-from rich.markup import escape
 from rich.table import Table
 
 from mocapbench.benchmark.comparison.contrasts import Row
+from mocapbench.benchmark.markdown import escape, table_lines
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.metrics.statistics import ALPHA, Contrast, least_signed_rank_p
 
@@ -30,26 +30,28 @@ def outcome(row: Row, sides: tuple[str, str]) -> str:
 
 
 def terminal(rows: Sequence[Row], sides: tuple[str, str]) -> Iterator[Table]:
-    """Yield one table per task and metric; rows that are identical are left out."""
+    """Yield one table per task and metric; rows that are identical are left out.
+
+    They are for a console that knows no markup.
+    """
     for title, group in _by_metric(rows):
         shown = [row for row in group if outcome(row, sides) != "identical"]
-        table = Table(box=SIMPLE, padding=0, title=escape(title), title_justify="left")
+        table = Table(box=SIMPLE, padding=0, title=title, title_justify="left")
         for head in _columns(sides):
-            table.add_column(escape(head), overflow="fold")
+            table.add_column(head, overflow="fold")
         for row in shown:
             style = "bold" if outcome(row, sides).endswith("better") else ""
-            table.add_row(*map(escape, _cells(row, sides)), style=style)
+            table.add_row(*_cells(row, sides), style=style)
         if shown:
             yield table
 
 
 def markdown(rows: Sequence[Row], sides: tuple[str, str]) -> str:
     """Return every row, and the notes."""
-    lines = [f"# {sides[0]} against {sides[1]}", ""]
+    lines = [f"# {escape(' against '.join(sides))}", ""]
     for title, group in _by_metric(rows):
-        columns = _columns(sides)
-        lines += [f"## {title}", "", _line(columns), _line(["---"] * len(columns))]
-        lines += [*(_line(_cells(row, sides)) for row in group), ""]
+        cells = [_cells(row, sides) for row in group]
+        lines += [f"## {escape(title)}", "", *table_lines(_columns(sides), cells), ""]
     return "\n".join([*lines, *(f"- {note}" for note in notes(rows, sides)), ""])
 
 
@@ -112,7 +114,3 @@ def _probabilities(contrast: Contrast) -> str:
 
 def _digits(value: float) -> str:
     return "–" if math.isnan(value) else f"{value:.3g}"
-
-
-def _line(cells: Sequence[str]) -> str:
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

@@ -7,12 +7,12 @@ from typing import Any
 from xml.etree import ElementTree
 
 from rich.box import SIMPLE
-from rich.markup import escape
 from rich.table import Table
 
 from mocapbench.benchmark.gate.findings import Check, Finding
 from mocapbench.benchmark.gate.reference import COLUMNS
 from mocapbench.benchmark.gate.rule import Verdict
+from mocapbench.benchmark.markdown import table_lines
 
 __all__ = ["junit", "markdown", "plain", "summary", "terminal"]
 
@@ -32,7 +32,10 @@ def summary(check: Check) -> str:
 
 
 def terminal(check: Check) -> Table:
-    """Return what is worth a look, the gravest first, as a table of at most fifty rows."""
+    """Return what is worth a look, the gravest first, as a table of at most fifty rows.
+
+    It is for a console that knows no markup.
+    """
     groups = _notable(check)
     hidden = len(groups) - SHOWN
     more = f"{hidden} more: --markdown and --junit name them all" if hidden > 0 else None
@@ -43,7 +46,7 @@ def terminal(check: Check) -> Table:
         cells = dict(zip(HEADS, _cells(group), strict=True))
         what = "\n".join(filter(None, (cells[WHERE], cells["metric"], cells["why"])))
         style = "bold red" if _fails(check, group[0]) else ""
-        table.add_row(cells["verdict"], escape(what), *(cells[head] for head in SHORT), style=style)
+        table.add_row(cells["verdict"], what, *(cells[head] for head in SHORT), style=style)
     return table
 
 
@@ -51,9 +54,9 @@ def markdown(check: Check) -> str:
     """Return a summary for a pull request."""
     state = "passed" if check.exit_code == 0 else f"failed, exit code {int(check.exit_code)}"
     lines = [f"### Metrics: {state}", "", summary(check), ""]
-    rows = [[text.replace("|", "\\|") for text in _cells(group)] for group in _notable(check)]
+    rows = [_cells(group) for group in _notable(check)]
     if rows:
-        lines += [_line(HEADS), _line(["---"] * len(HEADS)), *map(_line, rows), ""]
+        lines += [*table_lines(HEADS, rows), ""]
     return "\n".join(lines)
 
 
@@ -118,10 +121,6 @@ def _cells(group: Sequence[Finding]) -> list[str]:
         f"{judgement.worst:+.3g}",
         finding.reason,
     ]
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(' '.join(cell.split()) for cell in cells)} |"
 
 
 def _add_case(suite: ElementTree.Element, check: Check, finding: Finding) -> str:

@@ -1,7 +1,8 @@
 """Reference values as text that a review can read.
 
 A CSV file has one row per (task, version, case, label, metric), sorted, and a column per fold,
-below a head that says what the values were computed with. Reference values are one file, or a
+below a head that says what the values were computed with. Names are guarded where a spreadsheet
+would take them for formulas, and read back as they were. Reference values are one file, or a
 folder with a file per task; a run directory serves as reference too.
 """
 
@@ -11,6 +12,7 @@ import csv
 import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +31,8 @@ from mocapbench.benchmark.gate.reference import (
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
+from mocapbench.reports.printable import printable
+from mocapbench.reports.spreadsheet import guarded, unguarded
 
 __all__ = ["read_reference", "write_reference"]
 
@@ -83,7 +87,7 @@ def _distinct(rows: Iterable[tuple[Series, Folds]]) -> dict[Series, Folds]:
 def _parse(path: Path) -> Reference:
     try:
         *lines, rest = path.read_text(encoding="utf-8").split("\n")
-        head = [line[2:] for line in lines if line.startswith("# ")]
+        head = [line[2:] for line in takewhile(lambda line: line.startswith("# "), lines)]
         if head[:1] != [FORMAT]:
             raise ValueError(f"its first line is not '# {FORMAT}'")
         if rest:
@@ -100,30 +104,56 @@ def _parse(path: Path) -> Reference:
 def _row(row: Mapping[Any, Any]) -> tuple[Series, Folds]:
     if None in row or None in row.values():
         raise ValueError(f"expected as many cells in a row as in the head, got {[*row.values()]}")
-    address = Address(row["task"], int(row["version"]), row["case"], label=row["label"])
+    task, version, case, label, metric = (unguarded(row[name]) for name in COLUMNS)
+    address = Address(task, int(version), case, label=label)
     values = {
         int(name.removeprefix(_FOLD)): float(text)
         for name, text in row.items()
         if name.startswith(_FOLD) and text
     }
     if not (values and all(map(math.isfinite, values.values()))):
-        raise ValueError(f"expected finite values of {row['metric']}, got {values}")
-    return Series(address, METRICS.renamed(row["metric"])), values
+        raise ValueError(f"expected finite values of {metric}, got {values}")
+    return Series(address, METRICS.renamed(metric)), values
 
 
 def write_reference(path: Path, reference: Reference) -> None:
-    """Write the values to a ``.csv`` file, or to one per task of a folder; each is whole."""
+    """Write the values to a ``.csv`` file, or to one per task of a folder; each is whole.
+
+    Raises
+    ------
+    UsageError
+        If a name does not fit on a line, or a task's name does not serve as that of a file.
+    """
+    _require_lines(reference.values)
     if path.suffix == ".csv" and not path.is_dir():
         return _write(path, reference.values, reference.about)
     by_task: dict[str, dict[Series, Folds]] = {}
     for series, folds in reference.values.items():
         by_task.setdefault(series.address.task, {})[series] = folds
+    _require_file_names(by_task)
     for task, values in by_task.items():
         _write(path / f"{task}.csv", values, reference.about)
     for file in path.glob("*.csv"):
         if file.stem not in by_task:
             file.unlink()
     return None
+
+
+def _require_lines(values: Iterable[Series]) -> None:
+    """Refuse names that would break a row in two."""
+    for series in values:
+        if {"\r", "\n"} & set(str(series)):
+            raise UsageError(f"--update: expected names of one line, got {series}; rename it")
+
+
+def _require_file_names(tasks: Iterable[str]) -> None:
+    """Refuse what would be written outside the folder, or under a name that cannot be shown."""
+    for task in tasks:
+        if task != Path(printable(task)).name:
+            raise UsageError(
+                f"--update: expected a task whose name can be that of a file, got {task!r}; "
+                "rename it, or name a .csv file for all tasks"
+            )
 
 
 def _write(path: Path, values: Mapping[Series, Folds], about: Mapping[str, str]) -> None:
@@ -133,7 +163,8 @@ def _write(path: Path, values: Mapping[Series, Folds], about: Mapping[str, str])
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow([*COLUMNS, *(f"{_FOLD}{fold}" for fold in folds)])
     for series, by_fold in sorted(values.items()):
-        writer.writerow([*series.cells, *(by_fold.get(fold) for fold in folds)])
+        cells = (guarded(str(cell)) for cell in series.cells)
+        writer.writerow([*cells, *(by_fold.get(fold) for fold in folds)])
     path.parent.mkdir(parents=True, exist_ok=True)
     with atomic_write(path) as file:
         file.write(buffer.getvalue().encode())

@@ -46,7 +46,7 @@ def _bar(
     outcomes: Iterable[Outcome], total: int, time_left: Callable[[], float], console: Console
 ) -> Iterator[Outcome]:
     columns = (
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
         TextColumn("{task.fields[failed]} failed"),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pandas as pd
 
+from mocapbench.reports.printable import printable
+from mocapbench.reports.spreadsheet import csv_text
 from mocapbench.reports.tables.base import Cell, Table
 from mocapbench.reports.text import MINUS
 
@@ -15,7 +17,7 @@ LATEX = str.maketrans(
         "\\": r"\textbackslash{}",
         "~": r"\textasciitilde{}",
         "^": r"\textasciicircum{}",
-        "<": "$<$",
+        **{"<": "$<$", ">": "$>$", "|": r"\textbar{}"},
         "±": r"$\pm$",
         "×": r"$\times$",
         MINUS: "$-$",
@@ -27,7 +29,7 @@ LATEX = str.maketrans(
 
 def to_csv(table: Table) -> str:
     """Return the tidy, unrounded data of ``table``."""
-    return str(table.data.to_csv(index=False, lineterminator="\n"))
+    return csv_text(table.data)
 
 
 def to_latex(table: Table) -> str:
@@ -45,6 +47,12 @@ def _columns(cell: Cell) -> list[str]:
 
 
 def _latex(cell: Cell) -> str:
-    text = (f"{cell.text} ± {cell.spread}" if cell.spread else cell.text).translate(LATEX)
+    text = _escaped(f"{cell.text} ± {cell.spread}" if cell.spread else cell.text)
     text += rf"\textsuperscript{{{cell.mark}}}" if cell.mark else ""
     return rf"\textbf{{{text}}}" if cell.kind == "best" else text
+
+
+def _escaped(text: str) -> str:
+    """Return ``text`` as one line that shows it."""
+    line = " ".join(printable(text).split()).translate(LATEX)
+    return f"{{}}{line}" if line[:1] in {"[", "*"} else line  # else an argument of the row before

@@ -16,7 +16,9 @@ from mocapbench.benchmark.cli.main import COMMANDS, main
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import REGISTRIES
 from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.tasks.address import Address
 
 TOY = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
 FAST = (*TOY, "--models", "trivial,cubic-spline")
@@ -205,6 +207,24 @@ def test_export_holds_one_row_per_score(cli, records, tmp_path):
     missing = {"keep_default_na": False, "na_values": {"sample_two_sd": [""]}}
     text = pd.read_csv(tmp_path / "tables" / "scores.csv", **missing)
     pd.testing.assert_frame_equal(table, text, check_dtype=False)
+
+
+def test_no_text_of_an_export_begins_a_formula(cli, tmp_path):
+    store = Store.create(tmp_path / "run")
+    message, address = "-it\rbroke", Address("toy-interpolation-1", 1, "test 1", 0, "=1+1")
+    fields = {"message": message, "scores": {"mse": -1.5}, "iterations": 3}
+    store.save(Record("a", "a", address, 0, "@knn", {}, Status.FAILED, **fields))
+    store.save(Record("b", "b", address._replace(fold=1), 0, "@knn", {}, Status.OK))
+    assert cli("export", "--out", tmp_path / "run", "--to", tmp_path) == 0
+    jobs, scores = (pd.read_csv(tmp_path / f"{name}.csv") for name in ("jobs", "scores"))
+    assert set(jobs["label"]) == {"'=1+1"}
+    assert set(jobs["model"]) == {"'@knn"}
+    assert jobs["message"].dropna().to_list() == ["'-it\nbroke"]
+    assert jobs["iterations"].dropna().to_list() == [3]
+    assert scores["value"].to_list() == [-1.5]
+    kept = pd.read_parquet(tmp_path / "jobs.parquet")
+    assert set(kept["label"]) == {"=1+1"}
+    assert message in set(kept["message"])
 
 
 @pytest.mark.parametrize("command", ["report", "export"])

@@ -1,9 +1,12 @@
+import html
 from dataclasses import replace
 
 import pandas as pd
 import pytest
+from markdown_it import MarkdownIt
 from typer.main import get_command
 
+from mocapbench.benchmark import comparison
 from mocapbench.benchmark.cli.compare import app
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
@@ -151,6 +154,25 @@ def test_markdown_holds_every_row_and_the_notes(cli, run, tmp_path):
     assert text.count("| knn: ") == 3
     assert "a\\|b better" in text
     assert "cannot go below p = 0.0625" in text
+
+
+def test_markdown_shows_names_as_they_are():
+    name, sides = "<script>`x`|[here](http://elsewhere)\n# *y*", ("a<b>|c", "d")
+    first, second = (records(name, {name: values}) for values in ([1.0, 1.2], [1.5, 1.9]))
+    rows = [replace(row, task=name) for row in comparison.compare(first, second, rope=0.02)]
+    page = MarkdownIt("commonmark").enable("table").render(comparison.markdown(rows, sides))
+    shown = html.escape(" ".join(name.split()))
+    assert "<h1>a&lt;b&gt;|c against d</h1>" in page
+    assert f"<h2>{shown}: Mean squared error (MSE) (lower is better)</h2>" in page
+    assert f"<td>{shown}: {shown}</td>" in page
+    assert "<th>a&lt;b&gt;|c</th>" in page
+
+
+def test_no_name_in_the_csv_begins_a_formula(cli, run, tmp_path):
+    good, bad = (run(f"{value}", records("knn", {"=1+1": [value]})) for value in (1.0, 2.0))
+    rows = compared(cli, tmp_path, bad, good)
+    assert set(rows.index) == {"'=1+1"}
+    assert rows["advantage"].to_list() == [-1.0]
 
 
 def test_a_metric_may_be_given_by_its_former_name(cli, run, tmp_path):

@@ -1,9 +1,11 @@
 """`mocapbench check` on run directories that are written by hand."""
 
+import html
 import json
 from xml.etree import ElementTree
 
 import pytest
+from markdown_it import MarkdownIt
 
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
@@ -276,6 +278,16 @@ def test_junit_and_markdown_tell_the_same(check, tmp_path):
     rows = [line for line in text.splitlines() if line.startswith("|")]
     assert [row.split(" | ")[0][2:] for row in rows[2:]] == ["worse", "job failed", "better"]
     assert "no \\| luck" in text
+
+
+def test_markdown_shows_names_as_they_are(check, tmp_path):
+    name = "<script>`x`|[here](there) *y*"
+    before, after = {name: _mse(1.0), "knn": _mse(1.0)}, {name: _mse(2.0), "knn": [Status.FAILED]}
+    assert check(before, after, "--markdown", tmp_path / "m.md") == 1
+    page = MarkdownIt("commonmark").enable("table").render((tmp_path / "m.md").read_text())
+    assert f"<td>{TASK}, {CASE}, {html.escape(name)}</td>" in page
+    assert "<td>fold 0: failed: no | luck</td>" in page
+    assert page.count("<tr>") == 3
 
 
 def test_the_report_tells_the_check_of_the_last_run_only(check, cli, tmp_path):

@@ -12,9 +12,10 @@ from mocapbench.benchmark.tasks.address import Address
 ABOUT = {"profile": "smoke", "seed": "0", "machine": "m", "libc": "l", "BLAS": "b"} | {
     f"{name} version": "1" for name in ("numpy", "scipy", "scikit-learn")
 }
-names = st.text("ab#\", '", min_size=1, max_size=5)
+characters = st.characters(codec="utf-8", exclude_characters="\r\n")
+names = st.text("ab#\", '=+-@\t", min_size=1, max_size=5) | st.text(characters, max_size=5)
 addresses = st.builds(
-    Address, st.sampled_from(["t", "u"]), st.integers(1, 3), names, st.none(), names
+    Address, st.sampled_from(["t", "u", "=t", "# t"]), st.integers(1, 3), names, st.none(), names
 )
 series = st.builds(Series, addresses, names)
 by_fold = st.dictionaries(
@@ -32,6 +33,36 @@ def test_what_is_written_is_read(tmp_path_factory, name, values):
     path = tmp_path_factory.mktemp("reference") / name
     write_reference(path, Reference(values, ABOUT))
     assert read_reference(path) == Reference(values, ABOUT)
+
+
+@pytest.mark.parametrize("name", ["=1+1", "-1", "@a", "\ta"])
+def test_no_name_begins_a_formula(tmp_path, name):
+    write_reference(tmp_path / "b.csv", Reference({_series(label=name): {0: -1.0}}, ABOUT))
+    assert f"t,1,c,'{name},mse,-1.0\n" in (tmp_path / "b.csv").read_text()
+
+
+@pytest.mark.parametrize("name", ["=1+1", "'a", "''", "-1"])
+def test_a_file_from_before_names_were_guarded_is_read(tmp_path, name):
+    head = "# mocapbench baseline\ntask,version,case,label,metric,fold 0\n"
+    (tmp_path / "b.csv").write_text(f"{head}t,1,c,{name},mse,1.0\n")
+    assert read_reference(tmp_path / "b.csv").values == {_series(label=name): {0: 1.0}}
+
+
+@pytest.mark.parametrize("name", ["a\nb", "a\rb"])
+def test_a_name_that_breaks_a_line_is_refused(tmp_path, name):
+    with pytest.raises(UsageError, match="expected names of one line"):
+        write_reference(tmp_path / "b.csv", Reference({_series(label=name): {0: 1.0}}, ABOUT))
+    assert [*tmp_path.iterdir()] == []
+
+
+@pytest.mark.parametrize("task", ["../t", "/t", "a/b", "t\x1b[2J", "t\0"])
+def test_a_task_that_names_no_file_of_the_folder_is_refused(tmp_path, task):
+    reference = Reference({_series(task=task): {0: 1.0}}, ABOUT)
+    with pytest.raises(UsageError, match="expected a task whose name can be that of a file"):
+        write_reference(tmp_path / "folder", reference)
+    assert [*tmp_path.iterdir()] == []
+    write_reference(tmp_path / "b.csv", reference)
+    assert read_reference(tmp_path / "b.csv") == reference
 
 
 def test_a_task_that_is_gone_takes_its_file_along(tmp_path):

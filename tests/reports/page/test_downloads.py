@@ -1,13 +1,33 @@
+import re
 from io import StringIO
 
 import pandas as pd
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.page.downloads import to_csv, to_latex
 from mocapbench.reports.page.sections import task_view
+from mocapbench.reports.printable import printable
 from mocapbench.reports.tables.base import Cell, Table
 from mocapbench.reports.tables.scores import score_table
+
+TOKENS = {
+    **{f"\\{character}": character for character in "&%$#_{}"},
+    **{r"\textbackslash{}": "\\", r"\textasciitilde{}": "~", r"\textasciicircum{}": "^"},
+    **{r"\textbar{}": "|", "$<$": "<", "$>$": ">", "{}": ""},
+}
+"""What LaTeX shows of what is special to it."""
+TOKEN = re.compile("|".join(map(re.escape, TOKENS)))
+characters = st.characters(codec="utf-8", exclude_characters="±×−–’")
+names = st.text(characters) | st.text("\\&%$_{}[*<|\n a")
+
+
+def shown(latex):
+    """Return the text that a line of LaTeX shows; nothing of it may be left to be obeyed."""
+    assert not set(TOKEN.sub("", latex)) & set("\\&%$#_{}~^<>|")
+    return TOKEN.sub(lambda token: TOKENS[token[0]], latex)
 
 
 @pytest.fixture(scope="module")
@@ -44,3 +64,24 @@ def test_latex_escapes_names_and_sets_the_best_in_bold():
     assert r"\textbf{$-$1.0 $\pm$ 0.5}" in text
     assert r"na\#me" in text
     assert r"x\textbackslash{}y" in text
+
+
+@given(names, names)
+def test_latex_shows_names_as_they_are(head, name):
+    table = Table("t", "T", (Cell(head),), ((Cell(name),),), pd.DataFrame())
+    _, _, heading, _, row, *end = to_latex(table).split("\n")
+    assert end == [r"\bottomrule", r"\end{tabular}", ""]
+    texts = [shown(line.removesuffix(r" \\")) for line in (heading, row)]
+    assert texts == [" ".join(printable(text).split()) for text in (head, name)]
+
+
+@pytest.mark.parametrize("name", ["[1ex]", "*"])
+def test_no_name_is_an_argument_of_the_row_before(name):
+    table = Table("t", "T", (Cell(name),), ((Cell(name),), (Cell(name),)), pd.DataFrame())
+    assert [line for line in to_latex(table).splitlines() if line.startswith(name)] == []
+
+
+def test_no_name_begins_a_formula():
+    data = pd.DataFrame({"label": ["=1+1", "@sum", "knn"], "mean": [-1.5, 0.5, 2.0]})
+    table = Table("t", "T", (), (), data)
+    assert to_csv(table) == "label,mean\n'=1+1,-1.5\n'@sum,0.5\nknn,2.0\n"

@@ -1,0 +1,56 @@
+"""CSV that spreadsheets open as data: no text in it begins a formula.
+
+A program that opens a CSV file takes a cell for a formula if it begins with one of a few
+characters, and a formula may call other programs. An apostrophe before them makes it text.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pandas as pd
+
+__all__ = ["csv_text", "guarded", "unguarded"]
+
+# Text that begins with apostrophes before such a character gets one more, so that no two texts
+# become one.
+_BEGINS_FORMULA = r"(?='*[-=+@\t\r\n＝＋－＠])"
+_UNGUARDED = re.compile(rf"\A{_BEGINS_FORMULA}")
+_GUARDED = re.compile(rf"\A'{_BEGINS_FORMULA}")
+_LINE_END = re.compile(r"\r\n?")
+
+
+def csv_text(frame: pd.DataFrame) -> str:
+    """Return a table as CSV, unrounded, its text guarded and its numbers as they are.
+
+    Parameters
+    ----------
+    frame : DataFrame
+    """
+    text = frame.select_dtypes(exclude=["number", "bool"])
+    safe = frame.assign(**{str(name): _column(cells) for name, cells in text.items()})
+    return str(safe.rename(columns=_cell).to_csv(index=False, lineterminator="\n"))
+
+
+def guarded(text: str) -> str:
+    """Return ``text``, with an apostrophe before it if it would begin a formula."""
+    return _UNGUARDED.sub("'", text)
+
+
+def unguarded(text: str) -> str:
+    """Return what `guarded` was given."""
+    return _GUARDED.sub("", text)
+
+
+def _column(cells: pd.Series[Any]) -> pd.Series[Any]:
+    """Return cells that keep their types: a column of integers and gaps gets no decimals."""
+    return pd.Series([*map(_cell, cells)], cells.index, dtype=object)
+
+
+def _cell(value: Any) -> Any:
+    match value:
+        case str():  # a carriage return, which writers leave unquoted, would begin a row
+            return guarded(_LINE_END.sub("\n", value))
+        case _:
+            return value
