@@ -7,6 +7,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Sequence
+from contextlib import suppress
 from datetime import UTC, datetime
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated
@@ -102,7 +103,9 @@ def run(
         threads,
         about,
     )
-    signal.signal(signal.SIGTERM, _interrupt)
+    for ending in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(ending) is not signal.SIG_IGN:  # as under nohup
+            signal.signal(ending, _interrupt)
     with store.locked():
         raise typer.Exit(_run(planned, store, config, workers, console))
 
@@ -124,7 +127,8 @@ def _run(
     try:
         records = bench.run(planned, store, config, n_workers=n_workers, console=console)
     except KeyboardInterrupt:
-        console.print("interrupted; everything finished is kept, and the same command resumes")
+        with suppress(OSError):  # the terminal may have been closed
+            console.print("interrupted; everything finished is kept, and the same command resumes")
         return ExitCode.INTERRUPTED
     about = {**config.provenance, "wall time": f"{time.monotonic() - started:.0f} s"}
     store.save_plan({"keys": keys, "provenance": about})

@@ -27,9 +27,6 @@ _PRELOAD = [
     "sklearn.impute",
 ]
 
-_GRACE = 60.0
-"""Seconds beyond its timeout after which a job's worker, which should have killed it, is killed."""
-
 
 def execute(
     queue: JobQueue,
@@ -62,12 +59,12 @@ def execute(
             # As many again wait in the pool, so that no worker waits for the store.
             while len(running) < 2 * n_workers and (job := queue.take()):
                 arguments = (work(job), config, spool)
-                running[pool.schedule(run_job, arguments, timeout=config.timeout + _GRACE)] = job
+                running[pool.schedule(run_job, arguments)] = job
             if not running:
                 return
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 job = running.pop(future)
-                outcome = _outcome(future, job, config)
+                outcome = _outcome(future, job)
                 queue.ended(job, outcome.seconds)
                 yield outcome
     finally:
@@ -75,12 +72,10 @@ def execute(
         pool.join()
 
 
-def _outcome(future: Future[Outcome], job: Job, config: WorkerConfig) -> Outcome:
+def _outcome(future: Future[Outcome], job: Job) -> Outcome:
     """Return the job's outcome, or one that says why its worker gave none."""
     try:
         return future.result()
-    except TimeoutError:
-        return Outcome(job.timed_out(config.timeout), None, config.timeout)
     except ProcessExpired as error:
         message = f"the worker died with exit code {error.exitcode} before it could report"
         return Outcome(job.record(Status.FAILED, message), None, 0.0)

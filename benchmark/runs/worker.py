@@ -6,6 +6,7 @@ It loads what the jobs need; its children, which share its memory, fit and score
 from __future__ import annotations
 
 import gc
+import signal
 import time
 from contextlib import suppress
 from functools import cache
@@ -33,6 +34,7 @@ __all__ = ["prepare_worker", "run_job"]
 
 def prepare_worker() -> None:
     """Make this process a worker: it ends with its parent and computes with one thread."""
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)  # a closed terminal is for the run to deal with
     die_with_parent()
     adopt_orphans()
     # One BLAS thread, so that results do not depend on how many jobs run at once.

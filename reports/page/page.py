@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from importlib.resources import files
 
 from jinja2 import Environment, StrictUndefined, Template
-from joblib import Parallel, delayed
 from markupsafe import Markup
 
-from mocapbench.reports.analysis.results import TaskResults, task_results
+from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.troubles import DATA_MISSING, troubles
 from mocapbench.reports.bundle.bundle import STATUSES, Bundle
 from mocapbench.reports.page.downloads import to_csv, to_latex
 from mocapbench.reports.page.missing_data import missing_data
-from mocapbench.reports.page.sections import TaskView, overall_ranks, task_view
+from mocapbench.reports.page.sections import overall_ranks, task_view
 from mocapbench.reports.paper.citations import citations_of
 from mocapbench.reports.tables.base import Table
 from mocapbench.reports.tables.check import check_table
@@ -29,7 +28,7 @@ __all__ = ["render"]
 def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
     results = [task_results(bundle, layout) for layout in bundle.layouts]
-    tasks = _task_views(results, bundle)
+    tasks = [task_view(of_task, bundle.illustrations) for of_task in results]
     no_score = troubles(bundle)
     check = check_table(bundle.check) if bundle.check else None
     papers = papers_table(results)
@@ -53,12 +52,6 @@ def render(bundle: Bundle) -> str:
         css=Markup(_resource("report.css")),
         js=Markup(_resource("report.js")),
     )
-
-
-def _task_views(results: Sequence[TaskResults], bundle: Bundle) -> list[TaskView]:
-    """Return the section of every task; drawing takes time, so it is divided among the cores."""
-    drawing = (delayed(task_view)(of_task, bundle.illustrations) for of_task in results)
-    return list(Parallel(n_jobs=-1, backend="multiprocessing")(drawing))
 
 
 def _template() -> Template:

@@ -1,7 +1,10 @@
 """Models with one fault each, for the tests of the harness and of the conformance kit."""
 
 import os
+import resource
+import subprocess
 import time
+import warnings
 
 import numpy as np
 
@@ -88,6 +91,30 @@ class Dies(_Mean):
         os._exit(7)
 
 
+class Meddles(_Mean):
+    """Changes whatever the process shares, so that no other job would end as it should."""
+
+    def fit(self, recordings):
+        np.random.seed(1)  # noqa: NPY002
+        np.seterr(all="raise")
+        warnings.simplefilter("error")
+        os.environ["OPENBLAS_NUM_THREADS"] = "7"
+        os.chdir("/")
+        resource.setrlimit(resource.RLIMIT_NOFILE, (16, 16))
+        for name in ("mean", "nanmean", "concatenate"):
+            setattr(np, name, None)
+        Prediction.around = None
+        raise RuntimeError("meddled")
+
+
+class Litters(_Mean):
+    """Leaves a process running."""
+
+    def fit(self, recordings):
+        subprocess.Popen(["sleep", "601"])
+        return super().fit(recordings)
+
+
 class Hungry(_Mean):
     def fit(self, recordings):
         self.hoard_ = np.ones(2**40)
@@ -108,6 +135,8 @@ MODELS = {
     "counts": Counts,
     "dies": Dies,
     "hungry": Hungry,
+    "litters": Litters,
+    "meddles": Meddles,
     "well-behaved": _Mean,
 }
 

@@ -1,9 +1,6 @@
 import importlib
-import os
-import signal
 import subprocess
 import sys
-import time
 
 import pandas as pd
 import pytest
@@ -358,36 +355,3 @@ def test_export_without_pyarrow_writes_csv_and_says_how_to_get_parquet(cli, tmp_
     assert len(pd.read_csv(tmp_path / "tables" / "jobs.csv")) == 4
     assert "scores.csv" in cli.printed
     assert ".parquet" not in cli.printed
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT], ids=["killed", "interrupted"])
-def test_an_interrupted_run_resumes_to_the_same_scores(cli, records, tmp_path, how):
-    arguments = [str(a) for a in (*TOY, "--models", "trivial,cubic-spline", "--folds", 12)]
-    script = "from mocapbench.benchmark.cli.main import main; main()"
-    out = tmp_path / "broken"
-    process = subprocess.Popen(
-        [sys.executable, "-c", script, *arguments, "--jobs", "1", "--out", str(out)],
-        start_new_session=True,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    while len(list(out.glob("records/*/*.json"))) < 3:
-        assert process.poll() is None
-        time.sleep(0.01)
-    os.killpg(process.pid, how)
-    stdout, stderr = process.communicate(timeout=60)
-    kept = len(records(out))
-    assert 3 <= kept < 24
-    assert process.returncode == (130 if how is signal.SIGINT else -how)
-    assert "Traceback" not in stderr
-    assert ("the same command resumes" in stdout) is (how is signal.SIGINT)
-    assert cli(*arguments, "--out", out) == 0
-    assert f"{kept} of 24 jobs are in" in cli.printed
-    assert cli(*arguments, "--out", tmp_path / "whole") == 0
-    assert _scores(records(out)) == _scores(records(tmp_path / "whole"))
-    names = [
-        sorted(p.name for p in (d / "predictions").iterdir()) for d in (out, tmp_path / "whole")
-    ]
-    assert names[0] == names[1]

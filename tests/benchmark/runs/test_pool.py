@@ -1,7 +1,9 @@
 """A model that misbehaves costs its own record and nothing else."""
 
+import psutil
 import pytest
 
+LITTER = ["sleep", "601"]
 ENDINGS = {
     "raises": ("failed", "RuntimeError: the model <b>raised</b>"),
     "singular": ("failed", "LinAlgError"),
@@ -17,6 +19,8 @@ ENDINGS = {
     "counts": ("ok", ""),
     "dies": ("failed", "exit code 7"),
     "hungry": ("out-of-memory", "raise --memory"),
+    "litters": ("ok", ""),
+    "meddles": ("failed", "RuntimeError: meddled"),
     "well-behaved": ("ok", ""),
 }
 
@@ -38,6 +42,7 @@ def test_each_ending_is_recorded_and_the_others_run(cli, records, arguments, tmp
     }
     for label, (_, message) in ENDINGS.items():
         assert message in found[label]["message"]
+    assert not [p for p in psutil.process_iter(["cmdline"]) if p.info["cmdline"] == LITTER]
     assert "RuntimeError" in found["raises"]["traceback"]
     assert found["well-behaved"]["scores"]["mse"] > 0
     page = (tmp_path / "run" / "report.html").read_text()
@@ -60,9 +65,21 @@ def test_a_parameter_that_is_no_plain_value_is_refused(cli, tmp_path, arguments)
 
 
 @pytest.mark.slow
+def test_what_a_model_does_to_its_process_changes_no_other_score(cli, records, arguments, tmp_path):
+    """One worker, so that every job after the first is forked from where the others were."""
+    chosen = "meddles,litters,hungry,well-behaved,trivial,knn"
+    assert cli(*arguments, "--models", chosen, "--jobs", 1) == 3
+    assert cli(*arguments, "--models", "well-behaved,trivial,knn", "--out", tmp_path / "alone") == 0
+    beside, alone = (records(tmp_path / name) for name in ("run", "alone"))
+    assert len(alone) == 3
+    for address, record in alone.items():
+        assert beside[address]["scores"] == record["scores"]
+
+
+@pytest.mark.slow
 def test_a_broken_job_is_tried_again_and_a_finished_one_is_not(cli, records, arguments, tmp_path):
     assert cli(*arguments, "--models", "raises,well-behaved") == 3
-    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/records").iterdir()}
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/records").glob("*/*")}
     assert cli(*arguments, "--models", "raises,well-behaved") == 3
     changed = [p for p, when in before.items() if p.stat().st_mtime_ns != when]
     assert "1 of 2 jobs are in" in cli.printed
