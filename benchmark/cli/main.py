@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import warnings
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -12,6 +14,7 @@ import typer
 from mocapbench import __version__
 from mocapbench.benchmark import cli
 from mocapbench.benchmark.cli.lazy import DeferredCommand, LazyGroup
+from mocapbench.benchmark.errors import ExitCode
 
 __all__ = ["COMMANDS", "app", "main"]
 
@@ -69,7 +72,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
         try:
             app(args=None if arguments is None else list(arguments))
         except Exception as error:
-            sys.exit(cli.explain(error))
+            sys.exit(_explained(error))
+
+
+def _explained(error: Exception) -> int:
+    try:
+        return cli.explain(error)
+    except OSError:  # the terminal was closed, and what could not be written is lost with it
+        with Path(os.devnull).open("w", encoding="utf-8") as nowhere:
+            for stream in (sys.stdout, sys.stderr):
+                os.dup2(nowhere.fileno(), stream.fileno())
+        return ExitCode.INTERRUPTED
 
 
 def _show_warning(*warning: Any, **origin: Any) -> None:
