@@ -16,11 +16,15 @@ from threadpoolctl import threadpool_limits
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
-from mocapbench.benchmark.runs.child import ProcessDiedError, call_in_child, die_with_parent
 from mocapbench.benchmark.runs.evaluate import evaluate
+from mocapbench.benchmark.runs.execution.child import (
+    ProcessDiedError,
+    call_in_child,
+    die_with_parent,
+)
+from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Status
-from mocapbench.benchmark.runs.spool import Spool, SpooledArchive
 
 __all__ = ["prepare_worker", "run_job"]
 
