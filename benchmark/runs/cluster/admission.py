@@ -25,8 +25,8 @@ def require_workers(client: Client) -> None:
         client.wait_for_workers(1, timeout=_PATIENCE)
     except TimeoutError as error:
         raise UsageError(
-            f"expected a worker at the scheduler {client.scheduler.address}, got none within "
-            f"{_PATIENCE:.0f} s; start workers, and give the same command again"
+            f"expected the scheduler to have a worker, got none within {_PATIENCE:.0f} s; start "
+            "workers, and give the same command again"
         ) from error
     for address, found in client.run(installation, on_error="return").items():
         match found:

@@ -37,12 +37,12 @@ class ClusterExecutor:
     def __init__(self, client: Client, config: WorkerConfig, spool: Spool) -> None:
         self._client = client
         self._spool = spool
-        self._recordings: dict[str, Future] = {}
+        self._recordings: dict[str, Future[bytes]] = {}
         name, files = f"mocapbench-{uuid.uuid4().hex}", PluginFiles.read(config.plugins)
         self._plugin = RunPlugin(name, config, files, installation())
         client.register_plugin(self._plugin)
 
-    def submit(self, work: Work) -> Future:
+    def submit(self, work: Work) -> Future[Outcome]:
         """Have a worker run a job as soon as one is free."""
         digests = work.job.digests
         recordings = {path.name: self._recording(path) for path in self._spool.files(digests)}
@@ -53,10 +53,9 @@ class ClusterExecutor:
             recordings,
             self._spool.unreadable(digests),
             key=f"{work.job.address.label}-{self._plugin.name}-{work.job.key}",
-            pure=False,
         )
 
-    def _recording(self, path: Path) -> Future:
+    def _recording(self, path: Path) -> Future[bytes]:
         """Send a recording to the cluster once; a worker gets it from another that has it."""
         if path.name not in self._recordings:
             # A task rather than scattered data: when the workers that have it die, it comes again.
@@ -65,7 +64,7 @@ class ClusterExecutor:
             )
         return self._recordings[path.name]
 
-    def ended(self, futures: Collection[Future]) -> Collection[Future]:
+    def ended(self, futures: Collection[Future[Outcome]]) -> Collection[Future[Outcome]]:
         """Wait until one or more of ``futures`` have ended, or for a while, and return these.
 
         Raises
@@ -83,7 +82,7 @@ class ClusterExecutor:
             ) from error
         return [future for future in futures if future.done()]
 
-    def outcome(self, future: Future, job: Job) -> Outcome:
+    def outcome(self, future: Future[Outcome], job: Job) -> Outcome:
         """Return the job's outcome, or one that says why no worker gave one.
 
         Raises
@@ -93,8 +92,7 @@ class ClusterExecutor:
         """
         match future.exception():
             case None:
-                outcome: Outcome = future.result()
-                return outcome
+                return future.result()
             case UsageError() as error:
                 raise error
             case KilledWorker() as error:
@@ -106,7 +104,7 @@ class ClusterExecutor:
                 message = f"no report came back: {type(error).__name__}: {error}"
         return Outcome(job.record(Status.FAILED, message), None, 0.0)
 
-    def stop(self, futures: Collection[Future]) -> None:
+    def stop(self, futures: Collection[Future[Outcome]]) -> None:
         """Kill what the cluster runs for this run; the jobs of ``futures`` are cancelled."""
         with suppress(Exception):  # of a scheduler that is gone, nothing is left to stop
             self._client.cancel(list(futures), force=True)

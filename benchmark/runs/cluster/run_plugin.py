@@ -5,6 +5,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import cast
 
 from distributed import Reschedule, Worker, WorkerPlugin, get_worker
 
@@ -85,8 +86,7 @@ def run_on_worker(
     if unreadable:
         return Outcome(work.job.record(Status.FAILED, unreadable[0]), None, 0.0)
     worker = get_worker()
-    plugin = worker.plugins.get(run)
-    if plugin is None:  # the worker closes, and has taken leave of its plug-ins
+    plugin = cast(RunPlugin | None, worker.plugins.get(run))
+    if plugin is None:  # the worker is closing, and has let go of its plug-ins
         raise Reschedule
-    outcome: Outcome = plugin.run(worker, work, recordings)
-    return outcome
+    return plugin.run(worker, work, recordings)
