@@ -31,7 +31,7 @@ def require_workers(client: Client) -> None:
     for address, found in client.run(installation, on_error="return").items():
         match found:
             case Exception():
-                reason = f"expected mocapbench as it is here, got {type(found).__name__}: {found}"
+                reason = f"expected mocapbench as it is here, got {found}"
             case _:
                 reason = difference(installation(), found)
         if reason:

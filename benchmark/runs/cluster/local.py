@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import logging
 import re
+import signal
 from contextlib import ExitStack
 
-from distributed import Client, LocalCluster
+from distributed import Client, LocalCluster, Worker, WorkerPlugin
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.cluster.admission import require_workers
@@ -44,5 +45,14 @@ def open_site(kind: str) -> ClusterSite:
             silence_logs=logging.ERROR,
         )
         client = held.enter_context(Client(held.enter_context(cluster)))
+        client.register_plugin(_Undisturbed())
         require_workers(client)
         return ClusterSite(client, held.pop_all())
+
+
+class _Undisturbed(WorkerPlugin):
+    """Leaves an interrupt, which a terminal sends to all processes, to the one that ends them."""
+
+    def setup(self, worker: Worker) -> None:
+        del worker
+        signal.signal(signal.SIGINT, signal.SIG_IGN)

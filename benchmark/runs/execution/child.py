@@ -59,6 +59,8 @@ def call_in_child(function: Callable[..., Any], *arguments: Any, timeout: float)
         If the call took longer.
     ProcessDiedError
         If the process ended without a result.
+    SystemExit
+        If the process that started this one has ended: then nobody waits for the result.
     """
     receiver, sender = _FORK.Pipe(duplex=False)
     process = _FORK.Process(target=_report, args=(sender, function, arguments))
@@ -70,7 +72,7 @@ def call_in_child(function: Callable[..., Any], *arguments: Any, timeout: float)
         except EOFError:
             process.join(timeout)
             raise ProcessDiedError(process.exitcode) from None
-        except TimeoutError:
+        except (TimeoutError, SystemExit):
             _kill_descendants(process)
             raise
         finally:
@@ -89,8 +91,15 @@ def _report(sender: Connection, function: Callable[..., Any], arguments: tuple[A
 
 def _received(receiver: Connection, process: ForkProcess, timeout: float) -> bytes:
     # The process is waited for as well: one that it started may keep its end of the pipe open.
-    if not wait([receiver, process.sentinel], timeout):
+    # So is the parent, in vain by `die_with_parent`: that of a worker is the server that forks
+    # workers, which lives as long as they do.
+    parent = multiprocessing.parent_process()
+    parents = [parent.sentinel] if parent else []
+    ready = wait([receiver, process.sentinel, *parents], timeout)
+    if not ready:
         raise TimeoutError
+    if set(parents) & set(ready):
+        raise SystemExit
     if not receiver.poll():
         raise EOFError
     return receiver.recv_bytes()
