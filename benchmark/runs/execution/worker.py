@@ -6,6 +6,7 @@ It loads what the jobs need; its children, which share its memory, fit and score
 from __future__ import annotations
 
 import gc
+import signal
 import time
 from contextlib import suppress
 from functools import cache
@@ -32,6 +33,8 @@ __all__ = ["prepare_worker", "run_job"]
 def prepare_worker() -> None:
     """Make this process a worker: it ends with its parent and computes with one thread."""
     die_with_parent()
+    # At once when told to, with the child: a worker that winds up holds up the end of a run.
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     # One BLAS thread, so that results do not depend on how many jobs run at once.
     threadpool_limits(1)
 
