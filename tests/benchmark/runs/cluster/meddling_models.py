@@ -28,7 +28,7 @@ class Zero(Imputer):
 class KillsOnce(Zero):
     def fit(self, recordings):
         if not MARKER.exists():
-            MARKER.write_text(f"{os.getpid()}")
+            MARKER.touch()
             dask_worker().kill()
             time.sleep(600)
         return self
@@ -41,10 +41,12 @@ class KillsAlways(Zero):
         time.sleep(600)
 
 
-class Sleeps(Zero):
+class SleepsOnce(Zero):
     def fit(self, recordings):
-        MARKER.write_text(f"{os.getpid()} {__file__}")
-        time.sleep(600)
+        if not MARKER.exists():
+            MARKER.write_text(f"{os.getpid()} {__file__}\n")
+            time.sleep(600)
+        return self
 
 
-MODELS = {"kills-once": KillsOnce, "kills-always": KillsAlways, "sleeps": Sleeps}
+MODELS = {"kills-once": KillsOnce, "kills-always": KillsAlways, "sleeps-once": SleepsOnce}

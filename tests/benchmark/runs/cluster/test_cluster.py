@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import psutil
 import pytest
-from distributed import LocalCluster
+from distributed import Client, LocalCluster
 
 pytestmark = pytest.mark.slow
 
@@ -71,7 +71,7 @@ def test_results_are_those_of_one_machine_though_a_worker_is_killed(
         *("--models", "kills-once,knn,cubic-spline,mohgp,gp-independent,nn"),
     )
     clustered, alone = both(*request, code=0)
-    assert not psutil.pid_exists(int(marker.read_text()))  # the killed worker's job
+    assert marker.exists()
     assert {task for task, *_ in alone} == {
         *("toy-interpolation-1", "toy-synthesis", "missing-frames")
     }
@@ -94,23 +94,38 @@ def test_a_job_that_kills_every_worker_becomes_a_failed_record(
     assert "4 workers died while they had the job" in record["message"]
 
 
-def test_an_interrupt_ends_what_runs_on_the_cluster(scheduler, meddling_models, marker, tmp_path):
-    command = [*TOY, "--plugin", meddling_models, "--models", "sleeps", "--scheduler", scheduler]
+@pytest.fixture
+def asleep(scheduler, meddling_models, marker, tmp_path):
+    """Return a run on the cluster, and the process and the plug-in's file of its sleeping job."""
+    request = (*TOY, "--plugin", meddling_models, "--models", "sleeps-once")
     program = "from mocapbench.benchmark.cli.main import main; main()"
-    run = subprocess.Popen(
-        [sys.executable, "-c", program, *map(str, command), "--out", str(tmp_path / "run")]
-    )
-    while not (marker.exists() and marker.read_text().endswith(".py")):
-        assert run.poll() is None
-        time.sleep(0.1)
-    pid, file = marker.read_text().split(" ", 1)
-    sleeper = psutil.Process(int(pid))
+    arguments = (*request, "--scheduler", scheduler, "--out", tmp_path / "run")
+    with subprocess.Popen([sys.executable, "-c", program, *map(str, arguments)]) as run:
+        while not (marker.exists() and marker.read_text().endswith("\n")):
+            assert run.poll() is None
+            time.sleep(0.1)
+        pid, file = marker.read_text().strip().split(" ", 1)
+        yield run, psutil.Process(int(pid)), Path(file)
+
+
+def test_an_interrupt_ends_what_runs_on_the_cluster(asleep, ends, tmp_path):
+    run, sleeper, file = asleep
+    assert file.exists()
     run.send_signal(signal.SIGINT)
     assert run.wait() == 130
-    psutil.wait_procs([sleeper])
-    assert not sleeper.is_running()
-    assert not Path(file).exists()
+    assert ends(sleeper)
+    assert not file.exists()
     assert not any((tmp_path / "run" / "records").rglob("*.json"))
+
+
+def test_a_worker_that_leaves_hands_its_job_on(asleep, scheduler, records, ends, tmp_path):
+    run, sleeper, _ = asleep
+    with Client(scheduler) as client:
+        leaving = [address for address, jobs in client.processing().items() if jobs]
+        client.retire_workers(leaving)
+    assert run.wait() == 0
+    assert ends(sleeper)
+    assert {record["status"] for record in records(tmp_path / "run").values()} == {"ok"}
 
 
 PENDULUMS = Path(__file__).parents[4] / "examples" / "plugin" / "pendulums.py"
