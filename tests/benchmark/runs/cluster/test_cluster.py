@@ -175,13 +175,29 @@ def test_a_worker_with_another_version_is_refused(cli, lone_worker, tmp_path):
     assert "got 0.1; install the same there as here" in cli.printed
 
 
-def test_a_worker_without_mocapbench_is_refused(cli, lone_worker, tmp_path):
+@pytest.fixture
+def no_mocapbench(tmp_path):
+    """Return a folder on whose path mocapbench cannot be imported."""
     package = tmp_path / "path" / "mocapbench"
     package.mkdir(parents=True)
     (package / "__init__.py").write_text("raise ModuleNotFoundError('no mocapbench here')")
-    address = lone_worker(tmp_path / "path")
+    return package.parent
+
+
+def test_a_worker_without_mocapbench_is_refused(cli, lone_worker, no_mocapbench, tmp_path):
+    address = lone_worker(no_mocapbench)
     assert cli(*TOY, "--scheduler", address, "--out", tmp_path / "run") == 2
+    assert f"worker {address.rsplit(':', 1)[0]}" in cli.printed
     assert "expected mocapbench as it is here, got ModuleNotFoundError" in cli.printed
+
+
+def test_a_scheduler_without_mocapbench_is_refused(cli, scheduler, monkeypatch, tmp_path):
+    def run_on_scheduler(*_):
+        raise ModuleNotFoundError("no mocapbench here")
+
+    monkeypatch.setattr(Client, "run_on_scheduler", run_on_scheduler)
+    assert cli(*TOY, "--scheduler", scheduler, "--out", tmp_path / "run") == 2
+    assert "the scheduler: expected mocapbench as it is here, got no mocapbench" in cli.printed
 
 
 def test_a_scheduler_without_workers_is_refused(cli, monkeypatch, tmp_path):
