@@ -5,5 +5,5 @@ every dask worker an `outpost` gives each job a killable process, as on one mach
 workers need travels to them: `run_plugin` carries the user's own files (`plugin_files`), and the
 `installation` of every worker must be that of the run.
 
-These modules import `distributed`; nothing imports them unless a cluster is asked for.
+They need the package `distributed`, and are loaded only if a cluster is asked for.
 """
