@@ -40,7 +40,7 @@ def open_site(kind: str) -> ClusterSite:
             n_workers=int(found[1]),
             threads_per_worker=1,
             host="127.0.0.1",
-            dashboard_address=None,
+            dashboard_address="127.0.0.1:0",
             memory_limit=0,  # jobs have their own limit, and their processes are not the worker's
             silence_logs=logging.ERROR,
         )

@@ -9,7 +9,7 @@ from distributed import Client, LocalCluster
 @pytest.fixture
 def scheduler():
     """Return the address of a scheduler with two workers, which their nannies restart."""
-    options = {"host": "127.0.0.1", "dashboard_address": None, "memory_limit": 0}
+    options = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0", "memory_limit": 0}
     with LocalCluster(n_workers=2, threads_per_worker=1, **options) as cluster:
         yield cluster.scheduler_address
 
@@ -20,7 +20,7 @@ def lone_worker():
     processes = []
 
     def start(*path):
-        options = {"host": "127.0.0.1", "dashboard_address": None}
+        options = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0"}
         cluster = LocalCluster(n_workers=0, **options)
         command = [sys.executable, "-m", "distributed.cli.dask_worker", cluster.scheduler_address]
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, path))}

@@ -202,7 +202,7 @@ def test_a_scheduler_without_mocapbench_is_refused(cli, scheduler, monkeypatch, 
 
 def test_a_scheduler_without_workers_is_refused(cli, monkeypatch, tmp_path):
     monkeypatch.setattr("mocapbench.benchmark.runs.cluster.admission._PATIENCE", 0.1)
-    with LocalCluster(n_workers=0, host="127.0.0.1", dashboard_address=None) as cluster:
+    with LocalCluster(n_workers=0, host="127.0.0.1", dashboard_address="127.0.0.1:0") as cluster:
         out = ("--out", tmp_path / "run")
         assert cli(*TOY, "--scheduler", cluster.scheduler_address, *out) == 2
     assert "expected the scheduler to have a worker" in cli.printed
