@@ -24,6 +24,9 @@ from .registry import LIBRARIES, METRICS, MODELS, TASKS
 from .results.bundle import bundle
 from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
+from .runs.execution.base import Site
+from .runs.execution.choice import open_site
+from .runs.execution.this_machine import ThisMachine
 from .runs.job import Job, WorkerConfig
 from .runs.machine import memory_share, n_cores
 from .runs.plan import Request, plan, required_sources
@@ -68,11 +71,13 @@ __all__ = [
     "Request",
     "Samples",
     "Seeds",
+    "Site",
     "Solved",
     "Status",
     "Store",
     "SynthesiseProblem",
     "Task",
+    "ThisMachine",
     "Unit",
     "UnknownNameError",
     "UsageError",
@@ -88,6 +93,7 @@ __all__ = [
     "load_plugin",
     "memory_share",
     "n_cores",
+    "open_site",
     "plan",
     "provenance",
     "required_sources",

@@ -35,6 +35,7 @@ class Registry(Generic[T]):
 
     def __init__(self, kind: str, group: str) -> None:
         self.kind = kind
+        self.group = group
         self._added: dict[str, T] = {}
         self._points: dict[str, EntryPoint] = {
             point.name: point for point in entry_points(group=group)

@@ -32,7 +32,7 @@ from mocapbench.benchmark.cli.report import write_report
 from mocapbench.benchmark.errors import ExitCode, UsageError
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark import Job, Record, Store, WorkerConfig
+    from mocapbench.benchmark import Job, Record, Site, Store, WorkerConfig
 
 __all__ = ["app"]
 
@@ -50,6 +50,12 @@ def run(
     seed: Annotated[int, typer.Option(min=0, help="The root seed.")] = 0,
     jobs: Annotated[
         int | None, typer.Option(min=1, help="How many jobs at once; by default one per core.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(help="A dask scheduler whose workers run the jobs: its address.")
+    ] = None,
+    cluster: Annotated[
+        str | None, typer.Option(help="local:N starts a dask cluster of N workers here.")
     ] = None,
     threads: Annotated[
         int, typer.Option(min=1, help="Threads of a job; does not affect results.")
@@ -87,7 +93,7 @@ def run(
     if dry_run:
         console.print(_plan_table(planned))
         return
-    store, workers = bench.Store.create(out), jobs or bench.n_cores()
+    store, site = bench.Store.create(out), bench.open_site(jobs, scheduler, cluster)
     about = {
         **bench.provenance(["mocapbench", *sys.argv[1:]], threads),
         "profile": profile,
@@ -99,15 +105,15 @@ def run(
         data_dir.resolve() if data_dir else None,
         plugins,
         timeout,
-        int((memory or bench.memory_share(workers)) * 2**30),
+        int((memory or site.memory) * 2**30),
         threads,
         about,
     )
     for ending in (signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(ending) is not signal.SIG_IGN:  # as under nohup
             signal.signal(ending, _interrupt)
-    with store.locked():
-        raise typer.Exit(_run(planned, store, config, workers, console))
+    with site, store.locked():
+        raise typer.Exit(_run(planned, store, config, site, console))
 
 
 def _interrupt(_signal: int, _frame: FrameType | None) -> None:
@@ -115,17 +121,13 @@ def _interrupt(_signal: int, _frame: FrameType | None) -> None:
 
 
 def _run(
-    planned: Sequence[Job],
-    store: Store,
-    config: WorkerConfig,
-    n_workers: int,
-    console: LiteralConsole,
+    planned: Sequence[Job], store: Store, config: WorkerConfig, site: Site, console: LiteralConsole
 ) -> ExitCode:
     keys = [job.key for job in planned]
     store.save_plan({"keys": keys, "provenance": dict(config.provenance)})
     started = time.monotonic()
     try:
-        records = bench.run(planned, store, config, n_workers=n_workers, console=console)
+        records = bench.run(planned, store, config, site=site, console=console)
     except KeyboardInterrupt:
         with suppress(OSError):  # the terminal may have been closed
             console.print("interrupted; everything finished is kept, and the same command resumes")

@@ -9,11 +9,12 @@ import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import scipy.linalg  # noqa: F401  # brings its BLAS, which may be another than NumPy's
 from threadpoolctl import threadpool_info
 
 from mocapbench.benchmark.runs.machine import n_cores
 
-__all__ = ["cpu_name", "provenance"]
+__all__ = ["cpu_name", "machine_facts", "provenance"]
 
 _LIBRARIES = ("mocapbench", "numpy", "scipy", "pandas", "scikit-learn")
 
@@ -32,6 +33,15 @@ def provenance(command: Sequence[str], threads: int) -> Mapping[str, str]:
     return {
         **versions,
         "commit": _commit(),
+        **machine_facts(),
+        "threads": f"{threads} per job",
+        "command line": shlex.join(command),
+    }
+
+
+def machine_facts() -> Mapping[str, str]:
+    """Return what this machine is and what it computes with, by name."""
+    return {
         "python version": platform.python_version(),
         "platform": platform.platform(),
         "machine": platform.machine(),
@@ -39,8 +49,6 @@ def provenance(command: Sequence[str], threads: int) -> Mapping[str, str]:
         "BLAS": _blas(),
         "CPU": cpu_name(),
         "cores": str(n_cores()),
-        "threads": f"{threads} per job",
-        "command line": shlex.join(command),
     }
 
 

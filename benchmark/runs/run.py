@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Sequence
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from rich.console import Console
 
 from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.runs.execution.base import Site
+from mocapbench.benchmark.runs.execution.execute import execute
+from mocapbench.benchmark.runs.execution.job_queue import JobQueue
+from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
-from mocapbench.benchmark.runs.job_queue import JobQueue
-from mocapbench.benchmark.runs.pool import execute
 from mocapbench.benchmark.runs.progress import watch
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.spool import Spool
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.datasets import Archive
 
@@ -28,7 +28,7 @@ def run(
     store: Store,
     config: WorkerConfig,
     *,
-    n_workers: int,
+    site: Site,
     console: Console,
 ) -> list[Record]:
     """Return the records of ``jobs``, in their order.
@@ -42,8 +42,8 @@ def run(
     jobs : sequence of Job
     store : Store
     config : WorkerConfig
-    n_workers : int
-        How many jobs run at once.
+    site : Site
+        Where jobs run, such as `ThisMachine`.
     console : rich.console.Console
         Shows the progress.
     """
@@ -57,13 +57,13 @@ def run(
             finished[job.key] = _without_data(job, config)
             store.save(finished[job.key])
     todo = [job for job in todo if not job.missing]
-    for record in _computed(todo, store, config, n_workers, console):
+    for record in _computed(todo, store, config, site, console):
         finished[record.key] = record
     return [finished[job.key] for job in jobs]
 
 
 def _computed(
-    jobs: Sequence[Job], store: Store, config: WorkerConfig, n_workers: int, console: Console
+    jobs: Sequence[Job], store: Store, config: WorkerConfig, site: Site, console: Console
 ) -> Iterator[Record]:
     """Yield the record of each job as it ends, once it is in the store."""
     archive, queue = archive_at(config.data_dir), JobQueue(jobs)
@@ -76,8 +76,10 @@ def _computed(
             fit = store.load_fit(job.fit_key)
             return Work(job, fit, tuple(store.damaged[already_damaged:]))
 
-        outcomes = execute(queue, work, config, spool, n_workers)
-        left = partial(queue.time_left, n_workers)
+        def left() -> float:
+            return queue.time_left(site.n_workers)
+
+        outcomes = execute(queue, work, config, spool, site)
         for outcome in watch(outcomes, len(jobs), left, console):
             if outcome.fit is not None:
                 store.save_fit(outcome.record.fit_key, outcome.fit)

@@ -1,3 +1,6 @@
+import time
+
+import psutil
 import pytest
 
 from mocapbench.benchmark.runs import sources
@@ -30,3 +33,24 @@ def append(monkeypatch, forget):
         forget()
 
     return append
+
+
+def _is_over(process):
+    try:
+        return process.status() == psutil.STATUS_ZOMBIE  # nobody may be there to take note
+    except psutil.NoSuchProcess:
+        return True
+
+
+@pytest.fixture
+def ends():
+    """Return a function that waits for a process to end, and says whether it did."""
+
+    def ends(process):
+        for _ in range(300):
+            if _is_over(process):
+                return True
+            time.sleep(0.1)
+        return False
+
+    return ends

@@ -17,17 +17,17 @@ from threadpoolctl import threadpool_limits
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
-from mocapbench.benchmark.runs.child import (
+from mocapbench.benchmark.runs.evaluate import evaluate
+from mocapbench.benchmark.runs.execution.child import (
     ProcessDiedError,
     adopt_orphans,
     call_in_child,
     die_with_parent,
     kill_children,
 )
-from mocapbench.benchmark.runs.evaluate import evaluate
+from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Status
-from mocapbench.benchmark.runs.spool import Spool, SpooledArchive
 
 __all__ = ["prepare_worker", "run_job"]
 
@@ -37,6 +37,8 @@ def prepare_worker() -> None:
     signal.signal(signal.SIGHUP, signal.SIG_IGN)  # a closed terminal is for the run to deal with
     die_with_parent()
     adopt_orphans()
+    # At once when told to, with the child: a worker that winds up holds up the end of a run.
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     # One BLAS thread, so that results do not depend on how many jobs run at once.
     threadpool_limits(1)
 

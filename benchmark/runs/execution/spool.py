@@ -33,6 +33,7 @@ class Spool:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self._unreadable: dict[str, str] = {}
 
     def add(self, archive: Archive, digests: Mapping[str, str]) -> None:
         """Read those recordings that are not here yet.
@@ -51,7 +52,8 @@ class Spool:
             if not path.exists():
                 try:
                     content = _Content(archive.recording(uri), _skeleton(archive, uri))
-                except Exception:
+                except Exception as error:
+                    self._unreadable[uri] = f"{type(error).__name__}: {error}"
                     continue
                 with atomic_write(path) as file:
                     pickle.dump(content, file, protocol=pickle.HIGHEST_PROTOCOL)
@@ -60,6 +62,21 @@ class Spool:
         """Return a recording and its skeleton, or None if they are not here."""
         path = self.path(uri, digest)
         return pickle.loads(path.read_bytes()) if path.exists() else None
+
+    def files(self, digests: Mapping[str, str]) -> tuple[Path, ...]:
+        """Return the files of those recordings that are here."""
+        paths = (self.path(uri, digest) for uri, digest in digests.items())
+        return tuple(path for path in paths if path.exists())
+
+    def unreadable(self, digests: Mapping[str, str]) -> tuple[str, ...]:
+        """Return why those recordings that could not be read could not."""
+        return tuple(reason for uri, reason in self._unreadable.items() if uri in digests)
+
+    def receive(self, name: str, content: bytes) -> None:
+        """Keep a file of another spool, under its name, unless it is here already."""
+        if not (self.folder / name).exists():
+            with atomic_write(self.folder / name) as file:
+                file.write(content)
 
     def path(self, uri: str, digest: str) -> Path:
         """Return the file of a recording."""

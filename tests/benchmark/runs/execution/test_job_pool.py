@@ -25,17 +25,21 @@ ENDINGS = {
 }
 
 
+SITES = {"this machine": ("--jobs", 2), "a cluster": ("--cluster", "local:2")}
+
+
 @pytest.fixture
 def arguments(tmp_path, broken_models):
     return [
         *("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--folds", 1),
-        *("--plugin", broken_models, "--out", tmp_path / "run", "--offline", "--jobs", 2),
+        *("--plugin", broken_models, "--out", tmp_path / "run", "--offline"),
     ]
 
 
 @pytest.mark.slow
-def test_each_ending_is_recorded_and_the_others_run(cli, records, arguments, tmp_path):
-    assert cli(*arguments, "--models", ",".join(ENDINGS), "--timeout", 5) == 3
+@pytest.mark.parametrize("site", SITES.values(), ids=SITES)
+def test_each_ending_is_recorded_and_the_others_run(cli, records, arguments, tmp_path, site):
+    assert cli(*arguments, *site, "--models", ",".join(ENDINGS), "--timeout", 5) == 3
     found = {label: record for (_, _, label, _), record in records(tmp_path / "run").items()}
     assert {label: record["status"] for label, record in found.items()} == {
         label: status for label, (status, _) in ENDINGS.items()

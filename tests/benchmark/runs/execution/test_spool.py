@@ -6,7 +6,7 @@ import pickle
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.runs.spool import Spool, SpooledArchive
+from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
 from mocapbench.datasets import Archive, GaitLibrary, Library
 
 URI = "gait:01_01"

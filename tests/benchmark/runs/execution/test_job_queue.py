@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.runs.job_queue import JobQueue
+from mocapbench.benchmark.runs.execution.job_queue import JobQueue
 from mocapbench.benchmark.tasks.address import Address
 
 

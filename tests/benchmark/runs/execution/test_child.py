@@ -13,7 +13,7 @@ import numpy as np
 import psutil
 import pytest
 
-from mocapbench.benchmark.runs.child import ProcessDiedError, call_in_child
+from mocapbench.benchmark.runs.execution.child import ProcessDiedError, call_in_child
 
 
 def _square(number):
@@ -103,7 +103,7 @@ def test_it_is_killed_after_the_timeout(tmp_path):
 
 LEFT_BEHIND = """
 import os, pathlib, subprocess, sys
-from mocapbench.benchmark.runs.child import adopt_orphans, call_in_child, kill_children
+from mocapbench.benchmark.runs.execution.child import adopt_orphans, call_in_child, kill_children
 def work():
     shell = f"sleep 600 & echo $! >> {sys.argv[1]}; echo $$ >> {sys.argv[1]}; wait"
     subprocess.Popen(["sh", "-c", shell])
@@ -128,7 +128,7 @@ def test_it_ends_with_the_process_that_waits_for_it(tmp_path):
     file = tmp_path / "pid"
     program = (
         "import os, pathlib, time\n"
-        "from mocapbench.benchmark.runs.child import call_in_child\n"
+        "from mocapbench.benchmark.runs.execution.child import call_in_child\n"
         "def work():\n"
         f"    pathlib.Path({str(file)!r}).write_text(str(os.getpid()))\n"
         "    time.sleep(600)\n"
@@ -143,3 +143,31 @@ def test_it_ends_with_the_process_that_waits_for_it(tmp_path):
     parent.wait()
     child.wait(timeout=60)
     assert not child.is_running()
+
+
+RUN = """
+import multiprocessing, os, sys, time
+from mocapbench.benchmark.runs.execution.child import call_in_child
+
+def sleep():
+    print(os.getpid(), flush=True)
+    time.sleep(600)
+
+def work():
+    print(os.getpid(), flush=True)
+    call_in_child(sleep, timeout=600)
+
+if __name__ == "__main__":
+    multiprocessing.get_context("forkserver").Process(target=work).start()
+"""
+"""A worker's parent, by the system's reckoning, is the server that forked it, and not the run."""
+
+
+def test_workers_and_their_calls_end_when_the_process_that_started_them_is_killed(ends, tmp_path):
+    script = tmp_path / "run.py"
+    script.write_text(RUN)
+    with subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, text=True) as run:
+        worker, child = (psutil.Process(int(run.stdout.readline())) for _ in range(2))
+        run.kill()
+    assert ends(worker)
+    assert ends(child)

@@ -65,6 +65,8 @@ def call_in_child(function: Callable[..., Any], *arguments: Any, timeout: float)
         If the call took longer.
     ProcessDiedError
         If the process ended without a result.
+    SystemExit
+        If the process that started this one has ended: then nobody waits for the result.
     """
     receiver, sender = _FORK.Pipe(duplex=False)
     process = _FORK.Process(target=_report, args=(sender, function, arguments))
@@ -88,11 +90,18 @@ def _report(sender: Connection, function: Callable[..., Any], arguments: tuple[A
 
 def _received(receiver: Connection, process: ForkProcess, timeout: float) -> bytes:
     # Not the process's sentinel, a pipe which stays open while a process that it started runs on.
+    # And besides it the run: a worker's parent is the server that forks workers, which lives as
+    # long as they do, so that `die_with_parent` comes too late.
+    run = multiprocessing.parent_process()
+    watched = [run.sentinel] if run else []
     ended = os.pidfd_open(cast(int, process.pid))
     try:
         with receiver:
-            if not wait([receiver, ended], timeout):
+            ready = wait([receiver, ended, *watched], timeout)
+            if not ready:
                 raise TimeoutError
+            if set(watched) & set(ready):
+                raise SystemExit
             if receiver.poll():
                 return receiver.recv_bytes()
     except EOFError:  # it closed the pipe, and should end now

@@ -1,0 +1,58 @@
+"""A cluster that is started on this machine for one run."""
+
+from __future__ import annotations
+
+import logging
+import re
+import signal
+from contextlib import ExitStack
+
+from distributed import Client, LocalCluster, Worker, WorkerPlugin
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.runs.cluster.admission import require_workers
+from mocapbench.benchmark.runs.cluster.site import ClusterSite
+
+__all__ = ["open_site"]
+
+
+def open_site(kind: str) -> ClusterSite:
+    """Start a cluster of workers with one thread each, reachable from this machine alone.
+
+    Parameters
+    ----------
+    kind : str
+        ``local:N`` for N workers.
+
+    Raises
+    ------
+    UsageError
+        If it is not of this form.
+    """
+    found = re.fullmatch(r"local:([1-9]\d*)", kind)
+    if not found:
+        raise UsageError(
+            "--cluster: expected local:N with the number of workers for N, such as local:4, got "
+            f"{kind!r}; --scheduler takes the address of a cluster that is there already"
+        )
+    with ExitStack() as held:
+        cluster = LocalCluster(
+            n_workers=int(found[1]),
+            threads_per_worker=1,
+            host="127.0.0.1",
+            dashboard_address="127.0.0.1:0",
+            memory_limit=0,  # jobs have their own limit, and their processes are not the worker's
+            silence_logs=logging.ERROR,
+        )
+        client = held.enter_context(Client(held.enter_context(cluster)))
+        client.register_plugin(_Undisturbed())
+        require_workers(client)
+        return ClusterSite(client, held.pop_all())
+
+
+class _Undisturbed(WorkerPlugin):
+    """Leaves an interrupt, which a terminal sends to all processes, to the one that ends them."""
+
+    def setup(self, worker: Worker) -> None:
+        del worker
+        signal.signal(signal.SIGINT, signal.SIG_IGN)

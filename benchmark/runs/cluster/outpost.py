@@ -1,0 +1,86 @@
+"""What a run has on one dask worker: a folder, and processes that run its jobs."""
+
+from __future__ import annotations
+
+import multiprocessing
+import shutil
+from collections.abc import Mapping
+from concurrent.futures import CancelledError, Future
+from dataclasses import replace
+from pathlib import Path
+
+from distributed import Reschedule
+
+from mocapbench.benchmark.runs.cluster.plugin_files import PluginFiles
+from mocapbench.benchmark.runs.execution.job_pool import JobPool
+from mocapbench.benchmark.runs.execution.spool import Spool
+from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
+from mocapbench.benchmark.runs.provenance import machine_facts
+
+__all__ = ["Outpost"]
+
+
+class Outpost:
+    """Recordings, plug-ins and a pool of processes beside one dask worker.
+
+    A dask worker has threads, from which no process may be forked; the pool's processes have one.
+
+    Parameters
+    ----------
+    folder : Path
+        A folder of its own, removed at the end.
+    n_workers : int
+        How many jobs run at once: the dask worker's threads.
+    config : WorkerConfig
+        Of the run; its paths are those of another machine.
+    files : PluginFiles
+    """
+
+    def __init__(
+        self, folder: Path, n_workers: int, config: WorkerConfig, files: PluginFiles
+    ) -> None:
+        # Under its nanny a dask worker is a daemon, and daemons may not start processes. Ours end
+        # with it all the same.
+        multiprocessing.current_process().daemon = False
+        self._folder = folder
+        self._spool = Spool(folder / "recordings")
+        self._spool.folder.mkdir()
+        config = replace(
+            config,
+            data_dir=None,
+            plugins=files.write(folder / "plugins"),
+            provenance={**config.provenance, **machine_facts()},
+        )
+        self._pool = JobPool(n_workers, config, self._spool)
+        self._running: set[Future[Outcome]] = set()
+
+    def run(self, work: Work, recordings: Mapping[str, bytes]) -> Outcome:
+        """Return the outcome of a job, once a process of the pool has run it.
+
+        Parameters
+        ----------
+        work : Work
+        recordings : mapping of str to bytes
+            The files of the run's spool that the job reads, by name.
+
+        Raises
+        ------
+        Reschedule
+            If the outpost is closed meanwhile: then another worker is to run the job.
+        """
+        for name, content in recordings.items():
+            self._spool.receive(name, content)
+        future = self._pool.submit(work)
+        self._running.add(future)
+        try:
+            future.exception()  # waits
+            return self._pool.outcome(future, work.job)
+        except CancelledError:
+            raise Reschedule from None
+        finally:
+            self._running.discard(future)
+
+    def close(self) -> None:
+        """Kill what runs, and leave nothing behind."""
+        self._pool.stop(tuple(self._running))
+        shutil.rmtree(self._folder, ignore_errors=True)

@@ -1,0 +1,53 @@
+"""Execution: jobs go to an executor in the order of their queue, and come back as they end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from mocapbench.benchmark.runs.execution.base import Site
+from mocapbench.benchmark.runs.execution.job_queue import JobQueue
+from mocapbench.benchmark.runs.execution.spool import Spool
+from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
+
+__all__ = ["execute"]
+
+
+def execute(
+    queue: JobQueue,
+    work: Callable[[Job], Work],
+    config: WorkerConfig,
+    spool: Spool,
+    site: Site,
+) -> Iterator[Outcome]:
+    """Run the jobs of ``queue`` and yield each one's outcome as it ends.
+
+    Closing the iterator, or an interrupt, kills what still runs.
+
+    Parameters
+    ----------
+    queue : JobQueue
+    work : callable
+        Returns what a worker needs for a job; called shortly before the job starts.
+    config : WorkerConfig
+    spool : Spool
+        The recordings that jobs read.
+    site : Site
+        Where they run.
+    """
+    executor = site.start(config, spool)
+    running: dict[Any, Job] = {}
+    try:
+        while True:
+            # As many again wait at the site, so that no worker waits for the store.
+            while len(running) < 2 * site.n_workers and (job := queue.take()):
+                running[executor.submit(work(job))] = job
+            if not running:
+                return
+            for future in executor.ended(running.keys()):
+                job = running.pop(future)
+                outcome = executor.outcome(future, job)
+                queue.ended(job, outcome.seconds)
+                yield outcome
+    finally:
+        executor.stop(running.keys())

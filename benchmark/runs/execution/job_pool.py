@@ -1,0 +1,73 @@
+"""A pool of workers that live for many jobs, each of which runs in a killable process.
+
+A crash, a hang or a kill costs one record alone. Workers are forked from a server that has the
+libraries loaded but has computed nothing, and one that dies is replaced.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Collection
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
+
+from pebble import ProcessExpired, ProcessPool
+
+from mocapbench.benchmark.runs.execution.spool import Spool
+from mocapbench.benchmark.runs.execution.worker import prepare_worker, run_job
+from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
+from mocapbench.benchmark.runs.record import Status
+
+__all__ = ["JobPool"]
+
+_PRELOAD = [
+    "mocapbench.benchmark.runs.execution.worker",
+    "scipy.interpolate",
+    "scipy.optimize",
+    "sklearn.impute",
+]
+
+
+class JobPool:
+    """Workers on this machine, started when the first job comes.
+
+    Parameters
+    ----------
+    n_workers : int
+        How many jobs run at once.
+    config : WorkerConfig
+    spool : Spool
+        The recordings that jobs read.
+    """
+
+    def __init__(self, n_workers: int, config: WorkerConfig, spool: Spool) -> None:
+        context = multiprocessing.get_context("forkserver")
+        context.set_forkserver_preload(_PRELOAD)
+        self._pool = ProcessPool(n_workers, context=context, initializer=prepare_worker)
+        self._config = config
+        self._spool = spool
+
+    def submit(self, work: Work) -> Future[Outcome]:
+        """Have a worker run a job as soon as one is free."""
+        return self._pool.schedule(run_job, (work, self._config, self._spool))
+
+    def ended(self, futures: Collection[Future[Outcome]]) -> Collection[Future[Outcome]]:
+        """Wait until one or more of ``futures`` have ended, and return them."""
+        return wait(futures, return_when=FIRST_COMPLETED).done
+
+    def outcome(self, future: Future[Outcome], job: Job) -> Outcome:
+        """Return the job's outcome, or one that says why its worker gave none."""
+        try:
+            return future.result()
+        except ProcessExpired as error:
+            message = f"the worker died with exit code {error.exitcode} before it could report"
+            return Outcome(job.record(Status.FAILED, message), None, 0.0)
+        except (Exception, CancelledError) as error:
+            message = f"no report came back: {type(error).__name__}: {error}"
+            return Outcome(job.record(Status.FAILED, message), None, 0.0)
+
+    def stop(self, futures: Collection[Future[Outcome]]) -> None:
+        """Kill the workers with what they run; the jobs of ``futures`` are cancelled."""
+        for future in futures:
+            future.cancel()
+        self._pool.stop()  # type: ignore[no-untyped-call]
+        self._pool.join()
