@@ -42,13 +42,20 @@ def _session(process):
     return found
 
 
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """Return the folder of a run that nothing disturbed."""
+    out = tmp_path_factory.mktemp("hardships") / "whole"
+    assert _start((*LONG, "--out", out, "--jobs", 2), stdout=subprocess.DEVNULL).wait() == 0
+    return out
+
+
 def _resumes(cli, records, out, whole):
     """Check that the same command ends what is in ``out`` as if nothing had happened."""
     kept = len(records(out))
     assert 3 <= kept < 80
     assert cli(*LONG, "--out", out) == 0
     assert f"{kept} of 80 jobs are in" in cli.printed
-    assert cli(*LONG, "--out", whole, "--jobs", 2) == 0
     assert _scores(records(out)) == _scores(records(whole))
     files = [sorted(path.name for path in d.glob("predictions/*/*")) for d in (out, whole)]
     assert files[0] == files[1]
@@ -61,7 +68,7 @@ ENDINGS = {signal.SIGKILL: -signal.SIGKILL, signal.SIGINT: 130, signal.SIGTERM: 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("how", ENDINGS, ids=lambda how: how.name)
-def test_an_interrupted_run_resumes_to_the_same_scores(cli, records, tmp_path, how):
+def test_an_interrupted_run_resumes_to_the_same_scores(cli, records, tmp_path, whole, how):
     out = tmp_path / "broken"
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     process = _start((*LONG, "--out", out), **pipes)
@@ -73,7 +80,7 @@ def test_an_interrupted_run_resumes_to_the_same_scores(cli, records, tmp_path, h
     assert ("the same command resumes" in stdout) is (ENDINGS[how] == 130)
     psutil.wait_procs(_session(process), timeout=60)
     assert not _session(process)
-    _resumes(cli, records, out, tmp_path / "whole")
+    _resumes(cli, records, out, whole)
 
 
 @pytest.mark.slow
@@ -90,7 +97,7 @@ def test_nothing_outlives_the_run_when_it_alone_is_ended(tmp_path, how):
 
 
 @pytest.mark.slow
-def test_a_closed_terminal_ends_the_run_which_resumes(cli, records, tmp_path):
+def test_a_closed_terminal_ends_the_run_which_resumes(cli, records, tmp_path, whole):
     terminal, inside = pty.openpty()
     process = _start((*LONG, "--out", tmp_path / "run"), stdout=inside, stderr=inside, stdin=inside)
     os.close(inside)
@@ -98,7 +105,7 @@ def test_a_closed_terminal_ends_the_run_which_resumes(cli, records, tmp_path):
     os.close(terminal)
     os.killpg(process.pid, signal.SIGHUP)  # as the system does where it is the session's terminal
     assert process.wait(timeout=60) == 130
-    _resumes(cli, records, tmp_path / "run", tmp_path / "whole")
+    _resumes(cli, records, tmp_path / "run", whole)
 
 
 @pytest.mark.slow
