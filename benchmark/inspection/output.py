@@ -23,7 +23,9 @@ _DIFFERENT = DIGEST
 def explanation_table(explanations: Sequence[Explanation]) -> Table:
     """Return one line for all entrants of a task that have the same fate for the same reason."""
     title, task_column = _summary(explanations), Column("task", no_wrap=True)
-    table = Table(task_column, "entrants", "jobs", "what", "why", title=title)
+    table = Table(
+        task_column, Column("entrants", overflow="fold"), "jobs", "what", "why", title=title
+    )
     entrants: dict[str, set[str]] = defaultdict(set)
     lines: dict[tuple[str, Step, str, tuple[str, ...]], list[Explanation]] = defaultdict(list)
     for item in explanations:

@@ -8,10 +8,11 @@ from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.inspection.changes import changes, in_words
-from mocapbench.benchmark.merging.records import Found, rank
+from mocapbench.benchmark.merging.records import Found
 from mocapbench.benchmark.merging.sources import Source
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, plan_document
+from mocapbench.benchmark.runs.record import Status
 
 __all__ = ["unite_plans"]
 
@@ -51,8 +52,12 @@ def _one(
     row: Sequence[PlannedJob], records: Mapping[str, Found], keys: Mapping[str, KeyEntry]
 ) -> PlannedJob:
     """Return the job that stands in a row."""
-    ranks = {job.key: rank(records[job.key].record if job.key in records else None) for job in row}
-    with_data = [job for job in row if ranks[job.key] < 2] or list(row)
+    lacking = {
+        job.key
+        for job in row
+        if job.key in records and records[job.key].record.status is Status.DATA_MISSING
+    }
+    with_data = [job for job in row if job.key not in lacking] or list(row)
     if len(with_data) > 1:
         one, other = (keys.get(job.key) for job in with_data[:2])
         new = in_words(changes(one.parts, other.parts)) if one and other else ""

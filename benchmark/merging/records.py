@@ -13,7 +13,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.merging.sources import Source
 from mocapbench.benchmark.runs.record import Record, Status
 
-__all__ = ["Found", "rank", "unite_fits", "unite_records"]
+__all__ = ["Found", "unite_fits", "unite_records"]
 
 _SHOWN = 10
 """Differences, of which there may be thousands."""
@@ -45,19 +45,8 @@ def unite_records(sources: Sequence[Source]) -> dict[str, Found]:
     return {key: min(several, key=_preference) for key, several in found.items()}
 
 
-def rank(record: Record | None) -> int:
-    """Return how much a record tells: the lower, the more; None is a job that did not run yet."""
-    match record:
-        case Record(status=Status.OK):
-            return 0
-        case Record(status=Status.DATA_MISSING):
-            return 2
-        case _:
-            return 1
-
-
-def _preference(found: Found) -> tuple[int, str]:
-    return rank(found.record), found.record.to_json()
+def _preference(found: Found) -> tuple[bool, str]:
+    return found.record.status is not Status.OK, found.record.to_json()
 
 
 def _check_agreement(several: Iterable[Sequence[Found]]) -> None:
