@@ -8,7 +8,7 @@ from pathlib import Path
 
 import typer
 
-from mocapbench.benchmark.cli.failures import exit_code
+from mocapbench.benchmark import cli
 from mocapbench.benchmark.cli.options import require_writable
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.events import EventLog, event_log
@@ -38,5 +38,5 @@ def run_log(path: Path | None) -> Iterator[EventLog]:
             log.run_ended(ExitCode(ended.exit_code))
             raise
         except BaseException as error:
-            log.run_ended(exit_code(error))
+            log.run_ended(cli.exit_code(error))
             raise

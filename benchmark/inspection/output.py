@@ -21,7 +21,7 @@ _DIFFERENT = DIGEST
 
 
 def explanation_table(explanations: Sequence[Explanation]) -> Table:
-    """Return one line for all entrants of a task that have the same fate for the same reason."""
+    """Return one line for all entrants of a task with whose jobs the same is done and why."""
     title, task_column = _summary(explanations), Column("task", no_wrap=True)
     table = Table(
         task_column, Column("entrants", overflow="fold"), "jobs", "what", "why", title=title

@@ -9,14 +9,12 @@ from typing import Any
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.inspection.changes import changes, in_words
 from mocapbench.benchmark.merging.records import Found
-from mocapbench.benchmark.merging.sources import Source
+from mocapbench.benchmark.merging.sources import DIRECTORY, Source
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, plan_document
 from mocapbench.benchmark.runs.record import Status
 
 __all__ = ["unite_plans"]
-
-_DIRECTORY = "run directory"
 
 
 def unite_plans(
@@ -88,7 +86,7 @@ def _distinct(runs: Iterable[Mapping[str, str]]) -> list[Mapping[str, str]]:
 
 def _provenance(runs: Sequence[Mapping[str, str]]) -> dict[str, str]:
     """Return what the runs say of themselves, side by side where they differ."""
-    names = dict.fromkeys(name for run in runs for name in run if name != _DIRECTORY)
+    names = dict.fromkeys(name for run in runs for name in run if name != DIRECTORY)
     held = {name: dict.fromkeys(run[name] for run in runs if name in run) for name in names}
-    merged = {"merged from": "; ".join(dict.fromkeys(run[_DIRECTORY] for run in runs))}
+    merged = {"merged from": "; ".join(dict.fromkeys(run.get(DIRECTORY, "?") for run in runs))}
     return {**{name: " and ".join(values) for name, values in held.items()}, **merged}

@@ -13,7 +13,10 @@ from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, planned_jo
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.runs.store import Store
 
-__all__ = ["Source", "read_source"]
+__all__ = ["DIRECTORY", "Source", "read_source"]
+
+DIRECTORY = "run directory"
+"""Under this name, the provenance of a run that was merged has its place."""
 
 
 @dataclass(frozen=True)
@@ -56,9 +59,10 @@ def read_source(path: Path) -> Source:
     records = {record.key: record for record in store.records()}
     fits = tuple(key for key in sorted(store.fit_keys()) if store.load_fit(key) is not None)
     plan = _plan(store, records.values())
-    runs = tuple(plan.get("runs", ())) or ({"run directory": str(path), **plan["provenance"]},)
+    runs = plan.get("runs", ()) or ({DIRECTORY: str(path), **plan["provenance"]},)
+    about = tuple({name: str(value) for name, value in run.items()} for run in runs)
     jobs = tuple(_known_jobs(plan, records))
-    return Source(store, records, fits, store.load_keys(), jobs, runs)
+    return Source(store, records, fits, store.load_keys(), jobs, about)
 
 
 def _plan(store: Store, records: Iterable[Record]) -> Mapping[str, Any]:

@@ -1,7 +1,8 @@
 """The plan of a run directory: what its last run was asked to do.
 
-A JSON object: ``keys`` in table order, the run's ``provenance``, what each of the ``jobs`` is, and
-how many ``workers`` it had. Earlier versions wrote the first two alone.
+A JSON object: ``keys`` in table order, the run's ``provenance``, what each of the ``jobs`` is, how
+many ``workers`` it had or from which ``runs`` it was merged. Earlier versions wrote the first two
+alone.
 """
 
 from __future__ import annotations
@@ -76,6 +77,7 @@ def _is_plan(plan: Any) -> bool:
         return False
     try:
         whole = len(planned_jobs(plan)) in {0, len(plan["keys"])}
-        return whole and plan.get("workers", 1) > 0
-    except (KeyError, TypeError):
+        merged_from = [dict(run) for run in plan.get("runs", ())]
+        return whole and plan.get("workers", 1) > 0 and all(merged_from)
+    except (KeyError, TypeError, ValueError):
         return False

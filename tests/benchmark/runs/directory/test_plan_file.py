@@ -39,6 +39,8 @@ def test_a_plan_of_an_earlier_version_tells_no_jobs(tmp_path):
         {"workers": "two"},
         {"keys": None},
         {"provenance": []},
+        {"runs": [3]},
+        {"runs": ["a"]},
     ],
     ids=str,
 )
