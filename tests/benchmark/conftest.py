@@ -69,21 +69,6 @@ def forget():
     forget()
 
 
-@pytest.fixture
-def append(monkeypatch, forget):
-    """Return a function that appends a line to one module, as digests read it."""
-    read = sources._source
-
-    def append(module, line="CHANGED = 1"):
-        def source(name):
-            return f"{read(name)}\n{line}\n" if name == module else read(name)
-
-        monkeypatch.setattr(sources, "_source", source)
-        forget()
-
-    return append
-
-
 def _digest(*names):
     return hashlib.sha256(repr(names).encode()).hexdigest()
 
