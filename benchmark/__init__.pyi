@@ -11,6 +11,10 @@ from .figures.latent_space import LatentSpaces
 from .figures.solved import Solved
 from .figures.trend import InferredTrend
 from .gate.checking import check
+from .inspection.explanation import explain
+from .inspection.output import explanation_table, state_lines, state_table
+from .inspection.state import RunState, run_state
+from .merging.merge import merge
 from .plugins import load_plugin
 from .problems.base import Answer, InvalidPredictionError, Problem
 from .problems.cluster import ClusterProblem, Clusters
@@ -24,6 +28,7 @@ from .registry import LIBRARIES, METRICS, MODELS, TASKS
 from .results.bundle import bundle
 from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
+from .runs.directory.plan_file import plan_document
 from .runs.execution.base import Site
 from .runs.execution.choice import open_site
 from .runs.execution.this_machine import ThisMachine
@@ -69,6 +74,7 @@ __all__ = [
     "RecoverProblem",
     "RecoveredCovariances",
     "Request",
+    "RunState",
     "Samples",
     "Seeds",
     "Site",
@@ -86,17 +92,24 @@ __all__ = [
     "bundle",
     "check",
     "compare",
+    "explain",
+    "explanation_table",
     "hide_all_but",
     "hide_frames",
     "illustrations",
     "job_table",
     "load_plugin",
     "memory_share",
+    "merge",
     "n_cores",
     "open_site",
     "plan",
+    "plan_document",
     "provenance",
     "required_sources",
     "run",
+    "run_state",
     "score_table",
+    "state_lines",
+    "state_table",
 ]

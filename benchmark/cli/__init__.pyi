@@ -1,3 +1,3 @@
-from .failures import explain, show_warning
+from .failures import exit_code, explain, show_warning
 
-__all__ = ["explain", "show_warning"]
+__all__ = ["exit_code", "explain", "show_warning"]

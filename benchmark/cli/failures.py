@@ -12,11 +12,11 @@ from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import ExitCode, UsageError
 from mocapbench.datasets import AcclaimError, DigestMismatch
 
-__all__ = ["explain", "show_warning"]
+__all__ = ["exit_code", "explain", "show_warning"]
 
 
-def explain(error: Exception) -> ExitCode:
-    """Say on standard error what went wrong, in one line where it is the user's to mend.
+def exit_code(error: BaseException) -> ExitCode:
+    """Return the exit code that an error ends with.
 
     Returns
     -------
@@ -25,16 +25,31 @@ def explain(error: Exception) -> ExitCode:
         interpreter's own exit code, 1, would say that a metric got worse.
     """
     match error:
+        case UsageError() | DigestMismatch() | AcclaimError() | OSError():
+            return ExitCode.USAGE
+        case KeyboardInterrupt():
+            return ExitCode.INTERRUPTED
+        case _:
+            return ExitCode.DEFECT
+
+
+def explain(error: Exception) -> ExitCode:
+    """Say on standard error what went wrong, in one line where it is the user's to mend.
+
+    Returns
+    -------
+    ExitCode
+        See `exit_code`.
+    """
+    match error:
         case UsageError() | DigestMismatch() | AcclaimError():
             _say(str(error))
-            return ExitCode.USAGE
         case OSError():
             _say(f"cannot read or write: {error}")
-            return ExitCode.USAGE
         case _:
             _quote("".join(traceback.format_exception(error)))
             _say("a defect of mocapbench or an added package; see above")
-            return ExitCode.DEFECT
+    return exit_code(error)
 
 
 def show_warning(

@@ -20,6 +20,8 @@ __all__ = ["COMMANDS", "app", "main"]
 
 COMMANDS = {
     "run": "Run the benchmark and write its report.",
+    "status": "Show how far a run is, also one in another terminal.",
+    "merge": "Merge run directories into one.",
     "report": "Write the HTML report of a run directory.",
     "check": "Check that no metric of a run is worse than its reference value.",
     "compare": "Compare two runs, or two models of one run, fold by fold.",

@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
 from datetime import UTC, datetime
+from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated
 
@@ -29,10 +30,12 @@ from mocapbench.benchmark.cli.options import (
     split,
 )
 from mocapbench.benchmark.cli.report import write_report
+from mocapbench.benchmark.cli.run_log import require_log, run_log
 from mocapbench.benchmark.errors import ExitCode, UsageError
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Job, Record, Site, Store, WorkerConfig
+    from mocapbench.benchmark.events import EventLog
 
 __all__ = ["app"]
 
@@ -72,11 +75,18 @@ def run(
     ] = None,
     offline: Annotated[bool, typer.Option("--offline", help="Download nothing.")] = False,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Show the jobs, run none.")] = False,
+    explain: Annotated[
+        bool, typer.Option("--explain", help="Show first why each job runs or is skipped.")
+    ] = False,
+    log_json: Annotated[
+        Path | None, typer.Option(help="A file to which events are added, one JSON object a line.")
+    ] = None,
 ) -> None:
     """Run the benchmark and write its report.
 
     What the run directory holds already is not computed again, so that the same command resumes.
     """
+    require_log(log_json, out)
     console, plugins = LiteralConsole(), load_plugins(plugin)
     request = bench.Request(
         profile, split(tasks), split(models), split(cases), split(metrics), folds, seed
@@ -90,8 +100,11 @@ def run(
             "nothing to run: no chosen model has the abilities that the chosen tasks require; "
             "`mocapbench list models` shows what each can do"
         )
-    if dry_run:
+    if explain:
+        console.print(bench.explanation_table(bench.explain(planned, out)))
+    elif dry_run:
         console.print(_plan_table(planned))
+    if dry_run:
         return
     store, site = bench.Store.create(out), bench.open_site(jobs, scheduler, cluster)
     about = {
@@ -112,8 +125,9 @@ def run(
     for ending in (signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(ending) is not signal.SIG_IGN:  # as under nohup
             signal.signal(ending, _interrupt)
-    with site, store.locked():
-        raise typer.Exit(_run(planned, store, config, site, console))
+    with run_log(log_json) as log, site, store.locked():
+        store.sweep()
+        raise typer.Exit(_run(planned, store, config, site, console, log))
 
 
 def _interrupt(_signal: int, _frame: FrameType | None) -> None:
@@ -121,19 +135,24 @@ def _interrupt(_signal: int, _frame: FrameType | None) -> None:
 
 
 def _run(
-    planned: Sequence[Job], store: Store, config: WorkerConfig, site: Site, console: LiteralConsole
+    planned: Sequence[Job],
+    store: Store,
+    config: WorkerConfig,
+    site: Site,
+    console: LiteralConsole,
+    log: EventLog,
 ) -> ExitCode:
-    keys = [job.key for job in planned]
-    store.save_plan({"keys": keys, "provenance": dict(config.provenance)})
+    about = dict(config.provenance)
+    store.save_plan(bench.plan_document(planned, provenance=about, workers=site.n_workers))
     started = time.monotonic()
     try:
-        records = bench.run(planned, store, config, site=site, console=console)
+        records = bench.run(planned, store, config, site=site, console=console, log=log)
     except KeyboardInterrupt:
         with suppress(OSError):  # the terminal may have been closed
             console.print("interrupted; everything finished is kept, and the same command resumes")
         return ExitCode.INTERRUPTED
-    about = {**config.provenance, "wall time": f"{time.monotonic() - started:.0f} s"}
-    store.save_plan({"keys": keys, "provenance": about})
+    about["wall time"] = f"{time.monotonic() - started:.0f} s"
+    store.save_plan(bench.plan_document(planned, provenance=about, workers=site.n_workers))
     code = _ending(records, console)
     archive = bench.archive_at(config.data_dir)
     write_report(records, about, store, archive, store.path / "report.html", console)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -63,6 +63,8 @@ class Job:
         Digests of the recordings it reads.
     missing : tuple of str
         Addresses of the recordings that it needs and that are not at hand.
+    parts : mapping of str to str
+        What its keys cover, part by part; see `key_parts`.
     """
 
     address: Address
@@ -74,6 +76,7 @@ class Job:
     fit_key: str
     digests: Mapping[str, str]
     missing: tuple[str, ...] = ()
+    parts: Mapping[str, str] = field(default_factory=dict)
 
     def record(self, status: Status, message: str = "", **results: Any) -> Record:
         """Return a record of this job that ended with ``status``."""

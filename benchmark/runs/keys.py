@@ -3,7 +3,8 @@
 The *fit key* covers the problem (its address and root seed, the function that poses it with its
 arguments, data digests), the model (name, parameters, source) and the numerical libraries. The
 *score key* adds the metrics, so that a changed metric scores stored predictions again without
-fitting again. `sources` says which code counts, and `descriptions` how values are told apart.
+fitting again. `sources` says which code counts, `descriptions` how values are told apart, and
+`key_parts` which part of a key is new.
 """
 
 from __future__ import annotations
@@ -22,22 +23,22 @@ from mocapbench.benchmark.tasks.base import Case
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.metrics import Metric
 
-__all__ = ["fit_key", "score_key"]
+__all__ = ["fit_contents", "key_of", "score_contents"]
 
 _FITTING = ("mocapbench.datasets", "mocapbench.baselines", "mocapbench.benchmark")
 _SCORING = ("mocapbench.metrics",)
 _LIBRARIES = ("numpy", "scipy", "scikit-learn")
 
 
-def fit_key(
+def fit_contents(
     case: Case,
     seeds: Seeds,
     *,
     model: type,
     parameters: Mapping[str, Any],
     digests: Mapping[str, str],
-) -> str:
-    """Return the name of one entrant's predictions on one problem.
+) -> Mapping[str, Any]:
+    """Return what the fit key of one entrant's predictions on one problem covers.
 
     Parameters
     ----------
@@ -50,18 +51,16 @@ def fit_key(
     digests : mapping of str to str
         Digest of each recording that models see.
     """
-    return _digest(
-        {
-            "problem": [*seeds.address, seeds.root, dict(digests)],
-            "posed by": _problem(case),
-            "entrant": [model.__qualname__, dict(parameters)],
-            "source": [
-                source_digest(model.__module__, _FITTING),
-                source_digest(solve.__name__, _FITTING),
-            ],
-            "libraries": {name: _installed_version(name) for name in _LIBRARIES},
-        }
-    )
+    return {
+        "problem": [*seeds.address, seeds.root, dict(digests)],
+        "posed by": _problem(case),
+        "entrant": [model.__qualname__, dict(parameters)],
+        "source": [
+            source_digest(model.__module__, _FITTING),
+            source_digest(solve.__name__, _FITTING),
+        ],
+        "libraries": {name: _installed_version(name) for name in _LIBRARIES},
+    }
 
 
 def _problem(case: Case) -> Any:
@@ -79,10 +78,10 @@ def _installed_version(library: str) -> str:
     return importlib.metadata.version(library)
 
 
-def score_key(
+def score_contents(
     fit: str, metrics: Sequence[Metric[Any]], case: str, references: Mapping[str, str]
-) -> str:
-    """Return the name of a record: the fit key, and by what it was scored.
+) -> Mapping[str, Any]:
+    """Return what the score key of a record covers: the fit key, and by what it was scored.
 
     Parameters
     ----------
@@ -95,9 +94,10 @@ def score_key(
         Digest of each recording that only the scores depend on.
     """
     scored = {metric.name: described(metric.statistic, _SCORING) for metric in metrics}
-    return _digest({"fit": fit, "metrics": scored, "scored against": [case, dict(references)]})
+    return {"fit": fit, "metrics": scored, "scored against": [case, dict(references)]}
 
 
-def _digest(document: Mapping[str, Any]) -> str:
-    canonical = json.dumps(document, sort_keys=True)
+def key_of(contents: Mapping[str, Any]) -> str:
+    """Return the key that covers ``contents``."""
+    canonical = json.dumps(contents, sort_keys=True)
     return hashlib.sha256(canonical.encode()).hexdigest()

@@ -12,7 +12,8 @@ from typing import Any
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.job import Job
-from mocapbench.benchmark.runs.keys import fit_key, score_key
+from mocapbench.benchmark.runs.key_parts import key_parts
+from mocapbench.benchmark.runs.keys import fit_contents, key_of, score_contents
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
@@ -196,15 +197,18 @@ def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> It
         for fold in range(_folds(request, task)):
             address = Address(task.name, task.version, case.name, fold, entrant.label)
             seeds = Seeds(request.seed, address._replace(case=case.problem_name))
-            fit = fit_key(case, seeds, model=model, parameters=parameters, digests=seen)
+            fitted = fit_contents(case, seeds, model=model, parameters=parameters, digests=seen)
+            fit, scored_by = key_of(fitted), [METRICS.get(name) for name in metrics]
+            scored = score_contents(fit, scored_by, case.name, compared)
             yield Job(
                 address,
                 seeds,
                 entrant.model,
                 parameters,
                 metrics,
-                score_key(fit, [METRICS.get(name) for name in metrics], case.name, compared),
+                key_of(scored),
                 fit,
                 digests,
                 missing,
+                key_parts(fitted, scored),
             )

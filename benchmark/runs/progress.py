@@ -18,7 +18,7 @@ from rich.progress import (
 from mocapbench.benchmark.runs.job import Outcome
 from mocapbench.benchmark.runs.record import Record, Status
 
-__all__ = ["watch"]
+__all__ = ["in_words", "watch"]
 
 _PLAIN_INTERVAL = 5.0
 
@@ -62,7 +62,7 @@ def _bar(
                 bar,
                 advance=1,
                 failed=_broken(counts),
-                left=_in_words(time_left()),
+                left=in_words(time_left()),
                 description=str(outcome.record.address),
             )
             _announce(outcome.record, console)
@@ -81,14 +81,14 @@ def _lines(
         if now - shown >= _PLAIN_INTERVAL or done == total:
             console.print(
                 f"{done}/{total} jobs done, {_broken(counts)} failed, "
-                f"about {_in_words(time_left())} left",
+                f"about {in_words(time_left())} left",
                 highlight=False,
             )
             shown = now
         yield outcome
 
 
-def _in_words(seconds: float) -> str:
+def in_words(seconds: float) -> str:
     """Return a duration in the unit that people would name it in."""
     minutes, hours = round(seconds / 60), seconds / 3600
     if seconds < 90:

@@ -10,6 +10,8 @@ from tempfile import TemporaryDirectory
 from rich.console import Console
 
 from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.events import EventLog
+from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.execution.base import Site
 from mocapbench.benchmark.runs.execution.execute import execute
 from mocapbench.benchmark.runs.execution.job_queue import JobQueue
@@ -30,6 +32,7 @@ def run(
     *,
     site: Site,
     console: Console,
+    log: EventLog | None = None,
 ) -> list[Record]:
     """Return the records of ``jobs``, in their order.
 
@@ -46,24 +49,36 @@ def run(
         Where jobs run, such as `ThisMachine`.
     console : rich.console.Console
         Shows the progress.
+    log : EventLog, optional
+        Is told what happens.
     """
+    log = log or EventLog()
+    store.keep_keys({job.key: KeyEntry(job.address, job.parts) for job in jobs})
     known = {job.key: store.load(job.key) for job in jobs}
     finished = {key: record for key, record in known.items() if record and not record.status.broken}
     todo = [job for job in jobs if job.key not in finished]
+    log.run_started(store.path, len(jobs), len(finished))
     if finished:
         console.print(f"{len(finished)} of {len(jobs)} jobs are in {store.path} already")
     for job in todo:
         if job.missing:
             finished[job.key] = _without_data(job, config)
             store.save(finished[job.key])
+            _log_end(log, finished[job.key], 0.0)
     todo = [job for job in todo if not job.missing]
-    for record in _computed(todo, store, config, site, console):
+    for record in _computed(todo, store, config, site, console, log=log):
         finished[record.key] = record
     return [finished[job.key] for job in jobs]
 
 
 def _computed(
-    jobs: Sequence[Job], store: Store, config: WorkerConfig, site: Site, console: Console
+    jobs: Sequence[Job],
+    store: Store,
+    config: WorkerConfig,
+    site: Site,
+    console: Console,
+    *,
+    log: EventLog,
 ) -> Iterator[Record]:
     """Yield the record of each job as it ends, once it is in the store."""
     archive, queue = archive_at(config.data_dir), JobQueue(jobs)
@@ -74,6 +89,7 @@ def _computed(
             spool.add(archive, job.digests)
             already_damaged = len(store.damaged)
             fit = store.load_fit(job.fit_key)
+            log.job_started(job.address)
             return Work(job, fit, tuple(store.damaged[already_damaged:]))
 
         def left() -> float:
@@ -84,7 +100,12 @@ def _computed(
             if outcome.fit is not None:
                 store.save_fit(outcome.record.fit_key, outcome.fit)
             store.save(outcome.record)
+            _log_end(log, outcome.record, outcome.seconds)
             yield outcome.record
+
+
+def _log_end(log: EventLog, record: Record, seconds: float) -> None:
+    log.job_ended(record.address, record.status.value, seconds, record.message)
 
 
 def _without_data(job: Job, config: WorkerConfig) -> Record:

@@ -5,7 +5,8 @@
     run-directory/
         mocapbench.json             says that the folder is ours
         mocapbench.lock             held by a run that writes
-        plan.json                   the keys of the last run, in table order
+        plan.json                   the keys of the last run, in table order, and what they name
+        keys.json                   what the keys of records cover, part by part
         check.json                  what the last regression check of that run found
         records/ab/<score key>.json
         predictions/ab/<fit key>.npz
@@ -26,11 +27,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from filelock import FileLock, Timeout
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
 from mocapbench.benchmark.registry import METRICS
+from mocapbench.benchmark.runs.directory.key_file import KEYS, KeyEntry, read_keys, write_keys
+from mocapbench.benchmark.runs.directory.leftovers import sweep
+from mocapbench.benchmark.runs.directory.lock import held, is_held
+from mocapbench.benchmark.runs.directory.plan_file import load_plan, save_plan
 from mocapbench.benchmark.runs.fit import Fit
 from mocapbench.benchmark.runs.record import Record, RecordError
 
@@ -38,8 +42,9 @@ __all__ = ["Store"]
 
 _MARKER = "mocapbench.json"
 _CHECK = "check.json"
-_LOCK = "mocapbench.lock"
 _FORMAT = 1
+_UNREADABLE = (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile)
+"""What reading damaged predictions raises."""
 
 
 class Store:
@@ -64,13 +69,7 @@ class Store:
         UsageError
             If the folder holds other things, or cannot be written.
         """
-        if path.exists() and not path.is_dir():
-            raise UsageError(f"--out: expected a folder, got the file {path}; name another folder")
-        if path.is_dir() and any(path.iterdir()) and not (path / _MARKER).is_file():
-            raise UsageError(
-                f"--out: {path} holds files that are not a mocapbench run (there is no {_MARKER} "
-                "in it); name a new or empty folder"
-            )
+        cls.require_usable(path)
         try:
             for folder in ("records", "predictions"):
                 (path / folder).mkdir(parents=True, exist_ok=True)
@@ -98,6 +97,23 @@ class Store:
         return cls(path)
 
     @staticmethod
+    def require_usable(path: Path) -> None:
+        """Refuse a folder of other things.
+
+        Raises
+        ------
+        UsageError
+            If ``path`` is a file, or a folder that holds anything but a run.
+        """
+        if path.exists() and not path.is_dir():
+            raise UsageError(f"--out: expected a folder, got the file {path}; name another folder")
+        if path.is_dir() and any(path.iterdir()) and not (path / _MARKER).is_file():
+            raise UsageError(
+                f"--out: {path} holds files that are not a mocapbench run (there is no {_MARKER} "
+                "in it); name a new or empty folder"
+            )
+
+    @staticmethod
     def is_run(path: Path) -> bool:
         """Return whether ``path`` is a run directory."""
         return (path / _MARKER).is_file()
@@ -111,22 +127,21 @@ class Store:
         UsageError
             If another run is in it.
         """
-        lock = FileLock(self.path / _LOCK, timeout=0)
-        try:
-            lock.acquire()
-        except Timeout as error:
-            raise UsageError(
-                f"--out: another run is writing to {self.path}; wait for it or name another "
-                "folder (copying records together later merges the two)"
-            ) from error
-        try:
+        with held(self.path):
             yield
-        finally:
-            lock.release()
+
+    @property
+    def is_locked(self) -> bool:
+        """Whether a run is writing to the folder now."""
+        return is_held(self.path)
+
+    def sweep(self) -> None:
+        """Delete temporary files that a killed run left; only for who has locked the folder."""
+        sweep(self.path)
 
     def load(self, key: str) -> Record | None:
         """Return the record called ``key``, or None if it is absent or damaged."""
-        path = _there(self._record_path(key))
+        path = self.record_path(key)
         if not path.is_file():
             return None
         try:
@@ -150,8 +165,16 @@ class Store:
 
     def records(self) -> list[Record]:
         """Return every whole record, by name of file."""
-        keys = sorted({path.stem for path in (self.path / "records").rglob("*.json")})
+        keys = sorted(self.record_keys())
         return [record for key in keys if (record := self.load(key)) is not None]
+
+    def record_keys(self) -> set[str]:
+        """Return the keys under which there are records, whole or damaged."""
+        return {path.stem for path in (self.path / "records").rglob("[!.]*.json")}
+
+    def fit_keys(self) -> set[str]:
+        """Return the keys under which there are predictions, whole or damaged."""
+        return {path.stem for path in (self.path / "predictions").rglob("[!.]*.npz")}
 
     def planned(self) -> list[Record]:
         """Return the whole records of the last run, in table order.
@@ -166,19 +189,30 @@ class Store:
 
     def load_fit(self, key: str) -> Fit | None:
         """Return the fit called ``key``, or None if it is absent or damaged."""
-        path = _there(self._fit_path(key))
+        path = self.fit_path(key)
         if not path.is_file():
             return None
         try:
             with np.load(path, allow_pickle=False) as arrays:
-                about = json.loads(str(arrays["about"]))
-                if about.pop("key") != key:
-                    raise ValueError("it holds those of another job")
+                about = _about(arrays, key)
                 contents = {name: arrays[name] for name in arrays.files if name != "about"}
             return Fit(contents, **{**about, "warnings": tuple(about["warnings"])})
-        except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+        except _UNREADABLE as error:
             self.damaged.append(f"{path}: not a whole set of predictions: {error}")
             return None
+
+    def has_fit(self, key: str) -> bool:
+        """Return whether there are predictions called ``key``, as far as a glance can tell."""
+        path = self.fit_path(key)
+        if not path.is_file():
+            return False
+        try:
+            with np.load(path, allow_pickle=False) as arrays:
+                _about(arrays, key)
+        except _UNREADABLE as error:
+            self.damaged.append(f"{path}: not a whole set of predictions: {error}")
+            return False
+        return True
 
     def save_fit(self, key: str, fit: Fit) -> None:
         """Write ``fit`` whole or not at all."""
@@ -191,8 +225,7 @@ class Store:
     def save_plan(self, plan: Mapping[str, Any]) -> None:
         """Write what the last run was asked to do; a check of an earlier one is dropped."""
         (self.path / _CHECK).unlink(missing_ok=True)
-        with atomic_write(self.path / "plan.json") as file:
-            file.write(json.dumps(plan, indent=1).encode())
+        save_plan(self.path, plan)
 
     def load_plan(self) -> Mapping[str, Any]:
         """Return what the last run was asked to do.
@@ -202,19 +235,22 @@ class Store:
         UsageError
             If no run got so far, or the file is damaged.
         """
-        path = self.path / "plan.json"
+        return load_plan(self.path)
+
+    def keep_keys(self, entries: Mapping[str, KeyEntry]) -> None:
+        """Keep what the keys of ``entries`` cover, beside those of the records that are here."""
+        written = self.record_keys()
+        known = {key: entry for key, entry in self.load_keys().items() if key in written}
+        write_keys(self.path / KEYS, {**known, **entries})
+
+    def load_keys(self) -> dict[str, KeyEntry]:
+        """Return what the keys of records cover, as far as it was kept."""
+        path = self.path / KEYS
         try:
-            plan = json.loads(path.read_text(encoding="utf-8"))
+            return read_keys(path) if path.is_file() else {}
         except (OSError, ValueError) as error:
-            raise UsageError(
-                f"{path} cannot be read ({error}); run `mocapbench run` again"
-            ) from error
-        kinds = {"keys": list, "provenance": dict}
-        if not isinstance(plan, dict) or any(
-            not isinstance(plan.get(name), kind) for name, kind in kinds.items()
-        ):
-            raise UsageError(f"{path} is not a plan; run `mocapbench run` again")
-        return plan
+            self.damaged.append(f"{path}: {error}")
+            return {}
 
     def save_check(self, check: Mapping[str, Any]) -> None:
         """Write what a regression check of the last run found."""
@@ -235,11 +271,27 @@ class Store:
             self.damaged.append(f"{path}: not a whole check: {error}")
             return None
 
+    def record_path(self, key: str) -> Path:
+        """Return where the record called ``key`` is, or belongs."""
+        return _there(self._record_path(key))
+
+    def fit_path(self, key: str) -> Path:
+        """Return where the predictions called ``key`` are, or belong."""
+        return _there(self._fit_path(key))
+
     def _record_path(self, key: str) -> Path:
         return self.path / "records" / key[:2] / f"{key}.json"
 
     def _fit_path(self, key: str) -> Path:
         return self.path / "predictions" / key[:2] / f"{key}.npz"
+
+
+def _about(arrays: Mapping[str, Any], key: str) -> dict[str, Any]:
+    """Return what predictions say of themselves, which must be those called ``key``."""
+    about: dict[str, Any] = json.loads(str(arrays["about"]))
+    if about.pop("key") != key:
+        raise ValueError("it holds those of another job")
+    return about
 
 
 def _made(path: Path) -> Path:

@@ -1,9 +1,18 @@
+import hashlib
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mocapbench.benchmark.cli.main import main
+from mocapbench.benchmark.runs import sources
+from mocapbench.benchmark.runs.directory.key_file import KeyEntry
+from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, plan_document
+from mocapbench.benchmark.runs.fit import Fit
+from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.tasks.address import Address
 
 
 class CommandLine:
@@ -44,3 +53,58 @@ def _records(out):
 def records():
     """Return a function from a run directory to its records, by address."""
     return _records
+
+
+@pytest.fixture
+def forget():
+    """Return a function after which digests are computed anew, as in a fresh process."""
+
+    def forget():
+        for value in vars(sources).values():
+            if hasattr(value, "cache_clear"):
+                value.cache_clear()
+
+    forget()
+    yield forget
+    forget()
+
+
+def _digest(*names):
+    return hashlib.sha256(repr(names).encode()).hexdigest()
+
+
+def _job(row, parts):
+    task, case, label, fold = row
+    key, fit_key = _digest(row, sorted(parts.items())), _digest("fit", row)
+    return PlannedJob(key, fit_key, Address(task, 1, case, fold, label))
+
+
+def _write_run(path, rows, *, statuses=None, scores=None, parts=None, left=(), seconds=1.0):
+    """Write a run of rows (task, case, label, fold), as a run of the command line would."""
+    store, parts = Store.create(path), parts or {"seed": "0"}
+    jobs = {row: _job(row, parts) for row in rows}
+    for row, job in jobs.items():
+        if row in left:
+            continue
+        status = (statuses or {}).get(row, Status.OK)
+        scored = {"mse": (scores or {}).get(row, float(len(row[1])))} if status is Status.OK else {}
+        store.save(
+            Record(
+                *(job.key, job.fit_key, job.address, 0, job.address.label, {}, status),
+                message="" if status is Status.OK else f"by {path.name}",
+                scores=scored,
+                fit_seconds=seconds if scored else None,
+            )
+        )
+        if scored:
+            store.save_fit(job.fit_key, Fit({"mean-0": np.ones((2, 2))}, seconds, 0, 1, 1, True))
+    store.keep_keys({job.key: KeyEntry(job.address, parts) for job in jobs.values()})
+    about = {"profile": "smoke", "seed": "0", "started": f"when {path.name} started"}
+    store.save_plan(plan_document(jobs.values(), provenance=about, workers=2))
+    return path
+
+
+@pytest.fixture
+def write_run():
+    """Return a function that writes a run directory."""
+    return _write_run

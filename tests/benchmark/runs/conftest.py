@@ -7,20 +7,6 @@ from mocapbench.benchmark.runs import sources
 
 
 @pytest.fixture
-def forget():
-    """Return a function after which digests are computed anew, as in a fresh process."""
-
-    def forget():
-        for value in vars(sources).values():
-            if hasattr(value, "cache_clear"):
-                value.cache_clear()
-
-    forget()
-    yield forget
-    forget()
-
-
-@pytest.fixture
 def append(monkeypatch, forget):
     """Return a function that appends a line to one module, as digests read it."""
     read = sources._source

@@ -18,7 +18,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs import keys, sources
-from mocapbench.benchmark.runs.keys import fit_key, score_key
+from mocapbench.benchmark.runs.keys import fit_contents, key_of, score_contents
 from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case
@@ -31,7 +31,7 @@ SEEDS = Seeds(0, ADDRESS)
 
 def _key(case=TASK.cases[0], seeds=SEEDS, **changes):
     entrant = {"model": MODELS.get("trivial"), "parameters": {}, "digests": {}}
-    return fit_key(case, seeds, **{**entrant, **changes})
+    return key_of(fit_contents(case, seeds, **{**entrant, **changes}))
 
 
 def _key_of(task, model):
@@ -64,7 +64,7 @@ def test_order_of_parameters_does_not():
 
 
 def _score_key(metrics, case="row", references=None):
-    return score_key("fit", metrics, case, references or {})
+    return key_of(score_contents("fit", metrics, case, references or {}))
 
 
 def test_a_metric_changes_the_score_key_alone():

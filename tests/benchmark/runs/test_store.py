@@ -111,6 +111,7 @@ def test_predictions_survive_and_truncated_ones_are_reported(store, data):
     )
     store.save_fit("key", fit)
     back = store.load_fit("key")
+    assert store.has_fit("key")
     np.testing.assert_array_equal(back.arrays["mean-0"], fit.arrays["mean-0"])
     assert (back.fit_seconds, back.iterations, back.engine) == (1.5, 7, "dense")
     assert back.warnings == ("careful",)
@@ -119,6 +120,7 @@ def test_predictions_survive_and_truncated_ones_are_reported(store, data):
     store.damaged.clear()
     assert store.load_fit("key") is None
     assert len(store.damaged) == 1
+    assert not store.has_fit("key")
 
 
 def test_predictions_under_another_name_are_not_trusted(store):
@@ -126,6 +128,9 @@ def test_predictions_under_another_name_are_not_trusted(store):
     folder = store.path / "predictions"
     (folder / "ke" / "key.npz").rename(folder / "other.npz")
     assert store.load_fit("other") is None
+    assert "another job" in store.damaged[0]
+    store.damaged.clear()
+    assert not store.has_fit("other")
     assert "another job" in store.damaged[0]
 
 

@@ -1,0 +1,132 @@
+"""The state of a run, also of one that is going on in another process."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, planned_jobs
+from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.tasks.address import Address
+
+__all__ = ["RunState", "TaskState", "run_state"]
+
+UNKNOWN = "(not known)"
+"""The task of a job without a record, in the plan of an earlier version."""
+
+
+class TaskState(NamedTuple):
+    """How many jobs of a task are in which state."""
+
+    done: int
+    failed: int
+    missing: int
+    """Without the recordings that they need."""
+    left: int
+    """Without a record, running or not."""
+
+    @property
+    def planned(self) -> int:
+        """All of them."""
+        return sum(self)
+
+
+_NONE = TaskState(0, 0, 0, 0)
+
+
+@dataclass(frozen=True)
+class RunState:
+    """The state of a run.
+
+    Parameters
+    ----------
+    tasks : mapping of str to TaskState
+        In table order.
+    writing : bool
+        Whether a run is writing to the folder now.
+    about : mapping of str to str
+        The run's provenance.
+    seconds_left : float
+        About how long the jobs that are left take.
+    damaged : tuple of str
+        Files that are not whole.
+    """
+
+    tasks: Mapping[str, TaskState]
+    writing: bool
+    about: Mapping[str, str]
+    seconds_left: float
+    damaged: tuple[str, ...]
+
+    @property
+    def total(self) -> TaskState:
+        """All tasks together."""
+        return TaskState(*map(sum, zip(_NONE, *self.tasks.values(), strict=True)))
+
+    @property
+    def name(self) -> str:
+        """The state in one word."""
+        if self.writing:
+            return "running"
+        return "interrupted" if self.total.left else "finished"
+
+
+def run_state(store: Store) -> RunState:
+    """Return the state of the last run of ``store``.
+
+    Raises
+    ------
+    UsageError
+        If no run got so far, or its plan is damaged.
+    """
+    writing, plan = store.is_locked, store.load_plan()
+    records = {key: store.load(key) for key in plan["keys"]}
+    jobs = {job.key: job for job in planned_jobs(plan)}
+    tasks: dict[str, list[Record | None]] = defaultdict(list)
+    for key, record in records.items():
+        known = record or jobs.get(key)
+        tasks[known.address.task if known else UNKNOWN].append(record)
+    left = [job for job in jobs.values() if records[job.key] is None]
+    predicted = [key for key in sorted(store.fit_keys()) if store.has_fit(key)]
+    seconds = _seconds_left(left, set(predicted), list(filter(None, records.values())))
+    return RunState(
+        {task: _counted(several) for task, several in tasks.items()},
+        writing,
+        plan["provenance"],
+        seconds / plan.get("workers", 1),
+        tuple(dict.fromkeys(store.damaged)),
+    )
+
+
+def _counted(records: Iterable[Record | None]) -> TaskState:
+    counts = Counter(record.status if record else None for record in records)
+    failed = sum(count for status, count in counts.items() if status and status.broken)
+    return TaskState(counts[Status.OK], failed, counts[Status.DATA_MISSING], counts[None])
+
+
+def _seconds_left(
+    left: Sequence[PlannedJob], predicted: set[str], records: Sequence[Record]
+) -> float:
+    """Return the seconds of work in jobs, each expected to take as long as those most like it.
+
+    To score predictions that are there, or that another row asks for too, takes no time beside it.
+    """
+    to_fit = {job.fit_key: job.address for job in left if job.fit_key not in predicted}
+    seconds: dict[tuple[str, ...], list[float]] = defaultdict(list)
+    for record in records:
+        if record.fit_seconds is not None:
+            for kind in _kinds(record.address):
+                seconds[kind].append(record.fit_seconds + (record.predict_seconds or 0.0))
+    means = {kind: sum(values) / len(values) for kind, values in seconds.items()}
+    return sum(
+        next((means[kind] for kind in _kinds(address) if kind in means), 0.0)
+        for address in to_fit.values()
+    )
+
+
+def _kinds(address: Address) -> tuple[tuple[str, ...], ...]:
+    """Return among what jobs to look for alike ones, the most alike first."""
+    return (address.task, address.label), (address.label,), ()

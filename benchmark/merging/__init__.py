@@ -1,0 +1,1 @@
+"""Merging: several run directories become one, as if one run had computed them."""

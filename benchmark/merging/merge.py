@@ -1,0 +1,121 @@
+"""Merging run directories: everything is read and checked before anything is written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.merging.plans import unite_plans
+from mocapbench.benchmark.merging.records import unite_fits, unite_records
+from mocapbench.benchmark.merging.sources import read_source
+from mocapbench.benchmark.runs.directory.key_file import KeyEntry
+from mocapbench.benchmark.runs.store import Store
+
+__all__ = ["Merged", "merge"]
+
+
+@dataclass(frozen=True)
+class Merged:
+    """What was merged.
+
+    Parameters
+    ----------
+    records, fits : mapping of str to Path
+        The files that were kept, by key.
+    keys : mapping of str to KeyEntry
+        What keys cover.
+    plan : mapping
+        The plan of all.
+    damaged : tuple of str
+        What was left out.
+    busy : tuple of Path
+        The folders that a run was writing to.
+    """
+
+    records: dict[str, Path]
+    fits: dict[str, Path]
+    keys: dict[str, KeyEntry]
+    plan: dict[str, Any]
+    damaged: tuple[str, ...]
+    busy: tuple[Path, ...]
+
+
+def merge(paths: Sequence[Path], out: Path) -> Merged:
+    """Unite run directories into ``out``; a run that is there takes part.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        Run directories.
+    out : Path
+        A new or empty folder, or a run directory.
+
+    Raises
+    ------
+    UsageError
+        If a folder is not as expected, or the runs contradict each other; then nothing is written.
+    """
+    Store.require_usable(out)
+    if not Store.is_run(out):
+        merged = _united(paths)
+        with _made_at_once(out) as folder:
+            _write(merged, Store.create(folder))
+        return merged
+    with Store.open(out).locked():
+        named = [out if path.resolve() == out.resolve() else path for path in paths]
+        merged = _united(named if out in named else [out, *named], locked=out)
+        _write(merged, Store.open(out))
+    return merged
+
+
+def _united(paths: Sequence[Path], locked: Path | None = None) -> Merged:
+    if len(paths) < 2:
+        raise UsageError(f"expected two run directories or more, got {paths[0]}; name another")
+    distinct = {path.resolve(): path for path in paths}
+    sources = [read_source(path) for path in distinct.values()]
+    records = unite_records(sources)
+    entries = {key: entry for source in reversed(sources) for key, entry in source.keys.items()}
+    return Merged(
+        records={key: found.path for key, found in records.items()},
+        fits=unite_fits(sources),
+        keys=entries,
+        plan=unite_plans(sources, records, entries),
+        damaged=tuple(message for source in sources for message in source.store.damaged),
+        busy=tuple(
+            path for path in distinct.values() if path != locked and Store.open(path).is_locked
+        ),
+    )
+
+
+@contextmanager
+def _made_at_once(out: Path) -> Iterator[Path]:
+    """Give a folder that takes the name ``out`` only when it is complete."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory(dir=out.parent, prefix=f".{out.name}.") as folder:
+        complete = Path(folder) / "run"
+        yield complete
+        complete.replace(out)
+
+
+def _write(merged: Merged, store: Store) -> None:
+    """Write predictions before the records that stand on them, and the plan last."""
+    for key, path in merged.fits.items():
+        _copy(path, store.fit_path(key))
+    for key, path in merged.records.items():
+        _copy(path, store.record_path(key))
+    store.keep_keys(merged.keys)
+    store.save_plan(merged.plan)
+
+
+def _copy(source: Path, target: Path) -> None:
+    content = source.read_bytes()
+    if not target.is_file() or target.read_bytes() != content:
+        target.parent.mkdir(exist_ok=True)
+        with atomic_write(target) as file:
+            file.write(content)

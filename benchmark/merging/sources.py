@@ -1,0 +1,81 @@
+"""The run directories that are merged, as they are read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.runs.directory.key_file import KeyEntry
+from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, planned_jobs
+from mocapbench.benchmark.runs.record import Record
+from mocapbench.benchmark.runs.store import Store
+
+__all__ = ["DIRECTORY", "Source", "read_source"]
+
+DIRECTORY = "run directory"
+"""Under this name, the provenance of a run that was merged has its place."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """A run directory and what is whole in it.
+
+    Parameters
+    ----------
+    store : Store
+        Its ``damaged`` names what is left out.
+    records : mapping of str to Record
+        By key.
+    fits : tuple of str
+        The keys of its predictions.
+    keys : mapping of str to KeyEntry
+        What keys cover.
+    jobs : tuple of PlannedJob
+        Its plan, in table order.
+    runs : tuple of mapping of str to str
+        The provenance of each run that it was merged from, or of its own one.
+    """
+
+    store: Store
+    records: Mapping[str, Record]
+    fits: tuple[str, ...]
+    keys: Mapping[str, KeyEntry]
+    jobs: tuple[PlannedJob, ...]
+    runs: tuple[Mapping[str, str], ...]
+
+
+def read_source(path: Path) -> Source:
+    """Return what is whole in the run directory ``path``.
+
+    Raises
+    ------
+    UsageError
+        If it is not a run directory.
+    """
+    store = Store.open(path)
+    records = {record.key: record for record in store.records()}
+    fits = tuple(key for key in sorted(store.fit_keys()) if store.load_fit(key) is not None)
+    plan = _plan(store, records.values())
+    runs = plan.get("runs", ()) or ({DIRECTORY: str(path), **plan["provenance"]},)
+    about = tuple({name: str(value) for name, value in run.items()} for run in runs)
+    jobs = tuple(_known_jobs(plan, records))
+    return Source(store, records, fits, store.load_keys(), jobs, about)
+
+
+def _plan(store: Store, records: Iterable[Record]) -> Mapping[str, Any]:
+    """Return the plan; where it is damaged, one of all records."""
+    try:
+        return store.load_plan()
+    except UsageError as error:
+        store.damaged.append(f"{error}; until then, all its records count as planned")
+        in_order = sorted(records, key=lambda record: record.address)
+        return {"keys": [record.key for record in in_order], "provenance": {}}
+
+
+def _known_jobs(plan: Mapping[str, Any], records: Mapping[str, Record]) -> Sequence[PlannedJob]:
+    """Return the planned jobs; of an old plan, which tells keys alone, those with a record."""
+    found = (records[key] for key in plan["keys"] if key in records)
+    return planned_jobs(plan) or [PlannedJob(r.key, r.fit_key, r.address) for r in found]

@@ -1,0 +1,59 @@
+"""The parts of a job's keys, by name: what is to be told of a job that is computed again.
+
+Two jobs of one row (task, case, fold, entrant) have the same keys if and only if they have the same
+parts.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from typing import Any
+
+__all__ = ["DIGEST", "key_parts"]
+
+DIGEST = "sha256:"
+"""With this begins a part that is too long to be shown or kept."""
+_LONGEST = 40
+_encode = json.JSONEncoder(sort_keys=True).encode
+
+
+def key_parts(fitted: Mapping[str, Any], scored: Mapping[str, Any]) -> dict[str, str]:
+    """Return what two keys cover, each part as a short text or a digest.
+
+    Parameters
+    ----------
+    fitted, scored : mapping of str to Any
+        What the fit key and the score key cover; see `fit_contents` and `score_contents`.
+    """
+    _, version, problem, _, _, seed, digests = fitted["problem"]
+    model, parameters = fitted["entrant"]
+    model_code, fitting_code = fitted["source"]
+    _, references = scored["scored against"]
+    parts = {
+        "task version": version,
+        "problem": problem,
+        "seed": seed,
+        "task code": fitted["posed by"],
+        "model": model,
+        "model code": model_code,
+        "fitting code": fitting_code,
+        **_each("parameter", parameters),
+        **_each("recording", digests),
+        **_each("reference recording", references),
+        **_each("version of", fitted["libraries"]),
+        **_each("metric", scored["metrics"]),
+    }
+    return {name: _short(value) for name, value in parts.items()}
+
+
+def _each(kind: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    return {f"{kind} {name}": value for name, value in values.items()}
+
+
+def _short(value: Any) -> str:
+    text = _encode(value)
+    if len(text) <= _LONGEST:
+        return text
+    return DIGEST + hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -1,0 +1,71 @@
+"""The parts of keys differ where keys do, and nowhere else."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.runs.key_parts import key_parts
+from mocapbench.benchmark.runs.keys import key_of
+from mocapbench.benchmark.runs.plan import Request, plan
+
+TEXT = st.text("ab:é", max_size=3)
+LONG = st.sampled_from(["a" * 64, "b" * 64, "a"])
+DIGESTS = st.dictionaries(TEXT, LONG, max_size=2)
+FITTED = st.fixed_dictionaries(
+    {
+        "problem": st.tuples(
+            st.just("task"),
+            st.integers(1, 2),
+            TEXT,
+            st.just(0),
+            st.just("label"),
+            st.integers(0, 2),
+            DIGESTS,
+        ),
+        "posed by": st.lists(LONG, max_size=2),
+        "entrant": st.tuples(TEXT, st.dictionaries(TEXT, st.integers(0, 2) | TEXT, max_size=2)),
+        "source": st.tuples(LONG, LONG),
+        "libraries": st.dictionaries(st.sampled_from(["numpy", "scipy"]), TEXT),
+    }
+)
+SCORED = st.fixed_dictionaries(
+    {
+        "metrics": st.dictionaries(TEXT, st.lists(LONG), max_size=2),
+        "scored against": st.tuples(st.just("case"), DIGESTS),
+    }
+)
+
+
+def _key(fitted, scored):
+    return key_of({**scored, "fit": key_of(fitted)})
+
+
+@given(FITTED, FITTED, SCORED, SCORED)
+def test_parts_are_equal_just_where_keys_are(fitted, other_fitted, scored, other_scored):
+    one, other = (fitted, scored), (other_fitted, other_scored)
+    assert (key_parts(*one) == key_parts(*other)) == (_key(*one) == _key(*other))
+
+
+@given(FITTED, SCORED, st.data())
+def test_one_change_is_one_part(fitted, scored, data):
+    name, value = data.draw(
+        st.sampled_from(
+            [("posed by", ["new"]), ("source", ("new", fitted["source"][1])), ("libraries", None)]
+        )
+    )
+    changed = value or {**fitted["libraries"], "numpy": "of tomorrow"}
+    before, after = key_parts(fitted, scored), key_parts({**fitted, name: changed}, scored)
+    differing = [n for n in {**before, **after} if before.get(n) != after.get(n)]
+    expected = {"posed by": "task code", "source": "model code", "libraries": "version of numpy"}
+    assert differing == [expected[name]]
+
+
+@pytest.mark.parametrize("profile", ["smoke", "quick"])
+def test_within_a_row_each_key_has_its_own_parts(profile):
+    archive = archive_at(None)
+    jobs = [j for seed in (0, 1) for j in plan(Request(profile, seed=seed), archive)]
+    assert len({(job.address, *job.parts.items()) for job in jobs}) == len(
+        {(job.address, job.key) for job in jobs}
+    )
+    assert all(len(text) <= 40 for job in jobs for text in job.parts.values())
