@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated
@@ -20,6 +21,7 @@ from mocapbench import benchmark as bench
 from mocapbench import datasets
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.data import fetch_missing
+from mocapbench.benchmark.cli.drawn import last_drawn, stamp
 from mocapbench.benchmark.cli.options import (
     DEFAULT_OUT,
     DataDir,
@@ -34,7 +36,7 @@ from mocapbench.benchmark.cli.run_log import require_log, run_log
 from mocapbench.benchmark.errors import ExitCode, UsageError
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark import Job, Record, Site, Store, WorkerConfig
+    from mocapbench.benchmark import Job, Record, Request, Site, Store, WorkerConfig
     from mocapbench.benchmark.events import EventLog
 
 __all__ = ["app"]
@@ -107,27 +109,36 @@ def run(
     if dry_run:
         return
     store, site = bench.Store.create(out), bench.open_site(jobs, scheduler, cluster)
-    about = {
-        **bench.provenance(["mocapbench", *sys.argv[1:]], threads),
-        "profile": profile,
-        "seed": str(seed),
-        "started": datetime.now(UTC).isoformat(timespec="seconds"),
-        **_acknowledgement(planned),
-    }
     config = bench.WorkerConfig(
         data_dir.resolve() if data_dir else None,
         plugins,
         timeout,
         int((memory or site.memory) * 2**30),
         threads,
-        about,
+        _about(planned, request, threads),
     )
-    for ending in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(ending) is not signal.SIG_IGN:  # as under nohup
-            signal.signal(ending, _interrupt)
+    _interrupt_at_the_end_of_the_session()
     with run_log(log_json) as log, site, store.locked():
         store.sweep()
         raise typer.Exit(_run(planned, store, config, site, console, log))
+
+
+def _about(planned: Sequence[Job], request: Request, threads: int) -> dict[str, str]:
+    """Return what is to be known of the run: its provenance, its request and when it started."""
+    return {
+        **bench.provenance(["mocapbench", *sys.argv[1:]], threads),
+        "profile": request.profile,
+        "seed": str(request.seed),
+        "started": datetime.now(UTC).isoformat(timespec="seconds"),
+        **_acknowledgement(planned),
+    }
+
+
+def _interrupt_at_the_end_of_the_session() -> None:
+    """Have the signals that end processes interrupt the run, which then winds up."""
+    for ending in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(ending) is not signal.SIG_IGN:  # as under nohup
+            signal.signal(ending, _interrupt)
 
 
 def _interrupt(_signal: int, _frame: FrameType | None) -> None:
@@ -142,20 +153,29 @@ def _run(
     console: LiteralConsole,
     log: EventLog,
 ) -> ExitCode:
-    about = dict(config.provenance)
-    store.save_plan(bench.plan_document(planned, provenance=about, workers=site.n_workers))
-    started = time.monotonic()
+    about, started = dict(config.provenance), time.monotonic()
+    document = partial(bench.plan_document, planned, workers=site.n_workers)
+    drawn = last_drawn(store, [job.key for job in planned])
+    if not drawn:
+        store.save_plan(document(provenance=about))
     try:
         records = bench.run(planned, store, config, site=site, console=console, log=log)
     except KeyboardInterrupt:
         with suppress(OSError):  # the terminal may have been closed
             console.print("interrupted; everything finished is kept, and the same command resumes")
         return ExitCode.INTERRUPTED
+    code, found, report = (
+        _ending(records, console),
+        stamp(records, about),
+        store.path / "report.html",
+    )
+    if found == drawn:
+        console.print(f"nothing new; report: {report.resolve()}", soft_wrap=True)
+        return code
     about["wall time"] = f"{time.monotonic() - started:.0f} s"
-    store.save_plan(bench.plan_document(planned, provenance=about, workers=site.n_workers))
-    code = _ending(records, console)
-    archive = bench.archive_at(config.data_dir)
-    write_report(records, about, store, archive, store.path / "report.html", console)
+    store.save_plan(document(provenance=about))
+    write_report(records, about, store, bench.archive_at(config.data_dir), report, console)
+    store.save_plan(document(provenance=about, drawn=found))
     return code
 
 

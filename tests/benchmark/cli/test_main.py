@@ -98,6 +98,28 @@ def test_a_second_run_computes_nothing(cli, tmp_path):
     }
 
 
+def test_a_finished_run_is_drawn_again_only_if_something_is_new(cli, tmp_path):
+    run, page = (*FAST, "--out", tmp_path / "run"), tmp_path / "run" / "report.html"
+    assert cli(*run) == 0
+    assert cli("check", tmp_path / "run", "--reference", tmp_path / "run") == 0
+    page.write_text("drawn")
+    assert cli(*run) == 0
+    assert "nothing new; report:" in cli.printed
+    assert page.read_text() == "drawn"
+    assert Store.open(tmp_path / "run").load_check()  # what was checked is still the last run
+    news = [
+        page.unlink,
+        lambda: next((tmp_path / "run").glob("records/*/*")).unlink(),
+        lambda: cli(*run, "--folds", 1),
+    ]
+    for happens in news:
+        happens()
+        assert cli(*run) == 0
+        assert "nothing new" not in cli.printed
+        assert page.read_text() != "drawn"
+        page.write_text("drawn")
+
+
 def test_new_metrics_are_scored_without_refitting(cli, tmp_path):
     assert cli(*FAST, "--metrics", "mse", "--out", tmp_path / "run") == 0
     before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/predictions").glob("*/*")}

@@ -1,0 +1,35 @@
+"""Whether the report in a run directory shows what a run found, so that it need not be drawn."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from mocapbench.benchmark.errors import UsageError
+
+if TYPE_CHECKING:
+    from mocapbench.benchmark import Record, Store
+
+__all__ = ["last_drawn", "stamp"]
+
+_DRAWN_BY = ("mocapbench version", "commit", "platform")
+
+
+def stamp(records: Sequence[Record], about: Mapping[str, str]) -> str:
+    """Return a digest of what a report shows and of the code that draws it."""
+    digest = hashlib.sha256(json.dumps([about.get(name) for name in _DRAWN_BY]).encode())
+    for record in records:
+        digest.update(record.to_json().encode())
+    return digest.hexdigest()
+
+
+def last_drawn(store: Store, keys: Sequence[str]) -> str:
+    """Return the stamp of the report there; an empty string unless the last run had these jobs."""
+    try:
+        plan = store.load_plan()
+    except UsageError:  # no run got so far
+        return ""
+    there = plan["keys"] == list(keys) and (store.path / "report.html").is_file()
+    return str(plan.get("drawn", "")) if there else ""
