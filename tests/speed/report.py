@@ -46,6 +46,8 @@ LIMITS = (
     ("D62 N300 R39, one child", "auto", "peak_mb", 1e3),
     ("D62 N1000 R39, complete", "state-space", "peak_mb", 6e3),
     ("D62 N1000 R39, one child", "state-space", "peak_mb", 6e3),
+    ("harness: toy", "run", "core_ms", 20.0),
+    ("harness: recordings", "run", "core_ms", 20.0),
     ("mocap Q1", "fit", "evaluations", 200.0),
     ("mocap Q1", "fit", "nats_below_best", 1.0),
 )
