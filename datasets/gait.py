@@ -6,6 +6,7 @@ them must be labelled *synthetic*.
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 from mocapbench.datasets.acclaim.motion import Motion, format_motion
@@ -65,7 +66,7 @@ class GaitLibrary(Library):
 
     def recording(self, key: str) -> Recording:
         """Return all 62 channels of the motion."""
-        return self.motion(key).recording(key)
+        return _recording(key)
 
     def motion(self, key: str) -> Motion:
         """Return the motion, written and read back as Acclaim text like any other."""
@@ -83,3 +84,8 @@ class GaitLibrary(Library):
         """Return generator version and key, which determine the recording."""
         split_key(key)
         return f"gait-{GAIT_VERSION}:{key}"
+
+
+@cache  # a walk takes longer to make than most models to fit, and cannot be changed
+def _recording(key: str) -> Recording:
+    return GaitLibrary().motion(key).recording(key)

@@ -40,9 +40,7 @@ def pooled_contrast(results: TaskResults, metric: str, first: str, second: str) 
     --------
     mocapbench.metrics.statistics.pooled_units : what counts as one unit.
     """
-    cases = [case.name for case in results.representative_cases(metric)]
-    values = results.values[metric]
-    values = values[values.index.get_level_values("case").isin(cases)]
+    values = results.representative_values[metric]
     units = pooled_units(
         pair(values[first], values[second]), independent=results.layout.independent_folds
     )

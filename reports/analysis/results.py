@@ -81,6 +81,15 @@ class TaskResults:
             for metric, rows in self.scores.groupby("metric", sort=False)
         }
 
+    @cached_property
+    def representative_values(self) -> Mapping[str, pd.DataFrame]:
+        """The `values` of the representative cases."""
+        cases = {m: [case.name for case in self.representative_cases(m)] for m in self.values}
+        return {
+            metric: values[values.index.get_level_values("case").isin(cases[metric])]
+            for metric, values in self.values.items()
+        }
+
     def first_rank(self, case: str, metric: str) -> SharedRank | None:
         """Return the entrants that share the first rank of a row, by a paired test.
 
@@ -89,6 +98,14 @@ class TaskResults:
         SharedRank or None
             None where no entrant has a score.
         """
+        return self._first_ranks.get((case, metric))
+
+    @cached_property
+    def _first_ranks(self) -> Mapping[tuple[str, str], SharedRank | None]:
+        rows = {(case, metric): None for case, _, metric in self.estimates}
+        return {row: self._first_rank(*row) for row in rows}
+
+    def _first_rank(self, case: str, metric: str) -> SharedRank | None:
         order = tuple(self.ranking(case, metric))
         if not order:
             return None

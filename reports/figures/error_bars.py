@@ -111,5 +111,5 @@ def _swatch(place: int, prefix: str) -> Markup:
         markersize=MARKER_SIZE,
         linewidth=LINE_WIDTH,
         markeredgewidth=0.75 * LINE_WIDTH,  # as seaborn does
-        markevery=[1],
+        markevery=(1, 2),  # the middle one
     )

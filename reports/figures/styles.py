@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any, Literal, TypeVar
 
 from markupsafe import Markup
@@ -17,6 +18,8 @@ MARKERS = ["o", "s", "^", "D", "v", "P", "X", "<", ">", "p"]
 LINES: list[Literal["-", "--", ":", "-."]] = ["-", "--", ":", "-."]
 SMALLEST_SCALE = 0.7
 """How far a page narrower than a figure shrinks it before it scrolls."""
+
+_ANY_PREFIX = "any-prefix"
 
 StyleT = TypeVar("StyleT", bound=str)
 
@@ -38,6 +41,12 @@ def line_swatch(prefix: str, x: Sequence[float] = (0.0, 1.0), **style: Any) -> M
     **style
         Properties of `matplotlib.lines.Line2D`.
     """
+    drawn = _drawn_line(tuple(x), tuple(sorted(style.items())))
+    return Markup(drawn.replace(_ANY_PREFIX, prefix))
+
+
+@cache  # a page has hundreds, and few that differ
+def _drawn_line(x: tuple[float, ...], style: tuple[tuple[str, Any], ...]) -> str:
     figure = Figure(figsize=(0.34, 0.14))
-    figure.add_artist(Line2D(x, [0.5] * len(x), **style))
-    return svg_element(figure, prefix, aria_hidden="true")
+    figure.add_artist(Line2D(x, [0.5] * len(x), **dict(style)))
+    return str(svg_element(figure, _ANY_PREFIX, aria_hidden="true"))
