@@ -26,6 +26,7 @@ from .problems.synthesise import Samples, SynthesiseProblem
 from .problems.unit import Unit
 from .registry import LIBRARIES, METRICS, MODELS, TASKS
 from .results.bundle import bundle
+from .results.drawn import last_drawn, stamp
 from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
 from .runs.directory.plan_file import plan_document
@@ -98,6 +99,7 @@ __all__ = [
     "hide_frames",
     "illustrations",
     "job_table",
+    "last_drawn",
     "load_plugin",
     "memory_share",
     "merge",
@@ -110,6 +112,7 @@ __all__ = [
     "run",
     "run_state",
     "score_table",
+    "stamp",
     "state_lines",
     "state_table",
 ]

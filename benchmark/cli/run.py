@@ -21,7 +21,6 @@ from mocapbench import benchmark as bench
 from mocapbench import datasets
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.data import fetch_missing
-from mocapbench.benchmark.cli.drawn import last_drawn, stamp
 from mocapbench.benchmark.cli.options import (
     DEFAULT_OUT,
     DataDir,
@@ -155,7 +154,7 @@ def _run(
 ) -> ExitCode:
     about, started = dict(config.provenance), time.monotonic()
     document = partial(bench.plan_document, planned, workers=site.n_workers)
-    drawn = last_drawn(store, [job.key for job in planned])
+    drawn = bench.last_drawn(store, [job.key for job in planned])
     if not drawn:
         store.save_plan(document(provenance=about))
     try:
@@ -164,11 +163,8 @@ def _run(
         with suppress(OSError):  # the terminal may have been closed
             console.print("interrupted; everything finished is kept, and the same command resumes")
         return ExitCode.INTERRUPTED
-    code, found, report = (
-        _ending(records, console),
-        stamp(records, about),
-        store.path / "report.html",
-    )
+    code, report = _ending(records, console), store.path / "report.html"
+    found = bench.stamp(records, about)
     if found == drawn:
         console.print(f"nothing new; report: {report.resolve()}", soft_wrap=True)
         return code

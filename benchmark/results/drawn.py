@@ -5,12 +5,10 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from mocapbench.benchmark.errors import UsageError
-
-if TYPE_CHECKING:
-    from mocapbench.benchmark import Record, Store
+from mocapbench.benchmark.runs.record import Record
+from mocapbench.benchmark.runs.store import Store
 
 __all__ = ["last_drawn", "stamp"]
 
