@@ -40,7 +40,7 @@ def _run(*arguments, **environment):
         (("--version",), "mocapbench "),
         (("run", "--help"), "--dry-run"),
         (("status", "--help"), "in another terminal"),
-        (("merge", "--help"), "the first gives the order"),
+        (("merge", "--help"), "Everything is checked first"),
         (("report", "--help"), "The HTML file to write"),
         (("check", "--help"), "--reference"),
         (("compare", "--help"), "--rope"),
