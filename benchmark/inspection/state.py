@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, planned_jobs
+from mocapbench.benchmark.runs.execution.durations import Durations
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
@@ -115,16 +116,12 @@ def _seconds_left(
     To score predictions that are there, or that another row asks for too, takes no time beside it.
     """
     to_fit = {job.fit_key: job.address for job in left if job.fit_key not in predicted}
-    seconds: dict[tuple[str, ...], list[float]] = defaultdict(list)
+    durations = Durations()
     for record in records:
         if record.fit_seconds is not None:
-            for kind in _kinds(record.address):
-                seconds[kind].append(record.fit_seconds + (record.predict_seconds or 0.0))
-    means = {kind: sum(values) / len(values) for kind, values in seconds.items()}
-    return sum(
-        next((means[kind] for kind in _kinds(address) if kind in means), 0.0)
-        for address in to_fit.values()
-    )
+            seconds = record.fit_seconds + (record.predict_seconds or 0.0)
+            durations.learn(_kinds(record.address), seconds)
+    return sum(durations.expected(_kinds(address)) for address in to_fit.values())
 
 
 def _kinds(address: Address) -> tuple[tuple[str, ...], ...]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import resource
 import traceback
-from dataclasses import asdict
 from typing import Any
 
 from joblib import parallel_config
@@ -50,8 +49,7 @@ def evaluate(work: Work, config: WorkerConfig, archive: Archive) -> tuple[Record
 
 
 def _scored(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
-    costs = {name: value for name, value in asdict(fit).items() if name != "arrays"}
-    costs["warnings"] = (*fit.warnings, *work.remarks)
+    costs = {**fit.costs, "warnings": (*fit.warnings, *work.remarks)}
     results = {**costs, **_scores(work.job, problem, fit)}
     return work.job.record(Status.OK, **results, provenance=_provenance(work.job, config))
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 from mocapbench.benchmark.problems.arrays import Arrays
 
@@ -34,3 +35,9 @@ class Fit:
     converged: bool | None
     engine: str = ""
     warnings: tuple[str, ...] = ()
+
+    @property
+    def costs(self) -> dict[str, Any]:
+        """All but the arrays, by name."""
+        names = (field.name for field in fields(self) if field.name != "arrays")
+        return {name: getattr(self, name) for name in names}

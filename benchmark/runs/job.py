@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from mocapbench.benchmark.runs.fit import Fit
 from mocapbench.benchmark.runs.record import Record, Status
@@ -116,3 +116,8 @@ class Outcome(NamedTuple):
     """The predictions, if they are new."""
     seconds: float
     """From when the worker took the job up."""
+
+    @classmethod
+    def without_report(cls, job: Job, message: str) -> Self:
+        """Return the outcome of a job whose worker gave none, and why."""
+        return cls(job.record(Status.FAILED, message), None, 0.0)

@@ -20,11 +20,11 @@ from __future__ import annotations
 
 import json
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -39,6 +39,8 @@ from mocapbench.benchmark.runs.fit import Fit
 from mocapbench.benchmark.runs.record import Record, RecordError
 
 __all__ = ["Store"]
+
+T = TypeVar("T")
 
 _MARKER = "mocapbench.json"
 _CHECK = "check.json"
@@ -189,35 +191,26 @@ class Store:
 
     def load_fit(self, key: str) -> Fit | None:
         """Return the fit called ``key``, or None if it is absent or damaged."""
-        path = self.fit_path(key)
-        if not path.is_file():
-            return None
-        try:
-            with np.load(path, allow_pickle=False) as arrays:
-                about = _about(arrays, key)
-                contents = {name: arrays[name] for name in arrays.files if name != "about"}
-            return Fit(contents, **{**about, "warnings": tuple(about["warnings"])})
-        except _UNREADABLE as error:
-            self.damaged.append(f"{path}: not a whole set of predictions: {error}")
-            return None
+        return self._read_fit(key, _whole_fit)
 
     def has_fit(self, key: str) -> bool:
         """Return whether there are predictions called ``key``, as far as a glance can tell."""
+        return self._read_fit(key, _about) is not None
+
+    def _read_fit(self, key: str, read: Callable[[Any, str], T]) -> T | None:
         path = self.fit_path(key)
         if not path.is_file():
-            return False
+            return None
         try:
             with np.load(path, allow_pickle=False) as arrays:
-                _about(arrays, key)
+                return read(arrays, key)
         except _UNREADABLE as error:
             self.damaged.append(f"{path}: not a whole set of predictions: {error}")
-            return False
-        return True
+            return None
 
     def save_fit(self, key: str, fit: Fit) -> None:
         """Write ``fit`` whole or not at all."""
-        about = {name: value for name, value in asdict(fit).items() if name != "arrays"}
-        about["key"] = key
+        about = {**fit.costs, "key": key}
         with atomic_write(_made(self._fit_path(key))) as file:
             arrays: dict[str, Any] = {**fit.arrays, "about": np.array(json.dumps(about))}
             np.savez_compressed(file, **arrays)
@@ -292,6 +285,12 @@ def _about(arrays: Mapping[str, Any], key: str) -> dict[str, Any]:
     if about.pop("key") != key:
         raise ValueError("it holds those of another job")
     return about
+
+
+def _whole_fit(arrays: Mapping[str, Any], key: str) -> Fit:
+    about = _about(arrays, key)
+    contents = {name: array for name, array in arrays.items() if name != "about"}
+    return Fit(contents, **{**about, "warnings": tuple(about["warnings"])})
 
 
 def _made(path: Path) -> Path:

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mocapbench.benchmark import TASKS, Seeds, archive_at
 from mocapbench.benchmark.cli.main import main
 from mocapbench.benchmark.runs import sources
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
@@ -37,6 +38,19 @@ class CommandLine:
 def cli(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     return CommandLine(capsys)
+
+
+@pytest.fixture(scope="session")
+def posed():
+    """Return a function that poses the problem of a case."""
+
+    def pose(task, case, fold=0):
+        task = TASKS.get(task)
+        case = task.case(case)
+        address = Address(task.name, task.version, case.problem_name, fold)
+        return case.problem(Seeds(0, address), archive_at(None))
+
+    return pose
 
 
 @pytest.fixture

@@ -15,7 +15,6 @@ from mocapbench.benchmark.runs.cluster.plugin_files import PluginFiles
 from mocapbench.benchmark.runs.cluster.run_plugin import RunPlugin, run_on_worker
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
-from mocapbench.benchmark.runs.record import Status
 
 __all__ = ["ClusterExecutor"]
 
@@ -102,7 +101,7 @@ class ClusterExecutor:
                 )
             case error:
                 message = f"no report came back: {type(error).__name__}: {error}"
-        return Outcome(job.record(Status.FAILED, message), None, 0.0)
+        return Outcome.without_report(job, message)
 
     def stop(self, futures: Collection[Future[Outcome]]) -> None:
         """Kill what the cluster runs for this run; the jobs of ``futures`` are cancelled."""

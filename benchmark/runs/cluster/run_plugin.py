@@ -14,7 +14,6 @@ from mocapbench.benchmark.runs.cluster.installation import difference, installat
 from mocapbench.benchmark.runs.cluster.outpost import Outpost
 from mocapbench.benchmark.runs.cluster.plugin_files import PluginFiles
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
-from mocapbench.benchmark.runs.record import Status
 
 __all__ = ["RunPlugin", "run_on_worker"]
 
@@ -84,7 +83,7 @@ def run_on_worker(
         Why recordings that the job needs could not be read where the run started.
     """
     if unreadable:
-        return Outcome(work.job.record(Status.FAILED, unreadable[0]), None, 0.0)
+        return Outcome.without_report(work.job, unreadable[0])
     worker = get_worker()
     plugin = cast(RunPlugin | None, worker.plugins.get(run))
     if plugin is None:  # the worker is closing, and has let go of its plug-ins

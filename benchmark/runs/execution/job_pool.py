@@ -15,7 +15,6 @@ from pebble import ProcessExpired, ProcessPool
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.execution.worker import prepare_worker, run_job
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
-from mocapbench.benchmark.runs.record import Status
 
 __all__ = ["JobPool"]
 
@@ -60,10 +59,9 @@ class JobPool:
             return future.result()
         except ProcessExpired as error:
             message = f"the worker died with exit code {error.exitcode} before it could report"
-            return Outcome(job.record(Status.FAILED, message), None, 0.0)
         except (Exception, CancelledError) as error:
             message = f"no report came back: {type(error).__name__}: {error}"
-            return Outcome(job.record(Status.FAILED, message), None, 0.0)
+        return Outcome.without_report(job, message)
 
     def stop(self, futures: Collection[Future[Outcome]]) -> None:
         """Kill the workers with what they run; the jobs of ``futures`` are cancelled."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import time
 from collections import defaultdict, deque
-from collections.abc import Iterable
+from collections.abc import Hashable, Iterable
 from typing import NamedTuple
 
+from mocapbench.benchmark.runs.execution.durations import Durations
 from mocapbench.benchmark.runs.job import Job
 
 __all__ = ["JobQueue"]
@@ -20,17 +21,10 @@ class _Kind(NamedTuple):
     rescored: bool
     """Whether the predictions are there already."""
 
-
-class _Mean:
-    def __init__(self) -> None:
-        self.count, self.total = 0, 0.0
-
-    def add(self, value: float) -> None:
-        self.count, self.total = self.count + 1, self.total + value
-
     @property
-    def value(self) -> float | None:
-        return self.total / self.count if self.count else None
+    def alike(self) -> tuple[Hashable, ...]:
+        """Among what jobs to look for alike ones, the most alike first."""
+        return self, self.label, ()
 
 
 class JobQueue:
@@ -51,9 +45,7 @@ class JobQueue:
         self._leads: set[str] = set()
         self._running: dict[str, tuple[_Kind, float]] = {}
         self._untried: deque[_Kind] = deque()
-        self._seconds: dict[_Kind, _Mean] = defaultdict(_Mean)
-        self._by_label: dict[str, _Mean] = defaultdict(_Mean)
-        self._overall = _Mean()
+        self._durations = Durations()
         for job in jobs:
             if job.fit_key in self._leads:
                 self._followers[job.fit_key].append(job)
@@ -85,18 +77,12 @@ class JobQueue:
     def ended(self, job: Job, seconds: float) -> None:
         """Take note that a job that was taken has ended after so many seconds."""
         kind, _ = self._running.pop(job.key)
-        self._learn(kind, seconds)
+        self._durations.learn(kind.alike, seconds)
         for follower in self._followers.pop(job.fit_key, ()):
             self._append(follower, rescored=True)
 
-    def _learn(self, kind: _Kind, seconds: float) -> None:
-        for mean in (self._seconds[kind], self._by_label[kind.label], self._overall):
-            mean.add(seconds)
-
     def _expected(self, kind: _Kind) -> float:
-        """Return the seconds that a job takes, from those most like it that have ended."""
-        known = (self._seconds[kind], self._by_label[kind.label], self._overall)
-        return next((mean.value for mean in known if mean.value is not None), 0.0)
+        return self._durations.expected(kind.alike)
 
     def time_left(self, n_workers: int) -> float:
         """Return about how many seconds it takes until all jobs have ended."""
