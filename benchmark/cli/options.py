@@ -72,4 +72,4 @@ def require_writable(*paths: Path | None) -> None:
 def show_left_out(damaged: Iterable[str], console: LiteralConsole) -> None:
     """Name the damaged files of a run directory."""
     for message in dict.fromkeys(damaged):
-        console.print(f"damaged, so left out: {message}")
+        console.print(f"damaged, so left out: {message}", soft_wrap=True)

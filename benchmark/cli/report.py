@@ -18,6 +18,7 @@ from mocapbench.benchmark.cli.options import (
     Plugins,
     load_plugins,
     require_writable,
+    show_left_out,
 )
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
@@ -63,5 +64,4 @@ def write_report(
     with atomic_write(path) as file:
         file.write(page.encode())
     console.print(f"report: {path.resolve()}", soft_wrap=True, highlight=False)
-    for message in dict.fromkeys(store.damaged):
-        console.print(f"damaged, so not trusted: {message}")
+    show_left_out(store.damaged, console)

@@ -28,6 +28,7 @@ from mocapbench.benchmark.cli.options import (
     Out,
     Plugins,
     load_plugins,
+    show_left_out,
     split,
 )
 from mocapbench.benchmark.cli.report import write_report
@@ -167,6 +168,7 @@ def _run(
     found = bench.stamp(records, about)
     if found == drawn:
         console.print(f"nothing new; report: {report.resolve()}", soft_wrap=True)
+        show_left_out(store.damaged, console)
         return code
     about["wall time"] = f"{time.monotonic() - started:.0f} s"
     store.save_plan(document(provenance=about))

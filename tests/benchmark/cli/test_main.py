@@ -136,7 +136,7 @@ def test_a_damaged_record_is_reported_and_computed_again(cli, records, tmp_path)
     victim = next((tmp_path / "run" / "records").glob("*/*"))
     victim.write_text(victim.read_text()[:100])
     assert cli(*FAST, "--out", tmp_path / "run") == 0
-    assert "damaged, so not trusted" in cli.printed
+    assert f"damaged, so left out: {victim}" in cli.printed
     assert _scores(records(tmp_path / "run")) == whole
 
 
