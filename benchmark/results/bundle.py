@@ -37,6 +37,11 @@ def bundle(
     illustrations : tuple of Illustration or HeatMaps
     check : mapping or None
         The last regression check, as the store keeps it.
+
+    Raises
+    ------
+    UnknownNameError
+        If a record is of a task or of a case that there is not.
     """
     tasks = [TASKS.get(name) for name in _unique(record.address.task for record in records)]
     shown = {metric for task in tasks for metric in task.page.metrics}
@@ -60,6 +65,9 @@ def _budget(task: Task, profile: str) -> str:
 
 
 def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
+    of_task = [record.address for record in records if record.address.task == task.name]
+    for name in _unique(address.case for address in of_task):
+        task.case(name)  # says so if another version of the task had it
     return TaskLayout(
         name=task.name,
         page=task.page,
@@ -73,7 +81,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
             )
             for case in task.cases
         ),
-        labels=_unique(r.address.label for r in records if r.address.task == task.name),
+        labels=_unique(address.label for address in of_task),
         independent_folds=task.independent_folds,
         budget=budget,
     )

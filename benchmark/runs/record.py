@@ -89,6 +89,11 @@ class Record:
     warnings: tuple[str, ...] = ()
     provenance: Mapping[str, str] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        for name in ("message", "traceback", "engine"):
+            object.__setattr__(self, name, _encodable(getattr(self, name)))
+        object.__setattr__(self, "warnings", tuple(map(_encodable, self.warnings)))
+
     def to_json(self) -> str:
         """Return the record as strict JSON; NaN becomes null, the address five entries."""
         document = {item.name: getattr(self, item.name) for item in fields(self)}
@@ -124,6 +129,11 @@ class Record:
 
 
 _ENTRIES = {*Address._fields, *(item.name for item in fields(Record))} - {"address"}
+
+
+def _encodable(text: str) -> str:
+    """Return ``text`` with surrogates escaped, which no file and no terminal would take."""
+    return text.encode("utf-8", "backslashreplace").decode()
 
 
 def _without_nan(value: Any) -> Any:

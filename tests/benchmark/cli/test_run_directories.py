@@ -197,3 +197,20 @@ def test_an_interrupted_run_is_logged_seen_and_finished(cli, tmp_path):
     assert cli(*chosen) == 0
     assert cli("status", out) == 0
     assert "finished, started" in cli.printed
+
+
+def test_a_surrogate_in_an_exception_can_be_stored_exported_and_shown(cli, records, tmp_path):
+    plugin = tmp_path / "plugin.py"
+    plugin.write_text(
+        "from mocapbench.baselines import Imputer\n"
+        "class Broken(Imputer):\n"
+        "    def fit(self, recordings): raise RuntimeError('\\udc80')\n"
+        "    def impute(self, recordings): raise RuntimeError\n"
+        "MODELS = {'broken': Broken}\n"
+    )
+    options = ("--models", "broken", "--plugin", plugin, "--out", tmp_path / "run")
+    assert cli(*TOY, *options) == 3
+    assert {record["message"] for record in records(tmp_path / "run").values()} == {
+        r"RuntimeError: \udc80"
+    }
+    assert cli("export", "--out", tmp_path / "run", "--to", tmp_path / "tables") == 0

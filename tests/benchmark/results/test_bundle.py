@@ -1,6 +1,9 @@
+from dataclasses import replace
+
 import pytest
 
 from mocapbench.benchmark import TASKS, Address, Record, Status, bundle
+from mocapbench.benchmark.errors import UnknownNameError
 
 NAME = "upper-body-missing"
 TASK = TASKS.get(NAME)
@@ -39,3 +42,10 @@ def test_the_budget_of_the_profile_is_written_out(made):
 def test_metrics_are_those_that_the_page_shows_and_those_that_were_scored(made):
     assert list(made.metrics) == ["mse", "msll", "smse"]
     assert made.metrics["mse"].title == "Mean squared error (MSE)"
+
+
+def test_a_case_that_the_task_does_not_have_is_refused_by_name():
+    record = _record("nn", {"mse": 1.0})
+    other = replace(record, address=record.address._replace(case="subject 99 walks"))
+    with pytest.raises(UnknownNameError, match="subject 99 walks"):
+        bundle([other], {})
