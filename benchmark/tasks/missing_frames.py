@@ -104,7 +104,10 @@ missing_frames = Task(
     independent_folds=False,
     profiles={
         "smoke": Profile(
-            ("synthetic 1",), folds=1, budget={"max_iter": 2, "fill_iter": 10}, opt_in=SLOW
+            ("synthetic 1",),
+            folds=1,
+            budget={"max_iter": 2, "fill_iter": 10},
+            opt_in=(*SLOW, "cyclic-alignment-centred"),
         ),
         "quick": Profile(
             (*(case.name for case in _CASES if "three" in case.name), "synthetic 1"),

@@ -73,7 +73,9 @@ toy_synthesis = Task(
         Entrant("control", "control"),
     ),
     profiles={
-        "smoke": Profile(("test 1",), folds=2, budget={"max_iter": 25, "n_restarts": 1}),
+        "smoke": Profile(
+            ("test 1",), folds=2, budget={"max_iter": 25, "n_restarts": 1}, opt_in=("gpdm",)
+        ),
         "quick": Profile(("test 1", "test 4", "test 9"), folds=3, opt_in=_NOT_QUICK),
         "paper": Profile(tuple(case.name for case in _CASES), folds=5, opt_in=("gpdm",)),
     },

@@ -72,7 +72,10 @@ walking_interpolation = Task(
     ),
     profiles={
         "smoke": Profile(
-            ("synthetic observed 40",), folds=1, budget={"max_iter": 5, "n_restarts": 1}
+            ("synthetic observed 40",),
+            folds=1,
+            budget={"max_iter": 5, "n_restarts": 1},
+            opt_in=("mohgp-1+5",),
         ),
         "quick": Profile(
             ("observed 40", "synthetic observed 40"),
