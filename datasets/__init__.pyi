@@ -8,6 +8,7 @@ from .cmu import CMU_ACKNOWLEDGEMENT, CMU_URL, CMULibrary, registered_digests
 from .digests import DigestMismatch, UnregisteredDigestWarning
 from .errors import FetchError, RecordingUnavailable, ServerUnreachable, SkeletonUnavailable
 from .features import THESIS_CHANNELS, gpdm_features, hlm_features
+from .folders import named_folders
 from .gait import GAIT_VERSION, GaitLibrary, gait_style
 from .kinematics import FrameByJointBy3, joint_positions
 from .library import Library
@@ -58,6 +59,7 @@ __all__ = [
     "hlm_features",
     "integrate_root",
     "joint_positions",
+    "named_folders",
     "one_based_frames",
     "open_archive",
     "parse_motion",

@@ -25,6 +25,7 @@ __all__ = [
 ]
 
 _ROW = re.compile(r"^(\S+)\t([0-9a-f]{64})$", re.MULTILINE)
+_DAMAGED = "the file is damaged or another edition: remove it and fetch it again"
 
 
 class DigestMismatch(ValueError):  # noqa: N818
@@ -36,18 +37,21 @@ class DigestMismatch(ValueError):  # noqa: N818
         Its path or address.
     expected, got : str
         SHA-256 of the content with line ends normalised to LF.
+    remedy : str
+        What to do.
     """
 
-    def __init__(self, file: str, expected: str, got: str) -> None:
-        super().__init__(file, expected, got)
+    def __init__(self, file: str, expected: str, got: str, remedy: str = _DAMAGED) -> None:
+        super().__init__(file, expected, got, remedy)
         self.file = file
         self.expected = expected
         self.got = got
+        self.remedy = remedy
 
     def __str__(self) -> str:
         return (
             f"{self.file}: expected SHA-256 (of LF lines) {self.expected}, got {self.got}; "
-            "the file is damaged or another edition: remove it and fetch it again"
+            f"{self.remedy}"
         )
 
 
@@ -102,11 +106,19 @@ class DigestRegistry:
             If there was neither.
         """
         got = sha256(with_unix_line_ends(data)).hexdigest()
-        expected = (read_digests(self.pins) | dict(self.known)).get(path)
-        if expected is None:
+        pinned = read_digests(self.pins)
+        if path in self.known:
+            _compare(file, self.known[path], got, _DAMAGED)
+        elif path in pinned:
+            _compare(file, pinned[path], got, self._first_seen(path))
+        else:
             self._pin(path, got, file)
-        elif got != expected:
-            raise DigestMismatch(file, expected, got)
+
+    def _first_seen(self, path: str) -> str:
+        return (
+            "no digest is registered, and this is not the file that was first seen here: if it is "
+            f"the right one, delete the line of {path} in {self.pins}"
+        )
 
     def _pin(self, path: str, digest: str, file: str) -> None:
         warnings.warn(
@@ -119,3 +131,8 @@ class DigestRegistry:
             self.pins.parent.mkdir(parents=True, exist_ok=True)
             with self.pins.open("a", encoding="utf-8") as stream:
                 stream.write(f"{path}\t{digest}\n")
+
+
+def _compare(file: str, expected: str, got: str, remedy: str) -> None:
+    if got != expected:
+        raise DigestMismatch(file, expected, got, remedy)

@@ -8,6 +8,7 @@ from pathlib import Path
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.digests import content_digest
 from mocapbench.datasets.errors import FetchError, SkeletonUnavailable
+from mocapbench.datasets.folders import named_folders
 from mocapbench.datasets.recording import Recording
 
 __all__ = ["Library"]
@@ -27,7 +28,8 @@ class Library(ABC):
     ----------
     data_dir : Path or None
         Folder of recordings that the user named, stored as ``self.data_dir``; a library may ignore
-        it.
+        it. The user may name several, separated by `os.pathsep`: ``self.folders`` has them one by
+        one.
 
     See Also
     --------
@@ -56,6 +58,11 @@ class Library(ABC):
 
     def __init__(self, data_dir: Path | None = None) -> None:
         self.data_dir = data_dir
+
+    @property
+    def folders(self) -> tuple[Path, ...]:
+        """The folders that ``data_dir`` names, in the order in which they are searched."""
+        return named_folders(self.data_dir)
 
     @abstractmethod
     def where(self, key: str) -> str:

@@ -1,7 +1,9 @@
 """The CMU library: folder before cache, cache before server, and only verified files."""
 
+import os
 import pickle
 from hashlib import sha256
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -84,6 +86,24 @@ def test_one_file_may_be_in_the_folder_and_the_other_in_the_cache(library, files
     store(tmp_path / "data", {ASF: files[ASF]})
     store(tmp_path / "cache", {AMC: files[AMC]})
     assert library.motion("01_02").values.shape == (3, 12)
+
+
+def test_several_folders_are_searched_in_order(known, files, tmp_path):
+    one, two = tmp_path / "one", tmp_path / "two"
+    library = CMULibrary(Path(f"{one}{os.pathsep}{two}"), tmp_path / "cache", known=known)
+    assert library.folders == (one, two)
+    store(two, files)
+    assert library.where("01_02") == str(two / AMC)
+    store(one, {AMC: files[AMC]})
+    assert library.where("01_02") == str(one / AMC)
+    assert library.motion("01_02").values.shape == (3, 12)
+
+
+def test_the_environment_may_name_several_folders(monkeypatch, known, files, tmp_path):
+    store(tmp_path / "two", files)
+    monkeypatch.setenv("MOCAPBENCH_DATA", f"{tmp_path / 'one'}{os.pathsep}{tmp_path / 'two'}")
+    library = CMULibrary(cache_dir=tmp_path / "cache", known=known)
+    assert library.where("01_02") == str(tmp_path / "two" / AMC)
 
 
 def test_one_file_of_two_is_not_a_recording(library, files, tmp_path):

@@ -35,7 +35,11 @@ def test_the_digest_of_an_unknown_file_is_pinned_with_a_warning(pins):
         DigestRegistry({}, pins).check("a.amc", b"abc\n", "a.amc")
     later = DigestRegistry({}, pins)
     later.check("a.amc", b"abc\r\n", "a.amc")
-    with pytest.raises(DigestMismatch, match=ABC):
+    with pytest.raises(DigestMismatch, match=ABC) as caught:
+        later.check("a.amc", b"abd\n", "a.amc")
+    assert f"delete the line of a.amc in {pins}" in str(caught.value)
+    pins.unlink()
+    with pytest.warns(UnregisteredDigestWarning):
         later.check("a.amc", b"abd\n", "a.amc")
 
 
@@ -64,6 +68,14 @@ def test_the_packaged_registry_lists_the_database():
     assert known["subjects/02/02.asf"].startswith("c50c9cf2")
 
 
+INTERPOLATED = (13, 14, 19, 23, 24, 25, 26)
+
+
+def test_no_digest_is_registered_of_recordings_of_which_interpolated_copies_are_about():
+    known = registered_digests()
+    assert not [n for n in INTERPOLATED if f"subjects/35/35_{n}.amc" in known]
+
+
 def test_a_mismatch_can_be_pickled():
-    error = pickle.loads(pickle.dumps(DigestMismatch("a.amc", "x", "y")))
-    assert (error.file, error.expected, error.got) == ("a.amc", "x", "y")
+    error = pickle.loads(pickle.dumps(DigestMismatch("a.amc", "x", "y", "do this")))
+    assert (error.file, error.expected, error.got, error.remedy) == ("a.amc", "x", "y", "do this")
