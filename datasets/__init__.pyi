@@ -8,10 +8,9 @@ from .cmu import CMU_ACKNOWLEDGEMENT, CMU_URL, CMULibrary, registered_digests
 from .digests import DigestMismatch, UnregisteredDigestWarning
 from .errors import FetchError, RecordingUnavailable, ServerUnreachable, SkeletonUnavailable
 from .features import THESIS_CHANNELS, gpdm_features, hlm_features
-from .folders import named_folders
 from .gait import GAIT_VERSION, GaitLibrary, gait_style
 from .kinematics import FrameByJointBy3, joint_positions
-from .library import Library
+from .library import Library, named_folders
 from .preprocessing import (
     integrate_root,
     one_based_frames,
@@ -22,6 +21,7 @@ from .preprocessing import (
 )
 from .process import Layer, ToyProcess
 from .recording import FrameByChannel, Frames, Mask, Recording
+from .taylor import taylor_deviations, taylor_features, taylor_scales
 
 __all__ = [
     "CMU_ACKNOWLEDGEMENT",
@@ -70,5 +70,8 @@ __all__ = [
     "resample",
     "restart",
     "root_differences",
+    "taylor_deviations",
+    "taylor_features",
+    "taylor_scales",
     "zero_based_frames",
 ]

@@ -34,6 +34,9 @@ __all__ = ["CMU_ACKNOWLEDGEMENT", "CMU_URL", "CMULibrary", "registered_digests"]
 
 CMU_URL = "http://mocap.cs.cmu.edu/"
 
+_DIVERSE = frozenset(f"subjects/35/35_{trial}.amc" for trial in (13, 14, 19, 23, 24, 25, 26))
+"""Recordings of which there are copies that hold every 4th frame and interpolate the others."""
+
 CMU_ACKNOWLEDGEMENT = (
     "The data used in this project was obtained from mocap.cs.cmu.edu. "
     "The database was created with funding from NSF EIA-0196217."
@@ -90,7 +93,9 @@ class CMULibrary(Library):
         cache = cache_dir or os.environ.get("MOCAPBENCH_CACHE")
         self.cache_dir = Path(cache or platformdirs.user_cache_dir("mocapbench"))
         self.digests = DigestRegistry(
-            registered_digests() if known is None else known, self.cache_dir / "digests.tsv"
+            registered_digests() if known is None else known,
+            self.cache_dir / "digests.tsv",
+            _DIVERSE,
         )
         self.downloader = Downloader(base_url, self.cache_dir, retries=retries, backoff=backoff)
 

@@ -1,17 +1,17 @@
-"""Libraries of recordings: the class to subclass in order to add one."""
+"""Libraries of recordings: the class to subclass in order to add one, and the user's folders."""
 
 from __future__ import annotations
 
+import os
 from abc import ABC, abstractmethod
 from pathlib import Path
 
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.digests import content_digest
 from mocapbench.datasets.errors import FetchError, SkeletonUnavailable
-from mocapbench.datasets.folders import named_folders
 from mocapbench.datasets.recording import Recording
 
-__all__ = ["Library"]
+__all__ = ["Library", "named_folders"]
 
 
 class Library(ABC):
@@ -120,3 +120,14 @@ class Library(ABC):
             If the library has none: always, in the base class.
         """
         raise SkeletonUnavailable(key, type(self).__name__)
+
+
+def named_folders(data_dir: str | Path | None) -> tuple[Path, ...]:
+    """Return the folders that a user names, separated by `os.pathsep` as in ``PATH``.
+
+    Parameters
+    ----------
+    data_dir : str, Path or None
+        None names none.
+    """
+    return tuple(Path(part) for part in str(data_dir or "").split(os.pathsep) if part)

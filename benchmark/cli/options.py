@@ -31,7 +31,10 @@ Names = Annotated[list[str] | None, typer.Option(help="Names, repeated or separa
 Out = Annotated[Path, typer.Option(help="The run directory: new, empty, or an earlier run's.")]
 DataDir = Annotated[
     Path | None,
-    typer.Option(envvar="MOCAPBENCH_DATA", help=f"Folders of recordings (subjects/NN/…), {pathsep!r} between them."),
+    typer.Option(
+        envvar="MOCAPBENCH_DATA",
+        help=f"A folder of recordings (subjects/NN/…), or several with {pathsep} between them.",
+    ),
 ]
 Plugins = Annotated[
     list[Path] | None,

@@ -15,6 +15,7 @@ from mocapbench.datasets import (
     DigestMismatch,
     FetchError,
     UnregisteredDigestWarning,
+    registered_digests,
 )
 
 ASF, AMC = "subjects/01/01.asf", "subjects/01/01_02.amc"
@@ -150,6 +151,20 @@ def test_without_a_registered_digest_the_first_one_is_pinned(library, known, fil
     store(tmp_path / "data", {AMC: files[AMC].replace(b"shin 42", b"shin 43")})
     with pytest.raises(DigestMismatch, match="data"):
         library.motion("01_02")
+
+
+@pytest.mark.parametrize("trial", [13, 14, 19, 23, 24, 25, 26])
+def test_of_a_recording_with_interpolated_copies_any_is_read(trial, server, known, files, tmp_path):
+    key, asf, amc = f"35_{trial}", "subjects/35/35.asf", f"subjects/35/35_{trial}.amc"
+    assert amc not in registered_digests()
+    server.files = {asf: files[ASF], amc: files[AMC]}
+    folder, cache = tmp_path / "data", tmp_path / "cache"
+    library = CMULibrary(folder, cache, base_url=server.url, known={asf: known[ASF]}, retries=0)
+    with pytest.warns(UnregisteredDigestWarning, match=f"{amc}; .*not pinned"):
+        library.fetch(key)
+    store(folder, {amc: files[AMC].replace(b"shin 42", b"shin 43")})
+    with pytest.warns(UnregisteredDigestWarning, match=f"{amc}; .*not pinned"):
+        assert library.motion(key).values[-1, -1] == 43
 
 
 def test_a_file_that_the_server_lacks_is_an_error_and_keeps_the_rest(library, tmp_path):

@@ -1,6 +1,7 @@
 """Digests of files ignore line ends; unknown ones are pinned when first seen."""
 
 import pickle
+import warnings
 
 import pytest
 
@@ -35,12 +36,18 @@ def test_the_digest_of_an_unknown_file_is_pinned_with_a_warning(pins):
         DigestRegistry({}, pins).check("a.amc", b"abc\n", "a.amc")
     later = DigestRegistry({}, pins)
     later.check("a.amc", b"abc\r\n", "a.amc")
-    with pytest.raises(DigestMismatch, match=ABC) as caught:
+    with pytest.raises(DigestMismatch, match=ABC):
         later.check("a.amc", b"abd\n", "a.amc")
-    assert f"delete the line of a.amc in {pins}" in str(caught.value)
-    pins.unlink()
-    with pytest.warns(UnregisteredDigestWarning):
-        later.check("a.amc", b"abd\n", "a.amc")
+
+
+def test_every_copy_of_a_diverse_file_is_accepted_with_one_warning(pins):
+    registry = DigestRegistry({}, pins, {"a.amc"})
+    for content in (b"abc\n", b"abd\n"):
+        with pytest.warns(UnregisteredDigestWarning, match="not pinned: different copies"):
+            registry.check("a.amc", content, "a.amc")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            registry.check("a.amc", content, "a.amc")
 
 
 def test_a_known_digest_overrules_a_pinned_one(pins):
@@ -68,14 +75,6 @@ def test_the_packaged_registry_lists_the_database():
     assert known["subjects/02/02.asf"].startswith("c50c9cf2")
 
 
-INTERPOLATED = (13, 14, 19, 23, 24, 25, 26)
-
-
-def test_no_digest_is_registered_of_recordings_of_which_interpolated_copies_are_about():
-    known = registered_digests()
-    assert not [n for n in INTERPOLATED if f"subjects/35/35_{n}.amc" in known]
-
-
 def test_a_mismatch_can_be_pickled():
-    error = pickle.loads(pickle.dumps(DigestMismatch("a.amc", "x", "y", "do this")))
-    assert (error.file, error.expected, error.got, error.remedy) == ("a.amc", "x", "y", "do this")
+    error = pickle.loads(pickle.dumps(DigestMismatch("a.amc", "x", "y")))
+    assert (error.file, error.expected, error.got) == ("a.amc", "x", "y")
