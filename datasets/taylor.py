@@ -49,7 +49,7 @@ def taylor_features(recording: Recording) -> Recording:
 
     References
     ----------
-    Taylor, Hinton and Roweis (2006), §4; Lawrence (2007), §5.
+    Taylor, Hinton and Roweis (2006); Lawrence (2007).
 
     Examples
     --------

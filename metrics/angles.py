@@ -48,7 +48,7 @@ def root_mean_square_of_angles(outcome: Imputation) -> Score:
 
     References
     ----------
-    Lawrence (2007), Table 1: "RMS angle error".
+    Lawrence (2007), the errors in degrees.
 
     Examples
     --------
@@ -95,7 +95,7 @@ def cumulative_error_of_scaled_angles(outcome: Imputation) -> Score:
 
     References
     ----------
-    Taylor, Hinton and Roweis (2006), §4; Lawrence (2007), Table 1: "cumulative error".
+    Taylor, Hinton and Roweis (2006); Lawrence (2007).
 
     Examples
     --------

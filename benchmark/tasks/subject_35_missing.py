@@ -11,7 +11,6 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines import Imputer, Inductive
 from mocapbench.benchmark.problems.impute import ImputeProblem
@@ -36,8 +35,15 @@ TEST = "cmu:35_29"
 SYNTHETIC_TRAINING = tuple(f"gait:01_{trial:02}" for trial in (1, 2, 6, 7, 11, 12))
 SYNTHETIC_TEST = "gait:01_16"
 
-_TRUNK_AND_LEGS = ("lowerback", "upperback", "femur", "tibia", "foot", "toes", "root")
-_RIGHT_LEG = ("rfemur", "rtibia", "rfoot", "rtoes")
+_ARM = ("humerus", "radius", "wrist", "hand", "thumb")
+PARTS = {
+    "right leg": ("rfemur", "rtibia", "rfoot", "rtoes"),
+    "upper body": (
+        *("thorax", "lowerneck", "upperneck", "head"),
+        *(f"{side}{segment}" for side in "lr" for segment in _ARM),
+    ),
+}
+"""Segments that are hidden: 7 joint angles and 30."""
 
 
 def subject_35_problem(
@@ -58,26 +64,16 @@ def subject_35_problem(
 def _second_half(recording: Recording, part: str) -> Mask:
     """Return the mask of the part's joint angles from the middle frame on."""
     n_frames = len(recording.times)
-    segments = [channel.partition(".")[0] for channel in recording.channels]
-    return np.outer(
-        np.arange(n_frames) >= n_frames // 2, [_PARTS[part](segment) for segment in segments]
-    )
-
-
-_PARTS = {
-    "right leg": lambda segment: segment in _RIGHT_LEG,
-    "upper body": lambda segment: not segment.endswith(_TRUNK_AND_LEGS),
-}
-"""Whether a segment belongs to a part: 7 joint angles and 30 of them do."""
+    hidden = [channel.partition(".")[0] in PARTS[part] for channel in recording.channels]
+    return np.outer(np.arange(n_frames) >= n_frames // 2, hidden)
 
 
 def _natural_unit() -> Unit:
     """Return degrees for joint angles, and for the root what its values were divided from."""
-    to_degrees: NDArray[np.float64] = np.array(
-        [np.rad2deg(1.0) if name in taylor_scales() else 1.0 for name in taylor_deviations()]
-    )
+    angles = [name in taylor_scales() for name in taylor_deviations()]
     deviations = np.array([*taylor_deviations().values()])
-    return Unit(np.zeros(len(deviations)), 1.0 / (deviations * to_degrees))
+    scale = np.where(angles, np.deg2rad(1.0), 1.0) / deviations
+    return Unit(np.zeros_like(scale), scale)
 
 
 def _real(part: str) -> Case:
@@ -93,7 +89,7 @@ def _synthetic(part: str) -> Case:
     return Case(f"synthetic {part}", problem, columns, sources, synthetic=True)
 
 
-_CASES = (*map(_real, _PARTS), *map(_synthetic, _PARTS))
+_CASES = (*map(_real, PARTS), *map(_synthetic, PARTS))
 
 subject_35_missing = Task(
     name="subject-35-missing",
