@@ -1,4 +1,4 @@
-"""Filling a leg or the upper body of a walker from 31 recordings of the same: subject 35.
+"""Filling a leg or the upper body of subject 35 from 31 recordings of the same person.
 
 - G. W. Taylor, G. E. Hinton and S. T. Roweis, *Modeling Human Motion Using Binary Latent
   Variables*, NIPS 19, 2006.

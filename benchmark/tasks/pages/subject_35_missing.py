@@ -16,8 +16,8 @@ PAGE = TaskPage(
         "joint angles of the right leg or the 30 of the upper body are hidden from frame 63 of "
         "124 on. Values are 50 joint angles and nine values of the root, each divided by its "
         "standard deviation in training. Errors are in degrees: their root mean square over the "
-        "hidden angles, and the papers’ cumulative scaled error, the sum over frames of squared "
-        "errors times each angle’s scale, averaged over the hidden angles."
+        "hidden angles, and the papers’ cumulative scaled error, in which each error is multiplied "
+        "by its angle’s scale and squared, summed over frames and averaged over angles."
     ),
     metrics=("rms_angle", "cumulative_scaled_error"),
     rows={name: RowNotes(published=name) for name in ("right leg", "upper body")},
@@ -36,8 +36,8 @@ PAGE = TaskPage(
         "printed.",
         "There is one recording to fill, so there is one fold and no interval: a difference "
         "between two models says little about other recordings. Models that draw their start vary "
-        "with the root seed: cyclic-alignment had cumulative scaled errors of 7 to 13 for the leg "
-        "and 10 to 30 for the upper body from four seeds.",
+        "with the root seed: cyclic-alignment, in full, had cumulative scaled errors of 7 to 12 "
+        "for the leg and of 10 to 30 for the upper body from five seeds.",
         "The recordings 35_13, 14, 19 and 23 to 26 are in use as copies that hold every fourth "
         "frame and interpolate the others. This task reads every fourth frame only, so any copy "
         "does, and none has a registered digest.",
