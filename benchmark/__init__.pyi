@@ -1,4 +1,4 @@
-from .archives import archive_at
+from .archives import archive_at, full_paths
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
 from .figures.alignment import Alignments
@@ -95,6 +95,7 @@ __all__ = [
     "compare",
     "explain",
     "explanation_table",
+    "full_paths",
     "hide_all_but",
     "hide_frames",
     "illustrations",

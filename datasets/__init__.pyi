@@ -10,7 +10,7 @@ from .errors import FetchError, RecordingUnavailable, ServerUnreachable, Skeleto
 from .features import THESIS_CHANNELS, gpdm_features, hlm_features
 from .gait import GAIT_VERSION, GaitLibrary, gait_style
 from .kinematics import FrameByJointBy3, joint_positions
-from .library import Library
+from .library import Library, named_folders
 from .preprocessing import (
     integrate_root,
     one_based_frames,
@@ -21,6 +21,7 @@ from .preprocessing import (
 )
 from .process import Layer, ToyProcess
 from .recording import FrameByChannel, Frames, Mask, Recording
+from .taylor import taylor_deviations, taylor_features, taylor_scales
 
 __all__ = [
     "CMU_ACKNOWLEDGEMENT",
@@ -58,6 +59,7 @@ __all__ = [
     "hlm_features",
     "integrate_root",
     "joint_positions",
+    "named_folders",
     "one_based_frames",
     "open_archive",
     "parse_motion",
@@ -68,5 +70,8 @@ __all__ = [
     "resample",
     "restart",
     "root_differences",
+    "taylor_deviations",
+    "taylor_features",
+    "taylor_scales",
     "zero_based_frames",
 ]

@@ -1,3 +1,4 @@
+from .angles import cumulative_scaled_error, rms_angle
 from .base import Clustering, Direction, Imputation, Metric, Recovery, Score, Synthesis
 from .calibration import coverage_50, coverage_80, coverage_90, coverage_95, crps, pit, sharpness
 from .clustering import adjusted_rand, purity
@@ -20,6 +21,7 @@ __all__ = [
     "coverage_90",
     "coverage_95",
     "crps",
+    "cumulative_scaled_error",
     "frobenius_child",
     "frobenius_parent",
     "logdet_child",
@@ -32,6 +34,7 @@ __all__ = [
     "msll",
     "pit",
     "purity",
+    "rms_angle",
     "rms_per_frame",
     "sharpness",
     "smse",

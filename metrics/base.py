@@ -51,6 +51,9 @@ class Imputation:
     visible_mean, visible_variance : ndarray of shape (D,)
         Mean and variance (ddof 0) of each output's visible entries over all recordings that the
         model was given: the trivial Gaussian of the MSLL.
+    scales : ndarray of shape (D,) or None
+        What errors of joint angles in degrees are multiplied by to be comparable, NaN for outputs
+        that are no joint angles; None where a task has no such scales.
     """
 
     truth: Array
@@ -59,6 +62,7 @@ class Imputation:
     hidden: NDArray[np.bool_]
     visible_mean: Array
     visible_variance: Array
+    scales: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from os import pathsep
 from pathlib import Path
 from typing import Annotated
 
@@ -30,7 +31,10 @@ Names = Annotated[list[str] | None, typer.Option(help="Names, repeated or separa
 Out = Annotated[Path, typer.Option(help="The run directory: new, empty, or an earlier run's.")]
 DataDir = Annotated[
     Path | None,
-    typer.Option(envvar="MOCAPBENCH_DATA", help="A folder of recordings (subjects/NN/…)."),
+    typer.Option(
+        envvar="MOCAPBENCH_DATA",
+        help=f"A folder of recordings (subjects/NN/…), or several with {pathsep} between them.",
+    ),
 ]
 Plugins = Annotated[
     list[Path] | None,

@@ -110,7 +110,7 @@ def run(
         return
     store, site = bench.Store.create(out), bench.open_site(jobs, scheduler, cluster)
     config = bench.WorkerConfig(
-        data_dir.resolve() if data_dir else None,
+        bench.full_paths(data_dir),
         plugins,
         timeout,
         int((memory or site.memory) * 2**30),

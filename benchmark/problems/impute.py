@@ -71,6 +71,8 @@ class ImputeProblem(Problem[FilledRecordings]):
         The unit that scores are taken in.
     skeleton : Skeleton or None
         Whose degrees of freedom the channels are, for figures.
+    scales : ndarray of shape (D,) or None
+        See `mocapbench.metrics.Imputation`.
     process, parent
         See `Problem`.
     """
@@ -79,6 +81,7 @@ class ImputeProblem(Problem[FilledRecordings]):
     truth: tuple[FrameByChannel, ...]
     unit: Unit
     skeleton: Skeleton | None = None
+    scales: NDArray[np.float64] | None = None
 
     answer_type = FilledRecordings
 
@@ -137,6 +140,7 @@ class ImputeProblem(Problem[FilledRecordings]):
             hidden=~np.concatenate([recording.visible for recording in self.given]),
             visible_mean=visible_mean,
             visible_variance=visible_variance,
+            scales=self.scales,
         )
 
     def _visible_moments(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

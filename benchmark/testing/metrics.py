@@ -31,6 +31,7 @@ OUTCOMES: Mapping[type, Any] = {
         hidden=GAP,
         visible_mean=np.zeros(2),
         visible_variance=np.ones(2),
+        scales=np.ones(2),
     ),
     Synthesis: Synthesis(
         np.stack([r.values for r in COMPLETE[:2]]), np.stack([r.values for r in COMPLETE[2:]])

@@ -19,12 +19,16 @@ def imputation(truth, mean, variance=None, hidden=None, **visible):
         hidden=np.ones(truth.shape, dtype=bool) if hidden is None else np.asarray(hidden),
         visible_mean=np.asarray(visible.get("visible_mean", np.zeros(truth.shape[-1]))),
         visible_variance=np.asarray(visible.get("visible_variance", np.ones(truth.shape[-1]))),
+        scales=np.ones(truth.shape[-1]),
     )
 
 
 @pytest.fixture(scope="session")
 def make() -> Callable[..., Imputation]:
-    """Build an `Imputation`: by default all entries hidden, visible mean 0 and variance 1."""
+    """Build an `Imputation`: by default all entries hidden, visible mean 0 and variance 1.
+
+    The scales of all outputs are 1.
+    """
     return imputation
 
 

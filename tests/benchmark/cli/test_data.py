@@ -1,10 +1,12 @@
 """``mocapbench data``, and what a run does about recordings that are not here."""
 
+import os
 from functools import partial
 from pathlib import Path
 
 import pytest
 
+from mocapbench.benchmark import archive_at, full_paths
 from mocapbench.benchmark.registry import LIBRARIES
 from mocapbench.datasets import CMULibrary, GaitLibrary, format_motion, format_skeleton
 
@@ -29,6 +31,24 @@ def test_status_says_what_is_here_and_what_is_not(cli, database):
     assert cli("data", "status", "99_01", "99_02", "--data-dir", database) == 0
     assert "cmu:99_01 │ available" in cli.printed
     assert "cmu:99_02 │ missing" in cli.printed
+
+
+def test_several_folders_may_be_named_in_one_text(cli, database, tmp_path):
+    (tmp_path / "other").mkdir()
+    both = f"{tmp_path / 'other'}{os.pathsep}{database}"
+    assert cli("data", "status", "99_01", "--data-dir", both) == 0
+    assert "cmu:99_01 │ available" in cli.printed
+    assert cli("data", "status", "99_01", "--data-dir", f"{both}{os.pathsep}absent") == 2
+    assert "got 'absent'" in cli.printed
+
+
+def test_jobs_of_a_run_find_the_recordings_of_every_folder(cli, database, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "other").mkdir()
+    named = full_paths(Path(f"other{os.pathsep}database"))
+    assert named == Path(f"{tmp_path / 'other'}{os.pathsep}{database}")
+    assert archive_at(named).available("cmu:99_01")
+    assert full_paths(None) is None
 
 
 def test_status_without_names_lists_what_the_tasks_use(cli, database):
