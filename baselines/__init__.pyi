@@ -1,12 +1,18 @@
 from .aligned_window import AlignedWindow
 from .control import Control
 from .cpm import CPM
-from .cubic_spline import CubicSplineImputer
 from .cyclic_alignment import CyclicAlignment
 from .gp_independent import GPIndependent
 from .gpdm.model import GPDM
 from .gplvm import GPLVM
 from .hgp import HGP
+from .interpolation import (
+    CubicSplineImputer,
+    HoldImputer,
+    LinearImputer,
+    MakimaImputer,
+    PchipImputer,
+)
 from .k_cpm import KCPM
 from .k_means import KMeans
 from .knn import KNN
@@ -29,6 +35,7 @@ from .protocols import (
     Imputer,
     Inductive,
     Informed,
+    Interpolator,
     Layered,
     Misinformed,
     Model,
@@ -64,15 +71,20 @@ __all__ = [
     "FrameByStyle",
     "FrameImputer",
     "GPIndependent",
+    "HoldImputer",
     "Imputer",
     "Inductive",
     "Informed",
+    "Interpolator",
     "KMeans",
     "LMCIndependent",
     "Layered",
+    "LinearImputer",
+    "MakimaImputer",
     "Misinformed",
     "Model",
     "Oracle",
+    "PchipImputer",
     "PoseKriging",
     "PoseViterbi",
     "Prediction",

@@ -7,7 +7,13 @@ from sklearn.exceptions import NotFittedError
 
 from mocapbench.baselines import Imputer, Inductive, Model
 from mocapbench.baselines.aligned_window import AlignedWindow
-from mocapbench.baselines.cubic_spline import CubicSplineImputer
+from mocapbench.baselines.interpolation import (
+    CubicSplineImputer,
+    HoldImputer,
+    LinearImputer,
+    MakimaImputer,
+    PchipImputer,
+)
 from mocapbench.baselines.knn import KNN
 from mocapbench.baselines.nn import NN
 from mocapbench.baselines.oracle import Oracle
@@ -17,6 +23,10 @@ from mocapbench.datasets import ToyProcess
 TIMES = np.linspace(0.0, 2 * np.pi, 25)
 MODELS = (
     Trivial(),
+    HoldImputer(),
+    LinearImputer(),
+    PchipImputer(),
+    MakimaImputer(),
     CubicSplineImputer(),
     KNN(n_neighbors=4),
     NN(),

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import pytest
 
 from mocapbench.benchmark import TASKS, Address, Record, Status, bundle
@@ -29,6 +31,17 @@ def test_a_layout_has_the_page_of_its_task_and_a_row_per_case(made):
 
 def test_entrants_are_in_the_order_of_the_records(made):
     assert made.layouts[0].labels == ("nn", "knn")
+
+
+def test_interpolations_are_known_by_the_nature_of_their_model():
+    records = [
+        _record("nn", {}),
+        _record("hold", {}),
+        replace(_record("my-spline", {}), model="cubic-spline"),
+        replace(_record("linear", {}), model="no longer registered"),
+    ]
+    (layout,) = bundle(records, {"profile": "smoke"}).layouts
+    assert layout.interpolations == ("hold", "my-spline")
 
 
 def test_the_budget_of_the_profile_is_written_out(made):
