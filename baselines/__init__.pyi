@@ -17,10 +17,12 @@ from .k_cpm import KCPM
 from .k_means import KMeans
 from .knn import KNN
 from .lmc_independent import LMCIndependent
+from .low_rank import LowRank
 from .moa import MOA
 from .mohgp import MOHGP
 from .nn import NN
 from .oracle import Oracle
+from .pca_regression import PCARegression
 from .pose_kriging import PoseKriging
 from .pose_viterbi import PoseViterbi
 from .protocols import (
@@ -80,10 +82,12 @@ __all__ = [
     "LMCIndependent",
     "Layered",
     "LinearImputer",
+    "LowRank",
     "MakimaImputer",
     "Misinformed",
     "Model",
     "Oracle",
+    "PCARegression",
     "PchipImputer",
     "PoseKriging",
     "PoseViterbi",

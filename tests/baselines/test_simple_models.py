@@ -1,4 +1,4 @@
-"""Laws that every model without learned parameters keeps."""
+"""Laws that every simple model keeps."""
 
 import numpy as np
 import pytest
@@ -15,8 +15,10 @@ from mocapbench.baselines.interpolation import (
     PchipImputer,
 )
 from mocapbench.baselines.knn import KNN
+from mocapbench.baselines.low_rank import LowRank
 from mocapbench.baselines.nn import NN
 from mocapbench.baselines.oracle import Oracle
+from mocapbench.baselines.pca_regression import PCARegression
 from mocapbench.baselines.trivial import Trivial
 from mocapbench.datasets import ToyProcess
 
@@ -30,6 +32,8 @@ MODELS = (
     CubicSplineImputer(),
     KNN(n_neighbors=4),
     NN(),
+    PCARegression(),
+    LowRank(),
     AlignedWindow(n_windows=3),
     Oracle(),
 )
