@@ -24,6 +24,8 @@ PAGE = TaskPage(
     remarks=(
         "The paper shows models of these swings and fills none of their frames: the protocol is "
         "this project’s own, and there are no published values.",
+        "pca-regression and low-rank learn what channels of one frame tell about each other, and "
+        "nothing over time: on whole hidden frames they give each channel’s mean in the recording.",
     ),
     illustrated=("64-01", "synthetic"),
     figures=(

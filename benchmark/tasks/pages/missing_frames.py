@@ -62,6 +62,8 @@ PAGE = TaskPage(
         "window has Markov chains of its own.",
         "The constants of pose-kriging are those with the least error when each training walker is "
         "left out in turn.",
+        "pca-regression and low-rank learn what channels of one frame tell about each other, and "
+        "nothing over time: on whole hidden frames they give each channel’s mean in the recording.",
         "Four of the fifty channels are constant in training. The GPDM family leaves them out, "
         "which hardly changes errors and lowers SNR(β).",
     ),
