@@ -17,6 +17,7 @@ from .inspection.state import RunState, run_state
 from .merging.merge import merge
 from .plugins import load_plugin
 from .problems.base import Answer, InvalidPredictionError, Problem
+from .problems.body import Body, JointAngles, JointPositions
 from .problems.cluster import ClusterProblem, Clusters
 from .problems.impute import FilledRecordings, ImputeProblem
 from .problems.internals import Internals
@@ -53,6 +54,7 @@ __all__ = [
     "Alignments",
     "Answer",
     "Blends",
+    "Body",
     "Case",
     "ClusterProblem",
     "Clusters",
@@ -68,6 +70,8 @@ __all__ = [
     "Internals",
     "InvalidPredictionError",
     "Job",
+    "JointAngles",
+    "JointPositions",
     "LatentSpaces",
     "Problem",
     "Profile",
