@@ -21,7 +21,7 @@ from .problems.body import Body, JointAngles, JointPositions
 from .problems.cluster import ClusterProblem, Clusters
 from .problems.impute import FilledRecordings, ImputeProblem
 from .problems.internals import Internals
-from .problems.masks import hide_all_but, hide_frames
+from .problems.masks import Run, hide_all_but, hide_frames, hide_runs
 from .problems.recover import Covariances, RecoverProblem
 from .problems.synthesise import Samples, SynthesiseProblem
 from .problems.unit import Unit
@@ -79,6 +79,7 @@ __all__ = [
     "RecoverProblem",
     "RecoveredCovariances",
     "Request",
+    "Run",
     "RunState",
     "Samples",
     "Seeds",
@@ -101,6 +102,7 @@ __all__ = [
     "explanation_table",
     "hide_all_but",
     "hide_frames",
+    "hide_runs",
     "illustrations",
     "job_table",
     "last_drawn",

@@ -34,7 +34,7 @@ def _imputed_poses() -> ImputedPoses:
     truth = np.zeros((n_frames, 2, 3))
     truth[:, 0] = [0.0, 1.0, 0.0]
     truth[:, 0, 2] = np.sin(TIMES)
-    gap = GAP.any(axis=1)[:, None] & [False, True]
+    gap = np.outer(GAP.any(axis=1), [False, True])
     mean = truth + 0.1 * gap[..., None] * np.cos(9.0 * TIMES)[:, None, None]
     return ImputedPoses(truth, mean, gap, gap, _JOINTS, (-1, 0), TIMES)
 
