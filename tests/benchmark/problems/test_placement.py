@@ -23,7 +23,10 @@ GAP = slice(10, 30)
 JOINTS = [segment.name for segment in SKELETON.segments]
 
 
-def problem(hidden, body=JointAngles(SKELETON)):
+BODY = JointAngles(SKELETON)
+
+
+def problem(hidden, body=BODY):
     return ImputeProblem.of_one(WALK, hidden, body=body)
 
 
