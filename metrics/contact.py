@@ -31,7 +31,7 @@ def imputed_foot_skate(outcome: Imputation) -> Score:
     below 5 cm at both, above its lowest place in the recording, and slower than 30 cm/s between
     them. The mean is over the feet and pairs of frames where it stands and is hidden at either
     frame. Lower is better; in centimetres per second. The truth itself does not have 0: recordings
-    of the CMU database have 6 to 9 cm/s in walks, 9 to 15 in runs and 2 to 8 elsewhere (at 30 Hz).
+    of the CMU database have 6 to 10 cm/s in walks and 10 to 15 in runs (docs/centimetres.md).
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def sampled_foot_skate(outcome: Synthesis) -> Score:
     The metric ``sample_foot_skate``: the mean of v (2 − 2^(h/H)) over the feet and pairs of frames
     with h < H = 2.5 cm, v being the horizontal speed and h the height at the second frame above
     the lowest place of the sample's feet. Lower is better; in centimetres per second. Recordings
-    of the CMU database have 4 to 12 cm/s in walks, 9 to 24 in runs (at 30 Hz).
+    of the CMU database have 4 to 12 cm/s in walks and 20 to 25 in runs (docs/centimetres.md).
 
     Parameters
     ----------
