@@ -48,6 +48,27 @@ def imputed_foot_skate(outcome: Imputation) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or the
         outcome has no poses or no feet.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, ImputedPoses, foot_skate
+    >>> truth, mean = np.zeros((2, 4, 2, 3))
+    >>> mean[:, 1, 0] = [0.0, 1.0, 2.0, 3.0]
+    >>> hidden = np.tile([False, True], (4, 1))
+    >>> times = np.arange(4) / 30
+    >>> poses = ImputedPoses(truth, mean, hidden, hidden, ("root", "foot"), (-1, 0), times)
+    >>> outcome = Imputation(
+    ...     truth=truth[:, 1],
+    ...     mean=mean[:, 1],
+    ...     variance=None,
+    ...     hidden=np.full((4, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     place_joints=lambda: poses,
+    ... )
+    >>> round(foot_skate(outcome).value, 6)
+    30.0
     """
     hidden_entries(outcome)
     poses = outcome.poses
@@ -92,6 +113,18 @@ def sampled_foot_skate(outcome: Synthesis) -> Score:
     ----------
     Zhang, Starke, Komura and Saito (2018), Mode-adaptive neural networks for quadruped motion
     control, §8.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import SampledPoses, Synthesis, sample_foot_skate
+    >>> times = np.arange(4) / 30
+    >>> samples, references = np.zeros((2, 1, 4, 2, 3))
+    >>> samples[0, :, 1, 0] = [0.0, 1.0, 2.0, 3.0]
+    >>> poses = SampledPoses(samples, references, ("root", "foot"), times)
+    >>> outcome = Synthesis(samples[:, :, 1], references[:, :, 1], lambda: poses)
+    >>> round(sample_foot_skate(outcome).value, 6)
+    30.0
     """
     poses = outcome.poses
     of_feet = feet(poses.joints)

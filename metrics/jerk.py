@@ -42,6 +42,28 @@ def imputed_jerk(outcome: Imputation) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or the
         outcome has no poses.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, ImputedPoses, jerk_ratio
+    >>> truth, mean = np.zeros((2, 5, 2, 3))
+    >>> truth[:, 1, 0] = np.arange(5.0) ** 3
+    >>> mean[:, 1, 0] = 0.5 * np.arange(5.0) ** 3
+    >>> hidden = np.tile([False, True], (5, 1))
+    >>> times = np.arange(5) / 30
+    >>> poses = ImputedPoses(truth, mean, hidden, hidden, ("root", "knee"), (-1, 0), times)
+    >>> outcome = Imputation(
+    ...     truth=truth[:, 1],
+    ...     mean=mean[:, 1],
+    ...     variance=None,
+    ...     hidden=np.full((5, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     place_joints=lambda: poses,
+    ... )
+    >>> round(jerk_ratio(outcome).value, 6)
+    0.5
     """
     hidden_entries(outcome)
     poses = outcome.poses
@@ -75,6 +97,19 @@ def sampled_jerk(outcome: Synthesis) -> Score:
     ------
     ValueError
         If the outcome has no poses.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import SampledPoses, Synthesis, sample_jerk_ratio
+    >>> times = np.arange(5.0)
+    >>> samples, references = np.zeros((2, 1, 5, 2, 3))
+    >>> references[0, :, 1, 0] = times**3
+    >>> samples[0, :, 1, 0] = 2.0 * times**3
+    >>> poses = SampledPoses(samples, references, ("root", "knee"), times)
+    >>> outcome = Synthesis(samples[:, :, 1], references[:, :, 1], lambda: poses)
+    >>> round(sample_jerk_ratio(outcome).value, 6)
+    2.0
     """
     poses = outcome.poses
     first = runs_of_frames(len(poses.times), (0,), _WIDTH)

@@ -100,6 +100,22 @@ def angle_error(outcome: Imputation) -> Score:
     ------
     ValueError
         As `rms_error_per_frame`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, angle_error_per_frame
+    >>> outcome = Imputation(
+    ...     truth=np.array([[3.0, 4.0, 1.0]]),
+    ...     mean=np.zeros((1, 3)),
+    ...     variance=None,
+    ...     hidden=np.full((1, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     units=("deg", "deg", ""),
+    ... )
+    >>> angle_error_per_frame(outcome).value
+    5.0
     """
     return _mean_norm(outcome, np.array([unit == _ANGLE for unit in outcome.units]))
 
@@ -126,6 +142,22 @@ def root_error(outcome: Imputation) -> Score:
     ------
     ValueError
         As `rms_error_per_frame`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, root_error_per_frame
+    >>> outcome = Imputation(
+    ...     truth=np.array([[3.0, 4.0, 1.0]]),
+    ...     mean=np.zeros((1, 3)),
+    ...     variance=None,
+    ...     hidden=np.full((1, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     units=("deg", "deg", ""),
+    ... )
+    >>> root_error_per_frame(outcome).value
+    1.0
     """
     return _mean_norm(outcome, np.array([unit != _ANGLE for unit in outcome.units]))
 

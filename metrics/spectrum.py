@@ -49,6 +49,28 @@ def imputed_spectrum(outcome: Imputation) -> Score:
     Gopalakrishnan, Mali, Kifer, Giles and Ororbia (2019), A neural temporal model for human motion
     prediction, §3.4. The paper compares joint angles of a second or more; its sequences are all of
     one length.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, ImputedPoses, npss
+    >>> truth, mean = np.zeros((2, 12, 2, 3))
+    >>> truth[:, 1, 0] = np.sin(2 * np.pi * 2 * np.arange(12) / 12)
+    >>> mean[:, 1, 0] = np.sin(2 * np.pi * 4 * np.arange(12) / 12)
+    >>> hidden = np.tile([False, True], (12, 1))
+    >>> times = np.arange(12) / 30
+    >>> poses = ImputedPoses(truth, mean, hidden, hidden, ("root", "knee"), (-1, 0), times)
+    >>> outcome = Imputation(
+    ...     truth=truth[:, 1],
+    ...     mean=mean[:, 1],
+    ...     variance=None,
+    ...     hidden=np.full((12, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     place_joints=lambda: poses,
+    ... )
+    >>> round(npss(outcome).value, 6)
+    2.0
     """
     pairs = [
         (outcome.truth[run], outcome.mean[run])
@@ -80,6 +102,19 @@ def sampled_spectrum(outcome: Synthesis) -> Score:
     ------
     ValueError
         If shapes disagree, there is no sample or no reference, or a value is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import SampledPoses, Synthesis, sample_npss
+    >>> times = np.arange(12.0)
+    >>> samples, references = np.zeros((2, 1, 12, 2, 3))
+    >>> references[0, :, 1, 0] = np.sin(2 * np.pi * 2 * times / 12)
+    >>> samples[0, :, 1, 0] = np.sin(2 * np.pi * 4 * times / 12)
+    >>> poses = SampledPoses(samples, references, ("root", "knee"), times)
+    >>> outcome = Synthesis(samples[:, :, 1], references[:, :, 1], lambda: poses)
+    >>> round(sample_npss(outcome).value, 6)
+    2.0
     """
     check_synthesis(outcome)
     powers = _power(outcome.references)
