@@ -211,7 +211,7 @@ marker_gaps = Task(
             budget={"max_iter": 10, "n_restarts": 1},
             opt_in=_NOT_QUICK,
         ),
-        "paper": Profile(on_recordings(_CASES), folds=N_FOLDS, opt_in=_SLOW),
+        "paper": Profile(on_recordings(_CASES), folds=4, budget={"max_iter": 50}, opt_in=_SLOW),
     },
 )
 """Joints are hidden for a tenth of a second to two seconds, one, a limb or several at once."""
