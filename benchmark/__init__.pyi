@@ -17,10 +17,11 @@ from .inspection.state import RunState, run_state
 from .merging.merge import merge
 from .plugins import load_plugin
 from .problems.base import Answer, InvalidPredictionError, Problem
+from .problems.body import Body, JointAngles, JointPositions
 from .problems.cluster import ClusterProblem, Clusters
 from .problems.impute import FilledRecordings, ImputeProblem
 from .problems.internals import Internals
-from .problems.masks import hide_all_but, hide_frames
+from .problems.masks import Run, hide_all_but, hide_frames, hide_runs
 from .problems.recover import Covariances, RecoverProblem
 from .problems.synthesise import Samples, SynthesiseProblem
 from .problems.unit import Unit
@@ -53,6 +54,7 @@ __all__ = [
     "Alignments",
     "Answer",
     "Blends",
+    "Body",
     "Case",
     "ClusterProblem",
     "Clusters",
@@ -68,6 +70,8 @@ __all__ = [
     "Internals",
     "InvalidPredictionError",
     "Job",
+    "JointAngles",
+    "JointPositions",
     "LatentSpaces",
     "Problem",
     "Profile",
@@ -75,6 +79,7 @@ __all__ = [
     "RecoverProblem",
     "RecoveredCovariances",
     "Request",
+    "Run",
     "RunState",
     "Samples",
     "Seeds",
@@ -98,6 +103,7 @@ __all__ = [
     "full_paths",
     "hide_all_but",
     "hide_frames",
+    "hide_runs",
     "illustrations",
     "job_table",
     "last_drawn",

@@ -9,7 +9,12 @@ from .digests import DigestMismatch, UnregisteredDigestWarning
 from .errors import FetchError, RecordingUnavailable, ServerUnreachable, SkeletonUnavailable
 from .features import THESIS_CHANNELS, gpdm_features, hlm_features
 from .gait import GAIT_VERSION, GaitLibrary, gait_style
-from .kinematics import FrameByJointBy3, joint_positions
+from .kinematics import (
+    FrameByJointBy3,
+    joint_positions,
+    joint_trajectories,
+    position_channels,
+)
 from .library import Library, named_folders
 from .preprocessing import (
     integrate_root,
@@ -59,11 +64,13 @@ __all__ = [
     "hlm_features",
     "integrate_root",
     "joint_positions",
+    "joint_trajectories",
     "named_folders",
     "one_based_frames",
     "open_archive",
     "parse_motion",
     "parse_skeleton",
+    "position_channels",
     "read_motion",
     "read_skeleton",
     "registered_digests",

@@ -1,4 +1,4 @@
-"""Forward kinematics: the positions of the joints, from the angles.
+"""Forward kinematics: the positions of the joints, from the angles, and as channels of their own.
 
 A segment's rotation is stated in its own local frame: with C the rotation of the segment's axis and
 M that of its degrees of freedom, it turns by C M C⁻¹ within its parent, and its end lies at the
@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from mocapbench.datasets.acclaim.skeleton import Segment, Skeleton
+from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.recording import Frames, Recording
 
-__all__ = ["FrameByJointBy3", "joint_positions"]
+__all__ = ["FrameByJointBy3", "joint_positions", "joint_trajectories", "position_channels"]
 
 FrameByJointBy3 = NDArray[np.float64]
 """(N, J, 3) centimetres."""
@@ -44,18 +44,54 @@ def joint_positions(skeleton: Skeleton, recording: Recording) -> FrameByJointBy3
     """
     curves = _curves(skeleton, recording)
     root, *segments = skeleton.segments
-    n_frames = len(recording.times)
-    translation = np.column_stack([curves[f"{root.name}.{dof}"] for dof in ("tx", "ty", "tz")])
-    ends = {root.name: translation}
-    rotations = {root.name: _rotation(root, curves)}
-    for segment in segments:
-        rotation = rotations[segment.parent] * _rotation(segment, curves)
+    turn, *turns = _local_rotations(skeleton, curves)
+    rotations = [turn]
+    ends = [np.column_stack([curves[f"{root.name}.{dof}"] for dof in ("tx", "ty", "tz")])]
+    for segment, parent, turn in zip(segments, skeleton.parents[1:], turns, strict=True):
+        rotations.append(rotations[parent] @ turn)
         bone = segment.length * np.asarray(segment.direction)
-        rotations[segment.name] = rotation
-        ends[segment.name] = ends[segment.parent] + rotation.apply(bone)
-    return np.stack(list(ends.values()), axis=1).reshape(n_frames, -1, 3) * (
-        skeleton.centimetres_per_unit
-    )
+        ends.append(ends[parent] + rotations[-1] @ bone)
+    return np.stack(ends, axis=1) * skeleton.centimetres_per_unit
+
+
+def position_channels(skeleton: Skeleton) -> tuple[str, ...]:
+    """Return the names of the coordinates of every joint, such as ``lfemur.x``."""
+    return tuple(f"{segment.name}.{axis}" for segment in skeleton.segments for axis in "xyz")
+
+
+def joint_trajectories(skeleton: Skeleton, recording: Recording) -> Recording:
+    """Return the recording of the joints' coordinates in centimetres, as markers on them give it.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Of J joints.
+    recording : Recording
+        N complete frames; see `joint_positions`.
+
+    Returns
+    -------
+    Recording
+        N frames of the 3 J `position_channels`; the y axis points up.
+
+    Raises
+    ------
+    ValueError
+        As `joint_positions`.
+
+    Examples
+    --------
+    >>> from mocapbench.datasets import joint_trajectories, open_archive
+    >>> archive = open_archive()
+    >>> walk, skeleton = archive.recording("gait:01_01"), archive.skeleton("gait:01_01")
+    >>> markers = joint_trajectories(skeleton, walk)
+    >>> markers.values.shape, markers.channels[0], markers.units[0]
+    ((331, 93), 'root.x', 'cm')
+    """
+    positions = joint_positions(skeleton, recording)
+    channels = position_channels(skeleton)
+    values = positions.reshape(len(recording.times), -1)
+    return Recording(recording.name, recording.times, values, channels, ("cm",) * len(channels))
 
 
 def _curves(skeleton: Skeleton, recording: Recording) -> dict[str, Frames]:
@@ -72,13 +108,22 @@ def _curves(skeleton: Skeleton, recording: Recording) -> dict[str, Frames]:
     return rest | dict(zip(recording.channels, recording.values.T, strict=True))
 
 
-def _rotation(segment: Segment, curves: dict[str, Frames]) -> Rotation:
-    """Return C M C⁻¹ at every frame."""
+def _local_rotations(skeleton: Skeleton, curves: dict[str, Frames]) -> NDArray[np.float64]:
+    """Return C M C⁻¹ of every segment at every frame, (J, N, 3, 3)."""
     rest = np.zeros_like(curves["root.tx"])
-    angles = np.column_stack(
-        [curves.get(f"{segment.name}.r{axis.lower()}", rest) for axis in segment.order]
-    )
-    # Lower case: about fixed axes, in the order of their names, as in the Acclaim format.
-    moved = Rotation.from_euler(segment.order.lower(), angles, degrees=True)
-    axis = Rotation.from_euler("xyz", segment.axis, degrees=True)
-    return axis * moved * axis.inv()
+    orders = [segment.order.lower() for segment in skeleton.segments]
+    angles = np.array(
+        [
+            [curves.get(f"{segment.name}.r{axis}", rest) for axis in order]
+            for segment, order in zip(skeleton.segments, orders, strict=True)
+        ]
+    ).swapaxes(1, 2)
+    turns = np.empty((*angles.shape, 3))
+    for order in set(orders):
+        same = [index for index, other in enumerate(orders) if other == order]
+        # Lower case: about fixed axes, in the order of their names, as in the Acclaim format.
+        moved = Rotation.from_euler(order, angles[same].reshape(-1, 3), degrees=True)
+        turns[same] = moved.as_matrix().reshape(len(same), -1, 3, 3)
+    directions = [segment.axis for segment in skeleton.segments]
+    axes = Rotation.from_euler("xyz", directions, degrees=True).as_matrix()[:, None]
+    return np.asarray(axes @ turns @ axes.swapaxes(-1, -2))
