@@ -72,10 +72,10 @@ class ImputeProblem(Problem[FilledRecordings]):
         Their complete values, which no model sees.
     unit : Unit
         The unit that scores are taken in.
-    scales : ndarray of shape (D,) or None
-        See `mocapbench.metrics.Imputation`.
     body : Body or None
         Places the joints in space, for metrics in centimetres and for figures.
+    scales : ndarray of shape (D,) or None
+        See `mocapbench.metrics.Imputation`.
     process, parent
         See `Problem`.
     """
@@ -83,8 +83,8 @@ class ImputeProblem(Problem[FilledRecordings]):
     given: tuple[Recording, ...]
     truth: tuple[FrameByChannel, ...]
     unit: Unit
-    scales: NDArray[np.float64] | None = None
     body: Body | None = None
+    scales: NDArray[np.float64] | None = None
 
     answer_type = FilledRecordings
 
