@@ -3,11 +3,13 @@ from .control import Control
 from .cpm import CPM
 from .cubic_spline import CubicSplineImputer
 from .cyclic_alignment import CyclicAlignment
+from .fam import FAM
 from .gp_independent import GPIndependent
 from .gpdm.model import GPDM
 from .gplvm import GPLVM
 from .hgp import HGP
 from .k_cpm import KCPM
+from .k_fam import KFAM
 from .k_means import KMeans
 from .knn import KNN
 from .lmc_independent import LMCIndependent
@@ -43,10 +45,12 @@ from .trivial import Trivial
 
 __all__ = [
     "CPM",
+    "FAM",
     "GPDM",
     "GPLVM",
     "HGP",
     "KCPM",
+    "KFAM",
     "KNN",
     "MOA",
     "MOHGP",
