@@ -48,7 +48,7 @@ class FAM(Imputer, Inductive, Aligner):
     smoothness : float, default=0.1
         Weight :math:`\lambda` of the penalty :math:`\tfrac12 \lambda \sum_h h^4 (a_h^2 + b_h^2)` on
         mean and components, in standardised units.
-    n_restarts : int, default=10
+    n_restarts : int, default=3
         Number of recordings, drawn at random, that serve in turn as the first reference curve (all,
         if there are fewer); the alignment with the least penalised squared error is kept.
     max_iter : int, default=30
@@ -114,7 +114,7 @@ class FAM(Imputer, Inductive, Aligner):
         n_components: int = 3,
         n_harmonics: int = 6,
         smoothness: float = 0.1,
-        n_restarts: int = 10,
+        n_restarts: int = 3,
         max_iter: int = 30,
         tolerance: float = 1e-4,
         random_state: int | np.random.Generator | None = None,

@@ -14,14 +14,14 @@ from scipy.optimize import minimize_scalar
 from mocapbench.baselines.functional.basis import Array, fourier, roughness
 from mocapbench.datasets import Recording
 
-__all__ = ["cycle_periods", "elapsed", "frame_step", "signal_to_noise"]
+__all__ = ["complete_blocks", "cycle_periods", "elapsed", "frame_step", "signal_to_noise"]
 
 _HARMONICS = 3  # enough for the cycle as a whole; more would fit two cycles as well as one
 _PENALTY = 1e-3
 _LEAST_FRAMES = 2 * (2 * _HARMONICS + 1)  # visible frames of a channel, two for each coefficient
 _FEWEST_FRAMES = 8  # of a cycle: three harmonics have seven coefficients
 _GRID = 6  # candidates for each cycle more or less in a recording
-_BLOCK = 64  # candidates at once, which bounds the memory
+_BATCH = 64  # candidates at once, which bounds the memory
 # Two cycles fold as well as one. The shortest length this close to the best is the cycle.
 _AS_GOOD = 0.5
 _CYCLIC = 1.0  # a recording with more noise than signal at every length shows no cycle
@@ -38,7 +38,21 @@ def elapsed(recording: Recording) -> Array:
     return np.asarray(recording.times - recording.times[0])
 
 
-def signal_to_noise(recording: Recording, frequencies: Array) -> Array:
+def complete_blocks(recording: Recording) -> list[tuple[Array, Array]]:
+    """Return times (n,) and values (n, d) of the channels that are visible in the same frames.
+
+    Channels of too few visible frames to tell a cycle from noise are left out.
+    """
+    patterns, owner = np.unique(recording.visible, axis=1, return_inverse=True)
+    times = elapsed(recording)
+    return [
+        (times[pattern], recording.values[np.ix_(pattern, owner.ravel() == index)])
+        for index, pattern in enumerate(patterns.T)
+        if pattern.sum() >= _LEAST_FRAMES
+    ]
+
+
+def signal_to_noise(blocks: Sequence[tuple[Array, Array]], frequencies: Array) -> Array:
     """Return the signal-to-noise ratio of a recording folded at each of ``frequencies`` (n,).
 
     A smooth periodic function is fitted to each folded channel. The signal is its variance, and the
@@ -47,8 +61,8 @@ def signal_to_noise(recording: Recording, frequencies: Array) -> Array:
 
     Parameters
     ----------
-    recording : Recording
-        Channels in comparable units.
+    blocks : sequence of pairs of ndarray
+        As of `complete_blocks`, at least one, of channels in comparable units.
     frequencies : ndarray of shape (n,)
         Cycles per second.
 
@@ -56,8 +70,8 @@ def signal_to_noise(recording: Recording, frequencies: Array) -> Array:
     -------
     ndarray of shape (n,)
     """
-    blocks = np.array_split(frequencies, max(1, -(-len(frequencies) // _BLOCK)))
-    return np.concatenate([_ratios(recording, block) for block in blocks])
+    batches = np.array_split(frequencies, max(1, -(-len(frequencies) // _BATCH)))
+    return np.concatenate([_ratios(blocks, batch) for batch in batches])
 
 
 def cycle_periods(recordings: Sequence[Recording]) -> Array:
@@ -79,12 +93,13 @@ def _duration(recording: Recording) -> float:
 
 def _period(recording: Recording) -> float:
     """Return the shortest length with a peak as high as the highest, or nearly; NaN if none."""
-    if recording.visible.sum(axis=0).max() < _LEAST_FRAMES:
+    blocks = complete_blocks(recording)
+    if not blocks:
         return np.nan
     longest = _duration(recording)
     shortest = _FEWEST_FRAMES * frame_step(recording)
     grid = np.arange(1.0 / longest, 1.0 / shortest, 1.0 / (_GRID * longest))
-    ratios = signal_to_noise(recording, grid)
+    ratios = signal_to_noise(blocks, grid)
     inner = ratios[1:-1]
     peaks = np.flatnonzero((inner > ratios[:-2]) & (inner >= ratios[2:]) & (inner > _CYCLIC)) + 1
     if not len(peaks):
@@ -92,7 +107,7 @@ def _period(recording: Recording) -> float:
     # Frequencies rise, so that the last high peak has the shortest length.
     peak = peaks[ratios[peaks] >= _AS_GOOD * ratios[peaks].max()][-1]
     best = minimize_scalar(
-        lambda frequency: -signal_to_noise(recording, np.array([frequency]))[0],
+        lambda frequency: -signal_to_noise(blocks, np.array([frequency]))[0],
         bounds=(grid[peak - 1], grid[peak + 1]),
         method="bounded",
         options={"xatol": 1e-3 * grid[0]},
@@ -100,18 +115,12 @@ def _period(recording: Recording) -> float:
     return float(1.0 / best.x)
 
 
-def _ratios(recording: Recording, frequencies: Array) -> Array:
-    """Return the ratio at each frequency; channels with the same visible frames go together."""
-    basis = fourier(np.outer(frequencies, elapsed(recording)), _HARMONICS)
-    patterns, owner = np.unique(recording.visible, axis=1, return_inverse=True)
-    signal, squares, freedom = np.zeros((3, len(frequencies)))
-    total = 0
-    for index, pattern in enumerate(patterns.T):
-        if pattern.sum() >= _LEAST_FRAMES:
-            values = recording.values[np.ix_(pattern, owner.ravel() == index)]
-            parts = _fit(basis[:, pattern], values)
-            signal, squares, freedom = signal + parts[0], squares + parts[1], freedom + parts[2]
-            total += values.size
+def _ratios(blocks: Sequence[tuple[Array, Array]], frequencies: Array) -> Array:
+    fits = [
+        _fit(fourier(np.outer(frequencies, times), _HARMONICS), values) for times, values in blocks
+    ]
+    signal, squares, freedom = np.sum(fits, axis=0)
+    total = sum(values.size for _, values in blocks)
     noise = squares / total / (1.0 - freedom / total) ** 2
     return np.divide(signal / total, noise, out=np.zeros_like(noise), where=noise > 0)
 

@@ -61,8 +61,8 @@ def prediction_errors(statistics: CurveStatistics, curve: Array) -> Array:
     """Return the squared error of ``curve`` (D, P) for each recording at each shift: (K, G)."""
     matrices = shift_matrices(SHIFTS, (curve.shape[1] - 1) // 2)
     # bᵀ(u + s) c = bᵀ(u) Rᵀ c: the curve is shifted backwards instead of the recording forwards.
-    moved = np.einsum("gpq,dp->gdq", matrices, curve)
-    outer = np.einsum("gdp,gdq->gdpq", moved, moved).reshape(len(SHIFTS), -1)
+    moved = curve @ matrices
+    outer = (moved[..., :, None] * moved[..., None, :]).reshape(len(SHIFTS), -1)
     n_curves = len(statistics.squares)
     quadratic = statistics.grams.reshape(n_curves, -1) @ outer.T
     linear = statistics.cross.reshape(n_curves, -1) @ moved.reshape(len(SHIFTS), -1).T
