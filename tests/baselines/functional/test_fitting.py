@@ -9,9 +9,7 @@ from mocapbench.baselines.functional.shifts import periodic_curve
 
 
 def _fit(statistics, n_components, smoothness=0.1, max_iter=8):
-    initial = start(
-        statistics, periodic_curve(statistics, smoothness), n_components, smoothness
-    )
+    initial = start(statistics, periodic_curve(statistics, smoothness), n_components, smoothness)
     return fit_components(statistics, initial, smoothness, max_iter=max_iter, tolerance=1e-12)
 
 

@@ -8,8 +8,10 @@ from mocapbench.baselines.functional.statistics import CurveStatistics
 
 def _errors(statistics, coefficients):
     quadratic = np.einsum("dp,jdpq,dq->jd", coefficients, statistics.grams, coefficients)
-    return statistics.squares - 2.0 * np.einsum("dp,jdp->jd", coefficients, statistics.cross) + (
-        quadratic
+    return (
+        statistics.squares
+        - 2.0 * np.einsum("dp,jdp->jd", coefficients, statistics.cross)
+        + (quadratic)
     )
 
 
