@@ -124,7 +124,7 @@ def update(
     )
     noise = np.maximum(errors / np.maximum(statistics.counts.sum(axis=0), 1.0), LEAST_NOISE)
     coefficients = solved.reshape(n_channels, size, n_functions).swapaxes(0, 1)
-    return Components(coefficients, noise)
+    return Components(np.asarray(coefficients), np.asarray(noise))
 
 
 def principal_axes(components: Components) -> Components:
@@ -140,4 +140,5 @@ def principal_axes(components: Components) -> Components:
         (loadings * weights).reshape(len(loadings), mean.size), full_matrices=False
     )[0]
     turned = np.tensordot(rotation.T, loadings, axes=1)
-    return Components(np.concatenate([mean[None], turned]), components.noise)
+    coefficients = np.concatenate([mean[None], turned])
+    return Components(np.asarray(coefficients, dtype=np.float64), components.noise)

@@ -122,7 +122,8 @@ def _ratios(blocks: Sequence[tuple[Array, Array]], frequencies: Array) -> Array:
     signal, squares, freedom = np.sum(fits, axis=0)
     total = sum(values.size for _, values in blocks)
     noise = squares / total / (1.0 - freedom / total) ** 2
-    return np.divide(signal / total, noise, out=np.zeros_like(noise), where=noise > 0)
+    ratios = np.divide(signal / total, noise, out=np.zeros_like(noise), where=noise > 0)
+    return np.asarray(ratios)
 
 
 def _fit(basis: Array, values: Array) -> tuple[Array, Array, Array]:
