@@ -29,6 +29,8 @@ PAGE = TaskPage(
         "wholly independent, and the intervals are a little too narrow.",
         "Joint angles are taken within half a turn of zero: in 08_01 the right thumb makes three "
         "whole turns in a tenth of a second. The paper’s angles have no discontinuities either.",
+        "The paper gives the functional analysis of motion an error “greater than 200”, without a "
+        "number. Here it is fam, with three components; with five, the worst walk exceeds 200.",
     ),
     illustrated=("subject 07 walks", "synthetic walks"),
     figures=(FilledChannels(("rhumerus.rx", "thorax.ry")),),
