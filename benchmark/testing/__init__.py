@@ -1,4 +1,4 @@
-"""The conformance kit: whether a model, a task, a metric or a format keeps what its protocol promises.
+"""The conformance kit: whether a model, a task, a metric or a format keeps its promises.
 
 For the tests of a package that adds its own::
 

@@ -122,7 +122,9 @@ def write_c3d(path, recording):
     file["parameters"]["POINT"]["UNITS"]["value"] = [recording.units[0]]
     labels = [channel[:-2] for channel in recording.channels[::3]]
     file["parameters"]["POINT"]["LABELS"]["value"] = labels
-    file["data"]["points"] = np.concatenate([np.nan_to_num(points), np.ones((1, *points.shape[1:]))])
+    file["data"]["points"] = np.concatenate(
+        [np.nan_to_num(points), np.ones((1, *points.shape[1:]))]
+    )
     file["data"]["meta_points"]["residuals"] = np.where(hidden, -1.0, 0.5)[None]
     file["parameters"]["ANALOG"]["RATE"]["value"] = [240.0]
     file["parameters"]["ANALOG"]["LABELS"]["value"] = ["EMG"]

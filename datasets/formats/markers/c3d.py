@@ -22,7 +22,7 @@ from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recordin
 __all__ = ["C3DFormat"]
 
 _READER = "mocapbench.datasets.formats.markers.c3d_points:read_points"
-_SECONDS, _SECONDS_PER_BYTE = 20.0, 1e-6  # 46 MB take 8 s
+_SECONDS, _SECONDS_PER_BYTE = 10.0, 1e-6  # 46 MB take 8 s
 _MEMORY = 2**28  # of a small file
 
 

@@ -51,7 +51,9 @@ def test_a_file_larger_than_memory_is_refused_with_the_number(name, tmp_path, mo
         available = 1000
 
     monkeypatch.setattr(memory.psutil, "virtual_memory", Full)
-    with pytest.raises(FormatError, match=r"in the 0 MiB of memory .*, got 0 MiB that take \d+ MiB"):
+    with pytest.raises(
+        FormatError, match=r"in the 0 MiB of memory .*, got 0 MiB that take \d+ MiB"
+    ):
         FORMATS.get(name)().read(path)
 
 
@@ -67,13 +69,15 @@ def test_a_library_that_lacks_is_named_with_what_installs_it(name, package, tmp_
 
 @pytest.mark.parametrize("rate", [0.0, -1.0, float("nan"), float("inf")])
 def test_a_rate_is_positive(tmp_path, rate):
-    with pytest.raises(FormatError, match="expected a positive rate, got .*; name frames per sec"):
+    with pytest.raises(FormatError, match=r"expected a positive rate, got .*; name frames per sec"):
         CSVFormat().read(sample("csv", tmp_path), rate=rate)
 
 
 def test_another_recording_cannot_be_written(tmp_path):
     path = sample("csv", tmp_path)
-    with pytest.raises(FormatError, match="the 60 frames and 62 channels of walk.csv, got 59 fram"):
+    with pytest.raises(
+        FormatError, match=r"the 60 frames and 62 channels of walk.csv, got 59 fram"
+    ):
         CSVFormat().write(tmp_path / "out.csv", walk(59), like=path)
 
 

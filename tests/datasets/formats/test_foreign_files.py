@@ -99,7 +99,14 @@ def test_a_bvh_file_by_another_writer(tmp_path):
     foreign = pybvh.Bvh([root, knee, toe], path, (turns + np.pi) % (2 * np.pi) - np.pi, 1 / 30)
     pybvh.write_bvh_file(foreign, tmp_path / "given.bvh")
     recording = BVHFormat().read(tmp_path / "given.bvh")
-    assert recording.channels[3:] == ("Hips.rz", "Hips.rx", "Hips.ry", "Knee.rx", "Knee.ry", "Knee.rz")
+    assert recording.channels[3:] == (
+        "Hips.rz",
+        "Hips.rx",
+        "Hips.ry",
+        "Knee.rx",
+        "Knee.ry",
+        "Knee.rz",
+    )
     assert np.abs(np.diff(recording.values[:, 3:], axis=0)).max() <= 180.0
     assert frame_rate(recording) == pytest.approx(30.0)
     replaced = rng.random(recording.values.shape) < 0.2
@@ -108,7 +115,8 @@ def test_a_bvh_file_by_another_writer(tmp_path):
     one = pybvh.read_bvh_file(tmp_path / "given.bvh", world_up="+y")
     two = pybvh.read_bvh_file(tmp_path / "out.bvh", world_up="+y")
     before, after = (
-        np.column_stack([b.root_pos, np.degrees(b.joint_angles).reshape(50, -1)]) for b in (one, two)
+        np.column_stack([b.root_pos, np.degrees(b.joint_angles).reshape(50, -1)])
+        for b in (one, two)
     )
     assert np.array_equal(after[~replaced], before[~replaced])
     assert np.allclose(after[:, :3][replaced[:, :3]], 200.5)
@@ -118,7 +126,10 @@ def test_a_bvh_file_by_another_writer(tmp_path):
 def test_angles_exported_by_isen(samples, tmp_path):
     given = tmp_path / "angles.csv"
     lines = (samples / "iSen_angles.csv").read_text(encoding="utf-8").splitlines()
-    names = [f"{k} {name}" if name != "Tiempo" or k else "time" for k, name in enumerate(lines[0].split(","))]
+    names = [
+        f"{k} {name}" if name != "Tiempo" or k else "time"
+        for k, name in enumerate(lines[0].split(","))
+    ]
     given.write_text("\n".join([",".join(names), *lines[1:200]]), encoding="utf-8")
     angles = CSVFormat().read(given)
     assert len(angles.times) == 199

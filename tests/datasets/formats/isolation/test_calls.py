@@ -9,6 +9,7 @@ import numpy as np
 import psutil
 import pytest
 
+from mocapbench.datasets.formats.isolation import calls
 from mocapbench.datasets.formats.isolation.calls import IsolatedCallError, call_isolated
 
 GOOD = {"timeout": 60.0, "memory": 2**28}
@@ -31,15 +32,13 @@ def called(tmp_path, monkeypatch):
         "    os.write(1, b'on the way out of answers'); print('more'); return {'one': np.ones(1)}\n"
     )
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    # A process that other tests started does not see this module.
-    for child in psutil.Process().children():
-        child.kill()
-        child.wait()
+    calls._process_of(os.getpid()).close()  # that of other tests does not see this module
 
     def called(name, *arguments, **limits):
         return call_isolated(f"misbehaving:{name}", *arguments, **{**GOOD, **limits})
 
-    return called
+    yield called
+    calls._process_of(os.getpid()).close()
 
 
 def test_it_answers_from_one_other_process(called):
@@ -72,6 +71,27 @@ def test_enough_memory_is_enough_also_after_too_little(called):
     assert called("eat", memory=2**30)["much"].sum() == 2**22
 
 
+def test_an_interrupted_call_leaves_no_answer_for_the_next(called, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(calls, "_exactly", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            called("double", "a")
+    assert called("double", "b")["twice"] == "bb"
+
+
+def test_crashes_leave_no_open_files(called):
+    called("pid")
+    before = psutil.Process().num_fds()
+    for _ in range(3):
+        with pytest.raises(IsolatedCallError):
+            called("leave")
+    called("pid")
+    assert psutil.Process().num_fds() == before
+
+
 def test_what_a_library_prints_is_no_answer(called):
     assert np.array_equal(called("talk")["one"], [1.0])
 
@@ -92,7 +112,8 @@ def test_it_ends_with_the_process_that_started_it(called):
         "from mocapbench.datasets.formats.isolation.calls import call_isolated\n"
         "print(call_isolated('misbehaving:pid', timeout=60.0, memory=2**28)['pid'])\n"
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
     pid = int(done.stdout)
     if psutil.pid_exists(pid):
         psutil.Process(pid).wait(timeout=30)

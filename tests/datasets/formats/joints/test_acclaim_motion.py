@@ -31,7 +31,9 @@ def test_only_what_is_named_changes(given, tmp_path, end):
     replaced = np.zeros(recording.values.shape, dtype=bool)
     replaced[7:9, [0, 61]] = True
     out = tmp_path / "out.amc"
-    AMC.write(out, recording.with_values(np.where(replaced, 0.125, recording.values)), given, replaced)
+    AMC.write(
+        out, recording.with_values(np.where(replaced, 0.125, recording.values)), given, replaced
+    )
     before, after = given.read_bytes().splitlines(), out.read_bytes().splitlines()
     changed = [k for k, (one, two) in enumerate(zip(before, after, strict=True)) if one != two]
     first = 3 + 7 * 30
@@ -76,7 +78,7 @@ def test_no_skeleton_or_one_of_several_is_said_plainly(given):
         AMC.read(given)
     for name in ("a.asf", "b.asf"):
         given.with_name(name).write_text(text)
-    with pytest.raises(FormatError, match="got 2 other .asf files; copy the skeleton of the same"):
+    with pytest.raises(FormatError, match=r"got 2 other .asf files; copy the skeleton of the same"):
         AMC.read(given)
 
 
@@ -85,7 +87,11 @@ def test_no_skeleton_or_one_of_several_is_said_plainly(given):
     [
         (":FULLY-SPECIFIED", ":SPECIFIED", "expected a header .*; export the motion again"),
         ("\n2\n", "\n3\n", "expected the frame number 2, got '3'; export the motion again"),
-        ("root ", "root nan ", "expected .*segment 'root' .*; export .* gaps are named, not written"),
+        (
+            "root ",
+            "root nan ",
+            "expected .*segment 'root' .*; export .* gaps are named, not written",
+        ),
     ],
 )
 def test_what_is_wrong_is_said_plainly(given, old, new, complaint):
@@ -96,7 +102,9 @@ def test_what_is_wrong_is_said_plainly(given, old, new, complaint):
 
 def test_a_wrong_skeleton_is_named(given):
     given.with_suffix(".asf").write_text("nothing")
-    with pytest.raises(FormatError, match=r"walk.asf, line 1: expected .*; export the skeleton agai"):
+    with pytest.raises(
+        FormatError, match=r"walk.asf, line 1: expected .*; export the skeleton agai"
+    ):
         AMC.read(given)
 
 

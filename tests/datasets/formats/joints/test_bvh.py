@@ -46,8 +46,8 @@ def read(tmp_path):
 
 def test_channels_keep_their_order_and_rotations_their_unit(read):
     small = read(SMALL)
-    expected = "Hips.rz Hips.rx Hips.ry Hips.tx Hips.ty Hips.tz Left-Knee.rx"
-    assert small.channels == tuple(expected.replace("-", " ").split(" ")[:6]) + ("Left Knee.rx",)
+    of_hips = ["Hips.rz", "Hips.rx", "Hips.ry", "Hips.tx", "Hips.ty", "Hips.tz"]
+    assert small.channels == (*of_hips, "Left Knee.rx")
     assert small.units == ("deg",) * 3 + ("",) * 3 + ("deg",)
     assert np.allclose(small.times, np.arange(4) * 0.0333333)
     assert np.array_equal(small.values[:, 0], [170.0, 185.0, np.nan, 210.0], equal_nan=True)
@@ -76,15 +76,21 @@ def test_a_gap_that_the_user_names_is_replaced(tmp_path):
 WRONG = {
     "": "line 1: expected 'MOTION' below the hierarchy, got the end of the file; export",
     "MOTION\n": "line 1: expected 'Frames:' with a positive number, got the end of the file",
-    "time,hip\n0,1\n": "line 1: expected a hierarchy of joints with OFFSET and CHANNELS, got 'time,",
+    "time,hip\n0,1\n": "line 1: expected a hierarchy of joints with OFFSET .*, got 'time,",
     SMALL.replace("CHANNELS 6", "CHANNELS 5"): "line 5: expected a hierarchy .*, got 'CHANNELS 5 Z",
-    SMALL.replace("CHANNELS 1 X", "CHANNELS 1 W"): "line 9: expected .*, got 'CHANNELS 1 Wrotation'",
+    SMALL.replace(
+        "CHANNELS 1 X", "CHANNELS 1 W"
+    ): "line 9: expected .*, got 'CHANNELS 1 Wrotation'",
     SMALL.replace("}\nMOTION", "MOTION"): "line 15: expected a hierarchy .*, got 'MOTION'",
     SMALL.replace("}\nMOTION", "}\n}\nMOTION"): "line 16: expected a hierarchy .*, got '}'",
     SMALL.replace("Left Knee", "Hips"): "channels with different names, got 'Hips.rx' 2 times",
     SMALL.replace(":\t4", ":\t5"): "expected 5 frames, as 'Frames:' says, got 4 rows; the file may",
-    SMALL.replace(":\t4", ":\t0"): "line 17: expected 'Frames:' with a positive number, got 'Frames:",
-    SMALL.replace("0.0333333", "nan"): "line 18: expected 'Frame Time:' with a positive number, got",
+    SMALL.replace(
+        ":\t4", ":\t0"
+    ): "line 17: expected 'Frames:' with a positive number, got 'Frames:",
+    SMALL.replace(
+        "0.0333333", "nan"
+    ): "line 18: expected 'Frame Time:' with a positive number, got",
     SMALL.replace("7.\n", "\n"): "line 21: expected 7 cells, got 6 cells; export",
     SMALL.replace("6.00", "6.00 7"): "line 20: expected 7 cells, got 8 cells; export",
     SMALL.replace("6.00", "soon"): "line 20: expected a number, got 'soon'; correct the cell",

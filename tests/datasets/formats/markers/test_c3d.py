@@ -144,8 +144,14 @@ def header(path, at, *values):
 
 WRONG = {
     "an empty file": (lambda p: p.write_bytes(b""), "the header of a C3D file, got an empty file"),
-    "another file": (lambda p: p.write_bytes(b"time,hip\n" * 99), "the header of a C3D file, got b't"),
-    "cut short": (lambda p: p.write_bytes(p.read_bytes()[:3000]), "as its header says, got 3000; th"),
+    "another file": (
+        lambda p: p.write_bytes(b"time,hip\n" * 99),
+        "the header of a C3D file, got b't",
+    ),
+    "cut short": (
+        lambda p: p.write_bytes(p.read_bytes()[:3000]),
+        "as its header says, got 3000; th",
+    ),
     "no points": (lambda p: header(p, 2, 0, 0), "expected 0 points, as its header says, got 5 in"),
     "DEC": (lambda p: header(p, 515, 85), "Intel or MIPS computers, got those of a DEC computer"),
     "no computer": (lambda p: header(p, 515, 9), "Intel or MIPS computers, got the type 9; export"),

@@ -58,12 +58,30 @@ WRONG = {
     "another file": (lambda t: "time,hip\n0,1\n" * 9, "5 lines of head, .*, got 'time,hip'"),
     "only a head": (lambda t: "".join(t.splitlines(keepends=True)[:6]), "40 frames, .* got 0 rows"),
     "cut short": (lambda t: t[: len(t) // 2], "expected (40 frames, .* got|17 cells)"),
-    "markers": (lambda t: t.replace("\t40\t5\t", "\t40\t6\t"), "6 markers, as line 3 says, got 5 n"),
-    "no count": (lambda t: t.replace("NumFrames", "Frames"), "expected NumFrames frames, as line 3"),
-    "words": (lambda t: t.replace("\r\n9\t", "\r\n9\tsoon\t"), "line 15: expected 17 cells, got 18"),
-    "a word": (lambda t: t.replace("\t0.066667\t", "\tsoon\t"), "line 15: expected a number, got 's"),
-    "no time": (lambda t: t.replace("\t0.066667\t", "\t\t"), "a time for every frame, got none for"),
-    "twice": (lambda t: t.replace("\t0.066667\t", "\t0.058333\t"), "got 0.058333 s after 0.058333 s"),
+    "markers": (
+        lambda t: t.replace("\t40\t5\t", "\t40\t6\t"),
+        "6 markers, as line 3 says, got 5 n",
+    ),
+    "no count": (
+        lambda t: t.replace("NumFrames", "Frames"),
+        "expected NumFrames frames, as line 3",
+    ),
+    "words": (
+        lambda t: t.replace("\r\n9\t", "\r\n9\tsoon\t"),
+        "line 15: expected 17 cells, got 18",
+    ),
+    "a word": (
+        lambda t: t.replace("\t0.066667\t", "\tsoon\t"),
+        "line 15: expected a number, got 's",
+    ),
+    "no time": (
+        lambda t: t.replace("\t0.066667\t", "\t\t"),
+        "a time for every frame, got none for",
+    ),
+    "twice": (
+        lambda t: t.replace("\t0.066667\t", "\t0.058333\t"),
+        "got 0.058333 s after 0.058333 s",
+    ),
 }
 
 

@@ -79,7 +79,10 @@ def test_rotations_are_unwrapped_in_and_wrapped_out(read, tmp_path):
         ("", "expected the names of the columns, .*, got an empty file; write such as 'time,"),
         ("1,2\n3,4\n", "line 1: expected the names of the columns, .*, got '1,2'"),
         ("time;hip\n0;1\n", "line 1: expected commas between columns, got 'time;hip'; export"),
-        ("hip,knee\n1,2\n", "expected a column 'time' in seconds, or a rate, got the columns hip, k"),
+        (
+            "hip,knee\n1,2\n",
+            "expected a column 'time' in seconds, or a rate, got the columns hip, k",
+        ),
         ("time,hip\n", "expected one frame and one channel or more, got 0 frames and 1 chan"),
         ("time,side\n0,left\n", "got 1 frames and 0 channels; export"),
         ("time,hip\n0,1\n1,1.2x\n", "line 3: expected a number, got '1.2x'; correct the cell"),
@@ -90,7 +93,10 @@ def test_rotations_are_unwrapped_in_and_wrapped_out(read, tmp_path):
         ("time,hip\n0,1\n,2\n", "expected a time for every frame, got none for frame 1; correct"),
         ("time,hip\n0,1\n0,2\n", "every time after the one before, got 0 s after 0 s at frame 1;"),
         ("time,hip\n1,1\n0,2\n", "got 0 s after 1 s at frame 1; correct the times, or name a rate"),
-        ("time,hip\n0,inf\n", "finite numbers, .* got inf at frame 0 of hip; leave the entry empty"),
+        (
+            "time,hip\n0,inf\n",
+            "finite numbers, .* got inf at frame 0 of hip; leave the entry empty",
+        ),
         ("time,hip\n0,1e999\n", "finite numbers, .* got inf at frame 0 of hip"),
         ("time,hip,hip\n0,1,2\n", "channels with different names, got 'hip' 2 times; rename"),
     ],

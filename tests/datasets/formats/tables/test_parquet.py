@@ -60,7 +60,9 @@ def test_an_index_of_pandas_is_no_channel(tmp_path):
 @pytest.mark.parametrize("keep", [0, 3, 100, 900])
 def test_a_file_that_is_cut_short(given, keep):
     given.write_bytes(given.read_bytes()[:keep])
-    with pytest.raises(FormatError, match="expected a Parquet file, got Arrow.*; export the record"):
+    with pytest.raises(
+        FormatError, match=r"expected a Parquet file, got Arrow.*; export the record"
+    ):
         PARQUET.read(given)
 
 
@@ -70,5 +72,5 @@ def test_a_small_file_that_unfolds_to_more_than_it_may_take(tmp_path, monkeypatc
     zeros = pa.DictionaryArray.from_arrays(np.zeros(2**24, dtype=np.int8), pa.array([0.0]))
     pq.write_table(pa.table({"hip": zeros}), tmp_path / "walk.parquet")
     assert (tmp_path / "walk.parquet").stat().st_size < 2**18
-    with pytest.raises(FormatError, match="got .*(memory|malloc|crash)"):
+    with pytest.raises(FormatError, match=r"got .*(memory|malloc|crash)"):
         PARQUET.read(tmp_path / "walk.parquet", rate=1.0)
