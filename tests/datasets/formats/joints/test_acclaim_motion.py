@@ -1,5 +1,7 @@
 """Acclaim motions as users' files: the skeleton beside them, radians, gaps that are named."""
 
+import shutil
+
 import numpy as np
 import pytest
 from format_files import KEY, sample, walk
@@ -116,3 +118,23 @@ def test_the_incomplete_frame_at_the_end_of_a_capture_stays(given, tmp_path):
     with pytest.warns(UserWarning, match="lacks 5"):
         AMC.write(tmp_path / "out.amc", recording, given)
     assert (tmp_path / "out.amc").read_text() == given.read_text()
+
+
+@pytest.mark.recordings
+@pytest.mark.parametrize("key", ["02_01", "08_01", "35_02"])
+def test_recordings_of_the_database(data_dir, cmu, tmp_path, key):
+    """08_01 has a thumb that makes whole turns."""
+    folder = data_dir / "subjects" / key[:2]
+    recording = AMC.read(folder / f"{key}.amc")
+    assert np.array_equal(recording.values, unwrapped(cmu.recording(f"cmu:{key}")).values)
+    replaced = np.zeros(recording.values.shape, dtype=bool)
+    replaced[50:80, ::7] = True
+    out = tmp_path / f"{key}.amc"
+    AMC.write(out, recording, folder / f"{key}.amc", replaced)
+    shutil.copy(folder / f"{key[:2]}.asf", tmp_path)
+    again, before = AMC.load(out, None), AMC.load(folder / f"{key}.amc", None)
+    assert np.array_equal(again.values[~replaced], before.values[~replaced])
+    turns = (again.values - before.values)[replaced] / 360.0
+    assert np.allclose(turns, np.round(turns), atol=1e-9)
+    AMC.write(out, recording, folder / f"{key}.amc")
+    assert out.read_bytes() == (folder / f"{key}.amc").read_bytes()

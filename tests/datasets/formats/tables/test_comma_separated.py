@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.datasets import CSVFormat, FormatError
@@ -27,6 +27,7 @@ def read(tmp_path):
     return read
 
 
+@settings(max_examples=40)
 @given(st.lists(st.tuples(CELL, CELL), min_size=1, max_size=8), st.sampled_from(["\n", "\r\n"]))
 def test_only_the_cells_of_gaps_change(tmp_path_factory, rows, end):
     folder = tmp_path_factory.mktemp("csv")
