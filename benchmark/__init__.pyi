@@ -10,6 +10,7 @@ from .figures.gap_error import GapError
 from .figures.latent_space import LatentSpaces
 from .figures.solved import Solved
 from .figures.trend import InferredTrend
+from .formats import format_for
 from .gate.checking import check
 from .inspection.explanation import explain
 from .inspection.output import explanation_table, state_lines, state_table
@@ -25,7 +26,7 @@ from .problems.masks import Run, hide_all_but, hide_frames, hide_runs
 from .problems.recover import Covariances, RecoverProblem
 from .problems.synthesise import Samples, SynthesiseProblem
 from .problems.unit import Unit
-from .registry import LIBRARIES, METRICS, MODELS, TASKS
+from .registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
 from .results.bundle import bundle
 from .results.drawn import last_drawn, stamp
 from .results.frames import job_table, score_table
@@ -46,6 +47,7 @@ from .tasks.base import Case, Entrant, Profile, Task
 from .tasks.seeds import Seeds
 
 __all__ = [
+    "FORMATS",
     "LIBRARIES",
     "METRICS",
     "MODELS",
@@ -100,6 +102,7 @@ __all__ = [
     "compare",
     "explain",
     "explanation_table",
+    "format_for",
     "full_paths",
     "hide_all_but",
     "hide_frames",

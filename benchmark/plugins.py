@@ -1,4 +1,4 @@
-"""A user's own Python file of models, tasks, metrics and libraries of recordings, for one run."""
+"""A user's own Python file of models, tasks, metrics, libraries and formats, for one run."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from typing import Any
 
 from mocapbench.baselines import Model
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.registry import LIBRARIES, METRICS, MODELS, TASKS, Registry
+from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS, Registry
 from mocapbench.benchmark.tasks.base import Task
-from mocapbench.datasets import Library
+from mocapbench.datasets import Format, Library
 from mocapbench.metrics import Metric
 
 __all__ = ["load_plugin"]
@@ -65,6 +65,9 @@ _PLUGIN_KINDS: Mapping[str, _PluginKind] = {
         arguments=(None,),  # no folder of recordings is named
         built="with one argument, a folder of recordings or None",
     ),
+    "FORMATS": _PluginKind(
+        FORMATS, "subclasses of mocapbench.datasets.Format", _subclass_of(Format)
+    ),
 }
 
 
@@ -75,8 +78,8 @@ def load_plugin(path: Path) -> tuple[str, ...]:
     ----------
     path : Path
         A file that defines one or more of ``MODELS = {"name": ModelClass}``,
-        ``TASKS = {"name": task}``, ``METRICS = {"name": metric}`` and
-        ``LIBRARIES = {"name": LibraryClass}``.
+        ``TASKS = {"name": task}``, ``METRICS = {"name": metric}``,
+        ``LIBRARIES = {"name": LibraryClass}`` and ``FORMATS = {"name": FormatClass}``.
 
     Returns
     -------

@@ -1,8 +1,9 @@
-"""Models, tasks, metrics and libraries of recordings by name: four kinds of plug-in.
+"""Models, tasks, metrics, libraries of recordings and formats by name: five kinds of plug-in.
 
 Ours and third parties' are found in the same way: by entry points of the groups
-``mocapbench.models``, ``mocapbench.tasks``, ``mocapbench.metrics`` and ``mocapbench.libraries``. A
-file of the user's own adds to any of them for one run (`mocapbench.benchmark.plugins`).
+``mocapbench.models``, ``mocapbench.tasks``, ``mocapbench.metrics``, ``mocapbench.libraries`` and
+``mocapbench.formats``. A file of the user's own adds to any of them for one run
+(`mocapbench.benchmark.plugins`).
 """
 
 from __future__ import annotations
@@ -14,10 +15,10 @@ from typing import Any, Generic, TypeVar, cast
 from mocapbench.baselines import Model
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
 from mocapbench.benchmark.tasks.base import Task
-from mocapbench.datasets import Library
+from mocapbench.datasets import Format, Library
 from mocapbench.metrics import Metric
 
-__all__ = ["LIBRARIES", "METRICS", "MODELS", "REGISTRIES", "TASKS", "Registry"]
+__all__ = ["FORMATS", "LIBRARIES", "METRICS", "MODELS", "REGISTRIES", "TASKS", "Registry"]
 
 T = TypeVar("T")
 
@@ -108,5 +109,6 @@ MODELS: Registry[type[Model]] = Registry("model", "mocapbench.models")
 TASKS: Registry[Task] = Registry("task", "mocapbench.tasks")
 METRICS: Registry[Metric[Any]] = Registry("metric", "mocapbench.metrics")
 LIBRARIES: Registry[type[Library]] = Registry("library", "mocapbench.libraries")
+FORMATS: Registry[type[Format]] = Registry("format", "mocapbench.formats")
 
-REGISTRIES = (MODELS, TASKS, METRICS, LIBRARIES)
+REGISTRIES = (MODELS, TASKS, METRICS, LIBRARIES, FORMATS)

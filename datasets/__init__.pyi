@@ -8,6 +8,16 @@ from .cmu import CMU_ACKNOWLEDGEMENT, CMU_URL, CMULibrary, registered_digests
 from .digests import DigestMismatch, UnregisteredDigestWarning
 from .errors import FetchError, RecordingUnavailable, ServerUnreachable, SkeletonUnavailable
 from .features import THESIS_CHANNELS, gpdm_features, hlm_features
+from .formats.base import Extra, Format
+from .formats.errors import FormatError, MissingExtraError
+from .formats.joints.acclaim_motion import AcclaimFormat
+from .formats.joints.bvh import BVHFormat
+from .formats.markers.c3d import C3DFormat
+from .formats.markers.trc import TRCFormat
+from .formats.sets import check_alike, frame_rate
+from .formats.tables.comma_separated import CSVFormat
+from .formats.tables.parquet import ParquetFormat
+from .formats.turns import unwrapped
 from .gait import GAIT_VERSION, GaitLibrary, gait_style
 from .kinematics import (
     FrameByJointBy3,
@@ -35,10 +45,17 @@ __all__ = [
     "GAIT_VERSION",
     "THESIS_CHANNELS",
     "AcclaimError",
+    "AcclaimFormat",
     "Archive",
+    "BVHFormat",
+    "C3DFormat",
     "CMULibrary",
+    "CSVFormat",
     "DigestMismatch",
+    "Extra",
     "FetchError",
+    "Format",
+    "FormatError",
     "FrameByChannel",
     "FrameByJointBy3",
     "Frames",
@@ -46,7 +63,9 @@ __all__ = [
     "Layer",
     "Library",
     "Mask",
+    "MissingExtraError",
     "Motion",
+    "ParquetFormat",
     "Recording",
     "RecordingStatus",
     "RecordingUnavailable",
@@ -54,11 +73,14 @@ __all__ = [
     "ServerUnreachable",
     "Skeleton",
     "SkeletonUnavailable",
+    "TRCFormat",
     "ToyProcess",
     "TruncatedFrameWarning",
     "UnregisteredDigestWarning",
+    "check_alike",
     "format_motion",
     "format_skeleton",
+    "frame_rate",
     "gait_style",
     "gpdm_features",
     "hlm_features",
@@ -80,5 +102,6 @@ __all__ = [
     "taylor_deviations",
     "taylor_features",
     "taylor_scales",
+    "unwrapped",
     "zero_based_frames",
 ]

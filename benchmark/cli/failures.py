@@ -10,7 +10,7 @@ from rich.text import Text
 
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import ExitCode, UsageError
-from mocapbench.datasets import AcclaimError, DigestMismatch
+from mocapbench.datasets import AcclaimError, DigestMismatch, FormatError
 
 __all__ = ["exit_code", "explain", "show_warning"]
 
@@ -25,7 +25,7 @@ def exit_code(error: BaseException) -> ExitCode:
         interpreter's own exit code, 1, would say that a metric got worse.
     """
     match error:
-        case UsageError() | DigestMismatch() | AcclaimError() | OSError():
+        case UsageError() | DigestMismatch() | AcclaimError() | FormatError() | OSError():
             return ExitCode.USAGE
         case KeyboardInterrupt():
             return ExitCode.INTERRUPTED
@@ -42,7 +42,7 @@ def explain(error: Exception) -> ExitCode:
         See `exit_code`.
     """
     match error:
-        case UsageError() | DigestMismatch() | AcclaimError():
+        case UsageError() | DigestMismatch() | AcclaimError() | FormatError():
             _say(str(error))
         case OSError():
             _say(f"cannot read or write: {error}")

@@ -1,4 +1,4 @@
-"""``mocapbench list``: the registered tasks, models, metrics and libraries of recordings."""
+"""``mocapbench list``: the registered tasks, models, metrics, libraries and formats."""
 
 from __future__ import annotations
 
@@ -39,19 +39,21 @@ class Kind(StrEnum):
     MODELS = "models"
     METRICS = "metrics"
     LIBRARIES = "libraries"
+    FORMATS = "formats"
 
 
 @app.command("list")
 def list_registered(
     kind: Annotated[Kind, typer.Argument(help="What to list.")], plugin: Plugins = None
 ) -> None:
-    """List tasks, models, metrics or libraries of recordings."""
+    """List tasks, models, metrics, libraries of recordings or formats of files."""
     load_plugins(plugin)
     tables: dict[Kind, Callable[[], Table]] = {
         Kind.TASKS: _task_table,
         Kind.MODELS: _model_table,
         Kind.METRICS: _metric_table,
         Kind.LIBRARIES: _library_table,
+        Kind.FORMATS: _format_table,
     }
     LiteralConsole().print(tables[kind]())
 
@@ -91,4 +93,14 @@ def _library_table() -> Table:
     for name in bench.LIBRARIES.names():
         first, _, _ = (bench.LIBRARIES.get(name).__doc__ or "").partition("\n")
         table.add_row(name, first)
+    return table
+
+
+def _format_table() -> Table:
+    table = Table("format", "files", "needs", "what it is")
+    for name in bench.FORMATS.names():
+        kind = bench.FORMATS.get(name)
+        first, _, _ = (kind.__doc__ or "").partition("\n")
+        needs = f"mocapbench[{kind.needs.name}]" if kind.needs else ""
+        table.add_row(name, " ".join(kind.suffixes), needs, first)
     return table

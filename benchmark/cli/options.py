@@ -41,7 +41,7 @@ Plugins = Annotated[
     typer.Option(
         "--plugin",
         "--model-file",
-        help="A Python file that defines any of MODELS, TASKS, METRICS and LIBRARIES.",
+        help="A Python file that defines any of MODELS, TASKS, METRICS, LIBRARIES and FORMATS.",
     ),
 ]
 

@@ -4,6 +4,7 @@ import pytest
 
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
 from mocapbench.benchmark.registry import (
+    FORMATS,
     LIBRARIES,
     METRICS,
     MODELS,
@@ -20,9 +21,10 @@ def test_every_registered_name_loads(registry):
     assert all(registry.is_installed(name) for name in registry.names())
 
 
-def test_there_are_four_registries():
-    assert REGISTRIES == (MODELS, TASKS, METRICS, LIBRARIES)
-    assert [registry.kind for registry in REGISTRIES] == ["model", "task", "metric", "library"]
+def test_there_are_five_registries():
+    assert REGISTRIES == (MODELS, TASKS, METRICS, LIBRARIES, FORMATS)
+    kinds = ["model", "task", "metric", "library", "format"]
+    assert [registry.kind for registry in REGISTRIES] == kinds
 
 
 @pytest.mark.parametrize(
@@ -32,6 +34,7 @@ def test_there_are_four_registries():
         (TASKS, "toy-interpolaton-1", "toy-interpolation-1"),
         (METRICS, "msl", "msll"),
         (LIBRARIES, "giat", "gait"),
+        (FORMATS, "parket", "parquet"),
     ],
 )
 @pytest.mark.parametrize("look_up", [Registry.get, Registry.current_name])

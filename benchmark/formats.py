@@ -1,0 +1,37 @@
+"""The registered format of a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.registry import FORMATS
+from mocapbench.datasets import Format, FormatError
+
+__all__ = ["format_for"]
+
+
+def format_for(path: str | Path) -> Format:
+    """Return the format that a file has by its suffix, whose case does not matter.
+
+    Raises
+    ------
+    FormatError
+        If no format has the suffix.
+    UsageError
+        If several have, or one of them cannot be imported.
+    """
+    suffix = Path(path).suffix.lower()
+    formats = {name: FORMATS.get(name) for name in FORMATS.names()}
+    fitting = [name for name, kind in formats.items() if suffix in kind.suffixes]
+    if not fitting:
+        known = sorted(suffix for kind in formats.values() for suffix in kind.suffixes)
+        advice = "export the recording in one of these formats, or add yours with --plugin"
+        got = repr(suffix) if suffix else "no suffix"
+        raise FormatError(str(path), f"a file of {', '.join(known)}", got, advice)
+    if len(fitting) > 1:
+        raise UsageError(
+            f"{path}: expected one format for {suffix}, got {' and '.join(fitting)}; "
+            "remove the package or --plugin of all but one"
+        )
+    return formats[fitting[0]]()

@@ -1,0 +1,1 @@
+"""Formats of the angles of joints in a hierarchy."""

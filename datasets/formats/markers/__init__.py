@@ -1,0 +1,1 @@
+"""Formats of the positions of markers, which cameras saw or did not see."""

@@ -1,0 +1,1 @@
+"""Formats that are tables: a column of times, and one column a channel."""

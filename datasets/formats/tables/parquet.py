@@ -1,0 +1,57 @@
+"""Parquet: a column of times and one column a channel."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+
+from mocapbench.datasets.formats.base import Extra, Format
+from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.isolation.calls import IsolatedCallError, call_isolated
+from mocapbench.datasets.formats.tables.columns import TableColumns, sort_columns, table_recording
+from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
+
+__all__ = ["ParquetFormat"]
+
+_COLUMNS = "mocapbench.datasets.formats.tables.parquet_columns"
+_SECONDS, _SECONDS_PER_BYTE = 10.0, 1e-6
+_MEMORY = 2**30  # of a small file
+
+
+class ParquetFormat(Format):
+    """Parquet (.parquet): a column of times, one column a channel.
+
+    Columns are named as in a CSV file (`CSVFormat`). Nulls and NaN are hidden. Filled values keep
+    the type of their column, but a column of integers becomes one of 64-bit floats. Columns of
+    text, dates and so on, and what the file says about itself, are kept.
+    """
+
+    suffixes = (".parquet",)
+    needs = Extra("pyarrow", "parquet")
+    memory_per_byte = 24.0
+
+    def load(self, path: Path, rate: float | None) -> Recording:
+        """Return the recording with the values that the file has."""
+        names, columns, values = _read(path)
+        times = None if columns.time is None else values[:, columns.time]
+        channels = values[:, list(columns.channels)]
+        return table_recording(path.name, names, columns, (times, channels), rate)
+
+    def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
+        """Write the file's columns with the new entries."""
+        _, columns, _ = _read(like)
+        import_module(_COLUMNS).write_columns(path, columns.channels, values, new, like)
+
+
+def _read(path: Path) -> tuple[list[str], TableColumns, FrameByChannel]:
+    """Return the names of all columns, what these are, and their values (N, columns)."""
+    size = path.stat().st_size
+    memory = ParquetFormat.memory_per_byte * size + _MEMORY
+    timeout = _SECONDS + _SECONDS_PER_BYTE * size
+    try:
+        read = call_isolated(f"{_COLUMNS}:read_columns", str(path), timeout=timeout, memory=memory)
+    except IsolatedCallError as error:
+        advice = "export the recording again as Parquet"
+        raise FormatError(path.name, "a Parquet file", str(error), advice) from error
+    names = read["names"].tolist()
+    return names, sort_columns(names, read["is_number"].tolist()), read["values"]

@@ -1,0 +1,1 @@
+"""Text files that keep what is not changed, byte for byte."""
