@@ -10,6 +10,7 @@ from .hgp import HGP
 from .k_cpm import KCPM
 from .k_means import KMeans
 from .knn import KNN
+from .lds import LDS
 from .lmc_independent import LMCIndependent
 from .moa import MOA
 from .mohgp import MOHGP
@@ -48,6 +49,7 @@ __all__ = [
     "HGP",
     "KCPM",
     "KNN",
+    "LDS",
     "MOA",
     "MOHGP",
     "NN",
