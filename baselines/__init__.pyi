@@ -11,6 +11,7 @@ from .k_cpm import KCPM
 from .k_means import KMeans
 from .knn import KNN
 from .lds import LDS
+from .lgssm import LGSSM
 from .lmc_independent import LMCIndependent
 from .moa import MOA
 from .mohgp import MOHGP
@@ -50,6 +51,7 @@ __all__ = [
     "KCPM",
     "KNN",
     "LDS",
+    "LGSSM",
     "MOA",
     "MOHGP",
     "NN",

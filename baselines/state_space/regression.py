@@ -9,6 +9,7 @@ regressor in turn is 1 and the response 0.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,6 +83,6 @@ class Regression:
         return -0.5 * float(np.sum(prior.frames * log_determinant + trace))
 
 
-def transposed(matrices: Array) -> Array:
+def transposed(matrices: NDArray[Any]) -> Array:
     """Return the transpose of each matrix of (…, a, b)."""
     return np.swapaxes(matrices, -1, -2)
