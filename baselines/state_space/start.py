@@ -49,7 +49,7 @@ def _stretches(frames: Array) -> Array:
     """Return each frame (N, D) with those beside it: (N, (2 reach + 1) D); the ends repeat."""
     n = len(frames)
     near = np.arange(n)[:, None] + np.arange(-_REACH, _REACH + 1)
-    return frames[np.clip(near, 0, n - 1)].reshape(n, -1)
+    return np.asarray(frames[np.clip(near, 0, n - 1)].reshape(n, -1))
 
 
 def _components(rows: Array, n_states: int) -> Array:
