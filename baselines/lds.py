@@ -49,7 +49,7 @@ class LDS(Imputer, Inductive, Synthesiser):
         training frames have fewer dimensions. ``docs/state-space.md`` has the choice of 15.
     max_iter : int, default=50
         Largest number of iterations of EM.
-    tolerance : float, default=1e-4
+    tolerance : float, default=1e-3
         EM has converged when an iteration raises the objective by less than ``tolerance`` per
         visible entry.
 
@@ -97,7 +97,7 @@ class LDS(Imputer, Inductive, Synthesiser):
     True
     """
 
-    def __init__(self, n_states: int = 15, *, max_iter: int = 50, tolerance: float = 1e-4) -> None:
+    def __init__(self, n_states: int = 15, *, max_iter: int = 50, tolerance: float = 1e-3) -> None:
         self.n_states = n_states
         self.max_iter = max_iter
         self.tolerance = tolerance

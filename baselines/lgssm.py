@@ -43,7 +43,7 @@ class LGSSM(Clusterer):
         the highest objective is kept.
     max_iter : int, default=10
         Largest number of iterations of a run.
-    tolerance : float, default=1e-4
+    tolerance : float, default=1e-3
         A run has converged when an iteration raises the objective by less than ``tolerance`` per
         visible entry.
     random_state : int, numpy.random.Generator or None, default=None
@@ -94,7 +94,7 @@ class LGSSM(Clusterer):
         n_states: int = 5,
         n_restarts: int = 3,
         max_iter: int = 10,
-        tolerance: float = 1e-4,
+        tolerance: float = 1e-3,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
         self.n_styles = n_styles
