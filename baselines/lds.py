@@ -47,7 +47,7 @@ class LDS(Imputer, Inductive, Synthesiser):
     n_states : int, default=15
         Number q of states. A smaller number is taken, with a warning, where short stretches of the
         training frames have fewer dimensions. ``docs/state-space.md`` has the choice of 15.
-    max_iter : int, default=50
+    max_iter : int, default=10
         Largest number of iterations of EM.
     tolerance : float, default=1e-3
         EM has converged when an iteration raises the objective by less than ``tolerance`` per
@@ -97,7 +97,7 @@ class LDS(Imputer, Inductive, Synthesiser):
     True
     """
 
-    def __init__(self, n_states: int = 15, *, max_iter: int = 50, tolerance: float = 1e-3) -> None:
+    def __init__(self, n_states: int = 15, *, max_iter: int = 10, tolerance: float = 1e-3) -> None:
         self.n_states = n_states
         self.max_iter = max_iter
         self.tolerance = tolerance
