@@ -18,6 +18,8 @@ from .k_cpm import KCPM
 from .k_fam import KFAM
 from .k_means import KMeans
 from .knn import KNN
+from .lds import LDS
+from .lgssm import LGSSM
 from .lmc_independent import LMCIndependent
 from .low_rank import LowRank
 from .moa import MOA
@@ -61,6 +63,8 @@ __all__ = [
     "KCPM",
     "KFAM",
     "KNN",
+    "LDS",
+    "LGSSM",
     "MOA",
     "MOHGP",
     "NN",
