@@ -1,4 +1,4 @@
-from .archives import archive_at, full_paths
+from .archives import archive_at, full_paths, require_recordings
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
 from .figures.alignment import Alignments
@@ -109,6 +109,7 @@ __all__ = [
     "plan",
     "plan_document",
     "provenance",
+    "require_recordings",
     "required_sources",
     "run",
     "run_state",

@@ -28,6 +28,7 @@ from mocapbench.benchmark.cli.options import (
     Out,
     Plugins,
     load_plugins,
+    open_archive,
     show_left_out,
     split,
 )
@@ -93,7 +94,7 @@ def run(
     request = bench.Request(
         profile, split(tasks), split(models), split(cases), split(metrics), folds, seed
     )
-    archive = bench.archive_at(data_dir)
+    archive = open_archive(data_dir)
     if not (offline or dry_run):
         fetch_missing(archive, bench.required_sources(request), console)
     planned = bench.plan(request, archive)
