@@ -64,7 +64,7 @@ def test_the_folder_above_or_below_is_suggested(database, where):
 def test_one_of_several_folders_suffices(database, empty):
     check(empty, database)
     (empty.parent / "other").mkdir()
-    with pytest.raises(UsageError, match="empty', which is empty, .*other', which is empty"):
+    with pytest.raises(UsageError, match=r"empty', which is empty, .*other', which is empty"):
         check(empty, empty.parent / "other")
 
 

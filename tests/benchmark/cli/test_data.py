@@ -78,7 +78,6 @@ def test_a_folder_that_the_environment_names_is_not_repeated(cli, database, monk
     assert "next: `mocapbench data verify 99_01`" in cli.printed
 
 
-@pytest.mark.parametrize("by", ["option", "environment"])
 @pytest.mark.parametrize(
     "command",
     [
@@ -90,16 +89,16 @@ def test_a_folder_that_the_environment_names_is_not_repeated(cli, database, monk
     ids=" ".join,
 )
 def test_an_empty_folder_is_said_to_be_that_by_every_command(
-    cli, database, write_run, command, by, tmp_path, monkeypatch
+    cli, write_run, command, tmp_path, monkeypatch
 ):
     (tmp_path / "empty").mkdir()
     write_run(tmp_path / "run", [("toy-synthesis", "test 1", "trivial", 0)])
     out = ("--out", tmp_path / "run") if command[0] != "data" else ()
-    named = ("--data-dir", tmp_path / "empty") if by == "option" else ()
-    if by == "environment":
-        monkeypatch.setenv("MOCAPBENCH_DATA", str(tmp_path / "empty"))
-    assert cli(*command, *out, *named) == 2
+    assert cli(*command, *out, "--data-dir", tmp_path / "empty") == 2
     assert "expected recordings (subjects/*/*.asf, subjects/*/*.amc) in the folder" in cli.printed
+    assert "empty', which is empty" in cli.printed
+    monkeypatch.setenv("MOCAPBENCH_DATA", str(tmp_path / "empty"))
+    assert cli(*command, *out) == 2
     assert "empty', which is empty" in cli.printed
 
 
