@@ -1,4 +1,4 @@
-from .archives import archive_at, full_paths, require_recordings
+from .archives import archive_at, fetch_command, full_paths, require_recordings
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
 from .figures.alignment import Alignments
@@ -12,6 +12,8 @@ from .figures.solved import Solved
 from .figures.trend import InferredTrend
 from .gate.checking import check
 from .inspection.explanation import explain
+from .inspection.forecast import forecast
+from .inspection.forecast_output import forecast_lines, lacking, lacking_line
 from .inspection.output import explanation_table, state_lines, state_table
 from .inspection.state import RunState, run_state
 from .merging.merge import merge
@@ -95,11 +97,16 @@ __all__ = [
     "compare",
     "explain",
     "explanation_table",
+    "fetch_command",
+    "forecast",
+    "forecast_lines",
     "full_paths",
     "hide_all_but",
     "hide_frames",
     "illustrations",
     "job_table",
+    "lacking",
+    "lacking_line",
     "last_drawn",
     "load_plugin",
     "memory_share",

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+import shlex
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES
 from mocapbench.datasets import Archive, named_folders
 
-__all__ = ["archive_at", "full_paths", "require_recordings"]
+__all__ = ["archive_at", "fetch_command", "full_paths", "require_recordings"]
 
 
 def archive_at(data_dir: Path | None) -> Archive:
@@ -41,6 +42,12 @@ def full_paths(data_dir: Path | None) -> Path | None:
     """Return ``data_dir`` with the full path of every folder that it names, for other processes."""
     folders = [str(folder.resolve()) for folder in named_folders(data_dir)]
     return Path(os.pathsep.join(folders)) if folders else None
+
+
+def fetch_command(uris: Iterable[str], plugins: Iterable[Path]) -> str:
+    """Return the command that gets recordings, of libraries that plug-in files define too."""
+    options = "".join(f" --plugin {shlex.quote(str(path))}" for path in plugins)
+    return f"{Archive.fetch_command(*uris)}{options}"
 
 
 def require_recordings(data_dir: Path | None, archive: Archive) -> None:

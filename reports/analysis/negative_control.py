@@ -16,8 +16,8 @@ What does not pass has failed, unless the cells are too few to tell, and it is *
 * or every single cell, taken by itself, meets the criterion, and only the interval does not.
 
 `ENOUGH_CELLS` is the least n of which a one-sided sign test can reject at 2.5 %: 2⁻ⁿ ≤ 0.025.
-Below it, no test without the assumption of normality separates even an entrant that is better in every
-cell.
+Below it, no test without the assumption of normality separates even an entrant that is better in
+every cell.
 
 The variance ratio has only a lower limit. Samples with too little variance score higher MCC and
 MLC, up to the scores of a sampler that repeats its trend. Samples with too much variance score

@@ -137,7 +137,8 @@ def test_a_run_without_a_network_works_without(cli, records, database, tmp_path)
     arguments = ("--models", "cubic-spline", "--folds", 1, "--out", tmp_path / "run")
     assert cli("run", *chosen, *arguments) == 0
     assert "working without 4 recordings" in cli.printed
-    assert "data missing: 35_03" in cli.printed
+    assert "data missing: 1 of 2 jobs lack 4 recordings" in cli.printed
+    assert "`mocapbench data fetch 35_03 35_02 12_01 16_15` gets them" in cli.printed
     statuses = {case: r["status"] for (_, case, _, _), r in records(tmp_path / "run").items()}
     assert statuses == {"35-03 three-walkers": "data-missing", "synthetic 1": "ok"}
 
