@@ -112,7 +112,7 @@ def _addresses(trials: Iterable[str] | None, archive: Archive) -> list[str]:
 
 def _show(rows: Sequence[RecordingStatus], data_dir: Path | None, console: LiteralConsole) -> None:
     """Show one row a recording, with digests if one was computed, and the totals."""
-    heads = [Column("recording", no_wrap=True), "state", Column("where", overflow="fold")]
+    heads = [Column("recording", no_wrap=True), Column("state"), Column("where", overflow="fold")]
     if any(row.digest for row in rows):
         heads.append(Column("SHA-256", no_wrap=True))
     table = Table(*heads)

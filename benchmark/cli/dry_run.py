@@ -57,7 +57,7 @@ def forecast_text(
 def _rows(planned: Sequence[Job]) -> Mapping[tuple[str, tuple[str, ...], int], list[str]]:
     """Return the cases by what they have in common: task, entrants and number of folds."""
     labels: dict[tuple[str, str], dict[str, None]] = defaultdict(dict)
-    folds: dict[tuple[str, str], set[int]] = defaultdict(set)
+    folds: dict[tuple[str, str], set[int | None]] = defaultdict(set)
     for address in (job.address for job in planned):
         labels[address.task, address.case][address.label] = None
         folds[address.task, address.case].add(address.fold)
