@@ -1,4 +1,5 @@
 from .archives import archive_at, fetch_command, full_paths, require_recordings
+from .catalogue import library_entry, metric_entry, model_entry, task_entry
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
 from .figures.alignment import Alignments
@@ -12,9 +13,10 @@ from .figures.solved import Solved
 from .figures.trend import InferredTrend
 from .gate.checking import check
 from .inspection.explanation import explain
-from .inspection.forecast import forecast
-from .inspection.forecast_output import forecast_lines, lacking, lacking_line
+from .inspection.forecast_output import lacking, lacking_line
 from .inspection.output import explanation_table, state_lines, state_table
+from .inspection.planned import forecast_text, plan_table
+from .inspection.recordings import DataRequest, data_totals, next_data_step
 from .inspection.state import RunState, run_state
 from .merging.merge import merge
 from .plugins import load_plugin
@@ -60,6 +62,7 @@ __all__ = [
     "Clusters",
     "Coregionalisation",
     "Covariances",
+    "DataRequest",
     "Entrant",
     "ExitCode",
     "FilledChannels",
@@ -95,11 +98,11 @@ __all__ = [
     "bundle",
     "check",
     "compare",
+    "data_totals",
     "explain",
     "explanation_table",
     "fetch_command",
-    "forecast",
-    "forecast_lines",
+    "forecast_text",
     "full_paths",
     "hide_all_but",
     "hide_frames",
@@ -108,13 +111,18 @@ __all__ = [
     "lacking",
     "lacking_line",
     "last_drawn",
+    "library_entry",
     "load_plugin",
     "memory_share",
     "merge",
+    "metric_entry",
+    "model_entry",
     "n_cores",
+    "next_data_step",
     "open_site",
     "plan",
     "plan_document",
+    "plan_table",
     "provenance",
     "require_recordings",
     "required_sources",
@@ -124,4 +132,5 @@ __all__ = [
     "stamp",
     "state_lines",
     "state_table",
+    "task_entry",
 ]

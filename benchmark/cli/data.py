@@ -13,7 +13,6 @@ from rich.table import Column, Table
 from mocapbench import benchmark as bench
 from mocapbench import datasets
 from mocapbench.benchmark.cli.console import LiteralConsole
-from mocapbench.benchmark.cli.data_summary import Asked, next_step, totals
 from mocapbench.benchmark.cli.options import DataDir, Plugins, load_plugins, open_archive
 from mocapbench.benchmark.errors import ExitCode, UsageError
 
@@ -59,7 +58,9 @@ def status(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
     archive, console = open_archive(data_dir), LiteralConsole()
     rows = archive.status(_addresses(trials, archive))
     _show(rows, data_dir, console)
-    console.print(next_step(rows, Asked(trials, data_dir, plugin)), soft_wrap=True)
+    console.print(
+        bench.next_data_step(rows, bench.DataRequest(trials, data_dir, plugin)), soft_wrap=True
+    )
 
 
 @app.command()
@@ -80,7 +81,9 @@ def fetch(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = Non
     _show(rows, data_dir, console)
     if failures:
         raise UsageError("\n".join(failures))
-    console.print(next_step(rows, Asked(trials, data_dir, plugin)), soft_wrap=True)
+    console.print(
+        bench.next_data_step(rows, bench.DataRequest(trials, data_dir, plugin)), soft_wrap=True
+    )
 
 
 @app.command()
@@ -91,7 +94,9 @@ def verify(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
     tracked = track(_addresses(trials, archive), "verifying", console=console)
     rows = [row for uri in tracked for row in archive.verify([uri])]
     _show(rows, data_dir, console)
-    console.print(next_step(rows, Asked(trials, data_dir, plugin)), soft_wrap=True)
+    console.print(
+        bench.next_data_step(rows, bench.DataRequest(trials, data_dir, plugin)), soft_wrap=True
+    )
     if any(row.state == "wrong" for row in rows):
         raise typer.Exit(ExitCode.USAGE)
 
@@ -120,4 +125,4 @@ def _show(rows: Sequence[RecordingStatus], data_dir: Path | None, console: Liter
         cells = (row.uri, row.state, row.where, row.digest[:16])
         table.add_row(*cells[: len(heads)])
     console.print(table)
-    console.print(totals(rows, data_dir), soft_wrap=True)
+    console.print(bench.data_totals(rows, data_dir), soft_wrap=True)

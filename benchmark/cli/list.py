@@ -11,10 +11,9 @@ import typer
 from rich.table import Column, Table
 
 from mocapbench import benchmark as bench
-from mocapbench.benchmark import catalogue
+from mocapbench import reports
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
-from mocapbench.reports.text import counted
 
 if TYPE_CHECKING:
     from mocapbench.benchmark.registry import Registry
@@ -78,16 +77,16 @@ def _listing(kind: Kind) -> _Listing:
     match kind:
         case Kind.TASKS:
             columns = {"title": "title", "cases": "cases", "reference": "from"}
-            return _Listing(bench.TASKS, catalogue.task_entry, columns)
+            return _Listing(bench.TASKS, bench.task_entry, columns)
         case Kind.MODELS:
             columns = {"summary": "what it is", "abilities": "abilities"}
-            return _Listing(bench.MODELS, catalogue.model_entry, columns)
+            return _Listing(bench.MODELS, bench.model_entry, columns)
         case Kind.METRICS:
             columns = {"title": "title", "better": "better", "of": "of"}
-            return _Listing(bench.METRICS, catalogue.metric_entry, columns)
+            return _Listing(bench.METRICS, bench.metric_entry, columns)
         case Kind.LIBRARIES:
             columns = {"summary": "what it is", "layout": "reads"}
-            return _Listing(bench.LIBRARIES, catalogue.library_entry, columns)
+            return _Listing(bench.LIBRARIES, bench.library_entry, columns)
 
 
 def _table(listing: _Listing, entries: Sequence[Entry]) -> Table:
@@ -112,7 +111,7 @@ def _details(entry: Entry) -> Table:
 def _text(value: object) -> str:
     match value:
         case {"cases": cases, "folds": folds}:
-            return f"{counted(len(cases), 'case')} × {counted(folds, 'fold')}"
+            return f"{reports.counted(len(cases), 'case')} × {reports.counted(folds, 'fold')}"
         case Mapping():
             return ", ".join(f"{name}: {_text(item)}" for name, item in value.items())
         case list():

@@ -20,7 +20,6 @@ from mocapbench import benchmark as bench
 from mocapbench import datasets
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.data import fetch_missing
-from mocapbench.benchmark.cli.dry_run import forecast_text, plan_table
 from mocapbench.benchmark.cli.options import (
     DEFAULT_OUT,
     DataDir,
@@ -106,11 +105,11 @@ def run(
     if explain:
         console.print(bench.explanation_table(bench.explain(planned, out)))
     elif dry_run:
-        console.print(plan_table(planned))
+        console.print(bench.plan_table(planned))
     if dry_run:
         n_workers = None if scheduler or cluster else jobs or bench.n_cores()
         remedy = _fetching(planned, plugins) if offline else _downloading(planned)
-        for line in forecast_text(planned, profile, out, n_workers, remedy):
+        for line in bench.forecast_text(planned, profile, out, n_workers, remedy):
             console.print(line, soft_wrap=True, highlight=False)
         return
     store, site = bench.Store.create(out), bench.open_site(jobs, scheduler, cluster)

@@ -1,4 +1,4 @@
-"""What ``mocapbench data`` ends in: totals, and the command to give next."""
+"""Which recordings are here, in totals, and the command to give next, for ``mocapbench data``."""
 
 from __future__ import annotations
 
@@ -7,18 +7,15 @@ import shlex
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from mocapbench import datasets
+from mocapbench.datasets import RecordingStatus, named_folders
 
-if TYPE_CHECKING:
-    from mocapbench.datasets import RecordingStatus
-
-__all__ = ["Asked", "next_step", "totals"]
+__all__ = ["DataRequest", "data_totals", "next_data_step"]
 
 
-class Asked(NamedTuple):
-    """What the user gave to a command, and has to give to the next one too."""
+class DataRequest(NamedTuple):
+    """What the user gave to ``mocapbench data``, and has to give to the next command too."""
 
     trials: Sequence[str] | None
     data_dir: Path | None
@@ -39,24 +36,24 @@ class Asked(NamedTuple):
             yield from ("--plugin", str(path))
 
 
-def totals(rows: Sequence[RecordingStatus], data_dir: Path | None) -> str:
+def data_totals(rows: Sequence[RecordingStatus], data_dir: Path | None) -> str:
     """Return how many recordings are in which state, and how many each named folder has."""
     states = Counter(row.state for row in rows)
     parts = [", ".join(f"{count} {state}" for state, count in states.items())]
-    for folder in datasets.named_folders(data_dir):
+    for folder in named_folders(data_dir):
         count = sum(folder in Path(row.where).parents for row in rows)
         parts.append(f"{count} in {folder}")
     return f"{len(rows)} recordings: {'; '.join(filter(None, parts))}"
 
 
-def next_step(rows: Sequence[RecordingStatus], asked: Asked) -> str:
+def next_data_step(rows: Sequence[RecordingStatus], request: DataRequest) -> str:
     """Return the command to give next, and why."""
     states = Counter(row.state for row in rows)
-    fetch, verify = asked.data_command("fetch"), asked.data_command("verify")
+    fetch, verify = request.data_command("fetch"), request.data_command("verify")
     if states["wrong"]:
         return f"next: remove what is wrong, then `{fetch}`"
     if states["missing"]:
         return f"next: `{fetch}` downloads what is missing, or name its folder with --data-dir"
     if states["available"]:
         return f"next: `{verify}` reads them and checks that they are right"
-    return f"next: `{asked.command('run')}`"
+    return f"next: `{request.command('run')}`"

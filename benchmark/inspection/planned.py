@@ -1,19 +1,22 @@
-"""``mocapbench run --dry-run``: what would run, what is missing, and how long it would take."""
+"""What a plan holds, what it lacks and how long it takes, for ``mocapbench run --dry-run``."""
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from rich.table import Column, Table
 
-from mocapbench import benchmark as bench
+from mocapbench.benchmark.inspection.explanation import explain
+from mocapbench.benchmark.inspection.forecast import forecast
+from mocapbench.benchmark.inspection.forecast_output import (
+    forecast_lines,
+    lacking,
+    lacking_line,
+)
+from mocapbench.benchmark.runs.job import Job
 from mocapbench.reports.text import counted
-
-if TYPE_CHECKING:
-    from mocapbench.benchmark import Job
 
 __all__ = ["forecast_text", "plan_table"]
 
@@ -48,10 +51,10 @@ def forecast_text(
         What to do about missing recordings.
     """
     yield counted(len(planned), "job")
-    expected = bench.forecast(planned, bench.explain(planned, out), out, profile)
-    yield from bench.forecast_lines(expected, out, n_workers)
-    if bench.lacking(planned):
-        yield bench.lacking_line(planned, remedy)
+    expected = forecast(planned, explain(planned, out), out, profile)
+    yield from forecast_lines(expected, out, n_workers)
+    if lacking(planned):
+        yield lacking_line(planned, remedy)
 
 
 def _rows(planned: Sequence[Job]) -> Mapping[tuple[str, tuple[str, ...], int], list[str]]:
