@@ -1,4 +1,5 @@
-from .archives import archive_at, full_paths
+from .archives import archive_at, fetch_command, full_paths, require_recordings
+from .catalogue import format_entry, library_entry, metric_entry, model_entry, task_entry
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
 from .figures.alignment import Alignments
@@ -13,7 +14,10 @@ from .figures.trend import InferredTrend
 from .formats import format_for
 from .gate.checking import check
 from .inspection.explanation import explain
+from .inspection.forecast_output import lacking, lacking_line
 from .inspection.output import explanation_table, state_lines, state_table
+from .inspection.planned import forecast_text, plan_table
+from .inspection.recordings import DataRequest, data_totals, next_data_step
 from .inspection.state import RunState, run_state
 from .merging.merge import merge
 from .plugins import load_plugin
@@ -62,6 +66,7 @@ __all__ = [
     "Clusters",
     "Coregionalisation",
     "Covariances",
+    "DataRequest",
     "Entrant",
     "ExitCode",
     "FilledChannels",
@@ -100,8 +105,12 @@ __all__ = [
     "bundle",
     "check",
     "compare",
+    "data_totals",
     "explain",
     "explanation_table",
+    "fetch_command",
+    "forecast_text",
+    "format_entry",
     "format_for",
     "full_paths",
     "hide_all_but",
@@ -109,15 +118,23 @@ __all__ = [
     "hide_runs",
     "illustrations",
     "job_table",
+    "lacking",
+    "lacking_line",
     "last_drawn",
+    "library_entry",
     "load_plugin",
     "memory_share",
     "merge",
+    "metric_entry",
+    "model_entry",
     "n_cores",
+    "next_data_step",
     "open_site",
     "plan",
     "plan_document",
+    "plan_table",
     "provenance",
+    "require_recordings",
     "required_sources",
     "run",
     "run_state",
@@ -125,4 +142,5 @@ __all__ = [
     "stamp",
     "state_lines",
     "state_table",
+    "task_entry",
 ]

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
+from typing import ClassVar
 
 import platformdirs
 
@@ -77,6 +78,8 @@ class CMULibrary(Library):
     ...     CMULibrary(Path(folder), Path(folder)).where("35_02")
     ''
     """
+
+    layout: ClassVar[tuple[str, ...]] = ("subjects/*/*.asf", "subjects/*/*.amc")
 
     def __init__(
         self,

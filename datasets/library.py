@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from abc import ABC, abstractmethod
 from pathlib import Path
+from typing import ClassVar
 
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.digests import content_digest
@@ -31,6 +32,13 @@ class Library(ABC):
         it. The user may name several, separated by `os.pathsep`: ``self.folders`` has them one by
         one.
 
+    Attributes
+    ----------
+    layout : tuple of str
+        Patterns of the files that it reads below a folder that the user names, such as
+        ``"subjects/*/*.amc"``. A library that reads such files sets it, so that a folder without
+        any is refused; by default it reads none.
+
     See Also
     --------
     Archive : Finds recordings by addresses such as ``waves:2``.
@@ -55,6 +63,8 @@ class Library(ABC):
     >>> archive.available("waves:two")
     False
     """
+
+    layout: ClassVar[tuple[str, ...]] = ()
 
     def __init__(self, data_dir: Path | None = None) -> None:
         self.data_dir = data_dir

@@ -16,6 +16,7 @@ from .bundle.regression_check import RegressionCheck
 from .bundle.task_page import Figure, RowNotes, TaskPage
 from .page.page import render
 from .spreadsheet import csv_text
+from .text import counted
 
 __all__ = [
     "Band",
@@ -35,6 +36,7 @@ __all__ = [
     "Space",
     "TaskLayout",
     "TaskPage",
+    "counted",
     "csv_text",
     "render",
 ]

@@ -241,10 +241,11 @@ def test_a_file_that_adds_nothing_says_why(load, text, complaint):
         assert (left, sys.path) == (set(), path)
 
 
-@pytest.mark.parametrize("name", ["absent.py", "."])
-def test_a_file_that_is_not_there(tmp_path, name):
+@pytest.mark.parametrize(("name", "why"), [("absent.py", "does not exist"), (".", "is a folder")])
+def test_a_file_that_is_not_there(tmp_path, name, why):
     path = re.escape(repr(str(tmp_path / name)))
-    with pytest.raises(UsageError, match=f"--plugin: expected a Python file, got {path}; name"):
+    complaint = f"--plugin: expected a Python file, got {path}, which {why}; check the path"
+    with pytest.raises(UsageError, match=complaint):
         load_plugin(tmp_path / name)
 
 

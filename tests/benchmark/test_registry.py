@@ -44,6 +44,11 @@ def test_an_unknown_name_suggests_the_nearest(registry, wrong, meant, look_up):
         look_up(registry, wrong)
 
 
+def test_an_unknown_name_may_be_in_a_file_that_was_not_named():
+    with pytest.raises(UnknownNameError, match="name that file with --plugin"):
+        TASKS.get("mine")
+
+
 def test_a_name_like_no_other_lists_them_all():
     with pytest.raises(UnknownNameError, match=r"known: .*cubic-spline"):
         MODELS.get("@@@@")

@@ -1,4 +1,5 @@
 import importlib
+import json
 import subprocess
 import sys
 
@@ -11,7 +12,7 @@ from mocapbench.benchmark import gate
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.cli.main import COMMANDS, main
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.registry import REGISTRIES
+from mocapbench.benchmark.registry import LIBRARIES, METRICS, MODELS, REGISTRIES, TASKS
 from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
@@ -223,6 +224,45 @@ def test_list_names_everything(cli, kind, registry):
     assert cli("list", kind) == 0
     assert registry.names()
     assert all(name in cli.printed for name in registry.names())
+
+
+@pytest.mark.parametrize("kind", ["models", "tasks", "metrics", "libraries"])
+def test_a_list_fits_a_terminal_of_80_columns(capsys, monkeypatch, kind):
+    monkeypatch.setenv("COLUMNS", "80")
+    with pytest.raises(SystemExit):
+        main(["list", kind])
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 80
+    assert not any("…" in line for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("kind", "registry", "keys"),
+    [
+        ("models", MODELS, {"summary", "abilities", "parameters"}),
+        ("tasks", TASKS, {"title", "cases", "profiles", "entrants", "recordings"}),
+        ("metrics", METRICS, {"title", "better", "of"}),
+        ("libraries", LIBRARIES, {"summary", "layout"}),
+    ],
+)
+def test_a_list_can_be_had_as_json(capsys, kind, registry, keys):
+    with pytest.raises(SystemExit):
+        main(["list", kind, "--json"])
+    entries = json.loads(capsys.readouterr().out)
+    assert [entry["name"] for entry in entries] == list(registry.names())
+    assert all(keys <= entry.keys() for entry in entries)
+    assert all(entry.get("title") or entry.get("summary") for entry in entries)
+
+
+def test_a_named_task_is_shown_with_its_cases_folds_and_entrants(cli):
+    assert cli("list", "tasks", "toy-synthesis") == 0
+    task = TASKS.get("toy-synthesis")
+    assert all(case.name in cli.printed for case in task.cases)
+    assert all(entrant.label in cli.printed for entrant in task.entrants)
+    assert "smoke: 1 case × 2 folds" in cli.printed
+    assert "missing-frames" not in cli.printed
+    assert cli("list", "tasks", "toy-synthesi") == 2
+    assert "did you mean toy-synthesis" in cli.printed
 
 
 def test_info_says_how_to_cite(cli):
