@@ -184,7 +184,7 @@ def _run(
             console.print("interrupted; everything finished is kept, and the same command resumes")
         return ExitCode.INTERRUPTED
     code, report = _ending(planned, records, config, console), store.path / "report.html"
-    found = bench.stamp(records, about)
+    found = bench.stamp(records, about, config.task_files)
     if found == drawn:
         console.print(f"nothing new; report: {report.resolve()}", soft_wrap=True)
         show_left_out(store.damaged, console)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.datasets import FrameByChannel, Mask, Recording
 from mocapbench.reports import Curve, Illustration, Panel
 
 __all__ = ["LongestGaps"]
@@ -42,25 +43,28 @@ class LongestGaps:
         means = {label: answer.predictions[0].mean for label, answer in solved.answers.items()}
         errors = {label: float(((m - truth)[hidden] ** 2).mean()) for label, m in means.items()}
         best = sorted(errors, key=errors.__getitem__)[: self.n_best]
+        shown = {"truth": truth, **{b: np.where(hidden, means[b], np.nan) for b in best}}
         most = np.argsort(-hidden.sum(axis=0), kind="stable")[: self.n_channels]
-        panels = []
-        for column in (int(column) for column in most if hidden[:, column].any()):
-            rows = _around(_longest_run(hidden[:, column]), len(hidden))
-            filled = {
-                label: np.where(hidden[:, column], means[label][:, column], np.nan)
-                for label in best
-            }
-            curves = tuple(
-                Curve(recording.times[rows], values[rows], label)
-                for label, values in {"truth": truth[:, column], **filled}.items()
-            )
-            unit = recording.units[column]
-            panels.append(Panel(recording.channels[column], "time, s", unit, curves))
-        caption = (
-            f"{recording.name}: the truth, and what the {len(best)} entrants with the least "
-            "squared error put where it is hidden: the longest gap of the channels with most of it."
+        panels = tuple(
+            _panel(recording, int(column), hidden, shown)
+            for column in most
+            if hidden[:, column].any()
         )
-        return (Illustration(solved.task, "Longest gaps", caption, tuple(panels)),)
+        caption = (
+            f"{recording.name}: the longest gap of the channels that lack most, with the truth and "
+            f"what the {len(best)} entrants with the least squared error put there."
+        )
+        return (Illustration(solved.task, "Longest gaps", caption, panels),)
+
+
+def _panel(
+    recording: Recording, column: int, hidden: Mask, shown: Mapping[str, FrameByChannel]
+) -> Panel:
+    rows = _around(_longest_run(hidden[:, column]), len(hidden))
+    curves = tuple(
+        Curve(recording.times[rows], values[rows, column], label) for label, values in shown.items()
+    )
+    return Panel(recording.channels[column], "time, s", recording.units[column], curves)
 
 
 def _longest_run(hidden: NDArray[np.bool_]) -> tuple[int, int]:

@@ -115,13 +115,13 @@ def _not_chosen(settings: Settings) -> tuple[str, ...]:
 
 
 def _page(settings: Settings, cases: tuple[Case, ...], hidden: Hidden) -> TaskPage:
-    columns = list(hidden.variants[0].columns)
+    columns, most = list(hidden.variants[0].columns), hidden.variants[-1].columns
     return TaskPage(
         title=settings.title,
         reference="a task file of your own",
         description=settings.description,
         metrics=settings.metrics,
         along=columns[0] if columns else None,
-        illustrated=tuple(case.name for case in cases),
+        illustrated=tuple(case.name for case in cases if case.columns.items() >= most.items()),
         figures=(LongestGaps(), *((GapError(),) if hidden.whole_frames else ())),
     )

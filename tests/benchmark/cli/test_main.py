@@ -218,7 +218,7 @@ def test_a_dry_run_writes_nothing(cli, tmp_path):
 
 @pytest.mark.parametrize(
     ("kind", "registry"),
-    [*zip(["models", "tasks", "metrics", "libraries"], REGISTRIES, strict=True)],
+    [*zip(["models", "tasks", "metrics", "libraries", "formats"], REGISTRIES, strict=True)],
 )
 def test_list_names_everything(cli, kind, registry):
     assert cli("list", kind) == 0
