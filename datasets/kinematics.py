@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from mocapbench.datasets.acclaim.skeleton import Skeleton
+from mocapbench.datasets.acclaim.skeleton import Segment, Skeleton
 from mocapbench.datasets.recording import Frames, Recording
 
 __all__ = ["FrameByJointBy3", "joint_positions", "joint_trajectories", "position_channels"]
@@ -44,14 +44,18 @@ def joint_positions(skeleton: Skeleton, recording: Recording) -> FrameByJointBy3
     """
     curves = _curves(skeleton, recording)
     root, *segments = skeleton.segments
-    turn, *turns = _local_rotations(skeleton, curves)
-    rotations = [turn]
-    ends = [np.column_stack([curves[f"{root.name}.{dof}"] for dof in ("tx", "ty", "tz")])]
-    for segment, parent, turn in zip(segments, skeleton.parents[1:], turns, strict=True):
-        rotations.append(rotations[parent] @ turn)
+    n_frames = len(recording.times)
+    translation = np.column_stack([curves[f"{root.name}.{dof}"] for dof in ("tx", "ty", "tz")])
+    ends = {root.name: translation}
+    rotations = {root.name: _rotation(root, curves)}
+    for segment in segments:
+        rotation = rotations[segment.parent] * _rotation(segment, curves)
         bone = segment.length * np.asarray(segment.direction)
-        ends.append(ends[parent] + rotations[-1] @ bone)
-    return np.stack(ends, axis=1) * skeleton.centimetres_per_unit
+        rotations[segment.name] = rotation
+        ends[segment.name] = ends[segment.parent] + rotation.apply(bone)
+    return np.stack(list(ends.values()), axis=1).reshape(n_frames, -1, 3) * (
+        skeleton.centimetres_per_unit
+    )
 
 
 def position_channels(skeleton: Skeleton) -> tuple[str, ...]:
@@ -108,22 +112,13 @@ def _curves(skeleton: Skeleton, recording: Recording) -> dict[str, Frames]:
     return rest | dict(zip(recording.channels, recording.values.T, strict=True))
 
 
-def _local_rotations(skeleton: Skeleton, curves: dict[str, Frames]) -> NDArray[np.float64]:
-    """Return C M C⁻¹ of every segment at every frame, (J, N, 3, 3)."""
+def _rotation(segment: Segment, curves: dict[str, Frames]) -> Rotation:
+    """Return C M C⁻¹ at every frame."""
     rest = np.zeros_like(curves["root.tx"])
-    orders = [segment.order.lower() for segment in skeleton.segments]
-    angles = np.array(
-        [
-            [curves.get(f"{segment.name}.r{axis}", rest) for axis in order]
-            for segment, order in zip(skeleton.segments, orders, strict=True)
-        ]
-    ).swapaxes(1, 2)
-    turns = np.empty((*angles.shape, 3))
-    for order in set(orders):
-        same = [index for index, other in enumerate(orders) if other == order]
-        # Lower case: about fixed axes, in the order of their names, as in the Acclaim format.
-        moved = Rotation.from_euler(order, angles[same].reshape(-1, 3), degrees=True)
-        turns[same] = moved.as_matrix().reshape(len(same), -1, 3, 3)
-    directions = [segment.axis for segment in skeleton.segments]
-    axes = Rotation.from_euler("xyz", directions, degrees=True).as_matrix()[:, None]
-    return np.asarray(axes @ turns @ axes.swapaxes(-1, -2))
+    angles = np.column_stack(
+        [curves.get(f"{segment.name}.r{axis.lower()}", rest) for axis in segment.order]
+    )
+    # Lower case: about fixed axes, in the order of their names, as in the Acclaim format.
+    moved = Rotation.from_euler(segment.order.lower(), angles, degrees=True)
+    axis = Rotation.from_euler("xyz", segment.axis, degrees=True)
+    return axis * moved * axis.inv()

@@ -50,10 +50,13 @@ def _illustrate(
     if not arrays:
         return ()
     case = task.case(records[0].address.case)
-    if not _as_they_were(case, records[0], archive):
-        return ()
     address = records[0].address._replace(case=case.problem_name)
-    problem = case.problem(Seeds(records[0].seed, address), archive)
+    try:
+        if not _as_they_were(case, records[0], archive):
+            return ()
+        problem = case.problem(Seeds(records[0].seed, address), archive)
+    except (RecordingUnavailable, FormatError):
+        return ()
     solved = Solved(
         task.name,
         problem,
@@ -70,10 +73,7 @@ def _illustrate(
 
 
 def _as_they_were(case: Case, record: Record, archive: Archive) -> bool:
-    """Return whether the recordings of a case are here, and those that the record is of."""
-    try:
-        digests = {uri: archive.digest(uri) for uri in case.recordings}
-    except (RecordingUnavailable, FormatError):
-        return False
+    """Return whether the recordings of a case are those that the record is of."""
+    digests = {uri: archive.digest(uri) for uri in case.recordings}
     kept = {uri: record.provenance.get(f"digest of {uri}", now) for uri, now in digests.items()}
     return kept == digests
