@@ -17,17 +17,17 @@ from mocapbench.benchmark.task_files.hiding import (
 from mocapbench.benchmark.task_files.selection import Span
 from mocapbench.benchmark.task_files.values import (
     is_count,
+    is_path,
     is_positive,
-    is_text,
     read_channels,
     read_spans,
 )
 
-__all__ = ["Hidden", "Variant", "read_hidden"]
+__all__ = ["HIDE_KEYS", "RUN_KEYS", "Hidden", "Variant", "read_hidden"]
 
 _WAYS = ("frames", "fraction", "runs", "pattern-of")
-_KEYS = (*_WAYS, "channels")
-_RUN_KEYS = ("seconds", "count", "together")
+HIDE_KEYS = (*_WAYS, "channels")
+RUN_KEYS = ("seconds", "count", "together")
 _TOGETHER = ("all", "joint", "channel")
 
 
@@ -92,7 +92,7 @@ def read_hidden(document: Document, address: Callable[[str], str]) -> Hidden:
     if not isinstance(document.get("hide"), Mapping) or not document.get("hide"):
         advice = "write for example [hide] and below it fraction = 0.2"
         raise document.error("hide", "a table of what is hidden", "none", advice)
-    document.require_known("hide", _KEYS)
+    document.require_known("hide", HIDE_KEYS)
     channels = read_channels(document, "hide.channels")
     ways = [way for way in _WAYS if way in document.get("hide")]
     match ways:
@@ -106,7 +106,9 @@ def read_hidden(document: Document, address: Callable[[str], str]) -> Hidden:
         case ["runs"]:
             return _runs(document, channels)
         case ["pattern-of"]:
-            path = document.read("hide.pattern-of", "", is_text, "a file", '"with-gaps.csv"')
+            path = document.read(
+                "hide.pattern-of", "", is_path, "a file of the folder", '"gaps.csv"'
+            )
             return Hidden((Variant(SameGaps(address(path), channels)),), pattern=path)
         case _:
             advice = f"remove all but one, or write a task file for each; got {ways}"
@@ -126,7 +128,7 @@ def _runs(document: Document, channels: tuple[str, ...]) -> Hidden:
         advice = "write for example runs = { seconds = [0.1, 0.5], count = 3 }"
         got = repr(document.get("hide.runs"))
         raise document.error("hide.runs", "a table of seconds and count", got, advice)
-    document.require_known("hide.runs", _RUN_KEYS)
+    document.require_known("hide.runs", RUN_KEYS)
     if document.get("hide.runs.seconds") is None:
         advice = "write for example seconds = [0.1, 0.5]"
         raise document.error("hide.runs.seconds", "lengths of gaps", "none", advice)

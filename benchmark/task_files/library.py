@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path, PurePosixPath
 
 from mocapbench.benchmark.formats import format_for
-from mocapbench.datasets import Library, Recording, Skeleton, SkeletonUnavailable
+from mocapbench.datasets import FormatError, Library, Recording, Skeleton, SkeletonUnavailable
 from mocapbench.datasets.digests import content_digest
 
 __all__ = ["SCHEME", "FolderLibrary", "address_of"]
@@ -81,11 +81,12 @@ def address_of(path: str, rate: float | None) -> str:
 
     Raises
     ------
-    ValueError
+    FormatError
         If the path cannot be part of an address.
     """
     if ":" in path or _RATE in path:
-        raise ValueError(f"a file without ':' and '{_RATE}' in its name, got {path!r}")
+        expected = f"a file without ':' and '{_RATE}' in its path"
+        raise FormatError(path, expected, repr(path), "rename it")
     return f"{SCHEME}:{path}" + ("" if rate is None else f"{_RATE}{rate:g}")
 
 

@@ -22,10 +22,10 @@ from mocapbench.benchmark.task_files.values import (
 )
 from mocapbench.metrics import Imputation
 
-__all__ = ["NONE", "OTHERS", "Settings", "read_settings"]
+__all__ = ["KEYS", "NONE", "OTHERS", "Settings", "read_settings"]
 
 NONE, OTHERS = "none", "others"
-_KEYS = (
+KEYS = (
     *("name", "title", "description", "files", "training", "rate", "frames", "channels"),
     *("folds", "models", "metrics", "hide"),
 )
@@ -75,7 +75,7 @@ def read_settings(document: Document) -> Settings:
     TaskFileError
         At the first key that is not as expected.
     """
-    document.require_known("", _KEYS)
+    document.require_known("", KEYS)
     name = _name(document)
     (frames,) = _one_span(document)
     rate = document.read("rate", None, is_positive, "frames per second", "120.0")

@@ -12,6 +12,7 @@ from mocapbench.benchmark.task_files.selection import Span
 
 __all__ = [
     "is_count",
+    "is_path",
     "is_positive",
     "is_text",
     "read_channels",
@@ -26,6 +27,14 @@ _SPANS = 'a text such as "120:180", with frames counted from 0 and the last one 
 def is_text(value: Any) -> bool:
     """Return whether a value is a text that says something."""
     return isinstance(value, str) and bool(value.strip())
+
+
+def is_path(value: Any) -> bool:
+    """Return whether a value is a path or pattern that stays below a folder, without a colon."""
+    if not is_text(value) or ":" in value:
+        return False
+    path = PurePosixPath(value)
+    return not path.is_absolute() and ".." not in path.parts
 
 
 def is_count(value: Any) -> bool:
@@ -50,7 +59,7 @@ def read_patterns(document: Document, key: str, default: list[str]) -> tuple[str
         key,
         default,
         lambda value: _are_patterns(_listed(value)),
-        "names or patterns of files in the folder of recordings, without .. and a leading /",
+        "names or patterns of files in the folder of recordings, without .. and : and a leading /",
         '["*.csv"]',
     )
     return tuple(_listed(patterns))
@@ -89,10 +98,7 @@ def _are_texts(value: Any) -> bool:
 
 
 def _are_patterns(value: Any) -> bool:
-    if not _are_texts(value):
-        return False
-    paths = [PurePosixPath(pattern) for pattern in value]
-    return not any(path.is_absolute() or ".." in path.parts for path in paths)
+    return _are_texts(value) and all(map(is_path, value))
 
 
 def _are_expressions(value: Any) -> bool:

@@ -62,10 +62,6 @@ def own(cli, recordings, tmp_path):
     return run
 
 
-def scores(found):
-    return {address: record["scores"] for address, record in found.items()}
-
-
 def test_every_way_of_hiding_runs(own, task_file, records, tmp_path):
     """With other recordings to learn from and without, in one run of several task files."""
     others = {f"{name}-others": task_file(hide, f"{name}-others") for name, hide in WAYS.items()}
@@ -75,7 +71,7 @@ def test_every_way_of_hiding_runs(own, task_file, records, tmp_path):
         if name != "channels"  # of which nothing could be learnt
     }
     every = {**others, **alone}
-    assert own(*every.values(), more=["--models", "linear", "--cases", "walk 01,walk 02"]) == 0
+    assert own(*every.values(), more=["--models", "linear", "--cases", "walk 01*,walk 02*"]) == 0
     found = records(tmp_path / "run")
     assert {task for task, *_ in found} == set(every)
     assert {case for _, case, *_ in found} >= {"walk 01", "walk 01 0.1 s", "walk 02 0.3 of entries"}
@@ -84,17 +80,6 @@ def test_every_way_of_hiding_runs(own, task_file, records, tmp_path):
         digests = [name for name in record["provenance"] if name.startswith("digest of files:")]
         assert len(digests) == (3 if task in others else 1) + ("pattern" in task)
         assert record["scores"]["mse"] >= 0
-
-
-def test_what_models_learn_from_matters_only_to_those_that_learn(own, task_file, records, tmp_path):
-    hide = 'frames = "30:50"'
-    for training in ("others", "none"):
-        path = task_file(hide, above=f'training = "{training}"')
-        assert own(path, out=tmp_path / training) == 0
-    others, none = (scores(records(tmp_path / name)) for name in ("others", "none"))
-    for address in others:
-        same = others[address]["mse"] == none[address]["mse"]
-        assert same == (address[2] == "linear")
 
 
 def test_a_run_resumes_and_only_what_a_change_concerns_runs_again(cli, own, task_file, tmp_path):
@@ -181,25 +166,6 @@ def test_a_damaged_task_in_a_plan_is_said_to_be_that(cli, own, task_file, tmp_pa
     plan.write_text(json.dumps({**document, "task_files": [{"file": "my.toml"}]}))
     assert cli("report", "--out", tmp_path / "run") == 2
     assert "holds a damaged task file; run `mocapbench run` with --task-file" in cli.printed
-
-
-def test_gaps_of_the_files_themselves_are_not_scored(own, records, tmp_path):
-    """A recording with gaps scores as the one without, by what does not look across them."""
-    whole, gappy = tmp_path / "whole", tmp_path / "gappy"
-    walk = GAIT.recording("01_01").select(LEGS).frames(np.arange(80))
-    hidden = np.zeros(walk.values.shape, dtype=bool)
-    hidden[60:70, 2] = True
-    for folder, recording in ((whole, walk), (gappy, walk.hide(hidden))):
-        folder.mkdir()
-        write_csv(folder / "walk.csv", recording)
-    path = tmp_path / "mine.toml"
-    path.write_text(
-        'files = "walk.csv"\ntraining = "none"\nmodels = ["linear"]\n[hide]\nframes = "20:30"\n'
-    )
-    for folder in (whole, gappy):
-        assert own(path, folder=folder, out=folder / "run") == 0
-    one, two = (scores(records(folder / "run")) for folder in (whole, gappy))
-    assert {a: s["mse"] for a, s in one.items()} == {a: s["mse"] for a, s in two.items()}
 
 
 def test_other_formats_run_and_skeletons_give_centimetres(own, records, tmp_path):

@@ -1,6 +1,7 @@
 """Every message names the file, the line and the key, and says what to write."""
 
 import re
+from pathlib import Path
 
 import pytest
 from own_files import write_csv
@@ -8,6 +9,8 @@ from own_files import write_csv
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.task_files.checking import open_task_file, open_task_files
 from mocapbench.benchmark.task_files.document import TaskFileError
+from mocapbench.benchmark.task_files.hidden_settings import HIDE_KEYS, RUN_KEYS
+from mocapbench.benchmark.task_files.settings import KEYS
 
 GOOD = 'files = ["*.csv"]\nfolds = 2\n[hide]\nruns = { seconds = 0.1, count = 2 }\n'
 
@@ -22,11 +25,11 @@ WRONG = [
     ),
     (
         'files = "../*.csv"\n[hide]\nfraction = 0.2',
-        r"line 1, key files: .*without .. and a leading /",
+        r"line 1, key files: .*without .. and : and a leading /",
     ),
     (
         'files = "/a.csv"\n[hide]\nfraction = 0.2',
-        r"line 1, key files: .*without .. and a leading /",
+        r"line 1, key files: .*without .. and : and a leading /",
     ),
     (
         'files = "*.c3d"\n[hide]\nfraction = 0.2',
@@ -99,6 +102,10 @@ WRONG = [
     (
         'files = "*.csv"\n[hide]\npattern-of = "c.csv"',
         r"key hide.pattern-of: .*there, got 'c.csv'",
+    ),
+    (
+        'files = "*.csv"\n[hide]\npattern-of = "a:b.csv"',
+        r"line 3, key hide.pattern-of: expected a file of the folder, got 'a:b.csv'; write",
     ),
     (
         'files = "*.csv"\n[hide]\npattern-of = "a.csv"',
@@ -261,3 +268,26 @@ def test_a_task_file_in_another_encoding_is_refused(folder, tmp_path):
 def test_a_folder_of_recordings_that_is_none_is_refused(tmp_path):
     with pytest.raises(UsageError, match="--recordings: expected a folder"):
         open_task_file(tmp_path / "my.toml", tmp_path / "nowhere")
+
+
+def test_a_name_that_cannot_be_part_of_an_address_is_refused(check, folder):
+    write_csv(folder / "c:d.csv")
+    with pytest.raises(
+        TaskFileError, match=r"line 1, key files: expected for c:d.csv .* rename it"
+    ):
+        check(GOOD)
+
+
+PAGE = (Path(__file__).parents[3] / "docs" / "own-recordings.md").read_text(encoding="utf-8")
+
+
+def test_the_examples_of_the_documentation_are_true(check, folder):
+    (text,) = re.findall(r"^```toml\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
+    (message,) = re.findall(r"^```\n(my.toml, .*)\n```", PAGE, re.MULTILINE)
+    for name in ("a", "b"):
+        write_csv(folder / f"{name}.csv", n_frames=400, channels=("lhip.x", "lhip.y", "rhip.x"))
+    assert check(text).complete
+    with pytest.raises(TaskFileError, match=re.escape(message)):
+        check(text.replace("[0.1, 0.5, 1.0]", '"long"'))
+    explained = set(re.findall(r"`([a-z-]+)(?: = [^`]*)?`", PAGE))
+    assert {*KEYS, *HIDE_KEYS, *RUN_KEYS} <= explained
