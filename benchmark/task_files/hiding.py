@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.task_files.selection import Span, matching_channels
@@ -243,7 +242,5 @@ def _columns(patterns: Sequence[str], recording: Recording) -> list[int]:
 def _starts(free: Mask, length: int) -> NDArray[np.intp]:
     """Return where ``length`` whole frames in a row are free (N, K), and one on either side."""
     width = length + 2
-    if len(free) < width:
-        return np.empty(0, dtype=np.intp)
-    whole: NDArray[np.bool_] = np.asarray(free.all(axis=1))
-    return np.flatnonzero(sliding_window_view(whole, width).all(axis=1)) + 1
+    blocked = np.concatenate([[0], np.cumsum(~free.all(axis=1))])
+    return np.flatnonzero(blocked[width:] == blocked[:-width]) + 1
