@@ -154,21 +154,24 @@ class RandomGaps:
         """Return a draw of the fold; see `Hiding`."""
         groups = self._groups(recording)
         length = max(1, round(self.seconds * frame_rate(recording)))
-        hidden = np.zeros(recording.values.shape, dtype=bool)
+        free = recording.visible.copy()
+        starts = [_starts(free[:, group], length) for group in groups]
         for _ in range(self.count):
-            free = recording.visible & ~hidden
-            starts = [_starts(free[:, group], length) for group in groups]
-            open_to = [index for index, found in enumerate(starts) if len(found)]
-            if not open_to:
-                raise HidingError(
-                    f"{self.count} visible stretches of {self.seconds:g} s, {length} frames each, "
-                    "with a visible frame on either side",
-                    f"{len(recording.times)} frames without room for them",
-                )
-            group = int(place.rng.choice(open_to))
-            start = int(place.rng.choice(starts[group]))
-            hidden[start : start + length, groups[group]] = True
-        return hidden
+            with_room = [index for index, found in enumerate(starts) if len(found)]
+            if not with_room:
+                raise self._no_room(length, recording)
+            drawn = int(place.rng.choice(with_room))
+            start = int(place.rng.choice(starts[drawn]))
+            free[start : start + length, groups[drawn]] = False
+            starts[drawn] = _starts(free[:, groups[drawn]], length)
+        return recording.visible & ~free
+
+    def _no_room(self, length: int, recording: Recording) -> HidingError:
+        return HidingError(
+            f"{self.count} visible stretches of {self.seconds:g} s, {length} frames each, "
+            "with a visible frame on either side",
+            f"{len(recording.times)} frames without room for them",
+        )
 
     def _groups(self, recording: Recording) -> list[list[int]]:
         """Return the columns that are hidden together."""
