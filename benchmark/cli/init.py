@@ -28,7 +28,10 @@ def init(
     ] = None,
     plugin: Plugins = None,
 ) -> None:
-    """Write a task file, with comments, that runs on a folder of your own recordings."""
+    """Write a task file for recordings of your own.
+
+    It has comments and runs as it stands; nothing is overwritten.
+    """
     plugins, console = load_plugins(plugin), LiteralConsole()
     if task_file.exists() or task_file.suffix != ".toml":
         raise UsageError(
