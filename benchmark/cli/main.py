@@ -28,7 +28,7 @@ COMMANDS = {
     "compare": "Compare two runs, or two models of one run, fold by fold.",
     "data": "Look for, fetch and verify recordings.",
     "export": "Write the scores and jobs of a run directory as tables.",
-    "list": "List tasks, models, metrics, libraries of recordings or formats of files.",
+    "list": "List tasks, models, metrics, libraries or formats of files.",
     "info": "Show versions, the machine, and how to cite.",
 }
 
