@@ -1,20 +1,28 @@
 from .aligned_window import AlignedWindow
 from .control import Control
 from .cpm import CPM
-from .cubic_spline import CubicSplineImputer
 from .cyclic_alignment import CyclicAlignment
 from .gp_independent import GPIndependent
 from .gpdm.model import GPDM
 from .gplvm import GPLVM
 from .hgp import HGP
+from .interpolation import (
+    CubicSplineImputer,
+    HoldImputer,
+    LinearImputer,
+    MakimaImputer,
+    PchipImputer,
+)
 from .k_cpm import KCPM
 from .k_means import KMeans
 from .knn import KNN
 from .lmc_independent import LMCIndependent
+from .low_rank import LowRank
 from .moa import MOA
 from .mohgp import MOHGP
 from .nn import NN
 from .oracle import Oracle
+from .pca_regression import PCARegression
 from .pose_kriging import PoseKriging
 from .pose_viterbi import PoseViterbi
 from .protocols import (
@@ -29,6 +37,7 @@ from .protocols import (
     Imputer,
     Inductive,
     Informed,
+    Interpolator,
     Layered,
     Misinformed,
     Model,
@@ -64,15 +73,22 @@ __all__ = [
     "FrameByStyle",
     "FrameImputer",
     "GPIndependent",
+    "HoldImputer",
     "Imputer",
     "Inductive",
     "Informed",
+    "Interpolator",
     "KMeans",
     "LMCIndependent",
     "Layered",
+    "LinearImputer",
+    "LowRank",
+    "MakimaImputer",
     "Misinformed",
     "Model",
     "Oracle",
+    "PCARegression",
+    "PchipImputer",
     "PoseKriging",
     "PoseViterbi",
     "Prediction",

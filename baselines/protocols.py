@@ -7,6 +7,7 @@ which a model inherits to declare that it has the ability:
   variance, of :math:`p(y_{\text{hidden}} \mid y_{\text{visible}})`;
 * `Imputer` fills any set of hidden entries, and is therefore a `FrameImputer`;
 * `Inductive` marks an imputer that also fills recordings that were not given to `fit`;
+* `Interpolator` marks an imputer that fills each channel from its own course alone;
 * `Synthesiser` draws new recordings from :math:`p(y_{\text{new}} \mid y_{\text{visible}})`;
 * `Clusterer` groups the recordings given to `fit`;
 * `Aligner` maps the frames of recordings of a cyclic motion onto the states of one cycle;
@@ -48,6 +49,7 @@ __all__ = [
     "Imputer",
     "Inductive",
     "Informed",
+    "Interpolator",
     "Layered",
     "Misinformed",
     "Model",
@@ -201,6 +203,14 @@ class Inductive(Model):
     """Marks an imputer whose `impute` also takes recordings that were not given to `fit`.
 
     It adds no method. See `Imputer` for an example.
+    """
+
+
+class Interpolator(Imputer):
+    """Marks an imputer that fills a channel from its visible entries in the same recording alone.
+
+    Only where a channel has none in the recording may others help. Reports name the best model
+    that is marked so beside every winner. It adds no method. See `Imputer` for an example.
     """
 
 

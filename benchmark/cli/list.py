@@ -22,6 +22,7 @@ _ABILITIES = {
     "Imputer": "imputes any mask",
     "FrameImputer": "imputes whole frames",
     "Inductive": "new recordings too",
+    "Interpolator": "interpolates each channel",
     "Synthesiser": "synthesises",
     "Clusterer": "clusters",
     "Aligner": "aligns",

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from mocapbench.benchmark.registry import METRICS, TASKS
+from mocapbench.baselines import Interpolator
+from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.results.frames import job_table, score_table
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.base import Task
@@ -65,8 +66,8 @@ def _budget(task: Task, profile: str) -> str:
 
 
 def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
-    of_task = [record.address for record in records if record.address.task == task.name]
-    for name in _unique(address.case for address in of_task):
+    of_task = [record for record in records if record.address.task == task.name]
+    for name in _unique(record.address.case for record in of_task):
         task.case(name)  # says so if another version of the task had it
     return TaskLayout(
         name=task.name,
@@ -81,10 +82,16 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
             )
             for case in task.cases
         ),
-        labels=_unique(address.label for address in of_task),
+        labels=_unique(record.address.label for record in of_task),
         independent_folds=task.independent_folds,
         budget=budget,
+        interpolations=_unique(r.address.label for r in of_task if _interpolates(r.model)),
     )
+
+
+def _interpolates(model: str) -> bool:
+    """Return whether a registered model interpolates; one that is gone does not tell."""
+    return model in MODELS.names() and issubclass(MODELS.get(model), Interpolator)
 
 
 def _metric_info(name: str) -> MetricInfo:

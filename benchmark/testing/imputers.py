@@ -13,6 +13,7 @@ from mocapbench.datasets import Recording
 
 __all__ = [
     "fills_any_mask",
+    "fills_channels_apart",
     "fills_new_recordings",
     "fills_whole_frames",
     "ignores_the_order_of_recordings",
@@ -33,6 +34,18 @@ def fills_any_mask(subject: Subject) -> None:
     """Check that hidden entries are filled wherever they are."""
     recordings = problem(SCATTERED)
     _filled(subject.fitted(recordings), list(recordings))
+
+
+def fills_channels_apart(subject: Subject) -> None:
+    """Check that a channel is filled from its own entries in the same recording alone."""
+    *_, last = problem(SCATTERED)
+    together = _filled(subject.fitted(problem(SCATTERED)), [last])[0].mean
+    for d, channel in enumerate(last.channels):
+        alone = last.select([channel])
+        mean = _filled(subject.fitted([alone]), [alone])[0].mean
+        expected = "each channel filled as if it were alone"
+        advice = "use its entries in this recording, or do not inherit Interpolator"
+        require_equal(mean, together[:, [d]], expected, advice)
 
 
 def repeats_itself(subject: Subject) -> None:

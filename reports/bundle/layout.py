@@ -72,6 +72,8 @@ class TaskLayout:
         The label of the negative control: samples of an unrelated process. It is not ranked.
     replay : str
         The label that returns the training recordings as its samples. It is not ranked.
+    interpolations : tuple of str
+        The labels that fill each channel from its own course alone. The headlines name the best.
     """
 
     name: str
@@ -83,6 +85,7 @@ class TaskLayout:
     oracle: str = "oracle"
     control: str = "control"
     replay: str = "replay"
+    interpolations: tuple[str, ...] = ()
 
     @property
     def ranked(self) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from mocapbench.reports.analysis.interpolation import best_interpolation
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.wins import mean_over_cases
 from mocapbench.reports.bundle.layout import CaseLayout
@@ -15,7 +16,10 @@ __all__ = ["lead_headlines"]
 
 
 def lead_headlines(results: TaskResults, metric: str) -> list[Headline]:
-    """Name the entrants with the best mean, in which cases and by how much, most cases first."""
+    """Name the entrants with the best mean, in which cases and by how much, most cases first.
+
+    The best interpolation over the same cases stands beside each, where one takes part.
+    """
     cases = results.representative_cases(metric)
     leaders = Counter(results.ranking(case.name, metric)[0] for case in cases)
     return [
@@ -33,4 +37,17 @@ def _lead(results: TaskResults, metric: str, label: str, cases: Sequence[CaseLay
     second = mean_over_cases(results, metric, led, [label for (label,) in seconds])
     mean, next_best = same_places(first, second)
     lead = f"is best in {where} by {title}: {mean} on average, next best {next_best}."
-    return f"{lead} {lead_note(results, metric, label, [case.name for case in led])}"
+    beside = _beside(results, metric, label, led)
+    note = lead_note(results, metric, label, [case.name for case in led])
+    return " ".join(filter(None, (lead, beside, note)))
+
+
+def _beside(results: TaskResults, metric: str, label: str, led: Sequence[CaseLayout]) -> str:
+    """Return a sentence that names the best interpolation, empty where none takes part."""
+    best = best_interpolation(results, metric, led, beside=label)
+    if best is None:
+        return ""
+    if best == label:
+        return "It is an interpolation itself."
+    (mean,) = same_places(mean_over_cases(results, metric, led, [best] * len(led)))
+    return f"Best interpolation: {best}, {mean}."

@@ -1,4 +1,4 @@
-"""Laws that every model without learned parameters keeps."""
+"""Laws that every simple model keeps."""
 
 import numpy as np
 import pytest
@@ -7,19 +7,33 @@ from sklearn.exceptions import NotFittedError
 
 from mocapbench.baselines import Imputer, Inductive, Model
 from mocapbench.baselines.aligned_window import AlignedWindow
-from mocapbench.baselines.cubic_spline import CubicSplineImputer
+from mocapbench.baselines.interpolation import (
+    CubicSplineImputer,
+    HoldImputer,
+    LinearImputer,
+    MakimaImputer,
+    PchipImputer,
+)
 from mocapbench.baselines.knn import KNN
+from mocapbench.baselines.low_rank import LowRank
 from mocapbench.baselines.nn import NN
 from mocapbench.baselines.oracle import Oracle
+from mocapbench.baselines.pca_regression import PCARegression
 from mocapbench.baselines.trivial import Trivial
 from mocapbench.datasets import ToyProcess
 
 TIMES = np.linspace(0.0, 2 * np.pi, 25)
 MODELS = (
     Trivial(),
+    HoldImputer(),
+    LinearImputer(),
+    PchipImputer(),
+    MakimaImputer(),
     CubicSplineImputer(),
     KNN(n_neighbors=4),
     NN(),
+    PCARegression(),
+    LowRank(),
     AlignedWindow(n_windows=3),
     Oracle(),
 )

@@ -8,7 +8,15 @@ import warnings
 
 import numpy as np
 
-from mocapbench.baselines import Aligner, Blender, Imputer, Inductive, Prediction, Synthesiser
+from mocapbench.baselines import (
+    Aligner,
+    Blender,
+    Imputer,
+    Inductive,
+    Interpolator,
+    Prediction,
+    Synthesiser,
+)
 
 
 class _Mean(Imputer):
@@ -241,6 +249,10 @@ class Stranger(_Mean, Inductive):
         return super().impute(recordings)
 
 
+class MixesChannels(_Mean, Interpolator):
+    pass
+
+
 class _Sampler(_Mean, Synthesiser):
     """Samples noise."""
 
@@ -330,6 +342,7 @@ NONCONFORMING = {
     Overwrites: "visible entries copied into the mean",
     VariesVisible: "expected no variance at visible entries",
     FramesOnly: "hidden entries are filled wherever they are, got NotImplementedError",
+    MixesChannels: "each channel filled as if it were alone",
     Stranger: "a recording that fit has not seen is filled.* got ValueError: never seen",
     Counts: "expected a ValueError that names child-4, which fit has not seen, got list",
     Transposed: r"expected samples of shape \(3, 20, 2\), got \(3, 2, 20\)",

@@ -62,6 +62,8 @@ PAGE = TaskPage(
         "window has Markov chains of its own.",
         "The constants of pose-kriging are those with the least error when each training walker is "
         "left out in turn.",
+        "pca-regression and low-rank predict channels from others of the same frame and learn nothing "
+        "over time: on whole hidden frames they give the recording’s own mean of each channel.",
         "Four of the fifty channels are constant in training. The GPDM family leaves them out, "
         "which hardly changes errors and lowers SNR(β).",
     ),

@@ -34,6 +34,17 @@ def test_entrants_are_in_the_order_of_the_records(made):
     assert made.layouts[0].labels == ("nn", "knn")
 
 
+def test_interpolations_are_known_by_the_nature_of_their_model():
+    records = [
+        _record("nn", {}),
+        _record("hold", {}),
+        replace(_record("my-spline", {}), model="cubic-spline"),
+        replace(_record("linear", {}), model="no longer registered"),
+    ]
+    (layout,) = bundle(records, {"profile": "smoke"}).layouts
+    assert layout.interpolations == ("hold", "my-spline")
+
+
 def test_the_budget_of_the_profile_is_written_out(made):
     assert made.layouts[0].budget == "max_iter=3, n_restarts=1, n_styles=2"
     assert bundle([_record("nn", {})], {"profile": "paper"}).layouts[0].budget == ""

@@ -104,6 +104,42 @@ def test_the_papers_models_do_not_beat_each_other(small):
     assert wins(results_of(small(values, published_models=PUBLISHED)), "mse") == []
 
 
+WITH_INTERPOLATION = {
+    "observed 40": {"mohgp-1": [0.2, 0.4], "hold": [0.5, 0.7], "makima": [0.4, 0.6]},
+    "observed 20": {"mohgp-1": [0.4, 0.4], "hold": [0.6, 0.6], "makima": [0.9, 0.9]},
+    "observed 10": {"mohgp-1": [0.9, 0.9], "hold": [0.9, 0.9], "makima": [0.8, 0.8]},
+}
+
+
+def leads_with_interpolation(small, values, **options):
+    results = results_of(small(values, interpolations=("hold", "makima"), **options))
+    return {found.subject: found.text for found in lead_headlines(results, "mse")}
+
+
+def test_the_best_interpolation_is_named_beside_every_winner(small):
+    """Over the cases that the winner leads: hold has 0.60 and 0.60 there, makima 0.50 and 0.90."""
+    texts = leads_with_interpolation(small, WITH_INTERPOLATION)
+    assert "next best 0.55. Best interpolation: hold, 0.60. " in texts["mohgp-1"]
+    assert "next best 0.90. It is an interpolation itself. " in texts["makima"]
+
+
+def test_an_interpolation_that_lacks_a_fold_is_not_the_best(small):
+    values = {"row": {"mohgp-1": [0.1, 0.2], "hold": [0.6, 0.8], "makima": [0.3, np.nan]}}
+    assert "Best interpolation: hold, 0.70." in leads_with_interpolation(small, values)["mohgp-1"]
+
+
+def test_the_best_interpolation_follows_the_metrics_direction(small):
+    values = {"row": {"mohgp-1": [0.5], "hold": [0.2], "makima": [0.7]}}
+    bundle = small(values, metric="coverage_50", interpolations=("hold", "makima"))
+    (found,) = lead_headlines(results_of(bundle), "coverage_50")
+    assert "Best interpolation: makima, 0.70." in found.text
+
+
+def test_without_interpolation_the_headline_names_none(small):
+    values = {"row": {"mohgp-1": [0.1], "knn": [0.6]}}
+    assert "nterpolation" not in leads_with_interpolation(small, values)["mohgp-1"]
+
+
 def test_the_oracle_neither_leads_nor_beats(small):
     values = {"row": {"mohgp-1": [0.4], "oracle": [0.1], "gp-independent": [0.9]}}
     results = results_of(small(values, published_models=PUBLISHED))

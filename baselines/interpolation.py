@@ -1,0 +1,274 @@
+"""Interpolation over time, channel by channel: what practitioners fill gaps with first."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.common.recordings import check_channels, check_recordings, visible_moments
+from mocapbench.baselines.protocols import Inductive, Interpolator, Prediction
+from mocapbench.datasets import FrameByChannel, Frames, Recording
+
+__all__ = [
+    "CubicSplineImputer",
+    "HoldImputer",
+    "LinearImputer",
+    "MakimaImputer",
+    "PchipImputer",
+]
+
+
+class _Interpolation(Interpolator, Inductive):
+    """What all interpolations share: each channel of each recording is filled by itself.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    mean_ : ndarray of shape (D,)
+        Mean of each channel's visible entries; NaN if it has none.
+    """
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Learn the channels' means.
+
+        Raises
+        ------
+        ValueError
+            If there is no recording, channels differ, or a name repeats.
+        """
+        checked = check_recordings(recordings)
+        self.channels_ = checked[0].channels
+        self.mean_, _ = visible_moments(checked)
+        return self
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the curves at the hidden entries.
+
+        Raises
+        ------
+        ValueError
+            If channels differ, or a channel has no visible entry in a recording and none in those
+            given to `fit`.
+        """
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_)
+        return [Prediction.around(recording, self._curves(recording)) for recording in recordings]
+
+    def _curves(self, recording: Recording) -> FrameByChannel:
+        means = zip(recording.values.T, self.mean_, strict=True)
+        curves = np.column_stack([self._curve(recording.times, *channel) for channel in means])
+        if np.isnan(curves).any():
+            channels = [recording.channels[d] for d in np.flatnonzero(np.isnan(curves).any(axis=0))]
+            raise ValueError(
+                f"recording {recording.name!r}: expected a visible entry of every channel here or "
+                f"in the recordings given to fit, got none of {channels}; leave these channels out"
+            )
+        return curves
+
+    def _curve(self, times: Frames, values: Frames, mean: float) -> Frames:
+        """Return the curve of one channel (N,) at all times; ``mean`` where nothing is visible."""
+        seen = ~np.isnan(values)
+        if seen.sum() < 2:
+            return np.full(len(times), values[seen][0] if seen.any() else mean)
+        knots = times[seen]
+        return self._between(knots, values[seen], np.clip(times, knots[0], knots[-1]))
+
+    @staticmethod
+    @abstractmethod
+    def _between(knots: Frames, values: Frames, times: Frames) -> Frames:
+        """Return the curve through ``values`` at two or more ``knots``, at ``times`` among them."""
+
+
+class HoldImputer(_Interpolation):
+    """Hold each channel's last visible value until the next (last observation carried forward).
+
+    Before the first visible frame its value is held backwards. A channel without a visible frame
+    takes its mean over the recordings given to `fit`. There is no predictive distribution.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    mean_ : ndarray of shape (D,)
+        Mean of each channel's visible entries; NaN if it has none.
+
+    References
+    ----------
+    R. J. A. Little and D. B. Rubin (2019), Statistical Analysis with Missing Data, third edition,
+    Wiley, chapter 4.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import HoldImputer
+    >>> from mocapbench.datasets import Recording
+    >>> values = [[np.nan], [1.0], [np.nan], [5.0]]
+    >>> recording = Recording("short", np.arange(4.0), values, ("x",), ("cm",))
+    >>> HoldImputer().fit([recording]).impute([recording])[0].mean[:, 0]
+    array([1., 1., 1., 5.])
+    """
+
+    @staticmethod
+    def _between(knots: Frames, values: Frames, times: Frames) -> Frames:
+        return values[np.searchsorted(knots, times, side="right") - 1]
+
+
+class LinearImputer(_Interpolation):
+    """Interpolate each channel linearly over time.
+
+    Before the first and after the last visible frame the nearest visible value is held. A channel
+    without a visible frame takes its mean over the recordings given to `fit`. There is no
+    predictive distribution.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    mean_ : ndarray of shape (D,)
+        Mean of each channel's visible entries; NaN if it has none.
+
+    References
+    ----------
+    C. de Boor (2001), A Practical Guide to Splines, revised edition, Springer, chapter III.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import LinearImputer
+    >>> from mocapbench.datasets import Recording
+    >>> values = [[1.0], [np.nan], [5.0], [np.nan]]
+    >>> recording = Recording("short", np.arange(4.0), values, ("x",), ("cm",))
+    >>> LinearImputer().fit([recording]).impute([recording])[0].mean[:, 0]
+    array([1., 3., 5., 5.])
+    """
+
+    @staticmethod
+    def _between(knots: Frames, values: Frames, times: Frames) -> Frames:
+        return np.asarray(np.interp(times, knots, values))
+
+
+class PchipImputer(_Interpolation):
+    """Interpolate each channel with a piecewise cubic that never overshoots.
+
+    The curve is monotone wherever the visible values are (PCHIP); through two visible frames it is
+    a line. Before the first and after the last visible frame the nearest visible value is held. A
+    channel without a visible frame takes its mean over the recordings given to `fit`. There is no
+    predictive distribution.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    mean_ : ndarray of shape (D,)
+        Mean of each channel's visible entries; NaN if it has none.
+
+    References
+    ----------
+    F. N. Fritsch and J. Butland (1984), A Method for Constructing Local Monotone Piecewise Cubic
+    Interpolants, SIAM Journal on Scientific and Statistical Computing 5(2): the slopes of
+    `scipy.interpolate.PchipInterpolator`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import PchipImputer
+    >>> from mocapbench.datasets import Recording
+    >>> values = [[0.0], [0.0], [np.nan], [1.0], [1.0]]
+    >>> recording = Recording("step", np.arange(5.0), values, ("x",), ("cm",))
+    >>> PchipImputer().fit([recording]).impute([recording])[0].mean[:, 0]
+    array([0. , 0. , 0.5, 1. , 1. ])
+    """
+
+    @staticmethod
+    def _between(knots: Frames, values: Frames, times: Frames) -> Frames:
+        return np.asarray(PchipInterpolator(knots, values)(times))
+
+
+class MakimaImputer(_Interpolation):
+    """Interpolate each channel with a modified Akima piecewise cubic (makima).
+
+    The slope at a visible frame is a weighted mean of those beside it, in which the flatter side
+    counts more: the curve overshoots less than a cubic spline and bends more than PCHIP. Through
+    two visible frames it is a line. Before the first and after the last visible frame the nearest
+    visible value is held. A channel without a visible frame takes its mean over the recordings
+    given to `fit`. There is no predictive distribution.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    mean_ : ndarray of shape (D,)
+        Mean of each channel's visible entries; NaN if it has none.
+
+    References
+    ----------
+    H. Akima (1970), A New Method of Interpolation and Smooth Curve Fitting Based on Local
+    Procedures, Journal of the ACM 17(4).
+
+    C. Moler and C. Ionita (2019), Makima Piecewise Cubic Interpolation, MathWorks: the weights of
+    `scipy.interpolate.Akima1DInterpolator` with ``method="makima"``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import MakimaImputer
+    >>> from mocapbench.datasets import Recording
+    >>> values = [[0.0], [1.0], [np.nan], [3.0], [4.0]]
+    >>> recording = Recording("line", np.arange(5.0), values, ("x",), ("cm",))
+    >>> MakimaImputer().fit([recording]).impute([recording])[0].mean[:, 0]
+    array([0., 1., 2., 3., 4.])
+    """
+
+    @staticmethod
+    def _between(knots: Frames, values: Frames, times: Frames) -> Frames:
+        if len(knots) < 3:  # older versions of SciPy leave the slopes at two knots undefined
+            return LinearImputer._between(knots, values, times)
+        return np.asarray(Akima1DInterpolator(knots, values, method="makima")(times))
+
+
+class CubicSplineImputer(_Interpolation):
+    """Interpolate each channel with a not-a-knot cubic spline over time.
+
+    With fewer than four visible frames the order is lower: a parabola through three, a line
+    through two, a constant at one. Before the first and after the last visible frame the nearest
+    visible value is held. A channel without a visible frame takes its mean over the recordings
+    given to `fit`. There is no predictive distribution.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    mean_ : ndarray of shape (D,)
+        Mean of each channel's visible entries; NaN if it has none.
+
+    References
+    ----------
+    C. de Boor (2001), A Practical Guide to Splines, revised edition, Springer, chapter IV.
+
+    J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical Models for Human
+    Motion, IEEE TPAMI 30(2),
+    Table 2, column "Spline".
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import CubicSplineImputer
+    >>> from mocapbench.datasets import Recording
+    >>> times = np.arange(8.0)
+    >>> cubic = Recording("cubic", times, times[:, None] ** 3, ("x",), ("cm",))
+    >>> hidden = np.isin(times, [3.0, 4.0])[:, None]
+    >>> (prediction,) = CubicSplineImputer().fit([cubic]).impute([cubic.hide(hidden)])
+    >>> np.round(prediction.mean[3:5, 0], 6)
+    array([27., 64.])
+    """
+
+    @staticmethod
+    def _between(knots: Frames, values: Frames, times: Frames) -> Frames:
+        # With three or two knots, SciPy's not-a-knot condition is the parabola or the line.
+        return np.asarray(CubicSpline(knots, values, bc_type="not-a-knot")(times))

@@ -1,0 +1,231 @@
+"""Probabilistic principal component analysis of frames with hidden entries, by EM."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.common.own_means import OwnMeans
+from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.validation import check_count, check_positive, check_share
+from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
+from mocapbench.datasets import FrameByChannel, Recording
+
+__all__ = ["LowRank"]
+
+Array = NDArray[np.float64]
+
+_ENTRIES_PER_LOADING = 10
+"""Visible entries that a loading needs: fewer do not determine it (a rule of thumb)."""
+_LEAST_NOISE = 1e-6
+"""Least variance of the noise, in units of the variance within recordings."""
+
+
+class LowRank(Imputer, Inductive):
+    r"""Probabilistic principal component analysis (PPCA) with hidden entries.
+
+    A frame is :math:`y = m + S (W x + \varepsilon)` with latent :math:`x \sim N(0, I_q)` and noise
+    :math:`\varepsilon \sim N(0, \sigma^2 I)`. The mean m is the recording's own, of its visible
+    entries, and the scale S that within recordings. W and σ² maximise the likelihood of all visible
+    entries of the recordings given to `fit`, by EM from the principal axes of the covariances of
+    entries visible together. Complete frames are not needed.
+
+    The number q of components is the least that holds `explained_variance` of the start's variance;
+    there are at most one fewer than channels, and so few that ten visible entries stand behind each
+    loading.
+
+    It learns nothing over time: frames that are hidden as a whole take the recording's own mean of
+    each channel, and so do all hidden entries where q = 0. A channel never visible in a recording
+    takes its mean over the recordings given to `fit`. The predictive variance does not include the
+    uncertainty of the mean and of W.
+
+    Parameters
+    ----------
+    explained_variance : float, default=0.95
+        Share of variance that the components hold at the start, from 0 to 1.
+    max_iter : int, default=100
+        Largest number of iterations of EM.
+    tolerance : float, default=1e-5
+        EM stops when the log-likelihood gains less than this for each visible entry; positive.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    own_means_ : OwnMeans
+        The scale S, and the means of channels over all recordings.
+    loadings_ : ndarray of shape (D, q)
+        W, in units of S.
+    noise_variance_ : float
+        σ², in units of S squared.
+    log_likelihood_ : ndarray of shape (n_iterations_ + 1,)
+        Log-likelihood of the visible entries in units of S, at the start and after each iteration.
+    n_iterations_, converged_ : int, bool
+
+    References
+    ----------
+    M. E. Tipping and C. M. Bishop (1999), Probabilistic Principal Component Analysis, Journal of
+    the Royal Statistical Society B 61(3).
+
+    A. Ilin and T. Raiko (2010), Practical Approaches to Principal Component Analysis in the
+    Presence of Missing Values, JMLR 11, §3.3: EM where entries are missing.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import LowRank
+    >>> from mocapbench.datasets import Recording
+    >>> angle = np.linspace(0.0, 6.0, 30)
+    >>> values = np.column_stack([np.sin(angle), 5.0 - 2.0 * np.sin(angle)])
+    >>> swing = Recording("swing", angle, values, ("hip", "knee"), ("deg", "deg"))
+    >>> gap = np.column_stack([angle < 0.0, (angle > 1.0) & (angle < 2.0)])
+    >>> given = swing.hide(gap)
+    >>> (prediction,) = LowRank().fit([given]).impute([given])
+    >>> bool(np.abs(prediction.mean - values).max() < 0.4)
+    True
+    """
+
+    def __init__(
+        self,
+        explained_variance: float = 0.95,
+        *,
+        max_iter: int = 100,
+        tolerance: float = 1e-5,
+    ) -> None:
+        self.explained_variance = explained_variance
+        self.max_iter = max_iter
+        self.tolerance = tolerance
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Learn the loadings and the noise.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of range, there is no recording, channels differ, or a name
+            repeats.
+        """
+        check_share("explained_variance", self.explained_variance)
+        check_count("max_iter", self.max_iter, 1)
+        check_positive("tolerance", self.tolerance)
+        checked = check_recordings(recordings)
+        self.channels_ = checked[0].channels
+        self.own_means_ = OwnMeans.of(checked)
+        frames = _Frames.of(np.concatenate([self.own_means_.apply(one) for one in checked]))
+        self._learn(frames, *_start(frames, self.explained_variance))
+        return self
+
+    def _learn(self, frames: _Frames, loadings: Array, noise: float) -> None:
+        posterior = _Posterior.of(frames, loadings, noise)
+        values = [posterior.log_likelihood]
+        least_gain = self.tolerance * max(float(frames.seen.sum()), 1.0)
+        self.converged_ = False
+        while not self.converged_ and len(values) <= self.max_iter:
+            loadings, noise = _maximised(frames, posterior)
+            posterior = _Posterior.of(frames, loadings, noise)
+            values.append(posterior.log_likelihood)
+            self.converged_ = values[-1] - values[-2] < least_gain
+        self.loadings_, self.noise_variance_ = loadings, noise
+        self.log_likelihood_, self.n_iterations_ = np.array(values), len(values) - 1
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the mean and variance of hidden entries given the visible ones of their frame.
+
+        Raises
+        ------
+        ValueError
+            If channels differ, or a channel is visible neither in a recording nor in those given to
+            `fit`.
+        """
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_)
+        return [self._filled(recording) for recording in recordings]
+
+    def _filled(self, recording: Recording) -> Prediction:
+        frames = _Frames.of(self.own_means_.apply(recording))
+        posterior = _Posterior.of(frames, self.loadings_, self.noise_variance_)
+        mean = self.own_means_.restore(recording, posterior.latents @ self.loadings_.T)
+        spread = np.einsum("di,nij,dj->nd", self.loadings_, posterior.covariances, self.loadings_)
+        variance = (spread[frames.pattern] + self.noise_variance_) * self.own_means_.scale**2
+        return Prediction.around(recording, mean, variance)
+
+
+@dataclass(frozen=True, eq=False)
+class _Frames:
+    """Frames with zeros at hidden entries (N, D), and which of P sets of entries each shows."""
+
+    values: FrameByChannel
+    seen: Array  # (N, D), 1 or 0
+    patterns: Array  # (P, D), 1 or 0
+    pattern: NDArray[np.intp]  # (N,)
+
+    @classmethod
+    def of(cls, deviations: FrameByChannel) -> _Frames:
+        seen = (~np.isnan(deviations)).astype(np.float64)
+        patterns, pattern = np.unique(seen, axis=0, return_inverse=True)
+        # NumPy 2.0 returned the inverse as a column.
+        return cls(np.nan_to_num(deviations), seen, patterns, pattern.ravel())
+
+
+@dataclass(frozen=True, eq=False)
+class _Posterior:
+    """The distribution of the latents given the visible entries: Tipping and Bishop §3.2."""
+
+    latents: Array  # (N, q), the means
+    covariances: Array  # (P, q, q), by set of visible entries
+    log_likelihood: float
+
+    @classmethod
+    def of(cls, frames: _Frames, loadings: Array, noise: float) -> _Posterior:
+        """Return it, with M = WᵀW + σ²I over the visible channels of a frame."""
+        q = loadings.shape[1]
+        outer = np.einsum("di,dj->dij", loadings, loadings)
+        precisions = np.tensordot(frames.patterns, outer, 1) + noise * np.eye(q)
+        inverses = np.linalg.inv(precisions)
+        projected = frames.values @ loadings
+        latents = np.einsum("nij,nj->ni", inverses[frames.pattern], projected)
+        # By Woodbury's identity and the determinant lemma, (W Wᵀ + σ²I)⁻¹ and its determinant.
+        counts = frames.seen.sum(axis=1)
+        log_determinants = np.linalg.slogdet(precisions)[1][frames.pattern]
+        log_determinants += (counts - q) * np.log(noise)
+        distances = ((frames.values**2).sum(axis=1) - (projected * latents).sum(axis=1)) / noise
+        losses = counts * np.log(2 * np.pi) + log_determinants + distances
+        return cls(latents, noise * inverses, -0.5 * float(losses.sum()))
+
+
+def _maximised(frames: _Frames, posterior: _Posterior) -> tuple[Array, float]:
+    """Return the loadings and noise of the M-step: Ilin and Raiko 2010, §3.3."""
+    latents, q = posterior.latents, posterior.latents.shape[1]
+    moments = np.einsum("ni,nj->nij", latents, latents) + posterior.covariances[frames.pattern]
+    second = np.tensordot(frames.seen.T, moments, 1)
+    second[frames.seen.sum(axis=0) == 0.0] = np.eye(q)  # a channel never visible has no loadings
+    cross = frames.values.T @ latents
+    loadings = np.linalg.solve(second, cross[..., None])[..., 0]
+    residual = (frames.values**2).sum() - (loadings * cross).sum()
+    return loadings, max(float(residual) / max(frames.seen.sum(), 1.0), _LEAST_NOISE)
+
+
+def _start(frames: _Frames, explained: float) -> tuple[Array, float]:
+    """Return the loadings and noise that fit the covariances of entries visible together.
+
+    They are the maximum of the likelihood if all frames are complete: Tipping and Bishop, eq. (7).
+    """
+    together = np.maximum(frames.seen.T @ frames.seen, 1.0)
+    eigenvalues, axes = np.linalg.eigh(frames.values.T @ frames.values / together)
+    eigenvalues, axes = np.maximum(eigenvalues[::-1], 0.0), axes[:, ::-1]
+    q = _n_components(frames, eigenvalues, explained)
+    noise = max(float(eigenvalues[q:].mean()), _LEAST_NOISE)
+    return axes[:, :q] * np.sqrt(np.maximum(eigenvalues[:q] - noise, 0.0)), noise
+
+
+def _n_components(frames: _Frames, eigenvalues: Array, explained: float) -> int:
+    sums = np.cumsum(eigenvalues)
+    wanted = int(np.searchsorted(sums, explained * sums[-1])) + 1
+    n_channels = len(eigenvalues)
+    determined = int(frames.seen.sum()) // (_ENTRIES_PER_LOADING * n_channels)
+    return min(wanted, n_channels - 1, determined)

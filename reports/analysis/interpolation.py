@@ -1,0 +1,50 @@
+"""The best interpolation: what a winner is worth beside the simplest way to fill gaps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.bundle.layout import CaseLayout
+
+__all__ = ["best_interpolation"]
+
+
+def best_interpolation(
+    results: TaskResults, metric: str, cases: Sequence[CaseLayout], beside: str
+) -> str | None:
+    """Return the interpolation with the best mean over ``cases``.
+
+    Parameters
+    ----------
+    results : TaskResults
+    metric : str
+    cases : sequence of CaseLayout
+        Cases in which ``beside`` has a score.
+    beside : str
+        The label that it stands beside. An interpolation that has fewer folds in some case takes no
+        part: they may be the easy ones.
+
+    Returns
+    -------
+    str or None
+        None where no interpolation takes part.
+    """
+    needed = [results.estimates[case.name, beside, metric].n for case in cases]
+    losses = {
+        label: _mean_loss(results, metric, cases, label)
+        for label in results.layout.interpolations
+        if all(
+            (mean := results.estimate(case.name, label, metric)) is not None and mean.n >= n
+            for case, n in zip(cases, needed, strict=True)
+        )
+    }
+    return min(losses, key=losses.__getitem__, default=None)
+
+
+def _mean_loss(results: TaskResults, metric: str, cases: Sequence[CaseLayout], label: str) -> float:
+    loss = results.metrics[metric].loss
+    means = [results.estimates[case.name, label, metric].mean for case in cases]
+    return float(np.mean([loss(mean) for mean in means]))
