@@ -57,6 +57,8 @@ class NN(Imputer, Inductive):
            [ 8., 30.]])
     """
 
+    max_frames = 4000
+
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the frames.
 

@@ -20,6 +20,7 @@ __all__ = ["COMMANDS", "app", "main"]
 
 COMMANDS = {
     "run": "Run the benchmark and write its report.",
+    "fill": "Fill the gaps of your own recordings.",
     "status": "Show how far a run is, also one in another terminal.",
     "merge": "Merge run directories into one.",
     "report": "Write the HTML report of a run directory.",

@@ -1,0 +1,56 @@
+"""The ranking of models by their trials, and the choice of one."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+import pandas as pd
+
+from mocapbench.benchmark.filling.trials.scores import Scores
+from mocapbench.metrics.statistics import shared_rank
+
+__all__ = ["Ranking", "rank"]
+
+
+@dataclass(frozen=True, eq=False)
+class Ranking:
+    """Models by their mean error over the same trial gaps, the best first.
+
+    Parameters
+    ----------
+    order : tuple of str
+        The models; the first is the choice.
+    means : mapping of str to float
+        The mean error of each.
+    scores : mapping of str to Scores
+    n : int
+        The number of trial gaps.
+    sharing : tuple of str
+        Models whose errors differ from those of the one with the least by no more than chance.
+    fallback : str
+        The model with the least mean error, if it is not the choice.
+    """
+
+    order: tuple[str, ...]
+    means: Mapping[str, float]
+    scores: Mapping[str, Scores]
+    n: int
+    sharing: tuple[str, ...]
+    fallback: str = ""
+
+
+def rank(scores: Mapping[str, Scores], interpolations: Collection[str]) -> Ranking:
+    """Return the ranking of one or more models that answered the same trials.
+
+    Parameters
+    ----------
+    scores : mapping of str to Scores
+    interpolations : collection of str
+        The models that interpolate each channel.
+    """
+    losses = pd.DataFrame({model: score.errors for model, score in scores.items()})
+    means = losses.mean()
+    order = tuple(means.sort_values(kind="stable").index)
+    shared = shared_rank(losses, order)
+    return Ranking(order, means.to_dict(), scores, len(losses), shared.labels)
