@@ -2,6 +2,7 @@ from .aligned_window import AlignedWindow
 from .control import Control
 from .cpm import CPM
 from .cyclic_alignment import CyclicAlignment
+from .fam import FAM
 from .gp_independent import GPIndependent
 from .gpdm.model import GPDM
 from .gplvm import GPLVM
@@ -14,8 +15,11 @@ from .interpolation import (
     PchipImputer,
 )
 from .k_cpm import KCPM
+from .k_fam import KFAM
 from .k_means import KMeans
 from .knn import KNN
+from .lds import LDS
+from .lgssm import LGSSM
 from .lmc_independent import LMCIndependent
 from .low_rank import LowRank
 from .moa import MOA
@@ -52,11 +56,15 @@ from .trivial import Trivial
 
 __all__ = [
     "CPM",
+    "FAM",
     "GPDM",
     "GPLVM",
     "HGP",
     "KCPM",
+    "KFAM",
     "KNN",
+    "LDS",
+    "LGSSM",
     "MOA",
     "MOHGP",
     "NN",

@@ -187,7 +187,8 @@ class PchipImputer(_Interpolation):
 
     @staticmethod
     def _between(knots: Frames, values: Frames, times: Frames) -> Frames:
-        return np.asarray(PchipInterpolator(knots, values)(times))
+        with np.errstate(over="ignore"):  # the reciprocal of a slope near 0, whose curve is flat
+            return np.asarray(PchipInterpolator(knots, values)(times))
 
 
 class MakimaImputer(_Interpolation):

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
-from sklearn.cluster import KMeans
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.validation import check_settings
+from mocapbench.baselines.common.prototypes import cluster_cycles
 from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.baselines.cpm import CPM
 from mocapbench.baselines.protocols import Aligner, Clusterer, StatePath
@@ -110,15 +109,8 @@ class KCPM(Clusterer, Aligner):
         parameters = {k: v for k, v in self.get_params().items() if k != "n_styles"}
         self.cpm_ = CPM(**{**parameters, "random_state": rng}).fit(checked)
         self.path_, self.cycle_length_ = self.cpm_.path_, self.cpm_.cycle_length_
-        cycles = self.cpm_.prototypes_ / self.cpm_.scaling_.scale
-        means = KMeans(
-            min(self.n_styles, len(checked)),
-            n_init=self.n_restarts,
-            random_state=int(rng.integers(2**31)),
-        ).fit(cycles.reshape(len(cycles), -1))
-        self.labels_: NDArray[np.intp] = means.labels_.astype(np.intp)
-        self.cycles_ = np.stack(
-            [self.cpm_.prototypes_[self.labels_ == c].mean(axis=0) for c in np.unique(self.labels_)]
+        self.labels_, self.cycles_ = cluster_cycles(
+            self.cpm_.prototypes_, self.cpm_.scaling_.scale, self.n_styles, self.n_restarts, rng
         )
         return self
 

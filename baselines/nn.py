@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Self
 
 import numpy as np
@@ -28,12 +28,21 @@ class NN(Imputer, Inductive):
     training frames are used too. A wholly hidden frame is first interpolated linearly in time, and
     the interpolated frame is matched. There is no predictive distribution.
 
+    Parameters
+    ----------
+    weights : mapping of str to float or None, default=None
+        What the differences of a channel are multiplied by, at least 0, for every channel; None
+        stands for 1. The standard deviations by which channels were divided give the distance in
+        the units that they had before.
+
     Attributes
     ----------
     channels_ : tuple of D str
         The channels of the recordings given to `fit`.
     frames_ : ndarray of shape (M, D)
         All training frames, NaN where hidden.
+    weights_ : ndarray of shape (D,)
+        The weight of each channel.
 
     References
     ----------
@@ -59,17 +68,22 @@ class NN(Imputer, Inductive):
 
     max_frames = 4000
 
+    def __init__(self, weights: Mapping[str, float] | None = None) -> None:
+        self.weights = weights
+
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the frames.
 
         Raises
         ------
         ValueError
-            If there is no recording, channels differ, or a name repeats.
+            If there is no recording, channels differ, a name repeats, or `weights` has not one
+            number of at least 0 for each channel.
         """
         checked = check_recordings(recordings)
         self.channels_ = checked[0].channels
         self.frames_ = stack(checked)
+        self.weights_ = _weights(self.weights, self.channels_)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -90,7 +104,8 @@ class NN(Imputer, Inductive):
         incomplete = ~recording.visible.all(axis=1)
         if not incomplete.any():
             return filled
-        distances = nan_euclidean_distances(_poses(recording)[incomplete], self.frames_)
+        poses = _poses(recording)[incomplete]
+        distances = nan_euclidean_distances(poses * self.weights_, self.frames_ * self.weights_)
         distances = np.where(np.isnan(distances), np.inf, distances)
         filled[incomplete] = np.column_stack([_donated(distances, c) for c in self.frames_.T])
         if (lacking := np.isnan(filled) & ~recording.visible).any():
@@ -101,6 +116,18 @@ class NN(Imputer, Inductive):
                 "recordings"
             )
         return filled
+
+
+def _weights(weights: Mapping[str, float] | None, channels: tuple[str, ...]) -> Array:
+    """Return the weight of each channel: (D,)."""
+    if weights is None:
+        return np.ones(len(channels))
+    if lacking := [name for name in channels if name not in weights]:
+        raise ValueError(f"expected a weight of every channel, got none of {lacking}")
+    values = np.array([weights[name] for name in channels], dtype=np.float64)
+    if not (np.isfinite(values) & (values >= 0)).all():
+        raise ValueError(f"expected weights of at least 0, got {dict(weights)}")
+    return values
 
 
 def _donated(distances: Array, channel: Array) -> Array:

@@ -27,13 +27,13 @@ __all__ = ["PoseViterbi"]
 
 
 class PoseViterbi(FrameImputer, Inductive):
-    r"""Fill frames from the cheapest path :math:`s_1 \ldots s_T` through the training frames.
+    r"""Fill frames from the cheapest path through the training frames.
 
-    Its cost is :math:`\sum_{t\ \text{visible}} \|y_t - Y_{s_t}\|^2 + \lambda \sum_t
-    \|Y_{s_t + 1} - Y_{s_{t+1}}\|^2`. Going on to the next training frame is free; a jump costs the
-    squared difference between the frame that would follow and the frame jumped to. No jump leaves
-    the last frame of a stretch. Time is counted in frames, so that all recordings should have the
-    same frame rate. There is no predictive distribution.
+    The cost of a path :math:`s_1 \ldots s_T` is :math:`\sum_{t\ \text{visible}}
+    \|y_t - Y_{s_t}\|^2 + \lambda \sum_t \|Y_{s_t + 1} - Y_{s_{t+1}}\|^2`. Going on to the next
+    training frame is free; a jump costs the squared difference between the frame that would follow
+    and the frame jumped to. No jump leaves the last frame of a stretch. Time is counted in frames,
+    so that all recordings should have the same frame rate. There is no predictive distribution.
 
     Parameters
     ----------

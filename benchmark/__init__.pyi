@@ -1,4 +1,5 @@
-from .archives import archive_at
+from .archives import archive_at, fetch_command, full_paths, require_recordings
+from .catalogue import format_entry, library_entry, metric_entry, model_entry, task_entry
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
 from .figures.alignment import Alignments
@@ -13,15 +14,19 @@ from .figures.trend import InferredTrend
 from .formats import format_for
 from .gate.checking import check
 from .inspection.explanation import explain
+from .inspection.forecast_output import lacking, lacking_line
 from .inspection.output import explanation_table, state_lines, state_table
+from .inspection.planned import forecast_text, plan_table
+from .inspection.recordings import DataRequest, data_totals, next_data_step
 from .inspection.state import RunState, run_state
 from .merging.merge import merge
 from .plugins import load_plugin
 from .problems.base import Answer, InvalidPredictionError, Problem
+from .problems.body import Body, JointAngles, JointPositions
 from .problems.cluster import ClusterProblem, Clusters
 from .problems.impute import FilledRecordings, ImputeProblem
 from .problems.internals import Internals
-from .problems.masks import hide_all_but, hide_frames
+from .problems.masks import Run, hide_all_but, hide_frames, hide_runs
 from .problems.recover import Covariances, RecoverProblem
 from .problems.synthesise import Samples, SynthesiseProblem
 from .problems.unit import Unit
@@ -55,11 +60,13 @@ __all__ = [
     "Alignments",
     "Answer",
     "Blends",
+    "Body",
     "Case",
     "ClusterProblem",
     "Clusters",
     "Coregionalisation",
     "Covariances",
+    "DataRequest",
     "Entrant",
     "ExitCode",
     "FilledChannels",
@@ -70,6 +77,8 @@ __all__ = [
     "Internals",
     "InvalidPredictionError",
     "Job",
+    "JointAngles",
+    "JointPositions",
     "LatentSpaces",
     "Problem",
     "Profile",
@@ -77,6 +86,7 @@ __all__ = [
     "RecoverProblem",
     "RecoveredCovariances",
     "Request",
+    "Run",
     "RunState",
     "Samples",
     "Seeds",
@@ -95,22 +105,36 @@ __all__ = [
     "bundle",
     "check",
     "compare",
+    "data_totals",
     "explain",
     "explanation_table",
+    "fetch_command",
+    "forecast_text",
+    "format_entry",
     "format_for",
+    "full_paths",
     "hide_all_but",
     "hide_frames",
+    "hide_runs",
     "illustrations",
     "job_table",
+    "lacking",
+    "lacking_line",
     "last_drawn",
+    "library_entry",
     "load_plugin",
     "memory_share",
     "merge",
+    "metric_entry",
+    "model_entry",
     "n_cores",
+    "next_data_step",
     "open_site",
     "plan",
     "plan_document",
+    "plan_table",
     "provenance",
+    "require_recordings",
     "required_sources",
     "run",
     "run_state",
@@ -118,4 +142,5 @@ __all__ = [
     "stamp",
     "state_lines",
     "state_table",
+    "task_entry",
 ]

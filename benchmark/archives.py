@@ -2,31 +2,92 @@
 
 from __future__ import annotations
 
+import os
+import shlex
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES
-from mocapbench.datasets import Archive
+from mocapbench.datasets import Archive, named_folders
 
-__all__ = ["archive_at"]
+__all__ = ["archive_at", "fetch_command", "full_paths", "require_recordings"]
 
 
 def archive_at(data_dir: Path | None) -> Archive:
-    """Return the archive of all libraries, each given the folder that the user names.
+    """Return the archive of all libraries, each given the folders that the user names.
 
     Parameters
     ----------
     data_dir : Path or None
-        A folder of recordings; None leaves it to each library where to look.
+        A folder of recordings, or several separated by `os.pathsep`; None leaves it to each
+        library where to look.
 
     Raises
     ------
     UsageError
-        If ``data_dir`` is not a folder.
+        If one of them is not a folder.
     """
-    if data_dir is not None and not data_dir.is_dir():
-        raise UsageError(
-            f"--data-dir: expected an existing folder of recordings, got {str(data_dir)!r}; "
-            "name one, or leave the option out to download"
-        )
+    for folder in named_folders(data_dir):
+        if not folder.is_dir():
+            raise UsageError(
+                f"--data-dir: expected an existing folder of recordings, got {str(folder)!r}; "
+                f"name one, or several separated by {os.pathsep!r}, or leave the option out to "
+                "download"
+            )
     return Archive({name: LIBRARIES.get(name)(data_dir) for name in LIBRARIES.names()})
+
+
+def full_paths(data_dir: Path | None) -> Path | None:
+    """Return ``data_dir`` with the full path of every folder that it names, for other processes."""
+    folders = [str(folder.resolve()) for folder in named_folders(data_dir)]
+    return Path(os.pathsep.join(folders)) if folders else None
+
+
+def fetch_command(uris: Iterable[str], plugins: Iterable[Path]) -> str:
+    """Return the command that gets recordings, of libraries that plug-in files define too."""
+    options = "".join(f" --plugin {shlex.quote(str(path))}" for path in plugins)
+    return f"{Archive.fetch_command(*uris)}{options}"
+
+
+def require_recordings(data_dir: Path | None, archive: Archive) -> None:
+    """Refuse folders that the user names if no library finds recordings in any of them.
+
+    Parameters
+    ----------
+    data_dir : Path or None
+        As for `archive_at`; None names no folder, and is never refused.
+    archive : Archive
+        Whose libraries say how recordings lie in a folder: `Library.layout`.
+
+    Raises
+    ------
+    UsageError
+        If all folders are empty or hold other things; the message has the layout that is expected.
+    """
+    folders = named_folders(data_dir)
+    layout = [pattern for library in archive.libraries.values() for pattern in library.layout]
+    if not folders or any(_holds(folder, layout) for folder in folders):
+        return
+    got = ", ".join(f"{str(folder)!r}, {_content(folder)}" for folder in folders)
+    near = [str(place) for folder in folders for place in _near(folder, layout)]
+    raise UsageError(
+        f"--data-dir or MOCAPBENCH_DATA: expected recordings ({', '.join(layout)}) in the folder, "
+        f"got {got}; name {' or '.join(near) or 'the one that holds them'}, or none to download"
+    )
+
+
+def _holds(folder: Path, layout: Sequence[str]) -> bool:
+    return any(next(folder.glob(pattern), None) for pattern in layout)
+
+
+def _content(folder: Path) -> str:
+    return "which holds none" if any(folder.iterdir()) else "which is empty"
+
+
+def _near(folder: Path, layout: Sequence[str]) -> Iterator[Path]:
+    """Yield the folder above and those below that are laid out as expected."""
+    below = (place for place in sorted(folder.iterdir()) if place.is_dir())
+    for place in (folder.resolve().parent, *below):
+        if _holds(place, layout):
+            yield place

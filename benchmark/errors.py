@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Collection
 from enum import IntEnum
 
-__all__ = ["ExitCode", "UnknownNameError", "UsageError"]
+__all__ = ["ExitCode", "UnknownNameError", "UnregisteredNameError", "UsageError"]
 
 
 class ExitCode(IntEnum):
@@ -17,6 +17,7 @@ class ExitCode(IntEnum):
     USAGE = 2
     JOBS_FAILED = 3
     NOTHING_RAN = 4
+    UNDECIDED = 5
     DEFECT = 70
     INTERRUPTED = 130
 
@@ -26,9 +27,17 @@ class UsageError(ValueError):
 
 
 class UnknownNameError(UsageError):
-    """A name that is not registered, with the nearest ones that are."""
+    """A name that is not known, with the nearest ones that are."""
 
     def __init__(self, kind: str, name: str, known: Collection[str]) -> None:
         near = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
         advice = f"did you mean {' or '.join(near)}?" if near else f"known: {', '.join(known)}"
         super().__init__(f"unknown {kind} {name!r}: {advice}")
+
+
+class UnregisteredNameError(UnknownNameError):
+    """A name under which no plug-in is registered; perhaps its file was not named."""
+
+    def __str__(self) -> str:
+        remedy = "if a file of your own defines it, name that file with --plugin"
+        return f"{super().__str__()}; {remedy}"

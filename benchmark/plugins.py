@@ -155,8 +155,9 @@ def _check_constructor(path: Path, name: str, value: object, kind: _PluginKind) 
 def _execute(path: Path) -> ModuleType:
     """Run a Python file as a module whose name follows from its content."""
     if not path.is_file():
+        what = "is a folder" if path.is_dir() else "does not exist"
         raise UsageError(
-            f"--plugin: expected a Python file, got {str(path)!r}; name one that exists"
+            f"--plugin: expected a Python file, got {str(path)!r}, which {what}; check the path"
         )
     file, search_path = path.resolve(), [*sys.path]
     name = f"mocapbench_plugin_{hashlib.sha256(file.read_bytes()).hexdigest()[:16]}"

@@ -13,7 +13,7 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Generic, TypeVar, cast
 
 from mocapbench.baselines import Model
-from mocapbench.benchmark.errors import UnknownNameError, UsageError
+from mocapbench.benchmark.errors import UnregisteredNameError, UsageError
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.datasets import Format, Library
 from mocapbench.metrics import Metric
@@ -59,7 +59,7 @@ class Registry(Generic[T]):
 
         Raises
         ------
-        UnknownNameError
+        UnregisteredNameError
             If there is none; the message suggests the nearest names.
         UsageError
             If its entry point cannot be imported.
@@ -73,7 +73,7 @@ class Registry(Generic[T]):
 
         Raises
         ------
-        UnknownNameError
+        UnregisteredNameError
             If nothing is or was.
         """
         if name in self.names():
@@ -81,13 +81,13 @@ class Registry(Generic[T]):
         for current in self.names():
             if self._was_called(name, current):
                 return current
-        raise UnknownNameError(self.kind, name, self.names())
+        raise UnregisteredNameError(self.kind, name, self.names())
 
     def renamed(self, name: str) -> str:
         """Return the current name of what stored values call ``name``; ``name`` if it is gone."""
         try:
             return self.current_name(name)
-        except UnknownNameError:
+        except UnregisteredNameError:
             return name
 
     def _was_called(self, name: str, current: str) -> bool:
@@ -95,7 +95,7 @@ class Registry(Generic[T]):
 
     def _load(self, name: str) -> T:
         if name not in self._points:
-            raise UnknownNameError(self.kind, name, self.names())
+            raise UnregisteredNameError(self.kind, name, self.names())
         try:
             return cast(T, self._points[name].load())
         except (ImportError, AttributeError) as error:

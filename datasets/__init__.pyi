@@ -19,8 +19,13 @@ from .formats.tables.comma_separated import CSVFormat
 from .formats.tables.parquet import ParquetFormat
 from .formats.turns import unwrapped
 from .gait import GAIT_VERSION, GaitLibrary, gait_style
-from .kinematics import FrameByJointBy3, joint_positions
-from .library import Library
+from .kinematics import (
+    FrameByJointBy3,
+    joint_positions,
+    joint_trajectories,
+    position_channels,
+)
+from .library import Library, named_folders
 from .preprocessing import (
     integrate_root,
     one_based_frames,
@@ -31,6 +36,7 @@ from .preprocessing import (
 )
 from .process import Layer, ToyProcess
 from .recording import FrameByChannel, Frames, Mask, Recording
+from .taylor import taylor_deviations, taylor_features, taylor_scales
 
 __all__ = [
     "CMU_ACKNOWLEDGEMENT",
@@ -80,16 +86,22 @@ __all__ = [
     "hlm_features",
     "integrate_root",
     "joint_positions",
+    "joint_trajectories",
+    "named_folders",
     "one_based_frames",
     "open_archive",
     "parse_motion",
     "parse_skeleton",
+    "position_channels",
     "read_motion",
     "read_skeleton",
     "registered_digests",
     "resample",
     "restart",
     "root_differences",
+    "taylor_deviations",
+    "taylor_features",
+    "taylor_scales",
     "unwrapped",
     "zero_based_frames",
 ]

@@ -1,8 +1,8 @@
 """The CMU Graphics Lab Motion Capture Database: in a folder, in the cache, or to be downloaded.
 
 The original Acclaim files have the same paths as on the server, such as ``subjects/35/35.asf`` and
-``subjects/35/35_02.amc``. The user's folder is searched before the cache, and only
-`CMULibrary.fetch` downloads.
+``subjects/35/35_02.amc``. The user's folders are searched in order and before the
+cache, and only `CMULibrary.fetch` downloads.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
+from typing import ClassVar
 
 import platformdirs
 
@@ -34,6 +35,9 @@ __all__ = ["CMU_ACKNOWLEDGEMENT", "CMU_URL", "CMULibrary", "registered_digests"]
 
 CMU_URL = "http://mocap.cs.cmu.edu/"
 
+_DIVERSE = frozenset(f"subjects/35/35_{trial}.amc" for trial in (13, 14, 19, 23, 24, 25, 26))
+"""Recordings of which there are copies that hold every 4th frame and interpolate the others."""
+
 CMU_ACKNOWLEDGEMENT = (
     "The data used in this project was obtained from mocap.cs.cmu.edu. "
     "The database was created with funding from NSF EIA-0196217."
@@ -51,8 +55,8 @@ class CMULibrary(Library):
     Parameters
     ----------
     data_dir : path or None
-        A folder with the database's ``subjects/``, which is read and never written; None stands
-        for the environment's ``MOCAPBENCH_DATA``, if it is set.
+        A folder with the database's ``subjects/``, or several separated by `os.pathsep`, which are
+        read and never written; None stands for the environment's ``MOCAPBENCH_DATA``, if it is set.
     cache_dir : path or None
         Where downloads and the digests of unregistered files are kept; None stands for the
         environment's ``MOCAPBENCH_CACHE``, else for the user's cache.
@@ -75,6 +79,8 @@ class CMULibrary(Library):
     ''
     """
 
+    layout: ClassVar[tuple[str, ...]] = ("subjects/*/*.asf", "subjects/*/*.amc")
+
     def __init__(
         self,
         data_dir: str | Path | None = None,
@@ -90,7 +96,9 @@ class CMULibrary(Library):
         cache = cache_dir or os.environ.get("MOCAPBENCH_CACHE")
         self.cache_dir = Path(cache or platformdirs.user_cache_dir("mocapbench"))
         self.digests = DigestRegistry(
-            registered_digests() if known is None else known, self.cache_dir / "digests.tsv"
+            registered_digests() if known is None else known,
+            self.cache_dir / "digests.tsv",
+            _DIVERSE,
         )
         self.downloader = Downloader(base_url, self.cache_dir, retries=retries, backoff=backoff)
 
@@ -154,17 +162,17 @@ class CMULibrary(Library):
             if self._find(path) is None:
                 self.downloader.fetch(path, partial(self.digests.check, path))
 
-    def _folders(self) -> tuple[Path, ...]:
-        return (self.cache_dir,) if self.data_dir is None else (self.data_dir, self.cache_dir)
+    def _searched(self) -> tuple[Path, ...]:
+        return (*self.folders, self.cache_dir)
 
     def _find(self, path: str) -> Path | None:
-        files = (folder / path for folder in self._folders())
+        files = (folder / path for folder in self._searched())
         return next((file for file in files if file.is_file()), None)
 
     def _verified(self, path: str) -> Path:
         file = self._find(path)
         if file is None:
-            raise FileNotFoundError(f"{path} is in none of {', '.join(map(str, self._folders()))}")
+            raise FileNotFoundError(f"{path} is in none of {', '.join(map(str, self._searched()))}")
         self.digests.check(path, file.read_bytes(), str(file))
         return file
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
@@ -52,7 +52,7 @@ class DigestMismatch(ValueError):  # noqa: N818
 
 
 class UnregisteredDigestWarning(UserWarning):
-    """A file that no registry lists was accepted, and its digest pinned."""
+    """A file that no registry lists was accepted."""
 
 
 def content_digest(recording: Recording) -> str:
@@ -82,40 +82,46 @@ class DigestRegistry:
         SHA-256 by relative path.
     pins : Path
         Table of the digests accepted so far on this machine.
+    diverse : collection of str
+        Relative paths of files of which different copies are in use: whichever comes is accepted.
     """
 
-    def __init__(self, known: Mapping[str, str], pins: Path) -> None:
+    def __init__(self, known: Mapping[str, str], pins: Path, diverse: Collection[str] = ()) -> None:
         self.known = known
         self.pins = pins
+        self.diverse = diverse
 
     def check(self, path: str, data: bytes, file: str) -> None:
-        """Verify the content of ``file``, which claims to be ``path``; pin it if it is new.
+        """Verify the content of ``file``, which claims to be ``path``; record it if it is new.
 
         Raises
         ------
         DigestMismatch
-            If its digest is not the known or pinned one.
+            If its digest is not the known or pinned one, unless different copies are in use.
 
         Warns
         -----
         UnregisteredDigestWarning
-            If there was neither.
+            If there was neither, or another copy before.
         """
         got = sha256(with_unix_line_ends(data)).hexdigest()
         expected = (read_digests(self.pins) | dict(self.known)).get(path)
-        if expected is None:
-            self._pin(path, got, file)
+        if expected is None or (path in self.diverse and got != expected):
+            self._record(path, got, file)
         elif got != expected:
             raise DigestMismatch(file, expected, got)
 
-    def _pin(self, path: str, digest: str, file: str) -> None:
+    def _record(self, path: str, digest: str, file: str) -> None:
+        from_now_on = (
+            "not pinned: different copies are in use" if path in self.diverse else "now expected"
+        )
         warnings.warn(
             f"{file}: no digest is registered for {path}; accepted as {digest} "
-            f"and from now on expected (recorded in {self.pins})",
+            f"(recorded in {self.pins}) and {from_now_on}",
             UnregisteredDigestWarning,
             stacklevel=2,
         )
-        with suppress(OSError):  # in a cache that is not writeable nothing can be pinned
+        with suppress(OSError):  # in a cache that is not writeable nothing can be recorded
             self.pins.parent.mkdir(parents=True, exist_ok=True)
             with self.pins.open("a", encoding="utf-8") as stream:
                 stream.write(f"{path}\t{digest}\n")

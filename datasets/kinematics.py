@@ -1,4 +1,4 @@
-"""Forward kinematics: the positions of the joints, from the angles.
+"""Forward kinematics: the positions of the joints, from the angles, and as channels of their own.
 
 A segment's rotation is stated in its own local frame: with C the rotation of the segment's axis and
 M that of its degrees of freedom, it turns by C M C⁻¹ within its parent, and its end lies at the
@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from mocapbench.datasets.acclaim.skeleton import Segment, Skeleton
 from mocapbench.datasets.recording import Frames, Recording
 
-__all__ = ["FrameByJointBy3", "joint_positions"]
+__all__ = ["FrameByJointBy3", "joint_positions", "joint_trajectories", "position_channels"]
 
 FrameByJointBy3 = NDArray[np.float64]
 """(N, J, 3) centimetres."""
@@ -56,6 +56,46 @@ def joint_positions(skeleton: Skeleton, recording: Recording) -> FrameByJointBy3
     return np.stack(list(ends.values()), axis=1).reshape(n_frames, -1, 3) * (
         skeleton.centimetres_per_unit
     )
+
+
+def position_channels(skeleton: Skeleton) -> tuple[str, ...]:
+    """Return the names of the coordinates of every joint, such as ``lfemur.x``."""
+    return tuple(f"{segment.name}.{axis}" for segment in skeleton.segments for axis in "xyz")
+
+
+def joint_trajectories(skeleton: Skeleton, recording: Recording) -> Recording:
+    """Return the recording of the joints' coordinates in centimetres, as markers on them give it.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Of J joints.
+    recording : Recording
+        N complete frames; see `joint_positions`.
+
+    Returns
+    -------
+    Recording
+        N frames of the 3 J `position_channels`; the y axis points up.
+
+    Raises
+    ------
+    ValueError
+        As `joint_positions`.
+
+    Examples
+    --------
+    >>> from mocapbench.datasets import joint_trajectories, open_archive
+    >>> archive = open_archive()
+    >>> walk, skeleton = archive.recording("gait:01_01"), archive.skeleton("gait:01_01")
+    >>> markers = joint_trajectories(skeleton, walk)
+    >>> markers.values.shape, markers.channels[0], markers.units[0]
+    ((331, 93), 'root.x', 'cm')
+    """
+    positions = joint_positions(skeleton, recording)
+    channels = position_channels(skeleton)
+    values = positions.reshape(len(recording.times), -1)
+    return Recording(recording.name, recording.times, values, channels, ("cm",) * len(channels))
 
 
 def _curves(skeleton: Skeleton, recording: Recording) -> dict[str, Frames]:

@@ -1,16 +1,18 @@
-"""Libraries of recordings: the class to subclass in order to add one."""
+"""Libraries of recordings: the class to subclass in order to add one, and the user's folders."""
 
 from __future__ import annotations
 
+import os
 from abc import ABC, abstractmethod
 from pathlib import Path
+from typing import ClassVar
 
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.digests import content_digest
 from mocapbench.datasets.errors import FetchError, SkeletonUnavailable
 from mocapbench.datasets.recording import Recording
 
-__all__ = ["Library"]
+__all__ = ["Library", "named_folders"]
 
 
 class Library(ABC):
@@ -27,7 +29,15 @@ class Library(ABC):
     ----------
     data_dir : Path or None
         Folder of recordings that the user named, stored as ``self.data_dir``; a library may ignore
-        it.
+        it. The user may name several, separated by `os.pathsep`: ``self.folders`` has them one by
+        one.
+
+    Attributes
+    ----------
+    layout : tuple of str
+        Patterns of the files that it reads below a folder that the user names, such as
+        ``"subjects/*/*.amc"``. A library that reads such files sets it, so that a folder without
+        any is refused; by default it reads none.
 
     See Also
     --------
@@ -54,8 +64,15 @@ class Library(ABC):
     False
     """
 
+    layout: ClassVar[tuple[str, ...]] = ()
+
     def __init__(self, data_dir: Path | None = None) -> None:
         self.data_dir = data_dir
+
+    @property
+    def folders(self) -> tuple[Path, ...]:
+        """The folders that ``data_dir`` names, in the order in which they are searched."""
+        return named_folders(self.data_dir)
 
     @abstractmethod
     def where(self, key: str) -> str:
@@ -113,3 +130,14 @@ class Library(ABC):
             If the library has none: always, in the base class.
         """
         raise SkeletonUnavailable(key, type(self).__name__)
+
+
+def named_folders(data_dir: str | Path | None) -> tuple[Path, ...]:
+    """Return the folders that a user names, separated by `os.pathsep` as in ``PATH``.
+
+    Parameters
+    ----------
+    data_dir : str, Path or None
+        None names none.
+    """
+    return tuple(Path(part) for part in str(data_dir or "").split(os.pathsep) if part)

@@ -1,38 +1,70 @@
-from .base import Clustering, Direction, Imputation, Metric, Recovery, Score, Synthesis
+from .angles import cumulative_scaled_error, rms_angle
+from .base import (
+    Clustering,
+    Direction,
+    Imputation,
+    Metric,
+    Recovery,
+    Score,
+    Synthesis,
+    has_poses,
+)
 from .calibration import coverage_50, coverage_80, coverage_90, coverage_95, crps, pit, sharpness
 from .clustering import adjusted_rand, purity
-from .errors import mse, rms_per_frame, smse, smse_pooled
+from .contact import foot_skate, sample_foot_skate
+from .errors import mse, smse, smse_pooled
+from .jerk import jerk_ratio, sample_jerk_ratio
 from .likelihood import msll
+from .norms import angle_error_per_frame, rms_per_frame, root_error_per_frame
+from .poses import ImputedPoses, SampledPoses
+from .positions import bone_length_error, mpjpe, mpjpe_global
 from .recovery import frobenius_child, frobenius_parent, logdet_child, logdet_parent
 from .similarity import mcc, mcc_best, mlc, mlc_best, variance_ratio
+from .spectrum import npss, sample_npss
 
 __all__ = [
     "Clustering",
     "Direction",
     "Imputation",
+    "ImputedPoses",
     "Metric",
     "Recovery",
+    "SampledPoses",
     "Score",
     "Synthesis",
     "adjusted_rand",
+    "angle_error_per_frame",
+    "bone_length_error",
     "coverage_50",
     "coverage_80",
     "coverage_90",
     "coverage_95",
     "crps",
+    "cumulative_scaled_error",
+    "foot_skate",
     "frobenius_child",
     "frobenius_parent",
+    "has_poses",
+    "jerk_ratio",
     "logdet_child",
     "logdet_parent",
     "mcc",
     "mcc_best",
     "mlc",
     "mlc_best",
+    "mpjpe",
+    "mpjpe_global",
     "mse",
     "msll",
+    "npss",
     "pit",
     "purity",
+    "rms_angle",
     "rms_per_frame",
+    "root_error_per_frame",
+    "sample_foot_skate",
+    "sample_jerk_ratio",
+    "sample_npss",
     "sharpness",
     "smse",
     "smse_pooled",

@@ -5,12 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
 from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Clustering", "Direction", "Imputation", "Metric", "Recovery", "Score", "Synthesis"]
+from mocapbench.metrics.poses import ImputedPoses, SampledPoses
+
+__all__ = [
+    "Clustering",
+    "Direction",
+    "Imputation",
+    "Metric",
+    "Recovery",
+    "Score",
+    "Synthesis",
+    "has_poses",
+]
 
 Array = NDArray[np.float64]
 
@@ -51,6 +63,20 @@ class Imputation:
     visible_mean, visible_variance : ndarray of shape (D,)
         Mean and variance (ddof 0) of each output's visible entries over all recordings that the
         model was given: the trivial Gaussian of the MSLL.
+    scales : ndarray of shape (D,) or None
+        What errors of joint angles in degrees are multiplied by to be comparable, NaN for outputs
+        that are no joint angles; None where a task has no such scales.
+    units : tuple of D str
+        Unit of each output, such as ``"deg"`` or ``"cm"``; empty strings where outputs are scored
+        in units of their own.
+    place_joints : callable or None
+        Places the joints of truth and prediction in space, where the outputs say how; called at
+        most once, and only if a metric asks for `poses`.
+
+    Raises
+    ------
+    ValueError
+        On access to `poses`, if the outcome has no ``place_joints``.
     """
 
     truth: Array
@@ -59,6 +85,14 @@ class Imputation:
     hidden: NDArray[np.bool_]
     visible_mean: Array
     visible_variance: Array
+    scales: Array | None = None
+    units: tuple[str, ...] = ()
+    place_joints: Callable[[], ImputedPoses] | None = None
+
+    @cached_property
+    def poses(self) -> ImputedPoses:
+        """The joints of truth and prediction in space."""
+        return _placed(self.place_joints)
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,10 +105,40 @@ class Synthesis:
         Sampled recordings, noise included.
     references : ndarray of shape (M, N, D)
         Reference recordings on the same number of frames.
+    place_joints : callable or None
+        Places the joints of samples and references in space, where the outputs say how; called at
+        most once, and only if a metric asks for `poses`.
+
+    Raises
+    ------
+    ValueError
+        On access to `poses`, if the outcome has no ``place_joints``.
     """
 
     samples: Array
     references: Array
+    place_joints: Callable[[], SampledPoses] | None = None
+
+    @cached_property
+    def poses(self) -> SampledPoses:
+        """The joints of samples and references in space."""
+        return _placed(self.place_joints)
+
+
+PosesT = TypeVar("PosesT", ImputedPoses, SampledPoses)
+
+
+def _placed(place_joints: Callable[[], PosesT] | None) -> PosesT:
+    if place_joints is None:
+        raise ValueError(
+            "expected an outcome with poses, got one without a skeleton: give place_joints"
+        )
+    return place_joints()
+
+
+def has_poses(outcome: Imputation | Synthesis) -> bool:
+    """Return whether joints can be placed in space: whether the outcome comes with a skeleton."""
+    return outcome.place_joints is not None
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,9 +185,9 @@ class Score:
     value : float
         The aggregate.
     parts : mapping of str to ndarray
-        The values along ``"output"`` (D,), ``"frame"`` (N,), ``"sample"`` (S,), ``"reference"``
-        (M,), ``"reference_sd"`` (M,) over samples, or ``"bin"``, where the metric has them; NaN
-        where an item was left out.
+        The values along ``"output"`` (D,), ``"joint"`` (J,), ``"frame"`` (N,), ``"sample"`` (S,),
+        ``"reference"`` (M,), ``"reference_sd"`` (M,) over samples, or ``"bin"``, where the metric
+        has them; NaN where an item was left out.
     left_out : int
         How many outputs were left out as degenerate.
     """

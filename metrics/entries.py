@@ -52,6 +52,7 @@ def _check_shapes(outcome: Imputation) -> None:
         ("hidden", outcome.hidden, shape),
         ("visible_mean", outcome.visible_mean, shape[1:]),
         ("visible_variance", outcome.visible_variance, shape[1:]),
+        ("scales", outcome.scales, shape[1:]),
     ):
         if array is not None and array.shape != expected:
             raise ValueError(

@@ -18,8 +18,6 @@ __all__ = [
     "mean_squared_error",
     "mse",
     "pooled_standardised_error",
-    "rms_error_per_frame",
-    "rms_per_frame",
     "smse",
     "smse_pooled",
     "standardised_error",
@@ -182,55 +180,6 @@ def pooled_standardised_error(outcome: Imputation) -> Score:
     return average(_squared_error(outcome) / scale, scored, left_out)
 
 
-def rms_error_per_frame(outcome: Imputation) -> Score:
-    """Return the mean over hidden frames of ‖y_t − μ_t‖.
-
-    The metric ``rms_per_frame``. The norm is Euclidean, over the hidden entries of frame t; a frame
-    counts if any of its entries is hidden. Lower is better; in the unit of the outputs.
-
-    Parameters
-    ----------
-    outcome : Imputation
-        With D outputs over N frames.
-
-    Returns
-    -------
-    Score
-        With part ``"frame"`` (N,), the norms; NaN at frames without hidden entries.
-
-    Raises
-    ------
-    ValueError
-        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
-
-    References
-    ----------
-    Wang, Fleet and Hertzmann (2008), Gaussian process dynamical models for human motion (GPDM),
-    Table 2. Its "RMS error per frame" is this mean norm and not the root of a mean square.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from mocapbench.metrics import Imputation, rms_per_frame
-    >>> outcome = Imputation(
-    ...     truth=np.array([[1.0, 5.0], [3.0, 9.0]]),
-    ...     mean=np.array([[1.0, 5.0], [2.0, 5.0]]),
-    ...     variance=None,
-    ...     hidden=np.full((2, 2), True),
-    ...     visible_mean=np.zeros(2),
-    ...     visible_variance=np.ones(2),
-    ... )
-    >>> round(rms_per_frame(outcome).value, 6)
-    2.061553
-    >>> rms_per_frame(outcome).parts["frame"].round(6)
-    array([0.      , 4.123106])
-    """
-    hidden = hidden_entries(outcome)
-    norms = np.sqrt(np.where(hidden, _squared_error(outcome), 0.0).sum(axis=1))
-    frames = np.where(hidden.any(axis=1), norms, np.nan)
-    return Score(float(np.nanmean(frames)), {"frame": frames})
-
-
 mse = Metric("mse", "Mean squared error (MSE)", Direction.LOWER, Imputation, mean_squared_error)
 smse = Metric(
     "smse",
@@ -245,7 +194,4 @@ smse_pooled = Metric(
     Direction.LOWER,
     Imputation,
     pooled_standardised_error,
-)
-rms_per_frame = Metric(
-    "rms_per_frame", "RMS error per frame", Direction.LOWER, Imputation, rms_error_per_frame
 )

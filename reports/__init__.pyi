@@ -18,6 +18,7 @@ from .filling.page import render_filled
 from .filling.values import FilledCurve, FilledPage, RankedModel
 from .page.page import render
 from .spreadsheet import csv_text
+from .text import counted
 
 __all__ = [
     "Band",
@@ -40,6 +41,7 @@ __all__ = [
     "Space",
     "TaskLayout",
     "TaskPage",
+    "counted",
     "csv_text",
     "render",
     "render_filled",

@@ -1,5 +1,6 @@
 """Settings of all tests."""
 
+import signal
 import sys
 
 import pytest
@@ -10,6 +11,11 @@ from mocapbench.benchmark.registry import REGISTRIES
 # A deadline would assert a wall-clock time.
 settings.register_profile("no-clock", deadline=None)
 settings.load_profile("no-clock")
+
+# Under nohup, or in the background of a shell, processes would inherit that these are ignored.
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(autouse=True)

@@ -1,9 +1,10 @@
 """The conformance kit, over everything registered."""
 
 import pytest
+from format_files import sample
 
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
-from mocapbench.benchmark.testing import check_metric, check_task, model_checks
+from mocapbench.benchmark.registry import FORMATS, METRICS, MODELS, TASKS
+from mocapbench.benchmark.testing import check_format, check_metric, check_task, model_checks
 
 CHECKS = [
     pytest.param(name, check, id=f"{name}-{check.__name__}")
@@ -29,3 +30,8 @@ def test_a_metric_conforms(name):
     metric = METRICS.get(name)
     assert metric.name == name
     check_metric(metric)
+
+
+@pytest.mark.parametrize("name", FORMATS.names())
+def test_a_format_conforms(name, tmp_path):
+    check_format(FORMATS.get(name), sample(name, tmp_path))

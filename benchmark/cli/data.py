@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.progress import track
-from rich.table import Table
+from rich.table import Column, Table
 
 from mocapbench import benchmark as bench
 from mocapbench import datasets
 from mocapbench.benchmark.cli.console import LiteralConsole
-from mocapbench.benchmark.cli.options import DataDir, Plugins, load_plugins
+from mocapbench.benchmark.cli.options import DataDir, Plugins, load_plugins, open_archive
 from mocapbench.benchmark.errors import ExitCode, UsageError
 
 if TYPE_CHECKING:
@@ -54,15 +55,19 @@ def _tracked(uris: Sequence[str], console: LiteralConsole) -> Iterable[str]:
 def status(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = None) -> None:
     """Show which recordings are on this machine, without reading them."""
     load_plugins(plugin)
-    archive = bench.archive_at(data_dir)
-    _show(archive.status(_addresses(trials, archive)))
+    archive, console = open_archive(data_dir), LiteralConsole()
+    rows = archive.status(_addresses(trials, archive))
+    _show(rows, data_dir, console)
+    console.print(
+        bench.next_data_step(rows, bench.DataRequest(trials, data_dir, plugin)), soft_wrap=True
+    )
 
 
 @app.command()
 def fetch(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = None) -> None:
     """Download recordings; those that are here and right are left alone."""
     load_plugins(plugin)
-    archive, console = bench.archive_at(data_dir), LiteralConsole()
+    archive, console = open_archive(data_dir), LiteralConsole()
     addresses = _addresses(trials, archive)
     failures = []
     for uri in _tracked(addresses, console):
@@ -72,20 +77,26 @@ def fetch(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = Non
             raise UsageError(str(error)) from error
         except (datasets.FetchError, datasets.DigestMismatch) as error:
             failures.append(str(error))
-    _show(archive.status(addresses))
+    rows = archive.status(addresses)
+    _show(rows, data_dir, console)
     if failures:
         raise UsageError("\n".join(failures))
+    console.print(
+        bench.next_data_step(rows, bench.DataRequest(trials, data_dir, plugin)), soft_wrap=True
+    )
 
 
 @app.command()
 def verify(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = None) -> None:
     """Read the recordings that are here and check their digests."""
     load_plugins(plugin)
-    archive = bench.archive_at(data_dir)
-    addresses = _addresses(trials, archive)
-    tracked = track(addresses, "verifying", console=LiteralConsole())
+    archive, console = open_archive(data_dir), LiteralConsole()
+    tracked = track(_addresses(trials, archive), "verifying", console=console)
     rows = [row for uri in tracked for row in archive.verify([uri])]
-    _show(rows)
+    _show(rows, data_dir, console)
+    console.print(
+        bench.next_data_step(rows, bench.DataRequest(trials, data_dir, plugin)), soft_wrap=True
+    )
     if any(row.state == "wrong" for row in rows):
         raise typer.Exit(ExitCode.USAGE)
 
@@ -104,8 +115,14 @@ def _addresses(trials: Iterable[str] | None, archive: Archive) -> list[str]:
     return sorted(uri for uri in recordings if not uri.startswith("gait:"))
 
 
-def _show(rows: Sequence[RecordingStatus]) -> None:
-    table = Table("recording", "state", "where", "SHA-256")
+def _show(rows: Sequence[RecordingStatus], data_dir: Path | None, console: LiteralConsole) -> None:
+    """Show one row a recording, with digests if one was computed, and the totals."""
+    heads = [Column("recording", no_wrap=True), Column("state"), Column("where", overflow="fold")]
+    if any(row.digest for row in rows):
+        heads.append(Column("SHA-256", no_wrap=True))
+    table = Table(*heads)
     for row in rows:
-        table.add_row(row.uri, row.state, row.where, row.digest[:16])
-    LiteralConsole().print(table)
+        cells = (row.uri, row.state, row.where, row.digest[:16])
+        table.add_row(*cells[: len(heads)])
+    console.print(table)
+    console.print(bench.data_totals(rows, data_dir), soft_wrap=True)

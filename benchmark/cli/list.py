@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import json
+from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
-from rich.table import Table
+from rich.table import Column, Table
 
-from mocapbench import baselines
 from mocapbench import benchmark as bench
+from mocapbench import reports
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
+
+if TYPE_CHECKING:
+    from mocapbench.benchmark.registry import Registry
 
 __all__ = ["app"]
 
 app = typer.Typer(add_completion=False)
 
-_ABILITIES = {
-    "Imputer": "imputes any mask",
-    "FrameImputer": "imputes whole frames",
-    "Inductive": "new recordings too",
-    "Interpolator": "interpolates each channel",
-    "Synthesiser": "synthesises",
-    "Clusterer": "clusters",
-    "Aligner": "aligns",
-    "Blender": "blends",
-    "Informed": "is given the generating process",
-    "Misinformed": "is given an unrelated process",
-}
+Entry = Mapping[str, Any]
 
 
 class Kind(StrEnum):
@@ -42,65 +35,90 @@ class Kind(StrEnum):
     FORMATS = "formats"
 
 
+class _Listing(NamedTuple):
+    """How one kind is listed."""
+
+    registry: Registry[Any]
+    entry: Callable[[str], Entry]
+    columns: Mapping[str, str]
+    """What the table shows of an entry besides its name, and under which heads."""
+
+
 @app.command("list")
 def list_registered(
-    kind: Annotated[Kind, typer.Argument(help="What to list.")], plugin: Plugins = None
+    kind: Annotated[Kind, typer.Argument(help="What to list.")],
+    names: Annotated[
+        list[str] | None, typer.Argument(help="Show all there is to say of these.")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print all there is to say as JSON.")
+    ] = False,
+    plugin: Plugins = None,
 ) -> None:
-    """List tasks, models, metrics, libraries of recordings or formats of files."""
+    """List tasks, models, metrics, libraries of recordings or formats of files.
+
+    With names, such as those of tasks, all there is to say of them: cases, entrants, parameters.
+    """
     load_plugins(plugin)
-    tables: dict[Kind, Callable[[], Table]] = {
-        Kind.TASKS: _task_table,
-        Kind.MODELS: _model_table,
-        Kind.METRICS: _metric_table,
-        Kind.LIBRARIES: _library_table,
-        Kind.FORMATS: _format_table,
-    }
-    LiteralConsole().print(tables[kind]())
+    listing = _listing(kind)
+    entries = [listing.entry(name) for name in names or listing.registry.names()]
+    if as_json:
+        typer.echo(json.dumps(entries, indent=1, default=str))
+        return
+    console = LiteralConsole()
+    if names:
+        for entry in entries:
+            console.print(_details(entry))
+        return
+    console.print(_table(listing, entries))
+    console.print(f"`mocapbench list {kind} NAME` shows all there is to say of one; --json, of all")
 
 
-def _task_table() -> Table:
-    table = Table("task", "cases", "profiles", "entrants", "source")
-    for name in bench.TASKS.names():
-        task = bench.TASKS.get(name)
-        cases = ", ".join(case.name for case in task.cases)
-        labels = ", ".join(entrant.label for entrant in task.entrants)
-        table.add_row(name, cases, ", ".join(task.profiles), labels, task.page.reference)
+def _listing(kind: Kind) -> _Listing:
+    match kind:
+        case Kind.TASKS:
+            columns = {"title": "title", "cases": "cases", "reference": "from"}
+            return _Listing(bench.TASKS, bench.task_entry, columns)
+        case Kind.MODELS:
+            columns = {"summary": "what it is", "abilities": "abilities"}
+            return _Listing(bench.MODELS, bench.model_entry, columns)
+        case Kind.METRICS:
+            columns = {"title": "title", "better": "better", "of": "of"}
+            return _Listing(bench.METRICS, bench.metric_entry, columns)
+        case Kind.LIBRARIES:
+            columns = {"summary": "what it is", "layout": "reads"}
+            return _Listing(bench.LIBRARIES, bench.library_entry, columns)
+        case Kind.FORMATS:
+            columns = {"summary": "what it is", "suffixes": "files", "needs": "needs"}
+            return _Listing(bench.FORMATS, bench.format_entry, columns)
+
+
+def _table(listing: _Listing, entries: Sequence[Entry]) -> Table:
+    """Return one row an entry; of the cases of a task, which may be many, their number."""
+    table = Table(Column(listing.registry.kind, no_wrap=True), *listing.columns.values())
+    for entry in entries:
+        cells = {name: _text(entry[name]) for name in listing.columns}
+        if "cases" in cells:
+            cells["cases"] = str(len(entry["cases"]))
+        table.add_row(entry["name"], *cells.values())
     return table
 
 
-def _model_table() -> Table:
-    table = Table("model", "abilities", "parameters")
-    classes = {text: getattr(baselines, ability) for ability, text in _ABILITIES.items()}
-    for name in bench.MODELS.names():
-        model = bench.MODELS.get(name)
-        abilities = [text for text, ability in classes.items() if issubclass(model, ability)]
-        parameters = ", ".join(f"{key}={value}" for key, value in model().get_params().items())
-        table.add_row(name, ", ".join(abilities), parameters)
+def _details(entry: Entry) -> Table:
+    table = Table(Column(no_wrap=True), Column(overflow="fold"), show_header=False, box=None)
+    for name, value in entry.items():
+        table.add_row(name, _text(value))
+    table.add_row()
     return table
 
 
-def _metric_table() -> Table:
-    table = Table("metric", "title", "better", "of")
-    for name in bench.METRICS.names():
-        metric = bench.METRICS.get(name)
-        better = metric.direction.value if metric.target is None else f"near {metric.target:g}"
-        table.add_row(name, metric.title, better, metric.outcome.__name__.lower())
-    return table
-
-
-def _library_table() -> Table:
-    table = Table("library", "what it is")
-    for name in bench.LIBRARIES.names():
-        first, _, _ = (bench.LIBRARIES.get(name).__doc__ or "").partition("\n")
-        table.add_row(name, first)
-    return table
-
-
-def _format_table() -> Table:
-    table = Table("format", "files", "needs", "what it is")
-    for name in bench.FORMATS.names():
-        kind = bench.FORMATS.get(name)
-        first, _, _ = (kind.__doc__ or "").partition("\n")
-        needs = f"mocapbench[{kind.needs.name}]" if kind.needs else ""
-        table.add_row(name, " ".join(kind.suffixes), needs, first)
-    return table
+def _text(value: object) -> str:
+    match value:
+        case {"cases": cases, "folds": folds}:
+            return f"{reports.counted(len(cases), 'case')} × {reports.counted(folds, 'fold')}"
+        case Mapping():
+            return ", ".join(f"{name}: {_text(item)}" for name, item in value.items())
+        case list():
+            return ", ".join(map(_text, value))
+        case _:
+            return str(value)

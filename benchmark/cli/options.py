@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from os import pathsep
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from mocapbench import benchmark as bench
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import UsageError
+
+if TYPE_CHECKING:
+    from mocapbench.datasets import Archive
 
 __all__ = [
     "DEFAULT_OUT",
@@ -19,6 +23,7 @@ __all__ = [
     "Out",
     "Plugins",
     "load_plugins",
+    "open_archive",
     "require_writable",
     "show_left_out",
     "split",
@@ -30,7 +35,10 @@ Names = Annotated[list[str] | None, typer.Option(help="Names, repeated or separa
 Out = Annotated[Path, typer.Option(help="The run directory: new, empty, or an earlier run's.")]
 DataDir = Annotated[
     Path | None,
-    typer.Option(envvar="MOCAPBENCH_DATA", help="A folder of recordings (subjects/NN/…)."),
+    typer.Option(
+        envvar="MOCAPBENCH_DATA",
+        help=f"A folder of recordings (subjects/NN/…), or several with {pathsep} between them.",
+    ),
 ]
 Plugins = Annotated[
     list[Path] | None,
@@ -54,6 +62,19 @@ def load_plugins(paths: Sequence[Path] | None) -> tuple[Path, ...]:
     for path in files:
         bench.load_plugin(path)
     return files
+
+
+def open_archive(data_dir: Path | None) -> Archive:
+    """Return the archive of all libraries, given the folders that the user names.
+
+    Raises
+    ------
+    UsageError
+        If one of them is no folder, or none of them holds recordings.
+    """
+    archive = bench.archive_at(data_dir)
+    bench.require_recordings(data_dir, archive)
+    return archive
 
 
 def require_writable(*paths: Path | None) -> None:

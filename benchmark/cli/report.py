@@ -17,6 +17,7 @@ from mocapbench.benchmark.cli.options import (
     Out,
     Plugins,
     load_plugins,
+    open_archive,
     require_writable,
     show_left_out,
 )
@@ -46,7 +47,7 @@ def report(
     plan, records = store.load_plan(), store.planned()
     if not records:
         raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
-    archive, path = bench.archive_at(data_dir), to or out / "report.html"
+    archive, path = open_archive(data_dir), to or out / "report.html"
     write_report(records, plan["provenance"], store, archive, path, console)
 
 

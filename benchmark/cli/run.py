@@ -15,7 +15,6 @@ from types import FrameType
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.table import Table
 
 from mocapbench import benchmark as bench
 from mocapbench import datasets
@@ -28,6 +27,7 @@ from mocapbench.benchmark.cli.options import (
     Out,
     Plugins,
     load_plugins,
+    open_archive,
     show_left_out,
     split,
 )
@@ -93,7 +93,7 @@ def run(
     request = bench.Request(
         profile, split(tasks), split(models), split(cases), split(metrics), folds, seed
     )
-    archive = bench.archive_at(data_dir)
+    archive = open_archive(data_dir)
     if not (offline or dry_run):
         fetch_missing(archive, bench.required_sources(request), console)
     planned = bench.plan(request, archive)
@@ -105,12 +105,16 @@ def run(
     if explain:
         console.print(bench.explanation_table(bench.explain(planned, out)))
     elif dry_run:
-        console.print(_plan_table(planned))
+        console.print(bench.plan_table(planned))
     if dry_run:
+        n_workers = None if scheduler or cluster else jobs or bench.n_cores()
+        remedy = _fetching(planned, plugins) if offline else _downloading(planned)
+        for line in bench.forecast_text(planned, profile, out, n_workers, remedy):
+            console.print(line, soft_wrap=True, highlight=False)
         return
     store, site = bench.Store.create(out), bench.open_site(jobs, scheduler, cluster)
     config = bench.WorkerConfig(
-        data_dir.resolve() if data_dir else None,
+        bench.full_paths(data_dir),
         plugins,
         timeout,
         int((memory or site.memory) * 2**30),
@@ -164,7 +168,7 @@ def _run(
         with suppress(OSError):  # the terminal may have been closed
             console.print("interrupted; everything finished is kept, and the same command resumes")
         return ExitCode.INTERRUPTED
-    code, report = _ending(records, console), store.path / "report.html"
+    code, report = _ending(planned, records, config, console), store.path / "report.html"
     found = bench.stamp(records, about)
     if found == drawn:
         console.print(f"nothing new; report: {report.resolve()}", soft_wrap=True)
@@ -177,25 +181,28 @@ def _run(
     return code
 
 
-def _ending(records: Sequence[Record], console: LiteralConsole) -> ExitCode:
+def _fetching(planned: Sequence[Job], plugins: Sequence[Path]) -> str:
+    return f"`{bench.fetch_command(bench.lacking(planned), plugins)}` gets them"
+
+
+def _downloading(planned: Sequence[Job]) -> str:
+    trials = " ".join(uri.removeprefix("cmu:") for uri in bench.lacking(planned))
+    return f"the run downloads them first: {trials}"
+
+
+def _ending(
+    planned: Sequence[Job], records: Sequence[Record], config: WorkerConfig, console: LiteralConsole
+) -> ExitCode:
     """Say in one line how the run ended, and return the exit code for it."""
     counts = Counter(record.status for record in records)
     summary = ", ".join(f"{counts[status]} {status}" for status in bench.Status if counts[status])
-    missing = (r.message for r in records if r.status is bench.Status.DATA_MISSING)
-    for message in dict.fromkeys(missing):
-        console.print(f"data missing: {message}", soft_wrap=True)
+    if bench.lacking(planned):
+        line = bench.lacking_line(planned, _fetching(planned, config.plugins))
+        console.print(line, soft_wrap=True, highlight=False)
     console.print(f"{len(records)} jobs: {summary}")
     if any(record.status.broken for record in records):
         return ExitCode.JOBS_FAILED
     return ExitCode.OK if counts[bench.Status.OK] else ExitCode.NOTHING_RAN
-
-
-def _plan_table(planned: Sequence[Job]) -> Table:
-    table = Table("task", "case", "entrant", "folds", title=f"{len(planned)} jobs")
-    rows = Counter((job.address.task, job.address.case, job.address.label) for job in planned)
-    for address, count in rows.items():
-        table.add_row(*address, str(count))
-    return table
 
 
 def _acknowledgement(planned: Sequence[Job]) -> dict[str, str]:

@@ -11,6 +11,7 @@ import numpy as np
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.figures.stick_figures import strip
 from mocapbench.benchmark.problems.blending import Blend
+from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.cluster import ClusterProblem, Clusters
 from mocapbench.datasets import Recording
 from mocapbench.reports import Curve, Illustration, Panel
@@ -66,7 +67,7 @@ class Blends:
             "recordings share it: one that advances two or three states a frame skips those "
             "between, which another recording then shapes."
         )
-        panels = (strip(motion, problem.skeleton, TRANSITION), *curves)
+        panels = (strip(motion, JointAngles(problem.skeleton), TRANSITION), *curves)
         return Illustration(solved.task, f"Blend by {label}", caption, panels)
 
 

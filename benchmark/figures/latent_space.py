@@ -82,13 +82,13 @@ def _walks(
     solved: Solved[ImputeProblem, FilledRecordings], internals: Mapping[str, Internals]
 ) -> Sequence[Illustration]:
     """Return stick figures of the mean prediction and of a fair sample of each entrant."""
-    skeleton, about = solved.problem.skeleton, solved.problem.train[0]
+    body, about = solved.problem.body, solved.problem.train[0]
     walks = {
         label: of_label.latent_walks
         for label, of_label in internals.items()
         if of_label.latent_walks is not None
     }
-    if skeleton is None or not walks:
+    if body is None or not walks:
         return ()
     step = float(np.diff(about.times).mean())
     longest = max(len(walk.mean_poses) for walk in walks.values())
@@ -96,7 +96,7 @@ def _walks(
     panels = tuple(
         strip(
             Recording(label, times[: len(poses)], poses, about.channels, about.units),
-            skeleton,
+            body,
             group,
             f"{label}: {group}, ",
         )

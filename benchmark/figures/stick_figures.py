@@ -5,12 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.datasets import (
-    Recording,
-    Skeleton,
-    integrate_root,
-    joint_positions,
-)
+from mocapbench.benchmark.problems.body import Body
+from mocapbench.datasets import Recording, Skeleton
 from mocapbench.reports import Curve, Panel
 
 __all__ = ["strip"]
@@ -20,10 +16,10 @@ STRIDE = 90.0
 """Centimetres from one stick figure to the next."""
 
 
-def strip(motion: Recording, skeleton: Skeleton, group: str, title: str = "") -> Panel:
+def strip(motion: Recording, body: Body, group: str, title: str = "") -> Panel:
     """Return stick figures at even times, seen from the side and set apart."""
     frames = np.linspace(0, len(motion.times) - 1, N_FIGURES).round().astype(int)
-    places = joint_positions(skeleton, integrate_root(motion).frames(frames))
+    places = body.positions(motion)[frames]
     places = places - places[:, :1] * [0.0, 0.0, 1.0]
     places[..., 1] -= places[..., 1].min(axis=1, keepdims=True)
     places[..., 2] += STRIDE * np.arange(N_FIGURES)[:, None]
@@ -31,7 +27,7 @@ def strip(motion: Recording, skeleton: Skeleton, group: str, title: str = "") ->
         f"{title}every {np.diff(motion.times[frames]).mean():.2g} s",
         "",
         "height, cm",
-        tuple(_sticks(skeleton, figure, group) for figure in places),
+        tuple(_sticks(body.skeleton, figure, group) for figure in places),
         spatial=True,
     )
 

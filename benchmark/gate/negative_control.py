@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from rich.console import Console
 from rich.table import Table
@@ -11,43 +11,64 @@ from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.results.bundle import bundle
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.reports.analysis.negative_control import negative_control
-from mocapbench.reports.analysis.negative_control_result import Measure, NegativeControlResult
+from mocapbench.reports.analysis.negative_control_result import (
+    EXEMPT,
+    Decision,
+    Measure,
+    NegativeControlResult,
+)
 from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.text import counted
 
 __all__ = ["check_controls"]
+
+NOTHING = (
+    "nothing to check: expected scores of the entrant 'control'; run a task that has one, such as "
+    "toy-synthesis"
+)
 
 
 def check_controls(records: Sequence[Record], console: Console) -> ExitCode:
     """Show what `negative_control` finds in every task of ``records``, and return the exit code.
 
-    `ExitCode.REGRESSION` if an entrant or a control fails, `ExitCode.JOBS_FAILED` if a job did,
-    `ExitCode.NOTHING_RAN` if no task has a control with scores in two cells.
+    `ExitCode.REGRESSION` if an entrant or a control fails, else `ExitCode.JOBS_FAILED` if a job
+    did, `ExitCode.UNDECIDED` if cells are too few to tell, and `ExitCode.NOTHING_RAN` if no task
+    has a control with scores.
     """
     results = bundle(records, {})
     by_task = {
         layout.name: negative_control(task_results(results, layout)) for layout in results.layouts
     }
     checked = {task: findings for task, findings in by_task.items() if findings}
-    if not checked:
-        console.print(
-            "nothing to check: expected scores of the entrant 'control' in at least two cells "
-            "(case × fold); run a task that has one, such as toy-synthesis"
-        )
+    broken = [record for record in records if record.status.broken]
     for task, findings in checked.items():
         console.print(_table(task, findings))
-        for line in _reasons(findings):
-            console.print(f"{task}: {line}", markup=False, highlight=False, soft_wrap=True)
-    failed = [finding for findings in checked.values() for finding in findings if finding.failed]
-    broken = [record for record in records if record.status.broken]
+    for line in _lines(checked, broken):
+        console.print(line, markup=False, highlight=False, soft_wrap=True)
+    return _exit_code([finding for several in checked.values() for finding in several], broken)
+
+
+def _lines(
+    checked: Mapping[str, Sequence[NegativeControlResult]], broken: Sequence[Record]
+) -> Iterator[str]:
+    """Yield what is to be said below the tables."""
+    if not checked:
+        yield NOTHING
+    for task, findings in checked.items():
+        yield from (f"{task}: {reason}" for reason in _reasons(findings))
     for record in broken[:1]:
         failure = f"{record.address.label}: {record.message}"
-        line = f"{len(broken)} jobs failed and were not checked ({failure})"
-        console.print(line, markup=False, highlight=False, soft_wrap=True)
-    if failed:
+        yield f"{len(broken)} jobs failed and were not checked ({failure})"
+
+
+def _exit_code(findings: Sequence[NegativeControlResult], broken: Sequence[Record]) -> ExitCode:
+    if any(finding.failed for finding in findings):
         return ExitCode.REGRESSION
     if broken:
         return ExitCode.JOBS_FAILED
-    return ExitCode.OK if checked else ExitCode.NOTHING_RAN
+    if any(finding.undecided for finding in findings):
+        return ExitCode.UNDECIDED
+    return ExitCode.OK if findings else ExitCode.NOTHING_RAN
 
 
 def _table(task: str, findings: Sequence[NegativeControlResult]) -> Table:
@@ -73,23 +94,27 @@ def _estimate(measure: Measure) -> str:
 
 
 def _reasons(findings: Sequence[NegativeControlResult]) -> Iterator[str]:
-    """Yield why each entrant that failed did so, with its worst cells, or why it is exempt."""
+    """Yield why each entrant that did not pass did not, with its worst cells, or is exempt."""
     for finding in findings:
         if finding.failed:
             yield from (
                 f"{finding.label} fails by {measure.name}: {_offences(measure)}"
                 for measure in finding.measures
-                if not measure.passed
+                if measure.decision is Decision.FAILED
             )
-        elif not finding.passed:
+        elif finding.undecided:
+            names = [m.name for m in finding.measures if m.decision is Decision.UNDECIDED]
+            yield f"{finding.label} is undecided by {' and '.join(names)}: {_too_few(finding)}"
+        elif finding.verdict == EXEMPT:
             yield f"{finding.label} need not pass: it {finding.exempt}"
+
+
+def _too_few(finding: NegativeControlResult) -> str:
+    cells = counted(finding.n_cells, "cell")
+    return f"too few to tell ({cells}: case × fold); run more --folds or --cases"
 
 
 def _offences(measure: Measure) -> str:
     if measure.estimate is None:
         return "it has no score to set beside the control's"
-    cells = [f"{cell.case} fold {cell.fold} {cell.value:.3f}" for cell in measure.offending]
-    return (
-        ", ".join(cells)
-        or "no single case and fold, but there are too few to decide; run more of them"
-    )
+    return ", ".join(f"{cell.case} fold {cell.fold} {cell.value:.3f}" for cell in measure.offending)

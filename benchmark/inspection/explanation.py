@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -56,7 +56,7 @@ def explain(jobs: Sequence[Job], out: Path) -> list[Explanation]:
         The run directory, which need not be there.
     """
     if not Store.is_run(out):
-        return [Explanation(j.address, _step(j, predicted=False), "no record yet") for j in jobs]
+        return list(_first(jobs))
     store = Store(out)
     earlier = _Earlier(store)
     predicted = {key for key in {job.fit_key for job in jobs} if store.has_fit(key)}
@@ -65,6 +65,15 @@ def explain(jobs: Sequence[Job], out: Path) -> list[Explanation]:
         explanations.append(_explained(job, store, earlier, predicted=job.fit_key in predicted))
         predicted.add(job.fit_key)  # by now, or by the time when the next one runs
     return explanations
+
+
+def _first(jobs: Sequence[Job]) -> Iterator[Explanation]:
+    """Yield what becomes of the jobs of a first run."""
+    predicted: set[str] = set()
+    for job in jobs:
+        step = _step(job, predicted=job.fit_key in predicted)
+        yield Explanation(job.address, step, "no record yet")
+        predicted.add(job.fit_key)  # by the time when the next one runs
 
 
 def _step(job: Job, *, predicted: bool) -> Step:

@@ -7,11 +7,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from mocapbench.benchmark.inspection.fit_seconds import alike, of_records
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, planned_jobs
-from mocapbench.benchmark.runs.execution.durations import Durations
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
-from mocapbench.benchmark.tasks.address import Address
 
 __all__ = ["RunState", "TaskState", "run_state"]
 
@@ -116,14 +115,5 @@ def _seconds_left(
     To score predictions that are there, or that another row asks for too, takes no time beside it.
     """
     to_fit = {job.fit_key: job.address for job in left if job.fit_key not in predicted}
-    durations = Durations()
-    for record in records:
-        if record.fit_seconds is not None:
-            seconds = record.fit_seconds + (record.predict_seconds or 0.0)
-            durations.learn(_kinds(record.address), seconds)
-    return sum(durations.expected(_kinds(address)) for address in to_fit.values())
-
-
-def _kinds(address: Address) -> tuple[tuple[str, ...], ...]:
-    """Return among what jobs to look for alike ones, the most alike first."""
-    return (address.task, address.label), (address.label,), ()
+    durations = of_records(records)
+    return sum(durations.expected(alike(address)) for address in to_fit.values())

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Self
 
 import numpy as np
@@ -12,9 +13,11 @@ from numpy.typing import NDArray
 from mocapbench.baselines import FrameImputer, Prediction
 from mocapbench.benchmark.problems.arrays import Arrays, numbered, with_numbers
 from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
+from mocapbench.benchmark.problems.body import Body
+from mocapbench.benchmark.problems.placement import imputed_poses
 from mocapbench.benchmark.problems.unit import Unit
-from mocapbench.datasets import FrameByChannel, Mask, Recording, Skeleton
-from mocapbench.metrics import Imputation
+from mocapbench.datasets import FrameByChannel, Mask, Recording
+from mocapbench.metrics import Imputation, ImputedPoses
 
 __all__ = ["FilledRecordings", "ImputeProblem"]
 
@@ -69,8 +72,10 @@ class ImputeProblem(Problem[FilledRecordings]):
         Their complete values, which no model sees.
     unit : Unit
         The unit that scores are taken in.
-    skeleton : Skeleton or None
-        Whose degrees of freedom the channels are, for figures.
+    body : Body or None
+        Places the joints in space, for metrics in centimetres and for figures.
+    scales : ndarray of shape (D,) or None
+        See `mocapbench.metrics.Imputation`.
     process, parent
         See `Problem`.
     """
@@ -78,7 +83,8 @@ class ImputeProblem(Problem[FilledRecordings]):
     given: tuple[Recording, ...]
     truth: tuple[FrameByChannel, ...]
     unit: Unit
-    skeleton: Skeleton | None = None
+    body: Body | None = None
+    scales: NDArray[np.float64] | None = None
 
     answer_type = FilledRecordings
 
@@ -90,6 +96,7 @@ class ImputeProblem(Problem[FilledRecordings]):
         others: Sequence[Recording] = (),
         *,
         seen_in_fit: bool = True,
+        body: Body | None = None,
     ) -> Self:
         """Return the problem of filling one recording, scored in its channels' own units.
 
@@ -104,11 +111,13 @@ class ImputeProblem(Problem[FilledRecordings]):
         seen_in_fit : bool
             Whether models learn from the recording's visible entries too; if not, the task must
             require `Inductive` models.
+        body : Body or None
+            Places the joints in space.
         """
         given = recording.hide(hidden)
         own = (given,) if seen_in_fit else ()
         unit = Unit.natural(len(recording.channels))
-        return cls((*others, *own), (given,), (recording.values,), unit)
+        return cls((*others, *own), (given,), (recording.values,), unit, body)
 
     def solve(self, model: FrameImputer, random_state: int) -> FilledRecordings:
         """Return the model's predictions of the recordings given."""
@@ -137,7 +146,15 @@ class ImputeProblem(Problem[FilledRecordings]):
             hidden=~np.concatenate([recording.visible for recording in self.given]),
             visible_mean=visible_mean,
             visible_variance=visible_variance,
+            scales=self.scales,
+            units=self.unit.names(self.given[0].units),
+            place_joints=self._placement(answer),
         )
+
+    def _placement(self, answer: FilledRecordings) -> Callable[[], ImputedPoses] | None:
+        if self.body is None:
+            return None
+        return partial(imputed_poses, self.body, self.given, self.truth, answer.predictions)
 
     def _visible_moments(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return moments over all recordings given to fit and impute, each counted once."""

@@ -2,11 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import dataclass
+
 import numpy as np
 
-from mocapbench.datasets import Mask
+from mocapbench.datasets import Mask, Recording
 
-__all__ = ["hide_all_but", "hide_frames"]
+__all__ = ["Run", "hide_all_but", "hide_frames", "hide_runs"]
+
+
+@dataclass(frozen=True)
+class Run:
+    """Some channels hidden for some frames in a row.
+
+    Parameters
+    ----------
+    channels : tuple of str
+    start, length : int
+        The first hidden frame, counted from 0, and how many there are.
+    """
+
+    channels: tuple[str, ...]
+    start: int
+    length: int
 
 
 def hide_all_but(rng: np.random.Generator, n_visible: int, n_frames: int, n_channels: int) -> Mask:
@@ -28,3 +47,26 @@ def hide_frames(start: int, stop: int, n_frames: int, n_channels: int) -> Mask:
     frames = np.arange(n_frames)
     hidden = (frames >= start) & (frames < stop)
     return np.repeat(hidden[:, None], n_channels, axis=1)
+
+
+def hide_runs(runs: Iterable[Run], recording: Recording) -> Mask:
+    """Return a mask (N, D) of runs of frames, each in some channels.
+
+    Raises
+    ------
+    ValueError
+        If a run does not lie within the recording, or one of its channels is not in it.
+    """
+    hidden = np.zeros(recording.values.shape, dtype=bool)
+    for run in runs:
+        stop, n_frames = run.start + run.length, len(hidden)
+        missing = sorted({*run.channels} - {*recording.channels})
+        if missing or not 0 <= run.start < stop <= n_frames:
+            raise ValueError(
+                f"recording {recording.name!r}: expected a run of its channels within its "
+                f"{n_frames} frames, got frames [{run.start}, {stop}) and unknown channels "
+                f"{missing}"
+            )
+        columns = [recording.channels.index(channel) for channel in run.channels]
+        hidden[run.start : stop, columns] = True
+    return hidden

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Self
 
 import numpy as np
@@ -10,8 +12,10 @@ import numpy as np
 from mocapbench.baselines import Misinformed, Model, SampleByFrameByChannel, Synthesiser
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
+from mocapbench.benchmark.problems.body import Body
+from mocapbench.benchmark.problems.placement import sampled_poses
 from mocapbench.datasets import FrameByChannel, Frames, ToyProcess
-from mocapbench.metrics import Synthesis
+from mocapbench.metrics import SampledPoses, Synthesis
 
 __all__ = ["Samples", "SynthesiseProblem"]
 
@@ -53,6 +57,8 @@ class SynthesiseProblem(Problem[Samples]):
     control : ToyProcess or None
         A process that generated neither the recordings nor the references, for misinformed
         models.
+    body : Body or None
+        On which samples and references are placed in space, for metrics of positions.
     process, parent
         See `Problem`.
     """
@@ -61,6 +67,7 @@ class SynthesiseProblem(Problem[Samples]):
     n_samples: int
     references: tuple[FrameByChannel, ...]
     control: ToyProcess | None = None
+    body: Body | None = None
 
     answer_type = Samples
 
@@ -83,4 +90,10 @@ class SynthesiseProblem(Problem[Samples]):
 
     def outcome(self, answer: Samples) -> Synthesis:
         """Set the samples beside the references."""
-        return Synthesis(answer.values, np.stack(self.references))
+        return Synthesis(answer.values, np.stack(self.references), self._placement(answer))
+
+    def _placement(self, answer: Samples) -> Callable[[], SampledPoses] | None:
+        if self.body is None:
+            return None
+        like = replace(self.train[0], times=self.times, values=self.references[0])
+        return partial(sampled_poses, self.body, like, tuple(answer.values), self.references)

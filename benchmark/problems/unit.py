@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,6 +36,11 @@ class Unit:
         """Return the unit in which complete ``values`` (N, D) range from 0 to 1."""
         low = values.min(axis=0)
         return cls(low, values.max(axis=0) - low)
+
+    def names(self, own: Sequence[str]) -> tuple[str, ...]:
+        """Return the channels' ``own`` units (D,); nothing where a channel is scored in another."""
+        kept = (self.offset == 0.0) & (self.scale == 1.0)
+        return tuple(name if same else "" for name, same in zip(own, kept, strict=True))
 
     def of(self, values: FrameByChannel) -> FrameByChannel:
         """Return ``values`` (N, D) in this unit."""

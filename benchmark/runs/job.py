@@ -22,7 +22,7 @@ class WorkerConfig:
     Parameters
     ----------
     data_dir : Path or None
-        A folder of recordings that the user names.
+        A folder of recordings that the user names, or several separated by `os.pathsep`.
     plugins : tuple of Path
         The user's own files of models, tasks, metrics and libraries.
     timeout : float

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 from typing import Any
 
-from mocapbench.benchmark.errors import UnknownNameError, UsageError
+from mocapbench.benchmark.errors import UnknownNameError, UnregisteredNameError, UsageError
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.key_parts import key_parts
 from mocapbench.benchmark.runs.keys import fit_contents, key_of, score_contents
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task
+from mocapbench.benchmark.tasks.case_names import matching_cases
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 
@@ -34,7 +34,7 @@ class Request:
     profile : str
         ``smoke``, ``quick`` or ``paper``.
     tasks, models, cases, metrics : tuple of str
-        Names; a model may be named by its label too, a case by a pattern such as ``observed*``.
+        Names; a model may be named by its label too, a case as `matching_cases` finds it.
     folds : int or None
         How many folds of each case.
     seed : int
@@ -109,17 +109,13 @@ def _check_names(request: Request) -> None:
         METRICS.current_name(name)
     tasks = _tasks(request)
     labels = {entrant.label for task in tasks for entrant in task.entrants}
-    _check_known("model", request.models, {*MODELS.names(), *labels})
-    cases = [case.name for task in tasks for case in task.cases]
-    for pattern in request.cases:
-        if not any(fnmatchcase(case, pattern) for case in cases):
-            raise UnknownNameError("case", pattern, cases)
-
-
-def _check_known(kind: str, names: Sequence[str], known: set[str]) -> None:
-    for name in names:
+    known = {*MODELS.names(), *labels}
+    for name in request.models:
         if name not in known:
-            raise UnknownNameError(kind, name, sorted(known))
+            raise UnregisteredNameError(MODELS.kind, name, sorted(known))
+    for wanted in request.cases:
+        if not matching_cases(wanted, _case_names(request)):
+            raise UnknownNameError("case", wanted, _case_names(request))
 
 
 def _tasks(request: Request) -> list[Task]:
@@ -133,9 +129,14 @@ def _cases(request: Request, task: Task) -> Iterator[Case]:
     """Yield the profile's cases, or among all those of the task the ones asked for."""
     if not request.cases:
         yield from map(task.case, task.profile(request.profile).cases)
-    for case in task.cases:
-        if any(fnmatchcase(case.name, pattern) for pattern in request.cases):
-            yield case
+    names = _case_names(request)
+    chosen = {name for wanted in request.cases for name in matching_cases(wanted, names)}
+    yield from (case for case in task.cases if case.name in chosen)
+
+
+def _case_names(request: Request) -> tuple[str, ...]:
+    names = (case.name for task in _tasks(request) for case in task.cases)
+    return tuple(dict.fromkeys(names))
 
 
 def _chosen_entrants(request: Request, task: Task) -> list[Entrant]:

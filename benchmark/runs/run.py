@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from rich.console import Console
 
-from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.archives import archive_at, fetch_command
 from mocapbench.benchmark.events import EventLog
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.execution.base import Site
@@ -20,7 +19,6 @@ from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
 from mocapbench.benchmark.runs.progress import watch
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
-from mocapbench.datasets import Archive
 
 __all__ = ["run"]
 
@@ -111,7 +109,6 @@ def _log_end(log: EventLog, record: Record, seconds: float) -> None:
 def _without_data(job: Job, config: WorkerConfig) -> Record:
     """Return the record of a job whose recordings cannot be had."""
     trials = " ".join(uri.removeprefix("cmu:") for uri in job.missing)
-    plugins = "".join(f" --plugin {shlex.quote(str(path))}" for path in config.plugins)
-    command = f"{Archive.fetch_command(*job.missing)}{plugins}"
+    command = fetch_command(job.missing, config.plugins)
     message = f"{trials} cannot be had: get it with `{command}`"
     return job.record(Status.DATA_MISSING, message, provenance=config.provenance)

@@ -11,6 +11,7 @@ from functools import partial
 import numpy as np
 
 from mocapbench.baselines import FrameImputer, Inductive
+from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.masks import hide_frames
 from mocapbench.benchmark.problems.unit import Unit
@@ -50,7 +51,7 @@ def golf_problem(
         given=(given,),
         truth=(test.values,),
         unit=Unit.natural(len(test.channels)),
-        skeleton=archive.skeleton(held_out),
+        body=JointAngles(archive.skeleton(held_out)),
     )
 
 

@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from mocapbench.baselines import FrameImputer, Inductive
+from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.masks import hide_frames
 from mocapbench.benchmark.problems.unit import Unit
@@ -54,7 +55,7 @@ def missing_frames_problem(
         given=(given,),
         truth=(test.values,),
         unit=Unit.natural(len(test.channels)),
-        skeleton=archive.skeleton(test_uri),
+        body=JointAngles(archive.skeleton(test_uri)),
     )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import partial
 
 from mocapbench.baselines import Synthesiser
+from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
 from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.pages.mocap_synthesis import (
@@ -60,6 +61,7 @@ def motion_problem(
         times=train[0].times,
         n_samples=N_SAMPLES,
         references=tuple(read_excerpt(archive, uri, EVALUATION).values for uri in references),
+        body=JointAngles(archive.skeleton(sources[0])),
     )
 
 

@@ -58,6 +58,8 @@ style_clustering = Task(
     entrants=(
         Entrant("cyclic-alignment", "cyclic-alignment", {"n_restarts": 1}),
         Entrant("k-cpm", "k-cpm", {"n_restarts": 1}),
+        Entrant("k-fam", "k-fam", {"n_restarts": 1}),
+        Entrant("lgssm", "lgssm", {"n_restarts": 1}),
     ),
     profiles={
         "smoke": Profile(("synthetic C = 2",), folds=1, budget={"max_iter": 3, "n_restarts": 1}),

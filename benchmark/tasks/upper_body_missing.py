@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from mocapbench.baselines import Imputer, Inductive
+from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.hlm_recordings import CMU, SYNTHETIC, Corpus
@@ -28,9 +29,11 @@ def upper_body_problem(
 ) -> ImputeProblem:
     """Hold out the fold's walk of ``subject`` and hide the upper body in its second half."""
     recordings = corpus.read(archive)
-    test = recordings.pop(corpus.of_subject(subject)[seeds.fold])
+    held_out = corpus.of_subject(subject)[seeds.fold]
+    test = recordings.pop(held_out)
     others = tuple(recordings.values())
-    return ImputeProblem.of_one(test, _upper_body(test), others, seen_in_fit=False)
+    body = JointAngles(archive.skeleton(held_out))
+    return ImputeProblem.of_one(test, _upper_body(test), others, seen_in_fit=False, body=body)
 
 
 def _upper_body(recording: Recording) -> Mask:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from mocapbench.baselines import Imputer
+from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.masks import hide_all_but
 from mocapbench.benchmark.problems.unit import Unit
@@ -34,6 +35,7 @@ def walking_problem(
         given=(given,),
         truth=(first.values,),
         unit=Unit.range_of(first.values),
+        body=JointAngles(archive.skeleton(walkers[0])),
     )
 
 

@@ -1,4 +1,4 @@
-"""The conformance kit: whether a model, a task or a metric keeps what its protocol promises.
+"""The conformance kit: whether a model, a task, a metric or a format keeps its promises.
 
 For the tests of a package that adds its own::
 
@@ -13,8 +13,17 @@ checks are small functions, also to be had one by one (`model_checks`), each a t
 """
 
 from mocapbench.benchmark.testing.errors import ConformanceError
+from mocapbench.benchmark.testing.formats import check_format, damaged
 from mocapbench.benchmark.testing.metrics import check_metric
 from mocapbench.benchmark.testing.models import check_model, model_checks
 from mocapbench.benchmark.testing.tasks import check_task
 
-__all__ = ["ConformanceError", "check_metric", "check_model", "check_task", "model_checks"]
+__all__ = [
+    "ConformanceError",
+    "check_format",
+    "check_metric",
+    "check_model",
+    "check_task",
+    "damaged",
+    "model_checks",
+]

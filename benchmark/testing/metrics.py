@@ -10,39 +10,73 @@ from typing import Any
 import numpy as np
 
 from mocapbench.benchmark.testing.errors import raised_by, require
-from mocapbench.benchmark.testing.subject import COMPLETE, GAP
+from mocapbench.benchmark.testing.subject import COMPLETE, GAP, TIMES
 from mocapbench.metrics import (
     Clustering,
     Direction,
     Imputation,
+    ImputedPoses,
     Metric,
     Recovery,
+    SampledPoses,
     Score,
     Synthesis,
 )
 
 __all__ = ["check_metric"]
 
-OUTCOMES: Mapping[type, Any] = {
-    Imputation: Imputation(
-        truth=COMPLETE[0].values,
-        mean=COMPLETE[0].values + 0.1,
-        variance=np.full((20, 2), 0.5),
-        hidden=GAP,
-        visible_mean=np.zeros(2),
-        visible_variance=np.ones(2),
+_JOINTS = ("root", "foot")
+
+
+def _imputed_poses() -> ImputedPoses:
+    """Return a foot that stands and is filled a little off, below a root that moves."""
+    n_frames = len(TIMES)
+    truth = np.zeros((n_frames, 2, 3))
+    truth[:, 0] = [0.0, 1.0, 0.0]
+    truth[:, 0, 2] = np.sin(TIMES)
+    gap = np.outer(GAP.any(axis=1), [False, True])
+    mean = truth + 0.1 * gap[..., None] * np.cos(9.0 * TIMES)[:, None, None]
+    return ImputedPoses(truth, mean, gap, gap, _JOINTS, (-1, 0), TIMES)
+
+
+def _sampled_poses() -> SampledPoses:
+    """Return two samples and two references of a foot that moves below a root at rest."""
+    paths = np.zeros((4, len(TIMES), 2, 3))
+    paths[:, :, 0, 1] = 1.0
+    paths[:, :, 1, 2] = np.sin(np.outer(np.arange(1.0, 5.0), TIMES))
+    return SampledPoses(paths[:2], paths[2:], _JOINTS, TIMES)
+
+
+_IMPUTED = Imputation(
+    truth=COMPLETE[0].values,
+    mean=COMPLETE[0].values + 0.1,
+    variance=np.full((20, 2), 0.5),
+    hidden=GAP,
+    visible_mean=np.zeros(2),
+    visible_variance=np.ones(2),
+    scales=np.ones(2),
+    units=("deg", ""),
+    place_joints=_imputed_poses,
+)
+OUTCOMES: Mapping[type, tuple[Any, ...]] = {
+    Imputation: (_IMPUTED, replace(_IMPUTED, units=("cm", "cm"))),
+    Synthesis: (
+        Synthesis(
+            np.stack([r.values for r in COMPLETE[:2]]),
+            np.stack([r.values for r in COMPLETE[2:]]),
+            _sampled_poses,
+        ),
     ),
-    Synthesis: Synthesis(
-        np.stack([r.values for r in COMPLETE[:2]]), np.stack([r.values for r in COMPLETE[2:]])
+    Recovery: (
+        Recovery(
+            truth={"parent": 2.0 * np.eye(3), "child": np.eye(3)},
+            estimate={"parent": np.eye(3), "child": 0.5 + np.eye(3)},
+            noise=0.1,
+        ),
     ),
-    Recovery: Recovery(
-        truth={"parent": 2.0 * np.eye(3), "child": np.eye(3)},
-        estimate={"parent": np.eye(3), "child": 0.5 + np.eye(3)},
-        noise=0.1,
-    ),
-    Clustering: Clustering(np.array(["walk", "walk", "run"]), np.array([0, 1, 1])),
+    Clustering: (Clustering(np.array(["walk", "walk", "run"]), np.array([0, 1, 1])),),
 }
-"""A small outcome of each kind."""
+"""Small outcomes of each kind, of which every metric should be defined for one."""
 
 
 def check_metric(metric: Metric[Any]) -> None:
@@ -75,8 +109,17 @@ def _check_declaration(metric: Metric[Any]) -> None:
     require(documented, "a docstring of the statistic", documented, advice)
 
 
+def _plain(metric: Metric[Any]) -> Any:
+    """Return the first outcome that the metric is defined for."""
+    defined = next(filter(metric.applies, OUTCOMES[metric.outcome]), None)
+    advice = "let Metric.defined leave out only outcomes that lack what the metric needs"
+    require(defined is not None, "a metric that is defined for a plain outcome", "none", advice)
+    return defined
+
+
 def _check_values(metric: Metric[Any]) -> None:
-    one, two = (metric(OUTCOMES[metric.outcome]) for _ in range(2))
+    outcome = _plain(metric)
+    one, two = (metric(outcome) for _ in range(2))
     require(type(one) is Score, "a Score", type(one).__name__, "return Score(value)")
     advice = "leave degenerate outputs out"
     require(np.isfinite(one.value), "a finite value of a plain outcome", one.value, advice)
@@ -85,7 +128,7 @@ def _check_values(metric: Metric[Any]) -> None:
 
 
 def _check_hidden_only(metric: Metric[Any]) -> None:
-    outcome: Imputation = OUTCOMES[Imputation]
+    outcome = _plain(metric)
     elsewhere = replace(
         outcome,
         truth=np.where(outcome.hidden, outcome.truth, 1e6),

@@ -222,7 +222,8 @@ def _plain_errors(path: Path) -> Iterator[None]:
     """Turn errors of the system and of values into a `FormatError`."""
     try:
         yield
-    except FormatError:
+    except FormatError as error:
+        error.file = str(path) if error.file == path.name else error.file
         raise
     except OSError as error:
         advice = "check its name and permissions"

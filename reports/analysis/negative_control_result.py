@@ -3,10 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 from mocapbench.reports.analysis.fold_mean import FoldMean
 
-__all__ = ["Measure", "NegativeControlResult", "OffendingCell"]
+__all__ = ["EXEMPT", "Decision", "Measure", "NegativeControlResult", "OffendingCell"]
+
+
+EXEMPT = "need not pass"
+
+
+class Decision(StrEnum):
+    """What the cells say of a criterion, the gravest first."""
+
+    FAILED = "failed"
+    UNDECIDED = "undecided"
+    """The cells are too few to tell."""
+    PASSED = "passed"
 
 
 @dataclass(frozen=True)
@@ -29,14 +42,14 @@ class Measure:
         differences from the control.
     estimate : FoldMean or None
         The mean over all cells; None where there is none.
-    passed : bool
+    decision : Decision
     offending : tuple of OffendingCell
-        Empty where the measure passed.
+        Empty unless the measure failed.
     """
 
     name: str
     estimate: FoldMean | None
-    passed: bool
+    decision: Decision
     offending: tuple[OffendingCell, ...]
 
 
@@ -57,9 +70,9 @@ class NegativeControlResult:
     exempt: str = ""
 
     @property
-    def passed(self) -> bool:
-        """Whether it passes by every measure."""
-        return all(measure.passed for measure in self.measures)
+    def decision(self) -> Decision:
+        """The gravest by any measure."""
+        return min((measure.decision for measure in self.measures), key=list(Decision).index)
 
     @property
     def n_cells(self) -> int:
@@ -68,12 +81,16 @@ class NegativeControlResult:
 
     @property
     def verdict(self) -> str:
-        """``"passed"``, ``"failed"`` or ``"need not pass"``."""
-        if self.passed:
-            return "passed"
-        return "need not pass" if self.exempt else "failed"
+        """``"passed"``, ``"failed"``, ``"undecided"`` or ``"need not pass"``."""
+        exempt = self.exempt and self.decision is not Decision.PASSED
+        return EXEMPT if exempt else self.decision.value
 
     @property
     def failed(self) -> bool:
         """Whether it had to pass and did not."""
-        return not (self.passed or self.exempt)
+        return self.decision is Decision.FAILED and not self.exempt
+
+    @property
+    def undecided(self) -> bool:
+        """Whether it has to pass, and cells are too few to tell whether it does."""
+        return self.decision is Decision.UNDECIDED and not self.exempt

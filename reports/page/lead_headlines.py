@@ -39,7 +39,7 @@ def _lead(results: TaskResults, metric: str, label: str, cases: Sequence[CaseLay
     lead = f"is best in {where} by {title}: {mean} on average, next best {next_best}."
     beside = _beside(results, metric, label, led)
     note = lead_note(results, metric, label, [case.name for case in led])
-    return " ".join(filter(None, (lead, beside, note)))
+    return " ".join(filter(None, (lead, note, beside)))
 
 
 def _beside(results: TaskResults, metric: str, label: str, led: Sequence[CaseLayout]) -> str:
@@ -48,6 +48,6 @@ def _beside(results: TaskResults, metric: str, label: str, led: Sequence[CaseLay
     if best is None:
         return ""
     if best == label:
-        return "It is an interpolation itself."
+        return "The best model is itself an interpolation."
     (mean,) = same_places(mean_over_cases(results, metric, led, [best] * len(led)))
     return f"Best interpolation: {best}, {mean}."

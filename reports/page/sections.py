@@ -10,6 +10,7 @@ from mocapbench.reports.analysis.ranks import ranks_over_cases, ranks_over_tasks
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.pictures import Picture
+from mocapbench.reports.figures.along import curves_along
 from mocapbench.reports.figures.draw import draw
 from mocapbench.reports.figures.error_bars import error_bars
 from mocapbench.reports.figures.ranks import rank_figure
@@ -120,12 +121,19 @@ def _metric_view(results: TaskResults, metric: str) -> MetricView:
     return MetricView(
         title=results.metrics[metric].title,
         table=cross_table(results, metric, crossed) if crossed else score_table(results, metric),
-        figure=None if crossed else error_bars(results, metric),
+        figure=None if crossed else _figure(results, metric),
         published=verdict_table(results, metric),
         verdicts=tally(comparisons(results, metric)),
         ranks=_rank_figure(results, metric),
         contrasts=contrast_table(results, metric),
     )
+
+
+def _figure(results: TaskResults, metric: str) -> SvgFigure | None:
+    """Return curves along a column where the page names one and enough of it ran, else points."""
+    along = results.layout.page.along
+    curves = curves_along(results, metric, along) if along else None
+    return curves or error_bars(results, metric)
 
 
 def _rank_figure(results: TaskResults, metric: str) -> SvgFigure | None:

@@ -20,6 +20,14 @@ CITATIONS = {
         "W. Pan and L. Torresani, Unsupervised Hierarchical Modeling of Locomotion Styles, "
         "International Conference on Machine Learning, 2009"
     ),
+    "Taylor": (
+        "G. W. Taylor, G. E. Hinton and S. T. Roweis, Modeling Human Motion Using Binary Latent "
+        "Variables, Advances in Neural Information Processing Systems 19, 2006"
+    ),
+    "Lawrence": (
+        "N. D. Lawrence, Learning for Larger Datasets with the Gaussian Process Latent Variable "
+        "Model, International Conference on Artificial Intelligence and Statistics, 2007"
+    ),
 }
 """Short name to full citation."""
 

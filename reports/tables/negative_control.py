@@ -7,11 +7,16 @@ from collections.abc import Sequence
 import pandas as pd
 
 from mocapbench.reports.analysis.negative_control import (
+    ENOUGH_CELLS,
     LEAST_VARIANCE_RATIO,
     NEAR_ZERO,
     negative_control,
 )
-from mocapbench.reports.analysis.negative_control_result import Measure, NegativeControlResult
+from mocapbench.reports.analysis.negative_control_result import (
+    Decision,
+    Measure,
+    NegativeControlResult,
+)
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.text import counted, number, plus_minus, slug
@@ -24,7 +29,6 @@ CAPTION = (
     "cell by cell"
 )
 TOO_FEW = "too few cells to tell"
-"""Note on a measure that fails although every single cell meets its criterion."""
 
 
 def negative_control_table(results: TaskResults) -> Table | None:
@@ -64,12 +68,18 @@ def _cell(measure: Measure) -> Cell:
     return Cell(
         number(measure.estimate.mean, PLACES),
         spread=plus_minus(measure.estimate.half_width, PLACES),
-        note="" if measure.passed else _count(measure),
+        note=_note(measure),
     )
 
 
-def _count(measure: Measure) -> str:
-    return counted(len(measure.offending), "offending cell") if measure.offending else TOO_FEW
+def _note(measure: Measure) -> str:
+    match measure.decision:
+        case Decision.PASSED:
+            return ""
+        case Decision.UNDECIDED:
+            return TOO_FEW
+        case Decision.FAILED:
+            return counted(len(measure.offending), "offending cell")
 
 
 def _notes(checked: Sequence[NegativeControlResult]) -> tuple[str, ...]:
@@ -77,7 +87,9 @@ def _notes(checked: Sequence[NegativeControlResult]) -> tuple[str, ...]:
         "Mean over case × fold ± half its 95 % interval (Student’s t). An entrant passes where "
         "the intervals of MLC and MCC lie above 0 and its mean variance ratio, which is not a "
         f"difference, is at least {LEAST_VARIANCE_RATIO}. The control passes where the interval of "
-        f"its MLC contains 0 or lies within ± {NEAR_ZERO}.",
+        f"its MLC contains 0 or lies within ± {NEAR_ZERO}. What does not pass has failed, or is "
+        f"undecided: fewer than {ENOUGH_CELLS} cells leave both possible, or no single cell "
+        "offends.",
         "Samples with too little variance score higher MLC and MCC, hence the lower limit of "
         "spread. Samples with too much variance score lower.",
         *(
@@ -96,7 +108,7 @@ def _tidy(result: NegativeControlResult, measure: Measure) -> dict[str, object]:
         "mean": None if estimate is None else estimate.mean,
         "half_width": None if estimate is None else estimate.half_width,
         "n": 0 if estimate is None else estimate.n,
-        "passed": measure.passed,
+        "decision": measure.decision.value,
         "offending": len(measure.offending),
         "exempt": result.exempt,
     }

@@ -54,3 +54,37 @@ def test_an_entry_without_a_donor_is_refused(values):
     train = recording("train", [[np.nan, 2.0], [np.nan, 3.0]])
     with pytest.raises(ValueError, match=r"'new': expected a training frame in which \['c0'"):
         NN().fit([train]).impute([recording("new", values)])
+
+
+def test_weights_stretch_the_distance():
+    train = recording("train", [[0.0, 1.0, 5.0], [3.0, 0.0, 7.0]])
+    new = recording("new", [[0.0, 0.0, np.nan]])
+    expected = {0.5: 5.0, 4.0: 7.0}  # distances 1 and 3 over the second channel's weight
+    for weight, value in expected.items():
+        weights = {"c0": 1.0, "c1": weight, "c2": 1.0}
+        assert NN(weights).fit([train]).impute([new])[0].mean[0, 2] == value
+
+
+@given(seed=st.integers(0, 2**32 - 1))
+def test_weights_undo_a_change_of_units(seed):
+    rng = np.random.default_rng(seed)
+    train, new, units = rng.normal(size=(20, 4)), rng.normal(size=(6, 4)), rng.uniform(0.1, 9.0, 4)
+    new[:, 1:][rng.random((6, 3)) < 0.5] = np.nan
+    plain = NN().fit([recording("train", train)]).impute([recording("new", new)])[0].mean
+    weights = {f"c{d}": unit for d, unit in enumerate(units)}
+    model = NN(weights).fit([recording("train", train / units)])
+    scaled = model.impute([recording("new", new / units)])[0].mean
+    np.testing.assert_allclose(scaled * units, plain)
+
+
+@pytest.mark.parametrize(
+    ("weights", "message"),
+    [
+        ({"c0": 1.0}, r"a weight of every channel, got none of \['c1'\]"),
+        ({"c0": 1.0, "c1": -1.0}, "weights of at least 0"),
+        ({"c0": 1.0, "c1": np.nan}, "weights of at least 0"),
+    ],
+)
+def test_weights_that_are_no_weights_are_refused(weights, message):
+    with pytest.raises(ValueError, match=message):
+        NN(weights).fit([recording("train", [[0.0, 1.0]])])

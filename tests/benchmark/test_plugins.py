@@ -1,4 +1,4 @@
-"""A user's own Python file adds models, tasks, metrics and libraries, or nothing at all."""
+"""A user's own Python file adds plug-ins of five kinds, or nothing at all."""
 
 import re
 import sys
@@ -7,14 +7,16 @@ import pytest
 
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.formats import format_for
 from mocapbench.benchmark.plugins import load_plugin
-from mocapbench.benchmark.registry import LIBRARIES, METRICS, MODELS, REGISTRIES, TASKS
+from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, REGISTRIES, TASKS
+from mocapbench.datasets import FormatError
 
 HEAD = """\
 from mocapbench.baselines import FrameImputer
 from mocapbench.baselines.trivial import Trivial
 from mocapbench.benchmark import Case, Profile, Task
-from mocapbench.datasets import GaitLibrary, Library
+from mocapbench.datasets import CSVFormat, Format, GaitLibrary, Library
 from mocapbench.metrics import Direction, Imputation, Metric, Score
 from mocapbench.reports import TaskPage
 
@@ -25,6 +27,10 @@ class Mine(Trivial):
 
 class Gait(GaitLibrary):
     pass
+
+
+class Table(CSVFormat):
+    suffixes = (".table",)
 
 
 def mine(name):
@@ -48,12 +54,14 @@ DOORS = {
     "TASKS": "TASKS = {'my-task': task('my-task')}\n",
     "METRICS": "METRICS = {'my-metric': mine('my-metric')}\n",
     "LIBRARIES": "LIBRARIES = {'my-library': Gait}\n",
+    "FORMATS": "FORMATS = {'my-format': Table}\n",
 }
 NAMES = {
     "MODELS": "my-model",
     "TASKS": "my-task",
     "METRICS": "my-metric",
     "LIBRARIES": "my-library",
+    "FORMATS": "my-format",
 }
 REGISTRY = dict(zip(DOORS, REGISTRIES, strict=True))
 
@@ -96,6 +104,27 @@ def test_several_of_a_kind_can_be_added(load):
 def test_a_library_that_is_added_is_part_of_the_archive(load):
     load(DOORS["LIBRARIES"])
     assert archive_at(None).available("my-library:01_01")
+
+
+def test_a_format_that_is_added_reads_its_files(load, tmp_path):
+    load(DOORS["FORMATS"])
+    (tmp_path / "walk.TABLE").write_text("time,hip\n0,1\n")
+    assert format_for(tmp_path / "walk.TABLE").read(tmp_path / "walk.TABLE").channels == ("hip",)
+
+
+def test_two_formats_for_one_suffix_are_refused_by_name(load):
+    load("FORMATS = {'mine': Table, 'other': Table}\n")
+    with pytest.raises(UsageError, match=r"one format for .table, got mine and other; remove the"):
+        format_for("walk.table")
+
+
+@pytest.mark.parametrize(("name", "got"), [("walk.doc", "'.doc'"), ("walk", "no suffix")])
+def test_a_suffix_that_no_format_has(name, got):
+    expected = (
+        rf"{name}: expected a file of .amc, .bvh, .*, got {got}; export .*, or add yours with"
+    )
+    with pytest.raises(FormatError, match=expected):
+        format_for(name)
 
 
 def test_the_same_file_may_be_loaded_again_and_another_one_overrides_it(load):
@@ -144,6 +173,7 @@ WRONG = {
     "METRICS = {'a': len}": "METRICS to map one or more names to mocapbench.metrics.Metric objects",
     "LIBRARIES = {'a': dict}": "expected LIBRARIES to map .* subclasses of mocapbench.datasets.",
     "LIBRARIES = {'a': Gait()}": "LIBRARIES to map one or more names to subclasses",
+    "FORMATS = {'a': Gait}": "FORMATS to map .* subclasses of mocapbench.datasets.Format",
     "MODELS = {'trivial': Mine}": "expected a name that no model or entrant has, got 'trivial'",
     "MODELS = {'mohgp-3': Mine}": "expected a name that no model or entrant has, got 'mohgp-3'",
     "MODELS = {1: Mine}": "expected a name that no model or entrant has, got 1; choose another",
@@ -151,9 +181,11 @@ WRONG = {
     "METRICS = {'mse': mine('mse')}": "expected a name that no metric .* has, got 'mse'; choose",
     "METRICS = {'spread': mine('spread')}": "expected a name that no metric .* has, got 'spread'",
     "LIBRARIES = {'cmu': Gait}": "expected a name that no library .* has, got 'cmu'; choose",
+    "FORMATS = {'csv': Table}": "expected a name that no format .* has, got 'csv'; choose",
     "TASKS = {'a': task('b')}": "expected the task under its own name 'b', got 'a'",
     "METRICS = {'a': mine('b')}": "expected the metric under its own name 'b', got 'a'",
     "LIBRARIES = {'a': Library}": "can be built with one argument, a folder .*, got 'a': .*abstra",
+    "FORMATS = {'a': Format}": "that can be built without arguments, got 'a': .*abst",
     f"{ABSTRACT}MODELS = {{'a': Imputer}}": "that can be built without arguments, got 'a': .*abst",
 }
 
@@ -191,7 +223,10 @@ def test_nothing_is_registered_if_something_is_wrong(load, text, door):
         ("raise RuntimeError('no')", "cannot be run: RuntimeError: no"),
         ("import sys; sys.exit(3)", "cannot be run: SystemExit: 3"),
         ("import no_such_module", "cannot be run: ModuleNotFoundError: .*no_such_module"),
-        ("x = 1", "expected one or more of MODELS, TASKS, METRICS, LIBRARIES, each a mapping"),
+        (
+            "x = 1",
+            "expected one or more of MODELS, TASKS, METRICS, LIBRARIES, FORMATS, each a mapping",
+        ),
         ("", r"such as MODELS = {\"name\": ModelClass}, got none"),
         ("models = {}", "got none"),
     ],
@@ -206,21 +241,23 @@ def test_a_file_that_adds_nothing_says_why(load, text, complaint):
         assert (left, sys.path) == (set(), path)
 
 
-@pytest.mark.parametrize("name", ["absent.py", "."])
-def test_a_file_that_is_not_there(tmp_path, name):
+@pytest.mark.parametrize(("name", "why"), [("absent.py", "does not exist"), (".", "is a folder")])
+def test_a_file_that_is_not_there(tmp_path, name, why):
     path = re.escape(repr(str(tmp_path / name)))
-    with pytest.raises(UsageError, match=f"--plugin: expected a Python file, got {path}; name"):
+    complaint = f"--plugin: expected a Python file, got {path}, which {why}; check the path"
+    with pytest.raises(UsageError, match=complaint):
         load_plugin(tmp_path / name)
 
 
 @pytest.mark.parametrize("option", ["--plugin", "--model-file"])
 @pytest.mark.parametrize(
     ("kind", "door"),
-    [("models", "MODELS"), ("tasks", "TASKS"), ("metrics", "METRICS"), ("libraries", "LIBRARIES")],
+    [(door.lower(), door) for door in DOORS],
 )
 def test_what_a_file_adds_is_listed(cli, tmp_path, option, kind, door):
     (tmp_path / "mine.py").write_text(HEAD + "".join(DOORS.values()))
     assert cli("list", kind, option, tmp_path / "mine.py") == 0
     assert NAMES[door] in cli.printed
     others = {METRICS: "mse", MODELS: "knn", TASKS: "toy-synthesis", LIBRARIES: "gait"}
+    others |= {FORMATS: "parquet"}
     assert others[REGISTRY[door]] in cli.printed

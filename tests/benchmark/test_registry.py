@@ -4,6 +4,7 @@ import pytest
 
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
 from mocapbench.benchmark.registry import (
+    FORMATS,
     LIBRARIES,
     METRICS,
     MODELS,
@@ -20,9 +21,10 @@ def test_every_registered_name_loads(registry):
     assert all(registry.is_installed(name) for name in registry.names())
 
 
-def test_there_are_four_registries():
-    assert REGISTRIES == (MODELS, TASKS, METRICS, LIBRARIES)
-    assert [registry.kind for registry in REGISTRIES] == ["model", "task", "metric", "library"]
+def test_there_are_five_registries():
+    assert REGISTRIES == (MODELS, TASKS, METRICS, LIBRARIES, FORMATS)
+    kinds = ["model", "task", "metric", "library", "format"]
+    assert [registry.kind for registry in REGISTRIES] == kinds
 
 
 @pytest.mark.parametrize(
@@ -32,6 +34,7 @@ def test_there_are_four_registries():
         (TASKS, "toy-interpolaton-1", "toy-interpolation-1"),
         (METRICS, "msl", "msll"),
         (LIBRARIES, "giat", "gait"),
+        (FORMATS, "parket", "parquet"),
     ],
 )
 @pytest.mark.parametrize("look_up", [Registry.get, Registry.current_name])
@@ -39,6 +42,11 @@ def test_an_unknown_name_suggests_the_nearest(registry, wrong, meant, look_up):
     advice = re.escape(f"unknown {registry.kind} {wrong!r}: did you mean {meant}")
     with pytest.raises(UnknownNameError, match=advice):
         look_up(registry, wrong)
+
+
+def test_an_unknown_name_may_be_in_a_file_that_was_not_named():
+    with pytest.raises(UnknownNameError, match="name that file with --plugin"):
+        TASKS.get("mine")
 
 
 def test_a_name_like_no_other_lists_them_all():

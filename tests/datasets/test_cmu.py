@@ -1,7 +1,9 @@
 """The CMU library: folder before cache, cache before server, and only verified files."""
 
+import os
 import pickle
 from hashlib import sha256
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from mocapbench.datasets import (
     DigestMismatch,
     FetchError,
     UnregisteredDigestWarning,
+    registered_digests,
 )
 
 ASF, AMC = "subjects/01/01.asf", "subjects/01/01_02.amc"
@@ -86,6 +89,24 @@ def test_one_file_may_be_in_the_folder_and_the_other_in_the_cache(library, files
     assert library.motion("01_02").values.shape == (3, 12)
 
 
+def test_several_folders_are_searched_in_order(known, files, tmp_path):
+    one, two = tmp_path / "one", tmp_path / "two"
+    library = CMULibrary(Path(f"{one}{os.pathsep}{two}"), tmp_path / "cache", known=known)
+    assert library.folders == (one, two)
+    store(two, files)
+    assert library.where("01_02") == str(two / AMC)
+    store(one, {AMC: files[AMC]})
+    assert library.where("01_02") == str(one / AMC)
+    assert library.motion("01_02").values.shape == (3, 12)
+
+
+def test_the_environment_may_name_several_folders(monkeypatch, known, files, tmp_path):
+    store(tmp_path / "two", files)
+    monkeypatch.setenv("MOCAPBENCH_DATA", f"{tmp_path / 'one'}{os.pathsep}{tmp_path / 'two'}")
+    library = CMULibrary(cache_dir=tmp_path / "cache", known=known)
+    assert library.where("01_02") == str(tmp_path / "two" / AMC)
+
+
 def test_one_file_of_two_is_not_a_recording(library, files, tmp_path):
     store(tmp_path / "data", {AMC: files[AMC]})
     assert library.where("01_02") == ""
@@ -130,6 +151,20 @@ def test_without_a_registered_digest_the_first_one_is_pinned(library, known, fil
     store(tmp_path / "data", {AMC: files[AMC].replace(b"shin 42", b"shin 43")})
     with pytest.raises(DigestMismatch, match="data"):
         library.motion("01_02")
+
+
+@pytest.mark.parametrize("trial", [13, 14, 19, 23, 24, 25, 26])
+def test_of_a_recording_with_interpolated_copies_any_is_read(trial, server, known, files, tmp_path):
+    key, asf, amc = f"35_{trial}", "subjects/35/35.asf", f"subjects/35/35_{trial}.amc"
+    assert amc not in registered_digests()
+    server.files = {asf: files[ASF], amc: files[AMC]}
+    folder, cache = tmp_path / "data", tmp_path / "cache"
+    library = CMULibrary(folder, cache, base_url=server.url, known={asf: known[ASF]}, retries=0)
+    with pytest.warns(UnregisteredDigestWarning, match=f"{amc}; .*not pinned"):
+        library.fetch(key)
+    store(folder, {amc: files[AMC].replace(b"shin 42", b"shin 43")})
+    with pytest.warns(UnregisteredDigestWarning, match=f"{amc}; .*not pinned"):
+        assert library.motion(key).values[-1, -1] == 43
 
 
 def test_a_file_that_the_server_lacks_is_an_error_and_keeps_the_rest(library, tmp_path):

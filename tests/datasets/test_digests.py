@@ -1,6 +1,7 @@
 """Digests of files ignore line ends; unknown ones are pinned when first seen."""
 
 import pickle
+import warnings
 
 import pytest
 
@@ -37,6 +38,16 @@ def test_the_digest_of_an_unknown_file_is_pinned_with_a_warning(pins):
     later.check("a.amc", b"abc\r\n", "a.amc")
     with pytest.raises(DigestMismatch, match=ABC):
         later.check("a.amc", b"abd\n", "a.amc")
+
+
+def test_every_copy_of_a_diverse_file_is_accepted_with_one_warning(pins):
+    registry = DigestRegistry({}, pins, {"a.amc"})
+    for content in (b"abc\n", b"abd\n"):
+        with pytest.warns(UnregisteredDigestWarning, match="not pinned: different copies"):
+            registry.check("a.amc", content, "a.amc")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            registry.check("a.amc", content, "a.amc")
 
 
 def test_a_known_digest_overrules_a_pinned_one(pins):

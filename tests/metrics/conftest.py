@@ -1,11 +1,40 @@
 """Outcomes to score."""
 
 from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 
-from mocapbench.metrics import Imputation
+from mocapbench.metrics import Imputation, ImputedPoses, SampledPoses, Synthesis
+
+CHAIN = ("root", "knee", "lfoot")
+PARENTS = (-1, 0, 1)
+
+
+def poses(truth, mean=None, hidden=None, times=None, starts=(0,)):
+    """Joints (N, 3, 3) of the chain; by default all but the root are hidden, and well filled."""
+    truth = np.asarray(truth, dtype=float)
+    if hidden is None:
+        hidden = np.tile([False, True, True], (len(truth), 1))
+    return ImputedPoses(
+        truth=truth,
+        mean=truth if mean is None else np.where(hidden[..., None], mean, truth),
+        hidden=hidden,
+        hidden_relative=hidden & [False, True, True],
+        joints=CHAIN,
+        parents=PARENTS,
+        times=np.arange(len(truth)) / 30.0 if times is None else times,
+        starts=starts,
+    )
+
+
+def drawn_poses(n_frames):
+    """Steps too small for a foot to leave the ground, filled with others."""
+    rng = np.random.default_rng(0)
+    truth, mean = rng.normal(scale=0.1, size=(2, n_frames, 3, 3))
+    return poses(truth, mean)
 
 
 def imputation(truth, mean, variance=None, hidden=None, **visible):
@@ -19,13 +48,45 @@ def imputation(truth, mean, variance=None, hidden=None, **visible):
         hidden=np.ones(truth.shape, dtype=bool) if hidden is None else np.asarray(hidden),
         visible_mean=np.asarray(visible.get("visible_mean", np.zeros(truth.shape[-1]))),
         visible_variance=np.asarray(visible.get("visible_variance", np.ones(truth.shape[-1]))),
+        scales=np.ones(truth.shape[-1]),
+        units=visible.get("units", ("deg", "") * (truth.shape[-1] // 2)),
+        place_joints=partial(drawn_poses, len(truth)),
     )
 
 
 @pytest.fixture(scope="session")
 def make() -> Callable[..., Imputation]:
-    """Build an `Imputation`: by default all entries hidden, visible mean 0 and variance 1."""
+    """Build an `Imputation`: by default all entries hidden, visible mean 0 and variance 1.
+
+    The scales of all outputs are 1.
+    """
     return imputation
+
+
+@pytest.fixture(scope="session")
+def pose(make) -> Callable[..., Imputation]:
+    """Build an `Imputation` of four outputs with the poses of a chain of three joints."""
+
+    def pose(truth, mean=None, hidden=None, times=None, starts=(0,)):
+        placed = poses(truth, mean, hidden, times, starts)
+        values = np.zeros((len(placed.times), 4))
+        return replace(make(values, values), units=("cm",) * 4, place_joints=lambda: placed)
+
+    return pose
+
+
+@pytest.fixture(scope="session")
+def place() -> Callable[..., Synthesis]:
+    """Build a `Synthesis` whose outputs are the coordinates of a chain of three joints."""
+
+    def place(samples, references, times=None):
+        samples, references = (np.asarray(each, dtype=float) for each in (samples, references))
+        times = np.arange(samples.shape[1]) / 30.0 if times is None else times
+        placed = SampledPoses(samples, references, CHAIN, times)
+        values = (each.reshape(*each.shape[:2], 9) for each in (samples, references))
+        return Synthesis(*values, lambda: placed)
+
+    return place
 
 
 @pytest.fixture(scope="session")

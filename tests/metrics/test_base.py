@@ -1,18 +1,19 @@
+import dataclasses
 import pickle
 from importlib.metadata import entry_points
 
 import numpy as np
 import pytest
 
-from mocapbench.metrics import Clustering, Direction, Imputation, Recovery, Synthesis
+from mocapbench.metrics import Clustering, Direction, Imputation, Recovery, Synthesis, has_poses
 
 METRICS = [point.load() for point in entry_points(group="mocapbench.metrics")]
 
 
 @pytest.fixture
-def outcomes(draw):
+def outcomes(draw, place):
     rng = np.random.default_rng(0)
-    synthesis = Synthesis(rng.normal(size=(3, 8, 2)), rng.normal(size=(4, 8, 2)))
+    synthesis = place(rng.normal(size=(3, 8, 3, 3)), rng.normal(size=(4, 8, 3, 3)))
     clustering = Clustering(rng.integers(3, size=9), rng.integers(4, size=9))
     recovery = Recovery(*(dict.fromkeys(("parent", "child"), c * np.eye(3)) for c in (1, 2)), 0.1)
     kinds = (Imputation, Synthesis, Clustering, Recovery)
@@ -30,8 +31,8 @@ def test_names_are_distinct_and_targets_belong_to_targeted_metrics():
 def test_score_is_finite_and_parts_are_along_known_axes(metric, outcomes):
     score = metric(outcomes[metric.outcome])
     lengths = {
-        Imputation: {"frame": 12, "output": 4, "bin": 10},
-        Synthesis: {"sample": 3, "reference": 4, "reference_sd": 4, "output": 2},
+        Imputation: {"frame": 12, "output": 4, "joint": 3, "bin": 10},
+        Synthesis: {"sample": 3, "reference": 4, "reference_sd": 4, "output": 9},
         Clustering: {},
         Recovery: {},
     }[metric.outcome]
@@ -39,6 +40,32 @@ def test_score_is_finite_and_parts_are_along_known_axes(metric, outcomes):
     assert {name: part.shape for name, part in score.parts.items()} == {
         name: (lengths[name],) for name in score.parts
     }
+
+
+@pytest.mark.parametrize(
+    "metric", [m for m in METRICS if m.defined is has_poses], ids=lambda m: m.name
+)
+def test_without_a_skeleton_metrics_of_joints_do_not_apply_and_say_so(metric, outcomes):
+    bare = dataclasses.replace(outcomes[metric.outcome], place_joints=None)
+    assert metric.applies(outcomes[metric.outcome])
+    assert not metric.applies(bare)
+    if metric.name != "sample_npss":  # which takes outputs as they are
+        with pytest.raises(ValueError, match="expected an outcome with poses"):
+            metric(bare)
+
+
+def test_joints_are_placed_once_and_only_when_asked_for(draw):
+    calls = []
+    outcome = draw(0)
+
+    def place():
+        calls.append(1)
+        return outcome.poses
+
+    counted = dataclasses.replace(outcome, place_joints=place)
+    for name, expected in (("mse", 0), ("mpjpe", 1), ("jerk_ratio", 1), ("foot_skate", 1)):
+        next(metric for metric in METRICS if metric.name == name)(counted)
+        assert len(calls) == expected
 
 
 @pytest.mark.parametrize("metric", METRICS, ids=lambda metric: metric.name)

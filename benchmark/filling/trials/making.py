@@ -7,7 +7,8 @@ gap has frames on one side only, the trial begins or ends with the copy.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +20,7 @@ from mocapbench.datasets import FrameByChannel, Mask, Recording
 
 __all__ = ["Trial", "make_trials"]
 
-MOST_TRIALS, ENOUGH_GAPS = 8, 24
+MOST_TRIALS, ENOUGH_GAPS = 24, 48
 """Trials are made until there are so many of them, or so many trial gaps."""
 _HIDDEN_SHARE = 0.15
 """Of the frames, that a trial may hide besides the real gaps, unless one gap alone is longer."""
@@ -55,23 +56,25 @@ def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
     """Return trials of the gaps that a question asks for; none if there is no room for any."""
     trials: list[Trial] = []
     used = np.zeros(len(question.given.times), dtype=bool)
+    turns = _Turns(_interior(question), rng)
     while len(trials) < MOST_TRIALS and sum(len(t.units) for t in trials) < ENOUGH_GAPS:
-        trial = _trial(question, used, rng)
+        trial = _trial(question, used, turns, rng)
         if trial is None:
             break
         trials.append(trial)
     return trials
 
 
-def _trial(question: Question, used: Mask, rng: np.random.Generator) -> Trial | None:
+def _trial(
+    question: Question, used: Mask, turns: _Turns, rng: np.random.Generator
+) -> Trial | None:
     """Return one trial, and mark the frames that it hides as used."""
     recording = question.given
     placed = _Placement(~recording.visible, used, rng)
     first, last = _ends(question)
     placed.begin(first)
     placed.end(last)
-    interior = [gap for gap in gaps_of(question.target) if not _at_an_end(gap, recording)]
-    placed.within(episodes_of(interior))
+    placed.within(turns)
     if not placed.episodes:
         return None
     return _made(question, placed)
@@ -84,8 +87,36 @@ def _ends(question: Question) -> tuple[list[Gap], list[Gap]]:
     return first, [gap for gap in gaps if gap.stop == n_frames and gap.start > 0]
 
 
-def _at_an_end(gap: Gap, recording: Recording) -> bool:
-    return gap.start == 0 or gap.stop == len(recording.times)
+def _interior(question: Question) -> tuple[Episode, ...]:
+    """Return the episodes of the other gaps."""
+    ends = {gap for gaps in _ends(question) for gap in gaps}
+    return episodes_of([gap for gap in gaps_of(question.target) if gap not in ends])
+
+
+class _Turns:
+    """Whose turn it is: every episode gets as many copies, over all trials, as every other.
+
+    Parameters
+    ----------
+    episodes : sequence of Episode
+    rng : numpy.random.Generator
+        Of the order in which they take turns.
+    """
+
+    def __init__(self, episodes: Sequence[Episode], rng: np.random.Generator) -> None:
+        self.per_trial = max(_COPIES, len(episodes)) if episodes else 0
+        self._episodes, self._rng = episodes, rng
+        self._waiting: deque[int] = deque()
+
+    def next(self) -> Episode:
+        """Return the episode whose turn it is; the turn stays its own until it is `done`."""
+        if not self._waiting:
+            self._waiting.extend(self._rng.permutation(len(self._episodes)).tolist())
+        return self._episodes[self._waiting[0]]
+
+    def done(self) -> None:
+        """Pass the turn on."""
+        self._waiting.popleft()
 
 
 class _Placement:
@@ -122,21 +153,17 @@ class _Placement:
             self.stop = placed.stop
             self.blocked[placed.stop :] = True
 
-    def within(self, episodes: Sequence[Episode]) -> None:
-        """Place copies of as many episodes as a trial may hide."""
+    def within(self, turns: _Turns) -> None:
+        """Place copies of the episodes whose turn it is, as many as a trial may hide."""
         room = _HIDDEN_SHARE * (self.stop - self.start)
-        for episode in self._order(episodes):
-            hidden = sum(map(len, self.episodes))
-            if self.episodes and hidden + len(episode) > room:
-                continue
+        for _ in range(turns.per_trial):
+            episode = turns.next()
+            if self.episodes and sum(map(len, self.episodes)) + len(episode) > room:
+                return
+            turns.done()
             if self._put(episode, self.start, self.stop) is None:
                 for gap in episode.gaps if len(episode.gaps) > 1 else ():
                     self._put(Episode((gap,)), self.start, self.stop)
-
-    def _order(self, episodes: Sequence[Episode]) -> Iterable[Episode]:
-        copies = -(-_COPIES // len(episodes)) if episodes else 0
-        order = [i for _ in range(copies) for i in self.rng.permutation(len(episodes))]
-        return [episodes[i] for i in order[: max(_COPIES, len(episodes))]]
 
     def _put(self, episode: Episode, first: int, stop: int) -> Episode | None:
         """Place an episode within [first, stop), shortened if need be; None if it does not fit."""

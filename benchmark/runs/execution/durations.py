@@ -21,6 +21,10 @@ class Durations:
             self._count[kind] += 1
             self._total[kind] += seconds
 
+    def knows(self, kinds: Sequence[Hashable]) -> bool:
+        """Return whether a job of one of ``kinds`` is known."""
+        return any(kind in self._count for kind in kinds)
+
     def expected(self, kinds: Sequence[Hashable]) -> float:
         """Return the mean of the first of ``kinds`` of which a job is known; 0 if of none."""
         known = (kind for kind in kinds if kind in self._count)

@@ -11,7 +11,7 @@ from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
 __all__ = ["EXAGGERATED_PAGE", "SOCCER_PAGE", "WALKING_PAGE"]
 
-_METRICS = ("mcc", "mlc")
+_METRICS = ("mcc", "mlc", "sample_npss", "sample_jerk_ratio", "sample_foot_skate")
 _PUBLISHED_METRICS = {"mcc": "MCC", "mlc": "MLC"}
 _THREE_COMPONENTS = {
     **dict.fromkeys(("mohgp-3", "mohgp-3-rbf"), "MOHGP"),
@@ -29,6 +29,9 @@ _REMARKS = (
     "The variance ratio divides how samples vary by how the references differ among themselves, "
     "which no model is told: here it says neither that a model is too sure nor that it is too "
     "cautious.",
+    "NPSS compares the power spectra of channels, whatever their phase. For jerk and foot skate, "
+    "samples and references are placed on the body of the first training recording. Recorded walks "
+    "have a foot skate of 4 to 12 cm/s by this measure.",
 )
 
 

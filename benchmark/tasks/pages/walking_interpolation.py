@@ -17,7 +17,7 @@ PAGE = TaskPage(
         "channel are visible, drawn anew for every channel and fold; the rest is to be filled. "
         "Scores are taken after mapping each channel to [0, 1] by the complete recording's range."
     ),
-    metrics=("smse_pooled", "mse", "msll", "smse"),
+    metrics=("smse_pooled", "mpjpe", "mse", "msll", "smse"),
     rows={f"observed {n}": RowNotes(published=f"observed {n}") for n in (40, 30, 20, 10)},
     published_models={
         **dict.fromkeys(("mohgp-1", "mohgp-3", "mohgp-1+5"), "MOHGP"),

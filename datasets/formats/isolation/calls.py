@@ -7,6 +7,7 @@ the next one gets a new process.
 
 from __future__ import annotations
 
+import atexit
 import json
 import os
 import signal
@@ -14,6 +15,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Mapping
+from contextlib import ExitStack
 from functools import cache
 from io import BytesIO
 from typing import IO, Any, cast
@@ -61,6 +63,7 @@ class _Process:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
+        self._owner = os.getpid()
         self._running: subprocess.Popen[bytes] | None = None
 
     def call(
@@ -68,16 +71,27 @@ class _Process:
     ) -> Mapping[str, NDArray[Any]]:
         """Return what `call_isolated` returns."""
         request = json.dumps([function, arguments, int(memory)]).encode() + b"\n"
-        with self._lock:
+        with self._lock, ExitStack() as unless_answered:
             process = self._started()
+            # Also if interrupted: the next call would take the answer to this one for its own.
+            unless_answered.callback(self.close)
             timer = threading.Timer(timeout, process.kill)
             timer.start()
             try:
-                return _result(_answer(process, request))
+                answer = _answer(process, request)
             except EOFError:
                 raise IsolatedCallError(_death(process.wait(), timeout)) from None
             finally:
                 timer.cancel()
+            unless_answered.pop_all()
+        return _result(answer)
+
+    def close(self) -> None:
+        """End the process, if it runs and is that of this process and not of the one forked."""
+        running, self._running = self._running, None
+        if running is not None and os.getpid() == self._owner:
+            running.kill()
+            running.communicate()  # closes the pipes and waits
 
     def _started(self) -> subprocess.Popen[bytes]:
         if self._running is None or self._running.poll() is not None:
@@ -127,11 +141,13 @@ def _result(answer: bytes) -> Mapping[str, NDArray[Any]]:
 
 def _death(exit_code: int, timeout: float) -> str:
     if exit_code == -signal.SIGKILL:
-        return f"no end of reading it within {timeout:g} s, or too little memory"
+        return f"no end of reading it within {timeout:.0f} s, or too little memory"
     return f"a crash of the library that reads it (exit code {exit_code})"
 
 
 @cache
 def _process_of(_pid: int) -> _Process:
     """Return the process that serves this one; a fork of this one gets another."""
-    return _Process()
+    process = _Process()
+    atexit.register(process.close)
+    return process

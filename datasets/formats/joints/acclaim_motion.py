@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from math import degrees
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -49,15 +50,16 @@ class AcclaimFormat(Format):
 
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's lines with the new numbers."""
-        motion, lines = self._motion(like), read_lines(like)
+        lines, moving = read_lines(like), self.skeleton(like).moving
         start = next(k for k, line in enumerate(lines) if line.strip()[:1] not in _OF_HEADER)
         unit = _ANGLE_UNITS[next(word for word in _words(lines[:start]) if word in _ANGLE_UNITS)]
-        stated = values / [unit if channel[-2] == "r" else 1.0 for channel in motion.channels]
-        places = _places(motion)
-        for row, channel in np.argwhere(new).tolist():
-            segment, index = places[channel]
-            line = start + row * (1 + len(motion.segments)) + 1 + segment
-            lines[line] = Words().replaced(lines[line], {index: written(stated[row, channel])})
+        places = _places(list(_words(lines[start + 1 : start + 1 + len(moving)])), moving)
+        stated = values / [unit if place.angular else 1.0 for place in places]
+        for frame, channel in np.argwhere(new).tolist():
+            place = places[channel]
+            line = start + frame * (1 + len(moving)) + 1 + place.segment
+            number = written(stated[frame, channel])
+            lines[line] = Words().replaced(lines[line], {place.word: number})
         write_lines(path, lines)
 
     def skeleton(self, path: Path) -> Skeleton:
@@ -79,6 +81,14 @@ class AcclaimFormat(Format):
         except AcclaimError as error:
             advice = "export the motion again, without NaN: gaps are named, not written"
             raise _plain(error, advice) from error
+
+
+class _Place(NamedTuple):
+    """Where a channel stands in a frame: the line of its segment, and the word of that line."""
+
+    segment: int
+    word: int
+    angular: bool
 
 
 def _skeleton_file(path: Path) -> Path:
@@ -105,11 +115,10 @@ def _words(lines: Sequence[str]) -> Iterator[str]:
     return (word for line in lines for word in line.split()[:1])
 
 
-def _places(motion: Motion) -> list[tuple[int, int]]:
-    """Return the segment of each channel and the word of the segment's line, its name first."""
-    moving = motion.skeleton.moving
+def _places(segments: Sequence[str], moving: Mapping[str, Sequence[str]]) -> list[_Place]:
+    """Return where each channel stands, given the segments in the order of a frame."""
     return [
-        (segment, word)
-        for segment, name in enumerate(motion.segments)
-        for word in range(1, 1 + len(moving[name]))
+        _Place(segment, word, dof.startswith("r"))
+        for segment, name in enumerate(segments)
+        for word, dof in enumerate(moving[name], 1)  # after the segment's name
     ]

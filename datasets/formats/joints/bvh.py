@@ -73,7 +73,7 @@ class _Lines:
 
     def __init__(self, file: str, lines: Sequence[str]) -> None:
         self.file = file
-        self.index = -1
+        self.index = 0
         self._content = ((k, line.split()) for k, line in enumerate(lines) if line.strip())
 
     def __iter__(self) -> Iterator[list[str]]:

@@ -22,7 +22,7 @@ from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recordin
 __all__ = ["C3DFormat"]
 
 _READER = "mocapbench.datasets.formats.markers.c3d_points:read_points"
-_SECONDS, _SECONDS_PER_BYTE = 20.0, 1e-6  # 46 MB take 8 s
+_SECONDS, _SECONDS_PER_BYTE = 10.0, 1e-6  # 46 MB take 8 s
 _MEMORY = 2**28  # of a small file
 
 
@@ -82,7 +82,10 @@ def _points(path: Path) -> Mapping[str, NDArray[Any]]:
     if not points["is_marker"].any():
         advice = "export the positions of the markers too"
         raise FormatError(path.name, "positions of markers", "other signals alone", advice)
-    n_frames = points["points"].shape[2]
+    _, n_points, n_frames = points["points"].shape
+    if n_points != layout.n_points:
+        expected, got = f"{layout.n_points} points, as its header says", f"{n_points} in POINT:USED"
+        raise FormatError(path.name, expected, got, "export the recording again as C3D")
     _check_size(path, layout.end(n_frames), size)
     if n_frames >= MOST_FRAMES and size >= layout.end(n_frames + 1) + BLOCK:
         advice = "cut the recording into parts, or export it in another format"

@@ -14,7 +14,7 @@ from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 __all__ = ["ParquetFormat"]
 
 _COLUMNS = "mocapbench.datasets.formats.tables.parquet_columns"
-_SECONDS, _SECONDS_PER_BYTE = 20.0, 1e-6
+_SECONDS, _SECONDS_PER_BYTE = 10.0, 1e-6
 _MEMORY = 2**30  # of a small file
 
 

@@ -26,13 +26,13 @@ _BYTE_ORDER_MARK = "\ufeff"
 
 def read_lines(path: Path) -> list[str]:
     """Return the lines of a text file with their ends; bytes that are not UTF-8 are kept."""
-    with path.open(encoding="utf-8", errors="surrogateescape", newline="") as file:
+    with path.open(encoding="utf-8", errors="surrogateescape", newline="\n") as file:
         return file.readlines()
 
 
 def write_lines(path: Path, lines: Sequence[str]) -> None:
     """Write lines that have their ends, the inverse of `read_lines`."""
-    with path.open("w", encoding="utf-8", errors="surrogateescape", newline="") as file:
+    with path.open("w", encoding="utf-8", errors="surrogateescape", newline="\n") as file:
         file.writelines(lines)
 
 

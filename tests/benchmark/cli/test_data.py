@@ -1,10 +1,12 @@
 """``mocapbench data``, and what a run does about recordings that are not here."""
 
+import os
 from functools import partial
 from pathlib import Path
 
 import pytest
 
+from mocapbench.benchmark import archive_at, full_paths
 from mocapbench.benchmark.registry import LIBRARIES
 from mocapbench.datasets import CMULibrary, GaitLibrary, format_motion, format_skeleton
 
@@ -31,10 +33,73 @@ def test_status_says_what_is_here_and_what_is_not(cli, database):
     assert "cmu:99_02 │ missing" in cli.printed
 
 
+def test_several_folders_may_be_named_in_one_text(cli, database, tmp_path):
+    (tmp_path / "other").mkdir()
+    both = f"{tmp_path / 'other'}{os.pathsep}{database}"
+    assert cli("data", "status", "99_01", "--data-dir", both) == 0
+    assert "cmu:99_01 │ available" in cli.printed
+    assert cli("data", "status", "99_01", "--data-dir", f"{both}{os.pathsep}absent") == 2
+    assert "got 'absent'" in cli.printed
+
+
+def test_jobs_of_a_run_find_the_recordings_of_every_folder(cli, database, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "other").mkdir()
+    named = full_paths(Path(f"other{os.pathsep}database"))
+    assert named == Path(f"{tmp_path / 'other'}{os.pathsep}{database}")
+    assert archive_at(named).available("cmu:99_01")
+    assert full_paths(None) is None
+
+
 def test_status_without_names_lists_what_the_tasks_use(cli, database):
     assert cli("data", "status") == 0
     assert all(f"cmu:{trial}" in cli.printed for trial in ("02_01", "35_03", "10_04"))
     assert "gait" not in cli.printed
+
+
+def test_status_ends_in_totals_by_folder_and_the_next_command(cli, database):
+    named = ("99_01", "99_02", "--data-dir", database)
+    assert cli("data", "status", *named) == 0
+    assert f"2 recordings: 1 available, 1 missing; 1 in {database} next:" in cli.printed
+    assert f"next: `mocapbench data fetch 99_01 99_02 --data-dir {database}`" in cli.printed
+    assert cli("data", "status", "99_01", "--data-dir", database) == 0
+    assert f"next: `mocapbench data verify 99_01 --data-dir {database}`" in cli.printed
+    assert cli("data", "verify", "99_01", "--data-dir", database) == 0
+    assert f"next: `mocapbench run --data-dir {database}`" in cli.printed
+    (database / "subjects" / "99" / "99_01.amc").write_text("other")
+    assert cli("data", "verify", "99_01", "--data-dir", database) == 2
+    assert "1 recordings: 1 wrong" in cli.printed
+    assert "next: remove what is wrong, then `mocapbench data fetch 99_01" in cli.printed
+
+
+def test_a_folder_that_the_environment_names_is_not_repeated(cli, database, monkeypatch):
+    monkeypatch.setenv("MOCAPBENCH_DATA", str(database))
+    assert cli("data", "status", "99_01") == 0
+    assert "next: `mocapbench data verify 99_01`" in cli.printed
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("run", "--offline", "--tasks", "toy-synthesis"),
+        ("run", "--dry-run"),
+        ("report",),
+        *(("data", name) for name in ("status", "fetch", "verify")),
+    ],
+    ids=" ".join,
+)
+def test_an_empty_folder_is_said_to_be_that_by_every_command(
+    cli, write_run, command, tmp_path, monkeypatch
+):
+    (tmp_path / "empty").mkdir()
+    write_run(tmp_path / "run", [("toy-synthesis", "test 1", "trivial", 0)])
+    out = ("--out", tmp_path / "run") if command[0] != "data" else ()
+    assert cli(*command, *out, "--data-dir", tmp_path / "empty") == 2
+    assert "expected recordings (subjects/*/*.asf, subjects/*/*.amc) in the folder" in cli.printed
+    assert "empty', which is empty" in cli.printed
+    monkeypatch.setenv("MOCAPBENCH_DATA", str(tmp_path / "empty"))
+    assert cli(*command, *out) == 2
+    assert "empty', which is empty" in cli.printed
 
 
 def test_verify_finds_a_file_that_changed(cli, database):
@@ -72,7 +137,8 @@ def test_a_run_without_a_network_works_without(cli, records, database, tmp_path)
     arguments = ("--models", "cubic-spline", "--folds", 1, "--out", tmp_path / "run")
     assert cli("run", *chosen, *arguments) == 0
     assert "working without 4 recordings" in cli.printed
-    assert "data missing: 35_03" in cli.printed
+    assert "data missing: 1 of 2 jobs lack 4 recordings" in cli.printed
+    assert "`mocapbench data fetch 35_03 35_02 12_01 16_15` gets them" in cli.printed
     statuses = {case: r["status"] for (_, case, _, _), r in records(tmp_path / "run").items()}
     assert statuses == {"35-03 three-walkers": "data-missing", "synthetic 1": "ok"}
 

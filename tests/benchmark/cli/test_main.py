@@ -1,4 +1,5 @@
 import importlib
+import json
 import subprocess
 import sys
 
@@ -11,7 +12,7 @@ from mocapbench.benchmark import gate
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.cli.main import COMMANDS, main
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.registry import REGISTRIES
+from mocapbench.benchmark.registry import LIBRARIES, METRICS, MODELS, REGISTRIES, TASKS
 from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
@@ -130,6 +131,20 @@ def test_new_metrics_are_scored_without_refitting(cli, tmp_path):
     assert len(rescored) == 4
 
 
+def test_centimetres_are_scored_from_stored_predictions(cli, records, tmp_path):
+    out = tmp_path / "run"
+    which = ("run", "--tasks", "missing-frames", "--profile", "smoke", "--models", "knn")
+    which = (*which, "--offline", "--out", out)
+    assert cli(*which, "--metrics", "rms_per_frame") == 0
+    before = {path: path.stat().st_mtime_ns for path in (out / "predictions").glob("*/*")}
+    assert before
+    assert cli(*which, "--metrics", "mpjpe") == 0
+    assert {p: p.stat().st_mtime_ns for p in (out / "predictions").glob("*/*")} == before
+    (record,) = (r for r in records(out).values() if "mpjpe" in r["scores"])
+    assert 0.0 < record["scores"]["mpjpe"] < 100.0
+    assert len(record["parts"]["mpjpe"]["joint"]) == 31
+
+
 def test_a_damaged_record_is_reported_and_computed_again(cli, records, tmp_path):
     assert cli(*FAST, "--out", tmp_path / "run") == 0
     whole = _scores(records(tmp_path / "run"))
@@ -209,6 +224,45 @@ def test_list_names_everything(cli, kind, registry):
     assert cli("list", kind) == 0
     assert registry.names()
     assert all(name in cli.printed for name in registry.names())
+
+
+@pytest.mark.parametrize("kind", ["models", "tasks", "metrics", "libraries"])
+def test_a_list_fits_a_terminal_of_80_columns(capsys, monkeypatch, kind):
+    monkeypatch.setenv("COLUMNS", "80")
+    with pytest.raises(SystemExit):
+        main(["list", kind])
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 80
+    assert not any("…" in line for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("kind", "registry", "keys"),
+    [
+        ("models", MODELS, {"summary", "abilities", "parameters"}),
+        ("tasks", TASKS, {"title", "cases", "profiles", "entrants", "recordings"}),
+        ("metrics", METRICS, {"title", "better", "of"}),
+        ("libraries", LIBRARIES, {"summary", "layout"}),
+    ],
+)
+def test_a_list_can_be_had_as_json(capsys, kind, registry, keys):
+    with pytest.raises(SystemExit):
+        main(["list", kind, "--json"])
+    entries = json.loads(capsys.readouterr().out)
+    assert [entry["name"] for entry in entries] == list(registry.names())
+    assert all(keys <= entry.keys() for entry in entries)
+    assert all(entry.get("title") or entry.get("summary") for entry in entries)
+
+
+def test_a_named_task_is_shown_with_its_cases_folds_and_entrants(cli):
+    assert cli("list", "tasks", "toy-synthesis") == 0
+    task = TASKS.get("toy-synthesis")
+    assert all(case.name in cli.printed for case in task.cases)
+    assert all(entrant.label in cli.printed for entrant in task.entrants)
+    assert "smoke: 1 case × 2 folds" in cli.printed
+    assert "missing-frames" not in cli.printed
+    assert cli("list", "tasks", "toy-synthesi") == 2
+    assert "did you mean toy-synthesis" in cli.printed
 
 
 def test_info_says_how_to_cite(cli):

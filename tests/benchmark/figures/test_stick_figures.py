@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from mocapbench.benchmark import JointAngles
 from mocapbench.benchmark.figures.stick_figures import N_FIGURES, STRIDE, strip
 from mocapbench.datasets import GaitLibrary, hlm_features
 
@@ -8,7 +9,7 @@ from mocapbench.datasets import GaitLibrary, hlm_features
 def test_figures_are_set_apart_on_the_ground_at_even_times():
     motion = GaitLibrary().motion("01_01")
     walk = hlm_features(motion.recording("walk"))
-    panel = strip(walk, motion.skeleton, "walk", "a walk, ")
+    panel = strip(walk, JointAngles(motion.skeleton), "walk", "a walk, ")
     assert len(panel.curves) == N_FIGURES
     span = walk.times[-1] - walk.times[0]
     assert panel.title == f"a walk, every {span / (N_FIGURES - 1):.2g} s"

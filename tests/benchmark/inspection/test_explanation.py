@@ -278,7 +278,7 @@ def test_of_jobs_that_share_predictions_one_fits(world):
 
     world.change_task = change
     steps = [found.step for found in explain(world.jobs(), world.out)]
-    assert steps == [Step.FIT, Step.FIT, Step.FIT, Step.FIT]
+    assert steps == [Step.FIT, Step.FIT, Step.SCORE, Step.SCORE]
     world.run(fits=False)
     for path in world.out.rglob("records/*/*"):
         path.unlink()

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from mocapbench.benchmark import hide_all_but, hide_frames
+from mocapbench.benchmark import Run, hide_all_but, hide_frames, hide_runs
+from mocapbench.datasets import Recording
 
 
 @pytest.mark.parametrize("n_visible", [0, 5, 50])
@@ -16,3 +17,23 @@ def test_as_many_frames_of_each_channel_are_visible_and_not_the_same(n_visible):
 def test_whole_frames_are_hidden_from_the_first_to_before_the_last():
     hidden = hide_frames(2, 4, 6, 3)
     assert hidden.tolist() == [[frame in {2, 3}] * 3 for frame in range(6)]
+
+
+WAVES = Recording("waves", np.arange(6.0), np.zeros((6, 3)), ("a", "b", "c"), ("", "", ""))
+
+
+def test_each_run_hides_its_channels_for_its_length_and_runs_add_up():
+    hidden = hide_runs([Run(("a", "c"), 1, 2), Run(("c",), 2, 3)], WAVES)
+    assert hidden.T.astype(int).tolist() == [
+        [0, 1, 1, 0, 0, 0],
+        [0, 0, 0, 0, 0, 0],
+        [0, 1, 1, 1, 1, 0],
+    ]
+
+
+@pytest.mark.parametrize(
+    "run", [Run(("a",), -1, 2), Run(("a",), 5, 2), Run(("a",), 2, 0), Run(("d",), 1, 2)]
+)
+def test_a_run_beyond_the_recording_is_refused_by_name(run):
+    with pytest.raises(ValueError, match="recording 'waves': expected a run of its channels"):
+        hide_runs([run], WAVES)

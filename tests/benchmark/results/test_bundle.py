@@ -51,7 +51,7 @@ def test_the_budget_of_the_profile_is_written_out(made):
 
 
 def test_metrics_are_those_that_the_page_shows_and_those_that_were_scored(made):
-    assert list(made.metrics) == ["mse", "msll", "smse"]
+    assert list(made.metrics) == ["mpjpe", "mse", "msll", "smse"]
     assert made.metrics["mse"].title == "Mean squared error (MSE)"
 
 

@@ -139,6 +139,7 @@ FIT_PATH = [
     ("baselines.common.cholesky", "toy-interpolation-1", "mohgp"),
     ("baselines.common.gaps", "missing-frames", "knn"),
     ("baselines.common.lapack", "toy-interpolation-1", "mohgp"),
+    ("baselines.common.prototypes", "style-clustering", "k-fam"),
     ("baselines.common.recordings", "toy-interpolation-1", "trivial"),
     ("baselines.common.scaling", "toy-interpolation-1", "mohgp"),
     ("baselines.common.shortest_path", "missing-frames", "pose-viterbi"),
@@ -149,6 +150,7 @@ FIT_PATH = [
     ("baselines.gp.solvers.latent_split.gradient", "toy-interpolation-1", "mohgp"),
     ("baselines.gpdm.process", "missing-frames", "gpdm"),
     ("baselines.alignment.estimator", "missing-frames", "cyclic-alignment"),
+    ("baselines.functional.components", "missing-frames", "fam"),
 ]
 
 

@@ -66,3 +66,9 @@ def test_an_address_that_no_library_can_have_is_refused_by_task_and_case(uri):
     TASKS.add("mine", dataclasses.replace(TASK, name="mine", cases=(case, *TASK.cases[1:])))
     with pytest.raises(UsageError, match=f"task 'mine', case '{FIRST.name}': .* got '{uri}'"):
         plan(Request("paper", tasks=("mine",), cases=(FIRST.name,)), archive_at(None))
+
+
+def test_a_recording_as_the_database_writes_it_finds_the_cases_on_it():
+    chosen = Request(tasks=("missing-frames",), models=("trivial",), cases=("35_03",), folds=1)
+    cases = {job.address.case for job in plan(chosen, archive_at(None))}
+    assert cases == {"35-03 four-walkers", "35-03 three-walkers"}

@@ -25,6 +25,7 @@ PROBLEMS = [
     ("walking-interpolation", "synthetic observed 40"),
     ("missing-frames", "synthetic 1"),
     ("upper-body-missing", "synthetic walks"),
+    ("subject-35-missing", "synthetic right leg"),
     pytest.param("upper-body-missing", "subject 07 walks", marks=needs_recordings),
     pytest.param("walking-interpolation", "observed 40", marks=needs_recordings),
     pytest.param("walking-interpolation", "observed 10", marks=needs_recordings),

@@ -162,6 +162,31 @@ def test_a_failed_job_is_never_a_passed_control_check(cli, scored, changed, code
     assert ("jobs failed and were not checked" in cli.printed) == bool(changed)
 
 
+def _resembling(*advantages):
+    """Return scores that are above those of the control by so much, fold by fold."""
+    return [
+        {name: value + (0 if name == "variance_ratio" else more) for name, value in fold.items()}
+        for fold, more in zip(SCORES["control"], advantages, strict=False)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("changed", "code"),
+    [
+        ({"replay": _resembling(0.8, 0.1, 0.2)}, 5),
+        ({"replay": _resembling(0.8)}, 5),
+        ({name: folds[:1] for name, folds in SCORES.items()}, 5),
+        ({"replay": [*_resembling(0.8), Status.FAILED]}, 3),
+        ({"replay": _resembling(0.8), "worse": _resembling(-0.8, -0.7, -0.9)}, 1),
+    ],
+)
+def test_too_few_folds_are_undecided_and_not_failed(cli, scored, changed, code):
+    run = scored({**SCORES, **changed})
+    assert cli("check", "--controls", run) == code
+    assert "replay is undecided by MLC and MCC: too few to tell" in cli.printed
+    assert "replay fails" not in cli.printed
+
+
 def test_the_check_needs_something_to_check_against(cli, tmp_path):
     assert cli("check", tmp_path) == 2
     assert "choose --reference or --controls" in cli.printed

@@ -1,6 +1,7 @@
 """Motions: reading, writing and reading back, and errors with their lines."""
 
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -183,9 +184,9 @@ def test_the_frame_that_the_capture_cut_short_is_dropped(cmu):
 
 
 @pytest.mark.recordings
-def test_real_values_are_those_in_the_file(cmu, data_dir):
+def test_real_values_are_those_in_the_file(cmu):
     recording = cmu.recording("cmu:35_02")
-    lines = (data_dir / "subjects/35/35_02.amc").read_text().split("\n")
+    lines = Path(cmu.libraries["cmu"].where("35_02")).read_text().split("\n")
     frame = lines[lines.index("100") + 1 : lines.index("101")]
     words = [word for line in frame for word in line.split()[1:]]
     assert recording.values[99].tolist() == list(map(float, words))

@@ -24,3 +24,12 @@ def test_the_mean_of_the_first_kind_of_which_a_job_is_known(jobs):
             assert durations.expected(_kinds("a", "x")) == pytest.approx(sum(alike) / len(alike))
             return
     assert durations.expected(_kinds("a", "x")) == 0
+
+
+@given(JOBS)
+def test_it_is_known_whether_a_job_of_a_kind_has_ended(jobs):
+    durations = Durations()
+    for task, label, seconds in jobs:
+        durations.learn(_kinds(task, label), seconds)
+    assert durations.knows(_kinds("a", "x")) == bool(jobs)
+    assert durations.knows(_kinds("a", "x")[:2]) == any(label == "x" for _, label, _ in jobs)

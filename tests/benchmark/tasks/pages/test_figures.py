@@ -19,6 +19,7 @@ ENTRANTS = {
     "missing-frames": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
     "golf-swings": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
     "upper-body-missing": ("nn", "trivial"),
+    "subject-35-missing": ("nn-scaled", "trivial"),
     "style-clustering": ("cyclic-alignment", "k-means"),
 }
 """What has something to show in every figure, and something that has little to show."""

@@ -77,6 +77,13 @@ def test_every_column_that_a_page_crosses_is_one_of_every_case(name):
     assert all(set(task.page.crossed or ()) <= set(case.columns) for case in task.cases)
 
 
+@pytest.mark.parametrize("name", [name for name in NAMES if TASKS.get(name).page.along])
+def test_scores_are_drawn_along_a_column_of_numbers(name):
+    task = TASKS.get(name)
+    for case in task.cases:
+        assert isinstance(case.columns[task.page.along], float)
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_a_smoke_run_of_a_task_with_figures_shows_them(name):
     task = TASKS.get(name)

@@ -1,0 +1,239 @@
+"""Functional analysis of cyclic motion: a mean cycle and principal components, with gaps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.scaling import Standardisation
+from mocapbench.baselines.functional.basis import Array
+from mocapbench.baselines.functional.components import infer_scores, principal_axes
+from mocapbench.baselines.functional.cycles import Cycles
+from mocapbench.baselines.functional.fitting import fit_components, start
+from mocapbench.baselines.functional.period import cycle_periods, elapsed, frame_step
+from mocapbench.baselines.functional.placement import place
+from mocapbench.baselines.functional.prediction import cycle_moments, prototypes, sampled
+from mocapbench.baselines.functional.shifts import SHIFTS, Aligned, shift_together
+from mocapbench.baselines.functional.statistics import CurveStatistics
+from mocapbench.baselines.functional.validation import check_frames, check_settings
+from mocapbench.baselines.protocols import Aligner, Imputer, Inductive, Prediction, StatePath
+from mocapbench.datasets import Recording
+
+__all__ = ["FAM"]
+
+
+class FAM(Imputer, Inductive, Aligner):
+    r"""Smooth periodic mean and functional principal components of cycles.
+
+    A recording is folded at the length of cycle with the highest signal-to-noise ratio, and shifted
+    in phase to a reference curve, which is refitted in turn. Its cycles are then a mean curve plus
+    a few components, all of them Fourier series with a penalty on curvature, plus noise with one
+    variance for each channel. Scores of the components are standard normal and independent between
+    cycles; they are integrated out, and hidden entries with them. The model works on channels of
+    zero mean and unit variance. A recording in which no length of cycle stands out takes the median
+    length; if that is so for all, each recording is one cycle.
+
+    Parameters
+    ----------
+    n_components : int, default=3
+        Number Q of components; one less than the number of cycles, if that is smaller. 0 leaves the
+        mean curve.
+    n_harmonics : int, default=6
+        Number H of harmonics of the Fourier series.
+    smoothness : float, default=0.1
+        Weight :math:`\lambda` of the penalty :math:`\tfrac12 \lambda \sum_h h^4 (a_h^2 + b_h^2)` on
+        mean and components, in standardised units.
+    n_restarts : int, default=3
+        Number of recordings, drawn at random, that serve in turn as the first reference curve (all,
+        if there are fewer); the alignment with the least penalised squared error is kept.
+    max_iter : int, default=30
+        Largest number of rounds of filling and estimating again.
+    tolerance : float, default=1e-4
+        A fit has converged when a round raises the penalised log-likelihood by less than
+        ``tolerance`` per visible entry.
+    random_state : int, numpy.random.Generator or None, default=None
+        Seed of the first reference curves.
+
+    Attributes
+    ----------
+    periods_ : ndarray of shape (K,)
+        Length of a cycle of each recording, in seconds.
+    offsets_ : ndarray of shape (K,)
+        Phase of the first frame of each recording, in cycles.
+    cycle_length_ : int
+        Number M of states of the cycle, two for each frame of a cycle of median length.
+    path_ : tuple of ndarray of int, each of shape (N_k,)
+        The state of each frame of each recording.
+    mean_cycle_ : ndarray of shape (M, D)
+        The mean curve.
+    components_ : ndarray of shape (Q, M, D)
+        The components, each times its standard deviation, the one of most variance first.
+    prototypes_ : ndarray of shape (K, M, D)
+        The mean of each recording's cycles, hidden entries filled.
+    log_likelihood_ : ndarray of shape (n_iterations_ + 1,)
+        The penalised log-likelihood at the start and after each round, for standardised channels.
+    n_iterations_ : int
+        Number of rounds.
+    converged_ : bool
+        Whether the fit converged.
+
+    References
+    ----------
+    D. Ormoneit, M. J. Black, T. Hastie and H. Kjellström (2005), Representing cyclic human motion
+    using functional analysis, Image and Vision Computing 23. ``docs/functional.md`` lists what
+    differs.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import FAM
+    >>> from mocapbench.datasets import Recording
+    >>> def walk(name, n_frames, period):
+    ...     angle = 2 * np.pi * np.arange(n_frames) / period
+    ...     values = np.column_stack([np.sin(angle), np.cos(angle)])
+    ...     return Recording(name, np.arange(n_frames) / 30, values, ("hip", "knee"), ("deg",) * 2)
+    >>> walks = [walk("slow", 50, 15), walk("fast", 40, 12)]
+    >>> model = FAM(random_state=0).fit(walks)
+    >>> (30 * model.periods_).round(2)
+    array([15., 12.])
+    >>> hidden = np.zeros((40, 2), dtype=bool)
+    >>> hidden[10:25, 0] = True
+    >>> (prediction,) = model.impute([walks[1].hide(hidden)])
+    >>> bool(np.abs(prediction.mean - walks[1].values).max() < 0.1)
+    True
+    """
+
+    def __init__(
+        self,
+        *,
+        n_components: int = 3,
+        n_harmonics: int = 6,
+        smoothness: float = 0.1,
+        n_restarts: int = 3,
+        max_iter: int = 30,
+        tolerance: float = 1e-4,
+        random_state: int | np.random.Generator | None = None,
+    ) -> None:
+        self.n_components = n_components
+        self.n_harmonics = n_harmonics
+        self.smoothness = smoothness
+        self.n_restarts = n_restarts
+        self.max_iter = max_iter
+        self.tolerance = tolerance
+        self.random_state = random_state
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Estimate lengths, shifts, mean and components.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is of the wrong type or out of range, there is no recording, a recording
+            has no frame, channels differ, a name repeats, or a channel is nowhere visible.
+        """
+        check_settings(**self.get_params())
+        checked = check_recordings(recordings)
+        check_frames(checked)
+        self.channels_ = checked[0].channels
+        # Recordings are sorted by name, so that their order does not affect results.
+        order = np.argsort([recording.name for recording in checked], kind="stable")
+        ordered = [checked[k] for k in order]
+        self.scaling_ = Standardisation.of(ordered)
+        scaled = [self.scaling_.apply(recording) for recording in ordered]
+        periods = cycle_periods(scaled)
+        aligned = self._shift_together(scaled, periods)
+        phases = [
+            SHIFTS[shift] + elapsed(recording) / period
+            for shift, recording, period in zip(aligned.shifts, scaled, periods, strict=True)
+        ]
+        self.reference_, self.cycle_length_ = aligned.curve, self._n_states(scaled, periods)
+        rank = np.argsort(order)
+        self.periods_, self.offsets_ = periods[rank], SHIFTS[aligned.shifts][rank]
+        self.path_ = tuple(self._states(phases[k]) for k in rank)
+        self._learn(Cycles.of(scaled, phases, self.n_harmonics), rank)
+        return self
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return mean and variance of hidden entries, given the visible ones of the same cycle.
+
+        A recording takes the length of cycle and the shift at which its visible entries are closest
+        to the reference curve. The length is at most a quarter beyond those of the fitted ones.
+
+        Raises
+        ------
+        ValueError
+            If channels differ, or a recording has no frame.
+        """
+        return [self._imputed(recording) for recording in self._checked(recordings)]
+
+    def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
+        """Return the state of each frame of recordings, which are placed as by `impute`.
+
+        Raises
+        ------
+        ValueError
+            If channels differ, or a recording has no frame.
+        """
+        return [self._states(self._placed(r)) for r in self._checked(recordings)]
+
+    def _shift_together(self, scaled: Sequence[Recording], periods: Array) -> Aligned:
+        curves = [
+            (elapsed(recording) / period, recording.values)
+            for recording, period in zip(scaled, periods, strict=True)
+        ]
+        statistics = CurveStatistics.of(curves, self.n_harmonics)
+        rng = np.random.default_rng(self.random_state)
+        firsts = rng.permutation(len(scaled))[: self.n_restarts]
+        runs = [shift_together(statistics, int(first), self.smoothness) for first in firsts]
+        return min(runs, key=lambda run: run.objectives[-1])
+
+    def _learn(self, cycles: Cycles, rank: NDArray[np.intp]) -> None:
+        """Fit mean and components, and set what follows in the order of ``rank`` (K,)."""
+        n_components = min(self.n_components, len(cycles.phases) - 1)
+        fit = fit_components(
+            cycles.statistics,
+            start(cycles.statistics, self.reference_, n_components, self.smoothness),
+            self.smoothness,
+            max_iter=self.max_iter,
+            tolerance=self.tolerance,
+        )
+        self.log_likelihood_, self.converged_ = np.array(fit.likelihoods), fit.converged
+        self.n_iterations_ = len(fit.likelihoods) - 1
+        self.model_ = principal_axes(fit.components)
+        curves = sampled(self.model_.coefficients, self.cycle_length_)
+        self.mean_cycle_ = self.scaling_.restore(curves[0])
+        self.components_ = curves[1:] * self.scaling_.scale
+        cycle = prototypes(fit.components, fit.scores, cycles)[rank]
+        self.prototypes_ = self.scaling_.restore(sampled(cycle, self.cycle_length_))
+
+    def _n_states(self, scaled: Sequence[Recording], periods: Array) -> int:
+        """Return two states a frame of a cycle, but at least one for each coefficient."""
+        steps = [frame_step(recording) for recording in scaled]
+        return max(2 * round(float(np.median(periods / steps))), 2 * self.n_harmonics + 1)
+
+    def _states(self, phases: Array) -> StatePath:
+        states = np.floor(phases % 1.0 * self.cycle_length_).astype(np.intp)
+        return np.asarray(states % self.cycle_length_)
+
+    def _checked(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_)
+        check_frames(recordings)
+        return recordings
+
+    def _placed(self, recording: Recording) -> Array:
+        return place(self.scaling_.apply(recording), self.reference_, self.periods_)
+
+    def _imputed(self, recording: Recording) -> Prediction:
+        scaled = self.scaling_.apply(recording)
+        cycles = Cycles.of([scaled], [self._placed(recording)], self.n_harmonics)
+        scores = infer_scores(cycles.statistics, self.model_)
+        mean, variance = cycle_moments(cycles.phases, self.model_, scores)
+        return Prediction.around(
+            recording, self.scaling_.restore(mean), variance * self.scaling_.scale**2
+        )

@@ -1,0 +1,110 @@
+"""The fit of mean and components to cycles, in rounds of filling and estimating again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mocapbench.baselines.functional.basis import Array, norms, roughness
+from mocapbench.baselines.functional.components import (
+    LEAST_NOISE,
+    Components,
+    Scores,
+    infer_scores,
+    penalised_likelihood,
+    update,
+)
+from mocapbench.baselines.functional.statistics import CurveStatistics
+
+__all__ = ["Fit", "fit_components", "start"]
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """Components, the scores of the cycles, and the course of the fit.
+
+    Parameters
+    ----------
+    components : Components
+    scores : Scores
+        Of the cycles that the components were fitted to.
+    likelihoods : tuple of float
+        The penalised log-likelihood at the start and after each round.
+    converged : bool
+        Whether the last round raised it by less than the tolerance.
+    """
+
+    components: Components
+    scores: Scores
+    likelihoods: tuple[float, ...]
+    converged: bool
+
+
+def start(
+    statistics: CurveStatistics, curve: Array, n_components: int, smoothness: float
+) -> Components:
+    """Return components from the singular value decomposition of each cycle's smooth deviations.
+
+    Parameters
+    ----------
+    statistics : CurveStatistics
+        Of J cycles.
+    curve : ndarray of shape (D, P)
+        The mean curve.
+    n_components : int
+        Q, at most J − 1.
+    smoothness : float
+        Weight of the roughness.
+    """
+    n_cycles, (n_channels, n_functions) = len(statistics.squares), curve.shape
+    gradient = statistics.cross - (statistics.grams @ curve[..., None])[..., 0]
+    # A deviation has prior variance 1: a cycle of few visible entries keeps close to the mean.
+    ridge = np.diag(1.0 + smoothness * roughness((n_functions - 1) // 2))
+    deviations = np.linalg.solve(statistics.grams + ridge, gradient[..., None])[..., 0]
+    weights = np.tile(np.sqrt(norms((n_functions - 1) // 2)), n_channels)
+    _, lengths, axes = np.linalg.svd(
+        deviations.reshape(n_cycles, -1) * weights, full_matrices=False
+    )
+    scaled = lengths[:n_components, None] / np.sqrt(n_cycles) * axes[:n_components] / weights
+    components = scaled.reshape(-1, n_channels, n_functions)
+    errors = statistics.squares.sum(axis=0) - np.einsum(
+        "dp,dp->d", curve, statistics.cross.sum(axis=0) + gradient.sum(axis=0)
+    )
+    noise = np.maximum(errors / np.maximum(statistics.counts.sum(axis=0), 1.0), LEAST_NOISE)
+    return Components(np.concatenate([curve[None], components]), noise)
+
+
+def fit_components(
+    statistics: CurveStatistics,
+    initial: Components,
+    smoothness: float,
+    *,
+    max_iter: int,
+    tolerance: float,
+) -> Fit:
+    """Alternate scores and components until the likelihood rises by less than the tolerance.
+
+    Parameters
+    ----------
+    statistics : CurveStatistics
+        Of J cycles.
+    initial : Components
+        Where to start.
+    smoothness : float
+        Weight of the roughness.
+    max_iter : int
+        Largest number of rounds.
+    tolerance : float
+        Least rise in a round, per visible entry.
+    """
+    components, scores = initial, infer_scores(statistics, initial)
+    likelihoods = [penalised_likelihood(scores, components, smoothness)]
+    least = tolerance * statistics.counts.sum()
+    for _ in range(max_iter):
+        components = update(statistics, scores, components, smoothness)
+        scores = infer_scores(statistics, components)
+        likelihoods.append(penalised_likelihood(scores, components, smoothness))
+        if likelihoods[-1] - likelihoods[-2] < least:
+            return Fit(components, scores, tuple(likelihoods), True)
+    return Fit(components, scores, tuple(likelihoods), False)

@@ -1,0 +1,48 @@
+"""Checks of the parameters of the functional models, and of the recordings they are given."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
+from mocapbench.datasets import Recording
+
+__all__ = ["check_frames", "check_settings"]
+
+_CHECKS: dict[str, Callable[[str, object], None]] = {
+    **dict.fromkeys(
+        ("n_styles", "n_harmonics", "n_restarts", "max_iter"), partial(check_count, least=1)
+    ),
+    "n_components": partial(check_count, least=0),
+    **dict.fromkeys(("smoothness", "tolerance"), check_positive),
+    "random_state": check_seed,
+}
+
+
+def check_settings(**parameters: Any) -> None:
+    """Check the parameters of an estimator, which have the names of those of `KFAM`.
+
+    Raises
+    ------
+    ValueError
+        If one is of the wrong type or out of range.
+    """
+    for name, value in parameters.items():
+        _CHECKS[name](name, value)
+
+
+def check_frames(recordings: Sequence[Recording]) -> None:
+    """Check that every recording has a frame.
+
+    Raises
+    ------
+    ValueError
+        If one has none.
+    """
+    empty = [recording.name for recording in recordings if not len(recording.times)]
+    if empty:
+        raise ValueError(
+            f"expected recordings of at least one frame, got none in {empty}; leave them out"
+        )

@@ -1,0 +1,159 @@
+"""A linear dynamical system learnt by EM."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.scaling import Standardisation
+from mocapbench.baselines.common.validation import check_count, check_positive
+from mocapbench.baselines.protocols import (
+    Imputer,
+    Inductive,
+    Prediction,
+    SampleByFrameByChannel,
+    Synthesiser,
+)
+from mocapbench.baselines.state_space.em import expectation_maximisation
+from mocapbench.baselines.state_space.model import PRIORS
+from mocapbench.baselines.state_space.observations import Observations
+from mocapbench.baselines.state_space.prediction import drawn, moments
+from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.start import initial_states, start
+from mocapbench.datasets import Frames, Recording
+
+__all__ = ["LDS"]
+
+
+class LDS(Imputer, Inductive, Synthesiser):
+    r"""A linear dynamical system: linear dynamics of a few states, seen through linear channels.
+
+    .. math:: x_{t+1} = A x_t + w_t, \qquad y_t = C x_t + d + v_t,
+
+    with Gaussian noise, independent between channels in :math:`v_t`. All recordings share the
+    parameters, which EM learns with the Kalman filter and the smoother of Rauch, Tung and Striebel.
+    Hidden entries are integrated out. The model works on channels of zero mean and unit variance,
+    and on frames at equal intervals. Weak priors keep the noise from vanishing (MAP).
+
+    Recordings are filled by the smoother with the learnt parameters, so that one that was not given
+    to `fit` is filled in the same way.
+
+    Parameters
+    ----------
+    n_states : int, default=15
+        Number q of states. A smaller number is taken, with a warning, where short stretches of the
+        training frames have fewer dimensions. ``docs/state-space.md`` has the choice of 15.
+    max_iter : int, default=10
+        Largest number of iterations of EM.
+    tolerance : float, default=1e-3
+        EM has converged when an iteration raises the objective by less than ``tolerance`` per
+        visible entry.
+
+    Attributes
+    ----------
+    parameters_ : Parameters
+        The learnt parameters, for standardised channels.
+    n_states_ : int
+        The number of states.
+    objective_ : ndarray of shape (n_iterations_,)
+        Log-likelihood plus log-prior before each iteration, for standardised channels.
+    n_iterations_ : int
+        Number of iterations.
+    converged_ : bool
+        Whether EM converged.
+
+    References
+    ----------
+    R. H. Shumway and D. S. Stoffer (1982), An Approach to Time Series Smoothing and Forecasting
+    Using the EM Algorithm, Journal of Time Series Analysis 3(4).
+
+    Z. Ghahramani and G. E. Hinton (1996), Parameter Estimation for Linear Dynamical Systems,
+    University of Toronto, CRG-TR-96-2.
+
+    L. Li, J. McCann, N. Pollard and C. Faloutsos (2009), DynaMMo: Mining and Summarization of
+    Coevolving Sequences with Missing Values, KDD.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import LDS
+    >>> from mocapbench.datasets import Recording
+    >>> def swing(name, phase):
+    ...     angle = 2 * np.pi * np.arange(40) / 10 + phase
+    ...     values = np.column_stack([np.sin(angle), np.cos(angle)])
+    ...     return Recording(name, np.arange(40) / 30, values, ("hip", "knee"), ("deg",) * 2)
+    >>> model = LDS(n_states=2).fit([swing("a", 0.0), swing("b", 1.0)])
+    >>> bool((np.diff(model.objective_) >= 0).all())
+    True
+    >>> hidden = np.zeros((40, 2), dtype=bool)
+    >>> hidden[10:20] = True
+    >>> new = swing("new", 2.0)
+    >>> (prediction,) = model.impute([new.hide(hidden)])
+    >>> bool(np.abs(prediction.mean - new.values).max() < 0.2)
+    True
+    """
+
+    def __init__(self, n_states: int = 15, *, max_iter: int = 10, tolerance: float = 1e-3) -> None:
+        self.n_states = n_states
+        self.max_iter = max_iter
+        self.tolerance = tolerance
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Learn the parameters from the visible entries.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is of the wrong type or out of range, there is no recording, channels
+            differ, a name repeats, or a channel is nowhere visible.
+        """
+        check_count("n_states", self.n_states, 1)
+        check_count("max_iter", self.max_iter, 1)
+        check_positive("tolerance", self.tolerance)
+        # In the order of names, so that the order given does not affect results.
+        ordered = sorted(check_recordings(recordings), key=lambda recording: recording.name)
+        self.channels_ = ordered[0].channels
+        self.scaling_ = Standardisation.of(ordered)
+        data = self._observations(ordered)
+        first = start(initial_states(data, self.n_states), data, PRIORS)
+        run = expectation_maximisation(
+            first, data, PRIORS, max_iter=self.max_iter, tolerance=self.tolerance
+        )
+        self.parameters_, self.converged_ = run.parameters, run.converged
+        self.objective_ = np.array(run.objectives)
+        self.n_iterations_, self.n_states_ = len(run.objectives), run.parameters.n_states
+        return self
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return mean and variance of the hidden entries given the visible ones of each recording.
+
+        Raises
+        ------
+        ValueError
+            If channels differ.
+        """
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_)
+        data = self._observations(recordings)
+        mean, variance = moments(self.parameters_, smoothed(self.parameters_, data))
+        means = map(self.scaling_.restore, data.unpad(mean))
+        variances = data.unpad(variance * self.scaling_.scale**2)
+        return list(map(Prediction.around, recordings, means, variances))
+
+    def sample(
+        self, times: Frames, n_samples: int, random_state: int | np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Draw recordings from the distribution of the first state on, noise included: (n, N, D).
+
+        Of ``times`` (N,) only the number counts: frames are at the interval of the fitted ones.
+        """
+        check_is_fitted(self)
+        rng = np.random.default_rng(random_state)
+        return self.scaling_.restore(drawn(self.parameters_, n_samples, len(times), rng))
+
+    def _observations(self, recordings: Sequence[Recording]) -> Observations:
+        return Observations.of([self.scaling_.apply(recording).values for recording in recordings])

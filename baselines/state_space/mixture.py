@@ -1,0 +1,127 @@
+"""A mixture of linear Gaussian state-space models, by classification EM.
+
+Each sequence belongs to the component that explains it best. An iteration improves each component
+by one step of EM on its members, and then assigns all sequences anew. Neither lowers the objective:
+the log-density of all sequences and of their components, plus the log-prior, in which every
+component has one sequence more than it has members.
+
+G. Celeux and G. Govaert (1992), *A Classification EM Algorithm for Clustering and Two Stochastic
+Versions*, Computational Statistics and Data Analysis 14(3).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.state_space.filtering import filtered
+from mocapbench.baselines.state_space.maximisation import maximised
+from mocapbench.baselines.state_space.model import Parameters, Priors
+from mocapbench.baselines.state_space.observations import Observations
+from mocapbench.baselines.state_space.regression import Array
+from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.start import start
+
+__all__ = ["Mixture", "MixtureRun", "classification_em", "seeded"]
+
+Labels = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Mixture:
+    """C components, and the one that each of K sequences belongs to.
+
+    Parameters
+    ----------
+    components : tuple of Parameters
+        The parameters of each component.
+    weights : ndarray of shape (C,)
+        The probability of each component.
+    labels : ndarray of int, shape (K,)
+        The component of each sequence.
+    objective : float
+        The log-density and the log-prior.
+    """
+
+    components: tuple[Parameters, ...]
+    weights: Array
+    labels: Labels
+    objective: float
+
+    @classmethod
+    def assigned(
+        cls,
+        components: Sequence[Parameters],
+        weights: Array,
+        data: Observations,
+        priors: Priors,
+    ) -> Mixture:
+        """Return the mixture with every sequence in the component that explains it best."""
+        evidence = [filtered(parameters, data).log_likelihood for parameters in components]
+        joint = np.column_stack(evidence) + np.log(weights)
+        prior = sum(parameters.log_prior(priors) for parameters in components)
+        value = joint.max(axis=1).sum() + np.log(weights).sum() + prior
+        return cls(tuple(components), weights, joint.argmax(axis=1), float(value))
+
+    def improved(self, data: Observations, priors: Priors) -> Mixture:
+        """Return the mixture after a step of EM in each component and a new assignment."""
+        sizes = np.bincount(self.labels, minlength=len(self.weights))
+        components = list(self.components)
+        for c in np.flatnonzero(sizes):
+            members = data.rows(np.flatnonzero(self.labels == c))
+            components[c] = maximised(smoothed(components[c], members), members, priors)
+        return self.assigned(components, (sizes + 1.0) / (sizes + 1.0).sum(), data, priors)
+
+
+@dataclass(frozen=True)
+class MixtureRun:
+    """The result of classification EM.
+
+    Parameters
+    ----------
+    mixture : Mixture
+        The final mixture.
+    objectives : tuple of float
+        The objective at the start and after each iteration.
+    converged : bool
+        Whether the last iteration raised the objective by less than the tolerance.
+    """
+
+    mixture: Mixture
+    objectives: tuple[float, ...]
+    converged: bool
+
+
+def seeded(states: Array, data: Observations, seeds: Labels, priors: Priors) -> Mixture:
+    """Return a mixture whose components each fit one sequence, of those at ``seeds`` (C,).
+
+    Parameters
+    ----------
+    states : ndarray of shape (K, N, q)
+        Initial states of all sequences.
+    """
+    alone = [data.rows(np.array([seed])) for seed in seeds]
+    components = [
+        start(states[[seed], : one.lengths[0]], one, priors)
+        for seed, one in zip(seeds, alone, strict=True)
+    ]
+    return Mixture.assigned(components, np.full(len(seeds), 1.0 / len(seeds)), data, priors)
+
+
+def classification_em(
+    mixture: Mixture, data: Observations, priors: Priors, *, max_iter: int, tolerance: float
+) -> MixtureRun:
+    """Improve a mixture, ``max_iter`` times at most.
+
+    Stops when an iteration raises the objective by less than ``tolerance`` per visible entry.
+    """
+    objectives, threshold = [mixture.objective], tolerance * data.counts.sum()
+    for _ in range(max_iter):
+        mixture = mixture.improved(data, priors)
+        objectives.append(mixture.objective)
+        if objectives[-1] - objectives[-2] < threshold:
+            return MixtureRun(mixture, tuple(objectives), converged=True)
+    return MixtureRun(mixture, tuple(objectives), converged=False)

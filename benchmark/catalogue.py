@@ -1,0 +1,106 @@
+"""What is registered, as plain values: of each model, task, metric, library, format what it is."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from mocapbench import baselines
+from mocapbench.baselines import Model
+from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
+from mocapbench.benchmark.runs.plan import entrants
+
+__all__ = ["format_entry", "library_entry", "metric_entry", "model_entry", "task_entry"]
+
+_ABILITIES = {
+    "Imputer": "imputes any mask",
+    "FrameImputer": "imputes whole frames",
+    "Inductive": "new recordings too",
+    "Interpolator": "interpolates each channel",
+    "Synthesiser": "synthesises",
+    "Clusterer": "clusters",
+    "Aligner": "aligns",
+    "Blender": "blends",
+    "Informed": "is given the generating process",
+    "Misinformed": "is given an unrelated process",
+}
+_ROLE = re.compile(r":[\w:]+:(?=`)")
+
+
+def task_entry(name: str) -> Mapping[str, Any]:
+    """Return what a task is: its texts, cases, folds, entrants and recordings."""
+    task = TASKS.get(name)
+    recordings = (uri for case in task.cases for uri in case.recordings)
+    return {
+        "name": name,
+        "title": task.page.title,
+        "reference": task.page.reference,
+        "description": task.page.description,
+        "requires": [_ABILITIES.get(able.__name__, able.__name__) for able in task.requires],
+        "metrics": list(task.page.metrics),
+        "cases": [case.name for case in task.cases],
+        "profiles": {
+            profile: {"cases": list(chosen.cases), "folds": chosen.folds}
+            for profile, chosen in task.profiles.items()
+        },
+        "entrants": [entrant.label for entrant in entrants(task)],
+        "recordings": list(dict.fromkeys(recordings)),
+    }
+
+
+def model_entry(name: str) -> Mapping[str, Any]:
+    """Return what a model is: the first line of its docstring, its abilities and parameters."""
+    model = MODELS.get(name)
+    return {
+        "name": name,
+        "summary": _summary(model),
+        "abilities": _abilities(model),
+        "parameters": model().get_params(),
+    }
+
+
+def metric_entry(name: str) -> Mapping[str, Any]:
+    """Return what a metric is: its title, which values are better, and of what it is."""
+    metric = METRICS.get(name)
+    return {
+        "name": name,
+        "title": metric.title,
+        "better": metric.direction.value if metric.target is None else f"near {metric.target:g}",
+        "of": metric.outcome.__name__.lower(),
+    }
+
+
+def library_entry(name: str) -> Mapping[str, Any]:
+    """Return what a library is: the first line of its docstring, and which files it reads."""
+    library = LIBRARIES.get(name)
+    return {"name": name, "summary": _summary(library), "layout": list(library.layout)}
+
+
+def format_entry(name: str) -> Mapping[str, Any]:
+    """Return what a format is: the first line of its docstring, its suffixes, and its extra."""
+    kind = FORMATS.get(name)
+    return {
+        "name": name,
+        "summary": _summary(kind),
+        "suffixes": list(kind.suffixes),
+        "needs": f"mocapbench[{kind.needs.name}]" if kind.needs else "",
+    }
+
+
+def _abilities(model: type[Model]) -> list[str]:
+    """Return what a model can do, without what follows from something else that it can do."""
+    classes = {text: getattr(baselines, ability) for ability, text in _ABILITIES.items()}
+    able = {text: ability for text, ability in classes.items() if issubclass(model, ability)}
+    return [
+        text
+        for text, ability in able.items()
+        if not any(issubclass(other, ability) for other in able.values() if other is not ability)
+    ]
+
+
+def _summary(described: type) -> str:
+    """Return the first line of a docstring, without markup."""
+    first, _, _ = inspect.cleandoc(described.__doc__ or "").partition("\n")
+    return _ROLE.sub("", first).replace("`", "")

@@ -1,0 +1,74 @@
+"""A forecast of a run in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from mocapbench.benchmark.inspection.explanation import Step
+from mocapbench.benchmark.inspection.fit_seconds import MEASURED
+from mocapbench.benchmark.inspection.forecast import Basis, Forecast, Work
+from mocapbench.benchmark.runs.job import Job
+from mocapbench.benchmark.runs.progress import in_words
+from mocapbench.reports.text import counted
+
+__all__ = ["forecast_lines", "lacking", "lacking_line"]
+
+_STEPS = {
+    Step.SKIP: "done already",
+    Step.FIT: "to fit and score",
+    Step.SCORE: "only to score",
+    Step.CANNOT: "without their recordings",
+}
+
+
+def lacking(jobs: Sequence[Job]) -> tuple[str, ...]:
+    """Return the addresses of the recordings that ``jobs`` need and that are not at hand."""
+    return tuple(dict.fromkeys(uri for job in jobs for uri in job.missing))
+
+
+def lacking_line(jobs: Sequence[Job], remedy: str) -> str:
+    """Return how many of ``jobs`` lack recordings, and what to do about it."""
+    count = sum(bool(job.missing) for job in jobs)
+    recordings = counted(len(lacking(jobs)), "recording")
+    return f"data missing: {count} of {len(jobs)} jobs lack {recordings}; {remedy}"
+
+
+def forecast_lines(forecast: Forecast, out: Path, n_workers: int | None) -> Iterator[str]:
+    """Yield what a run will do, how long it takes, and how that is known.
+
+    Parameters
+    ----------
+    forecast : Forecast
+    out : Path
+        The run directory.
+    n_workers : int or None
+        How many jobs run at once; None if a cluster decides.
+    """
+    steps = ", ".join(f"{count} {_STEPS[step]}" for step, count in forecast.steps.items())
+    yield f"in {out}: {steps or 'nothing to do'}"
+    if not forecast.with_all.seconds:
+        return
+    if forecast.now.seconds:
+        yield f"time: {_time(forecast.now, n_workers)}"
+    if forecast.with_all != forecast.now:
+        yield f"time with the missing recordings: {_time(forecast.with_all, n_workers)}"
+    yield from _known(forecast)
+
+
+def _time(work: Work, n_workers: int | None) -> str:
+    fits = f"{in_words(work.total)} of work in {counted(len(work.seconds), 'fit')}"
+    if n_workers is None:
+        return f"about {fits}, divided among the workers of the cluster"
+    wall = in_words(work.wall_time(n_workers))
+    return f"about {wall} with {counted(n_workers, 'job')} at once ({fits})"
+
+
+def _known(forecast: Forecast) -> Iterator[str]:
+    by = forecast.with_all.known_by
+    fits = (f"{basis} ({counted(by[basis], 'fit')})" for basis in Basis if by[basis])
+    yield f"estimated by {', by '.join(fits)}"
+    measured = MEASURED[forecast.profile]
+    if measured != forecast.profile and by.keys() - {Basis.RECORDS}:
+        longer = f"the developers ran {measured}, whose fits are shorter than {forecast.profile}'s"
+        yield f"{longer}: take the time as a lower limit"

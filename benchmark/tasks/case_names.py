@@ -1,0 +1,42 @@
+"""Finding cases by what a user types: a name, a pattern, or how a name begins."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fnmatch import fnmatchcase
+
+__all__ = ["matching_cases"]
+
+
+def matching_cases(wanted: str, names: Iterable[str]) -> tuple[str, ...]:
+    """Return the names that ``wanted`` stands for; none if it stands for none.
+
+    They are the first of these that there are: the name itself; the names that match a pattern
+    such as ``observed*``; the names that begin with it. An underscore stands for a hyphen too, so
+    that ``35_03``, as CMU writes it, finds the cases on that recording.
+
+    Parameters
+    ----------
+    wanted : str
+    names : iterable of str
+        Every name there is.
+
+    Examples
+    --------
+    >>> names = ("35-03 four-walkers", "35-03 three-walkers", "test 1", "test 10")
+    >>> matching_cases("35_03", names)
+    ('35-03 four-walkers', '35-03 three-walkers')
+    >>> matching_cases("test 1", names)
+    ('test 1',)
+    """
+    names, typed = tuple(dict.fromkeys(names)), _hyphenated(wanted)
+    ways = (
+        [name for name in names if _hyphenated(name) == typed],
+        [name for name in names if fnmatchcase(_hyphenated(name), typed)],
+        [name for name in names if _hyphenated(name).startswith(typed)],
+    )
+    return tuple(next(filter(None, ways), ()))
+
+
+def _hyphenated(name: str) -> str:
+    return name.replace("_", "-")

@@ -1,0 +1,65 @@
+"""Damage files in many ways, and count what reading them gives; see docs/formats.md.
+
+    python docs/evidence/fuzz_formats.py 10000 walk.c3d walk.bvh
+
+Reading may give a recording or a `FormatError`. Anything else is printed and ends with exit code 1.
+"""
+
+import random
+import shutil
+import sys
+import time
+import traceback
+import warnings
+from collections import Counter
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from mocapbench.benchmark import format_for
+from mocapbench.benchmark.testing import damaged
+from mocapbench.datasets import FormatError, Recording
+
+
+def outcome(kind, path):
+    """Return what reading a file gave, in a word or two."""
+    try:
+        recording = kind.read(path)
+    except FormatError as error:
+        crashed = "crash of the library" in error.got
+        late = "no end of reading" in error.got
+        return "library crashed" if crashed else "too long" if late else "FormatError"
+    except Exception:
+        traceback.print_exc()
+        return "defect"
+    return "recording" if isinstance(recording, Recording) else "defect"
+
+
+def fuzz(path, n_times):
+    """Return how often each outcome came of reading damaged copies of a file."""
+    kind, rng, counts = format_for(path), random.Random(0), Counter()
+    with TemporaryDirectory() as folder:
+        copy = Path(folder, path.name)
+        for beside in path.parent.glob("*.asf"):
+            shutil.copy(beside, folder)
+        for _ in range(n_times):
+            copy.write_bytes(damaged(path.read_bytes(), rng))
+            counts[outcome(kind, copy)] += 1
+    return counts
+
+
+def main(n_times, *paths):
+    """Fuzz every file, and print a line for each."""
+    warnings.simplefilter("ignore")
+    defects = 0
+    for path in map(Path, paths):
+        started = time.perf_counter()
+        counts = fuzz(path, int(n_times))
+        seconds = time.perf_counter() - started
+        told = ", ".join(f"{count} {what}" for what, count in sorted(counts.items()))
+        print(f"{path.name}: {n_times} files in {seconds:.0f} s: {told}", flush=True)
+        defects += counts["defect"]
+    return 1 if defects else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,173 @@
+"""Feet that slide while they should stand."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.metrics.base import Direction, Imputation, Metric, Score, Synthesis, has_poses
+from mocapbench.metrics.entries import hidden_entries, mean_over
+from mocapbench.metrics.poses import feet, runs_of_frames
+
+__all__ = ["foot_skate", "imputed_foot_skate", "sample_foot_skate", "sampled_foot_skate"]
+
+Array = NDArray[np.float64]
+
+CONTACT_HEIGHT = 5.0
+"""Centimetres above its lowest place below which a true foot may stand."""
+CONTACT_SPEED = 30.0
+"""Centimetres per second below which it does."""
+SKATE_HEIGHT = 2.5
+"""Centimetres below which the speed of a sampled foot counts."""
+
+_HORIZONTAL = [0, 2]
+
+
+def imputed_foot_skate(outcome: Imputation) -> Score:
+    """Return the mean horizontal speed of predicted feet while the true feet stand.
+
+    The metric ``foot_skate``. A foot is a joint whose name ends in ``foot``; in the Acclaim format
+    it is placed at the ball of the foot. It stands from one frame to the next where the truth is
+    below 5 cm at both, above its lowest place in the recording, and slower than 30 cm/s between
+    them. The mean is over the feet and pairs of frames where it stands and is hidden at either
+    frame. Lower is better; in centimetres per second. The truth itself does not have 0: recordings
+    of the CMU database have 6 to 10 cm/s in walks and 10 to 15 in runs (docs/centimetres.md).
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With poses over N frames.
+
+    Returns
+    -------
+    Score
+        NaN if no foot stands where it is hidden. With part ``"joint"`` (J,), NaN but for feet.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or the
+        outcome has no poses or no feet.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, ImputedPoses, foot_skate
+    >>> truth, mean = np.zeros((2, 4, 2, 3))
+    >>> mean[:, 1, 0] = [0.0, 1.0, 2.0, 3.0]
+    >>> hidden = np.tile([False, True], (4, 1))
+    >>> times = np.arange(4) / 30
+    >>> poses = ImputedPoses(truth, mean, hidden, hidden, ("root", "foot"), (-1, 0), times)
+    >>> outcome = Imputation(
+    ...     truth=truth[:, 1],
+    ...     mean=mean[:, 1],
+    ...     variance=None,
+    ...     hidden=np.full((4, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     place_joints=lambda: poses,
+    ... )
+    >>> round(foot_skate(outcome).value, 6)
+    30.0
+    """
+    hidden_entries(outcome)
+    poses = outcome.poses
+    of_feet = feet(poses.joints)
+    first = runs_of_frames(len(poses.times), poses.starts, 2)
+    truth, mean = poses.truth[:, of_feet], poses.mean[:, of_feet]
+    seconds = np.diff(poses.times, append=np.inf)[first, None]
+    low = _heights(truth, poses.starts) < CONTACT_HEIGHT
+    slow = _steps(truth, first, [0, 1, 2]) < CONTACT_SPEED * seconds
+    hidden = poses.hidden[:, of_feet]
+    counts = low[first] & low[first + 1] & slow & (hidden[first] | hidden[first + 1])
+    speeds = _steps(mean, first, _HORIZONTAL) / seconds
+    by_joint = np.full(len(poses.joints), np.nan)
+    by_joint[of_feet] = mean_over(speeds, counts, axis=0)
+    return Score(float(speeds[counts].mean()) if counts.any() else np.nan, {"joint": by_joint})
+
+
+def sampled_foot_skate(outcome: Synthesis) -> Score:
+    """Return the mean horizontal speed of sampled feet near the ground, weighted by nearness.
+
+    The metric ``sample_foot_skate``: the mean of v (2 − 2^(h/H)) over the feet and pairs of frames
+    with h < H = 2.5 cm, v being the horizontal speed and h the height at the second frame above
+    the lowest place of the sample's feet. Lower is better; in centimetres per second. Recordings
+    of the CMU database have 4 to 12 cm/s in walks and 20 to 25 in runs (docs/centimetres.md).
+
+    Parameters
+    ----------
+    outcome : Synthesis
+        With poses of S samples.
+
+    Returns
+    -------
+    Score
+        With part ``"sample"`` (S,); NaN for a single frame.
+
+    Raises
+    ------
+    ValueError
+        If the outcome has no poses or no feet.
+
+    References
+    ----------
+    Zhang, Starke, Komura and Saito (2018), Mode-adaptive neural networks for quadruped motion
+    control.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import SampledPoses, Synthesis, sample_foot_skate
+    >>> times = np.arange(4) / 30
+    >>> samples, references = np.zeros((2, 1, 4, 2, 3))
+    >>> samples[0, :, 1, 0] = [0.0, 1.0, 2.0, 3.0]
+    >>> poses = SampledPoses(samples, references, ("root", "foot"), times)
+    >>> outcome = Synthesis(samples[:, :, 1], references[:, :, 1], lambda: poses)
+    >>> round(sample_foot_skate(outcome).value, 6)
+    30.0
+    """
+    poses = outcome.poses
+    of_feet = feet(poses.joints)
+    by_sample = np.array([_skate(sample[:, of_feet], poses.times) for sample in poses.samples])
+    return Score(
+        float(np.nanmean(by_sample)) if len(poses.times) > 1 else np.nan, {"sample": by_sample}
+    )
+
+
+def _skate(positions: Array, times: Array) -> float:
+    """Return the mean weighted speed of the feet (N, F, 3) of one motion."""
+    first = runs_of_frames(len(times), (0,), 2)
+    heights = _heights(positions, (0,))[first + 1]
+    low = heights < SKATE_HEIGHT
+    speeds = _steps(positions, first, _HORIZONTAL) / np.diff(times)[:, None]
+    weighted = speeds * (2.0 - 2.0 ** (np.minimum(heights, SKATE_HEIGHT) / SKATE_HEIGHT))
+    return float(weighted[low].mean()) if low.any() else float("nan")
+
+
+def _heights(positions: Array, starts: tuple[int, ...]) -> Array:
+    """Return heights (N, F) above the lowest place of any foot in the same recording."""
+    heights = positions[..., 1]
+    return np.concatenate([part - part.min() for part in np.split(heights, starts[1:])])
+
+
+def _steps(positions: Array, first: NDArray[np.intp], axes: list[int]) -> Array:
+    """Return the distances (n, F) from each of the frames ``first`` to the next along ``axes``."""
+    return np.asarray(np.linalg.norm((positions[first + 1] - positions[first])[..., axes], axis=2))
+
+
+foot_skate = Metric(
+    "foot_skate",
+    "Foot skate, cm/s",
+    Direction.LOWER,
+    Imputation,
+    imputed_foot_skate,
+    defined=has_poses,
+)
+sample_foot_skate = Metric(
+    "sample_foot_skate",
+    "Foot skate of samples, cm/s",
+    Direction.LOWER,
+    Synthesis,
+    sampled_foot_skate,
+    defined=has_poses,
+)

@@ -1,0 +1,157 @@
+"""Jerk, the third derivative of position: how smooth a filled or sampled motion is."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.metrics.base import Direction, Imputation, Metric, Score, Synthesis, has_poses
+from mocapbench.metrics.entries import hidden_entries
+from mocapbench.metrics.poses import runs_of_frames
+
+__all__ = ["imputed_jerk", "jerk_ratio", "sample_jerk_ratio", "sampled_jerk"]
+
+Array = NDArray[np.float64]
+
+_WIDTH = 4
+"""Frames of a third difference."""
+
+
+def imputed_jerk(outcome: Imputation) -> Score:
+    """Return the jerk of the prediction over that of the truth, within gaps.
+
+    The metric ``jerk_ratio``: Σ‖ĵ‖ / Σ‖j‖, with j the jerk of a joint's position relative to the
+    root over four frames in a row, 6 times the third divided difference over their times. The sums
+    run over all joints and fours of frames in which the joint is hidden at least once, so that
+    jumps at the ends of a gap count. The target is 1, without unit: less is too smooth, more too
+    rough.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With poses of J joints over N frames.
+
+    Returns
+    -------
+    Score
+        NaN if no joint that moves is hidden over four frames. With part ``"joint"`` (J,), the ratio
+        of each.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or the
+        outcome has no poses.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, ImputedPoses, jerk_ratio
+    >>> truth, mean = np.zeros((2, 5, 2, 3))
+    >>> truth[:, 1, 0] = np.arange(5.0) ** 3
+    >>> mean[:, 1, 0] = 0.5 * np.arange(5.0) ** 3
+    >>> hidden = np.tile([False, True], (5, 1))
+    >>> times = np.arange(5) / 30
+    >>> poses = ImputedPoses(truth, mean, hidden, hidden, ("root", "knee"), (-1, 0), times)
+    >>> outcome = Imputation(
+    ...     truth=truth[:, 1],
+    ...     mean=mean[:, 1],
+    ...     variance=None,
+    ...     hidden=np.full((5, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     place_joints=lambda: poses,
+    ... )
+    >>> round(jerk_ratio(outcome).value, 6)
+    0.5
+    """
+    hidden_entries(outcome)
+    poses = outcome.poses
+    first = runs_of_frames(len(poses.times), poses.starts, _WIDTH)
+    near = np.stack([poses.hidden_relative[first + k] for k in range(_WIDTH)]).any(axis=0)
+    truth, mean = (
+        np.where(near, _jerk(positions, poses.times, first), 0.0) for positions in poses.relative
+    )
+    by_joint = _ratio(mean.sum(axis=0), truth.sum(axis=0))
+    return Score(float(_ratio(mean.sum(), truth.sum())), {"joint": by_joint})
+
+
+def sampled_jerk(outcome: Synthesis) -> Score:
+    """Return the mean jerk of the samples over that of the references.
+
+    The metric ``sample_jerk_ratio``, of all joints relative to the root; jerk as in
+    `imputed_jerk`. The target is 1, without unit.
+
+    Parameters
+    ----------
+    outcome : Synthesis
+        With poses of S samples and M references.
+
+    Returns
+    -------
+    Score
+        NaN for fewer than four frames, or if the references do not move. With part ``"sample"``
+        (S,).
+
+    Raises
+    ------
+    ValueError
+        If the outcome has no poses.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import SampledPoses, Synthesis, sample_jerk_ratio
+    >>> times = np.arange(5.0)
+    >>> samples, references = np.zeros((2, 1, 5, 2, 3))
+    >>> references[0, :, 1, 0] = times**3
+    >>> samples[0, :, 1, 0] = 2.0 * times**3
+    >>> poses = SampledPoses(samples, references, ("root", "knee"), times)
+    >>> outcome = Synthesis(samples[:, :, 1], references[:, :, 1], lambda: poses)
+    >>> round(sample_jerk_ratio(outcome).value, 6)
+    2.0
+    """
+    poses = outcome.poses
+    first = runs_of_frames(len(poses.times), (0,), _WIDTH)
+    samples, references = (
+        np.array([_jerk(each - each[:, :1], poses.times, first).sum() for each in motions])
+        for motions in (poses.samples, poses.references)
+    )
+    by_sample = _ratio(samples, references.mean())
+    return Score(float(by_sample.mean()), {"sample": by_sample})
+
+
+def _jerk(positions: Array, times: Array, first: NDArray[np.intp]) -> Array:
+    """Return the norm of the jerk (n, J) over four frames from each of ``first`` (n,)."""
+    levels = [positions[first + k] for k in range(_WIDTH)]
+    for order in range(1, _WIDTH):
+        spans = [times[first + k + order] - times[first + k] for k in range(_WIDTH - order)]
+        levels = [
+            (after - before) / span[:, None, None]
+            for before, after, span in zip(levels, levels[1:], spans, strict=False)
+        ]
+    return np.asarray(6.0 * np.linalg.norm(levels[0], axis=2))
+
+
+def _ratio(numerator: Array, denominator: Array) -> Array:
+    return np.asarray(numerator / np.where(denominator > 0.0, denominator, np.nan))
+
+
+jerk_ratio = Metric(
+    "jerk_ratio",
+    "Jerk, ratio to the truth",
+    Direction.TARGET,
+    Imputation,
+    imputed_jerk,
+    target=1.0,
+    defined=has_poses,
+)
+sample_jerk_ratio = Metric(
+    "sample_jerk_ratio",
+    "Jerk, ratio to the references",
+    Direction.TARGET,
+    Synthesis,
+    sampled_jerk,
+    target=1.0,
+    defined=has_poses,
+)

@@ -1,0 +1,116 @@
+"""Positions of joints in space: what metrics in centimetres compare."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["ImputedPoses", "SampledPoses", "feet", "runs_of_frames"]
+
+Positions = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_FOOT = "foot"
+
+
+@dataclass(frozen=True, eq=False)
+class ImputedPoses:
+    """Joint positions of the truth and of a prediction, recordings one below the other.
+
+    Parameters
+    ----------
+    truth, mean : ndarray of shape (N, J, 3)
+        Centimetres; the second axis points up. Where nothing is hidden, both are equal.
+    hidden : ndarray of bool, shape (N, J)
+        True where a joint's position depends on a hidden entry.
+    hidden_relative : ndarray of bool, shape (N, J)
+        True where its position relative to the root does.
+    joints : tuple of J str
+        Names; the first is the root.
+    parents : tuple of J int
+        Index of the joint at the other end of each bone, -1 for the root.
+    times : ndarray of shape (N,)
+        Seconds, increasing within a recording.
+    starts : tuple of int
+        The first frame of each recording.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree.
+    """
+
+    truth: Positions
+    mean: Positions
+    hidden: Mask
+    hidden_relative: Mask
+    joints: tuple[str, ...]
+    parents: tuple[int, ...]
+    times: NDArray[np.float64]
+    starts: tuple[int, ...] = (0,)
+
+    def __post_init__(self) -> None:
+        shape = (len(self.times), len(self.joints))
+        shapes = [self.truth.shape[:2], self.mean.shape[:2], self.hidden.shape]
+        if {*shapes, self.hidden_relative.shape} != {shape} or len(self.parents) != shape[1]:
+            raise ValueError(
+                f"expected positions and masks of {shape} frames and joints, a time per frame and "
+                f"a parent per joint; got shapes {shapes} and {len(self.parents)} parents"
+            )
+
+    @property
+    def errors(self) -> NDArray[np.float64]:
+        """(N, J) Distance of each predicted joint from the true one, in centimetres."""
+        return np.asarray(np.linalg.norm(self.mean - self.truth, axis=2))
+
+    @property
+    def relative(self) -> tuple[Positions, Positions]:
+        """Positions of the truth and of the prediction relative to the root, each (N, J, 3)."""
+        return self.truth - self.truth[:, :1], self.mean - self.mean[:, :1]
+
+
+@dataclass(frozen=True, eq=False)
+class SampledPoses:
+    """Joint positions of samples and of references, all on one body.
+
+    Parameters
+    ----------
+    samples : ndarray of shape (S, N, J, 3)
+        Centimetres; the second axis points up.
+    references : ndarray of shape (M, N, J, 3)
+    joints : tuple of J str
+        Names; the first is the root.
+    times : ndarray of shape (N,)
+        Seconds.
+    """
+
+    samples: Positions
+    references: Positions
+    joints: tuple[str, ...]
+    times: NDArray[np.float64]
+
+
+def feet(joints: tuple[str, ...]) -> list[int]:
+    """Return the indices of the joints whose name ends in ``foot``.
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+    """
+    found = [index for index, name in enumerate(joints) if name.lower().endswith(_FOOT)]
+    if not found:
+        raise ValueError(
+            f"expected joints whose names end in {_FOOT!r}, got {', '.join(joints)}: rename them, "
+            "or leave metrics of feet out"
+        )
+    return found
+
+
+def runs_of_frames(n_frames: int, starts: tuple[int, ...], width: int) -> NDArray[np.intp]:
+    """Return the first frame of every run of ``width`` frames within one recording."""
+    first = np.arange(max(n_frames - width + 1, 0))
+    recording = np.searchsorted(starts, np.arange(n_frames), side="right")
+    return np.asarray(first[recording[first] == recording[first + width - 1]])

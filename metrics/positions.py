@@ -1,0 +1,225 @@
+"""Errors of joint positions and of bone lengths, in centimetres."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.metrics.base import Direction, Imputation, Metric, Score, has_poses
+from mocapbench.metrics.entries import hidden_entries, mean_over
+
+__all__ = [
+    "bone_length_difference",
+    "bone_length_error",
+    "joint_position_error",
+    "mpjpe",
+    "mpjpe_global",
+    "relative_joint_position_error",
+]
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+def _are_positions(outcome: Imputation) -> bool:
+    """Return whether the outputs themselves are positions, which need not keep bones rigid."""
+    return has_poses(outcome) and set(outcome.units) == {"cm"}
+
+
+def relative_joint_position_error(outcome: Imputation) -> Score:
+    """Return the mean distance of predicted from true joints, both relative to the root.
+
+    The metric ``mpjpe`` (mean per joint position error). With p_tj the position of joint j at frame
+    t, it is the mean of ‖(p̂_tj − p̂_t,root) − (p_tj − p_t,root)‖ over the joints and frames whose
+    position relative to the root depends on a hidden entry. Orientations are not aligned. Lower is
+    better; in centimetres.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With poses of J joints over N frames.
+
+    Returns
+    -------
+    Score
+        NaN if no such joint is hidden. With parts ``"joint"`` (J,) and ``"frame"`` (N,), the means
+        over the hidden joints of each.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or the
+        outcome has no poses.
+
+    See Also
+    --------
+    joint_position_error : The same in space, with the error of the root.
+
+    References
+    ----------
+    Ionescu, Papava, Olaru and Sminchisescu (2014), Human3.6M (MPJPE, with the root aligned).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, ImputedPoses, mpjpe
+    >>> truth, mean = np.zeros((2, 1, 2, 3))
+    >>> mean[0, 1] = [3.0, 4.0, 0.0]
+    >>> hidden = np.tile([False, True], (1, 1))
+    >>> times = np.arange(1) / 30
+    >>> poses = ImputedPoses(truth, mean, hidden, hidden, ("root", "knee"), (-1, 0), times)
+    >>> outcome = Imputation(
+    ...     truth=truth[:, 1],
+    ...     mean=mean[:, 1],
+    ...     variance=None,
+    ...     hidden=np.full((1, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     place_joints=lambda: poses,
+    ... )
+    >>> mpjpe(outcome).value
+    5.0
+    """
+    hidden_entries(outcome)
+    truth, mean = outcome.poses.relative
+    distances = np.asarray(np.linalg.norm(mean - truth, axis=2))
+    return _over_joints(distances, outcome.poses.hidden_relative)
+
+
+def joint_position_error(outcome: Imputation) -> Score:
+    """Return the mean distance of predicted from true joints in space.
+
+    The metric ``mpjpe_global``: the mean of ‖p̂_tj − p_tj‖ over the joints and frames whose position
+    depends on a hidden entry. Where the root's translation is given as differences, it is summed
+    up from the first frame of the recording, so that its errors accumulate along a gap; after the
+    gap they are not scored. Lower is better; in centimetres.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With poses of J joints over N frames.
+
+    Returns
+    -------
+    Score
+        With parts ``"joint"`` (J,) and ``"frame"`` (N,), the means over the hidden joints of each.
+
+    Raises
+    ------
+    ValueError
+        As `relative_joint_position_error`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, ImputedPoses, mpjpe_global
+    >>> truth, mean = np.zeros((2, 1, 2, 3))
+    >>> mean[0, 1] = [3.0, 4.0, 0.0]
+    >>> hidden = np.tile([False, True], (1, 1))
+    >>> times = np.arange(1) / 30
+    >>> poses = ImputedPoses(truth, mean, hidden, hidden, ("root", "knee"), (-1, 0), times)
+    >>> outcome = Imputation(
+    ...     truth=truth[:, 1],
+    ...     mean=mean[:, 1],
+    ...     variance=None,
+    ...     hidden=np.full((1, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     place_joints=lambda: poses,
+    ... )
+    >>> mpjpe_global(outcome).value
+    5.0
+    """
+    hidden_entries(outcome)
+    return _over_joints(outcome.poses.errors, outcome.poses.hidden)
+
+
+def bone_length_difference(outcome: Imputation) -> Score:
+    """Return the mean absolute difference of the lengths of predicted and true bones.
+
+    The metric ``bone_length_error``: the mean of |ℓ̂_tj − ℓ_tj| over the bones and frames with a
+    hidden joint at either end, with ℓ_tj the distance of joint j from its parent at frame t. It is
+    defined where the outputs are positions; joint angles keep all lengths. Lower is better; in
+    centimetres.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With poses of J joints over N frames.
+
+    Returns
+    -------
+    Score
+        NaN if the root is the only joint. With parts ``"joint"`` (J,), by the joint at the far end
+        of the bone, and ``"frame"`` (N,).
+
+    Raises
+    ------
+    ValueError
+        As `relative_joint_position_error`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, ImputedPoses, bone_length_error
+    >>> truth, mean = np.zeros((2, 1, 2, 3))
+    >>> truth[0, 1], mean[0, 1] = [3.0, 4.0, 0.0], [0.0, 0.0, 7.0]
+    >>> hidden = np.tile([False, True], (1, 1))
+    >>> times = np.arange(1) / 30
+    >>> poses = ImputedPoses(truth, mean, hidden, hidden, ("root", "knee"), (-1, 0), times)
+    >>> outcome = Imputation(
+    ...     truth=truth[:, 1],
+    ...     mean=mean[:, 1],
+    ...     variance=None,
+    ...     hidden=np.full((1, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     place_joints=lambda: poses,
+    ... )
+    >>> bone_length_error(outcome).value
+    2.0
+    """
+    hidden_entries(outcome)
+    poses = outcome.poses
+    parents = np.array(poses.parents)
+    is_bone = parents >= 0
+    truth, mean = (_lengths(places, parents) for places in (poses.truth, poses.mean))
+    return _over_joints(np.abs(mean - truth), (poses.hidden | poses.hidden[:, parents]) & is_bone)
+
+
+def _lengths(positions: NDArray[np.float64], parents: NDArray[np.intp]) -> Array:
+    return np.asarray(np.linalg.norm(positions - positions[:, parents], axis=2))
+
+
+def _over_joints(values: Array, hidden: Mask) -> Score:
+    parts = {
+        "joint": mean_over(values, hidden, axis=0),
+        "frame": mean_over(values, hidden, axis=1),
+    }
+    return Score(float(values[hidden].mean()) if hidden.any() else float("nan"), parts)
+
+
+mpjpe = Metric(
+    "mpjpe",
+    "Joint position error relative to the root (MPJPE), cm",
+    Direction.LOWER,
+    Imputation,
+    relative_joint_position_error,
+    defined=has_poses,
+)
+mpjpe_global = Metric(
+    "mpjpe_global",
+    "Joint position error in space (global MPJPE), cm",
+    Direction.LOWER,
+    Imputation,
+    joint_position_error,
+    defined=has_poses,
+)
+bone_length_error = Metric(
+    "bone_length_error",
+    "Bone length error, cm",
+    Direction.LOWER,
+    Imputation,
+    bone_length_difference,
+    defined=_are_positions,
+)

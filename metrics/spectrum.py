@@ -1,0 +1,174 @@
+"""Normalised power spectrum similarity (NPSS): whether motions have the same frequencies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import fft
+
+from mocapbench.metrics.base import Direction, Imputation, Metric, Score, Synthesis, has_poses
+from mocapbench.metrics.correlation import check_synthesis
+from mocapbench.metrics.entries import hidden_entries
+
+__all__ = ["imputed_spectrum", "npss", "sample_npss", "sampled_spectrum"]
+
+Array = NDArray[np.float64]
+
+SHORTEST = 4
+"""Frames of the shortest run whose spectrum is compared."""
+
+
+def imputed_spectrum(outcome: Imputation) -> Score:
+    """Return the distance of the power spectra of prediction and truth, within gaps.
+
+    The metric ``npss`` (normalised power spectrum similarity). A sequence is a run of hidden
+    entries of one output, four frames or longer. Its power spectrum is divided by its sum, and
+    Σ_f |F̂(f) − F(f)| compares the cumulative spectra (the earth mover's distance). The mean over
+    sequences is weighted by the true power, so that outputs that hardly vary hardly count. Lower
+    is better; in units of the lowest frequency. Phases do not matter.
+
+    Parameters
+    ----------
+    outcome : Imputation
+        With D outputs over N frames.
+
+    Returns
+    -------
+    Score
+        NaN if no run is long enough, or none has any power. Without parts.
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
+
+    References
+    ----------
+    Gopalakrishnan, Mali, Kifer, Giles and Ororbia (2019), A neural temporal model for human motion
+    prediction. The paper compares joint angles of a second or more; its sequences are all of
+    one length.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import Imputation, ImputedPoses, npss
+    >>> truth, mean = np.zeros((2, 12, 2, 3))
+    >>> truth[:, 1, 0] = np.sin(2 * np.pi * 2 * np.arange(12) / 12)
+    >>> mean[:, 1, 0] = np.sin(2 * np.pi * 4 * np.arange(12) / 12)
+    >>> hidden = np.tile([False, True], (12, 1))
+    >>> times = np.arange(12) / 30
+    >>> poses = ImputedPoses(truth, mean, hidden, hidden, ("root", "knee"), (-1, 0), times)
+    >>> outcome = Imputation(
+    ...     truth=truth[:, 1],
+    ...     mean=mean[:, 1],
+    ...     variance=None,
+    ...     hidden=np.full((12, 3), True),
+    ...     visible_mean=np.zeros(3),
+    ...     visible_variance=np.ones(3),
+    ...     place_joints=lambda: poses,
+    ... )
+    >>> round(npss(outcome).value, 6)
+    2.0
+    """
+    pairs = [
+        (outcome.truth[run], outcome.mean[run])
+        for run in _runs(hidden_entries(outcome), outcome.poses.starts)
+    ]
+    distances = [np.abs(_cumulative(mean) - _cumulative(truth)).sum() for truth, mean in pairs]
+    powers = [_power(truth).sum() for truth, _ in pairs]
+    return Score(_weighted_mean(np.array(distances), np.array(powers)))
+
+
+def sampled_spectrum(outcome: Synthesis) -> Score:
+    """Return the distance of the power spectra of samples and references.
+
+    The metric ``sample_npss``: that of `imputed_spectrum`, of every output of every sample with the
+    same output of every reference, weighted by the power of the reference. Lower is better; in
+    units of the lowest frequency. A sample need not be in step with a reference.
+
+    Parameters
+    ----------
+    outcome : Synthesis
+        With S samples and M references of D outputs over N frames.
+
+    Returns
+    -------
+    Score
+        NaN if no reference has any power. With part ``"sample"`` (S,).
+
+    Raises
+    ------
+    ValueError
+        If shapes disagree, there is no sample or no reference, or a value is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.metrics import SampledPoses, Synthesis, sample_npss
+    >>> times = np.arange(12.0)
+    >>> samples, references = np.zeros((2, 1, 12, 2, 3))
+    >>> references[0, :, 1, 0] = np.sin(2 * np.pi * 2 * times / 12)
+    >>> samples[0, :, 1, 0] = np.sin(2 * np.pi * 4 * times / 12)
+    >>> poses = SampledPoses(samples, references, ("root", "knee"), times)
+    >>> outcome = Synthesis(samples[:, :, 1], references[:, :, 1], lambda: poses)
+    >>> round(sample_npss(outcome).value, 6)
+    2.0
+    """
+    check_synthesis(outcome)
+    powers = _power(outcome.references)
+    references = _cumulative(outcome.references)
+    by_sample = np.array(
+        [
+            _weighted_mean(np.abs(sample - references).sum(axis=1), powers)
+            for sample in _cumulative(outcome.samples)
+        ]
+    )
+    return Score(float(by_sample.mean()), {"sample": by_sample})
+
+
+def _runs(hidden: NDArray[np.bool_], starts: tuple[int, ...]) -> Iterator[tuple[slice, slice]]:
+    """Yield the frames and the output of every run of hidden entries that is long enough."""
+    for start, stop in zip(starts, (*starts[1:], len(hidden)), strict=True):
+        padded = np.pad(hidden[start:stop].astype(np.int8), ((1, 1), (0, 0)))
+        steps = np.diff(padded, axis=0).T
+        begins, ends = np.argwhere(steps == 1), np.argwhere(steps == -1)
+        for (output, begin), (_, end) in zip(begins.tolist(), ends.tolist(), strict=True):
+            if end - begin >= SHORTEST:
+                yield slice(start + begin, start + end), slice(output, output + 1)
+
+
+def _power(values: Array) -> Array:
+    """Return the total power (…, D) of the outputs of ``values`` (…, N, D)."""
+    return np.asarray((np.abs(fft(values, axis=-2)) ** 2).sum(axis=-2))
+
+
+def _cumulative(values: Array) -> Array:
+    """Return the cumulative power spectra (…, N, D), 1 at the end; 0 where there is no power."""
+    spectrum = np.abs(fft(values, axis=-2)) ** 2
+    power = spectrum.sum(axis=-2, keepdims=True)
+    return np.asarray((spectrum / np.where(power > 0.0, power, 1.0)).cumsum(axis=-2))
+
+
+def _weighted_mean(values: Array, weights: Array) -> float:
+    total = float(weights.sum())
+    return float((values * weights).sum() / total) if total > 0.0 else float("nan")
+
+
+npss = Metric(
+    "npss",
+    "Normalised power spectrum similarity (NPSS)",
+    Direction.LOWER,
+    Imputation,
+    imputed_spectrum,
+    defined=has_poses,
+)
+sample_npss = Metric(
+    "sample_npss",
+    "Normalised power spectrum similarity of samples (NPSS)",
+    Direction.LOWER,
+    Synthesis,
+    sampled_spectrum,
+    defined=has_poses,
+)

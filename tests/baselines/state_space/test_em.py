@@ -1,0 +1,106 @@
+"""EM never lowers the likelihood plus log-prior, and stops when it should."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocapbench.baselines.state_space.em import expectation_maximisation
+from mocapbench.baselines.state_space.filtering import filtered
+from mocapbench.baselines.state_space.maximisation import maximised
+from mocapbench.baselines.state_space.model import PRIORS, Priors
+from mocapbench.baselines.state_space.regression import Prior
+from mocapbench.baselines.state_space.smoothing import smoothed
+
+VAGUE = Prior(frames=0.1, variance=0.01, ridge=1e-3)
+STRONG = Prior(frames=20.0, variance=2.0, ridge=5.0)
+
+SIZES = st.fixed_dictionaries(
+    {
+        "seed": st.integers(0, 10**6),
+        "lengths": st.lists(st.integers(1, 12), min_size=1, max_size=4),
+        "n_states": st.integers(1, 4),
+        "n_channels": st.integers(1, 4),
+        "hidden": st.sampled_from([0.0, 0.3, 0.8]),
+    }
+)
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    sizes=SIZES,
+    priors=st.sampled_from([PRIORS, Priors(VAGUE, VAGUE, VAGUE), Priors(STRONG, STRONG, STRONG)]),
+)
+def test_no_iteration_lowers_the_objective(pose, sizes, priors):
+    problem = pose(**sizes)
+    run = expectation_maximisation(
+        problem.parameters, problem.data, priors, max_iter=8, tolerance=-1e9
+    )
+    objectives = np.array(run.objectives)
+    assert len(objectives) == 8
+    assert np.diff(objectives).min() >= -1e-9 * np.abs(objectives).max()
+
+
+def test_the_objective_is_the_likelihood_with_the_prior(pose):
+    problem = pose(4)
+    run = expectation_maximisation(
+        problem.parameters, problem.data, PRIORS, max_iter=1, tolerance=0.0
+    )
+    exact = sum(exact.log_likelihood for exact in problem.exact())
+    assert run.objectives == pytest.approx((exact + problem.parameters.log_prior(PRIORS),))
+
+
+def test_a_fixed_point_is_a_maximum_of_the_objective(pose):
+    """After many iterations, no small step of a parameter raises the objective (a law of EM)."""
+    problem = pose(5, lengths=(9, 8), n_states=1, n_channels=2)
+    run = expectation_maximisation(
+        problem.parameters, problem.data, PRIORS, max_iter=1000, tolerance=-1e9
+    )
+
+    def objective(parameters):
+        value = filtered(parameters, problem.data).log_likelihood.sum()
+        return value + parameters.log_prior(PRIORS)
+
+    found = run.parameters
+    peak = objective(found)
+    for part in ("start", "dynamics", "emission"):
+        for name in ("coefficients", "covariance"):
+            array = getattr(getattr(found, part), name)
+            for index in np.ndindex(array.shape):
+                for step in (-1e-3, 1e-3):
+                    array[index] += step
+                    assert (
+                        objective(type(found)(found.start, found.dynamics, found.emission)) < peak
+                    )
+                    array[index] -= step
+
+
+def test_hidden_frames_at_the_end_change_nothing(pose):
+    problem = pose(6, lengths=(5, 4), hidden=0.2)
+    longer = [np.vstack([array, np.full((3, 2), np.nan)]) for array in problem.arrays]
+    one = smoothed(problem.parameters, problem.data)
+    two = smoothed(problem.parameters, type(problem.data).of(longer))
+    np.testing.assert_allclose(one.log_likelihood, two.log_likelihood, rtol=1e-10)
+    np.testing.assert_allclose(one.mean[0, :5], two.mean[0, :5], atol=1e-10)
+
+
+def test_the_order_of_sequences_changes_nothing(pose):
+    problem = pose(7, lengths=(5, 4, 6))
+    turned = type(problem.data).of(problem.arrays[::-1])
+    one = maximised(smoothed(problem.parameters, problem.data), problem.data, PRIORS)
+    two = maximised(smoothed(problem.parameters, turned), turned, PRIORS)
+    for part in ("start", "dynamics", "emission"):
+        a, b = getattr(one, part), getattr(two, part)
+        np.testing.assert_allclose(a.coefficients, b.coefficients, atol=1e-10)
+        np.testing.assert_allclose(a.covariance, b.covariance, atol=1e-10)
+
+
+def test_it_stops_when_an_iteration_gains_too_little(pose):
+    problem = pose(8, lengths=(9, 8))
+    n_visible = problem.data.counts.sum()
+    run = expectation_maximisation(
+        problem.parameters, problem.data, PRIORS, max_iter=500, tolerance=1e-3
+    )
+    gains = np.diff(run.objectives) / n_visible
+    assert run.converged
+    assert gains[-1] < 1e-3 <= gains[:-1].min()

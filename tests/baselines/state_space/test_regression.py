@@ -1,0 +1,55 @@
+"""A regression maximises its expected log-density plus log-prior."""
+
+import numpy as np
+import pytest
+
+from mocapbench.baselines.state_space.regression import Prior, Regression, Sums
+
+PRIOR = Prior(frames=3.0, variance=0.5, ridge=0.7)
+
+
+def sums_of(y, x):
+    return Sums(y.T @ y, y.T @ x, x.T @ x, np.full((1, 1), float(len(y))))
+
+
+def objective(regression, sums, prior):
+    """Return the expected log-density plus log-prior."""
+    b, v = regression.coefficients, regression.covariance
+    residual = sums.yy - b @ sums.yx.T - sums.yx @ b.T + b @ sums.xx @ b.T
+    _, log_determinant = np.linalg.slogdet(v)
+    density = -0.5 * (sums.count[0, 0] * log_determinant + np.trace(np.linalg.solve(v, residual)))
+    return density + regression.log_prior(prior)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_other_regression_is_better(seed):
+    rng = np.random.default_rng(seed)
+    y, x = rng.normal(size=(6, 2)), rng.normal(size=(6, 3))
+    sums = sums_of(y, x)
+    best = Regression.of(sums, PRIOR)
+    peak = objective(best, sums, PRIOR)
+    for _ in range(50):
+        root = np.linalg.cholesky(best.covariance) @ (np.eye(2) + 0.02 * rng.normal(size=(2, 2)))
+        moved = best.coefficients + 0.02 * rng.normal(size=(2, 3))
+        assert objective(Regression(moved, root @ root.T), sums, PRIOR) < peak
+
+
+def test_without_frames_the_prior_decides():
+    nothing = sums_of(np.zeros((0, 2)), np.zeros((0, 3)))
+    regression = Regression.of(nothing, PRIOR)
+    np.testing.assert_array_equal(regression.coefficients, np.zeros((2, 3)))
+    np.testing.assert_allclose(regression.covariance, 0.5 * np.eye(2))
+
+
+def test_the_prior_counts_as_frames():
+    """Frames of the prior added to the data give the fit of the data with the prior."""
+    rng = np.random.default_rng(0)
+    y, x = rng.normal(size=(6, 1)), rng.normal(size=(6, 2))
+    added_x = np.vstack([x, np.sqrt(PRIOR.ridge) * np.eye(2)])
+    added_y = np.vstack([y, np.zeros((2, 1))])
+    coefficients, *_ = np.linalg.lstsq(added_x, added_y, rcond=None)
+    residuals = added_y - added_x @ coefficients
+    variance = (np.sum(residuals**2) + 3.0 * 0.5) / (6 + 3)
+    regression = Regression.of(sums_of(y, x), PRIOR)
+    np.testing.assert_allclose(regression.coefficients, coefficients.T)
+    np.testing.assert_allclose(regression.covariance, [[variance]])

@@ -1,0 +1,120 @@
+"""What a planned run will do, and how long it is expected to take."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.inspection.explanation import Step, explain
+from mocapbench.benchmark.inspection.forecast import Basis, Work, forecast
+from mocapbench.benchmark.inspection.forecast_output import forecast_lines, lacking, lacking_line
+from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.record import Status
+from mocapbench.benchmark.runs.store import Store
+
+TASKS = ("toy-interpolation-1", "missing-frames")
+
+
+@pytest.fixture
+def nothing_here(monkeypatch, tmp_path):
+    monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
+    monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path / "cache"))
+
+
+def jobs(models, tasks=TASKS, profile="quick", folds=2):
+    return plan(Request(profile, tasks, models, folds=folds), archive_at(None))
+
+
+def done(store, job, seconds):
+    store.save(job.record(Status.OK, fit_seconds=seconds, predict_seconds=0.0))
+
+
+def of(planned, out, profile="quick"):
+    return forecast(planned, explain(planned, out), out, profile)
+
+
+def test_without_records_the_developers_know(tmp_path):
+    planned = jobs(("knn",), TASKS[:1])
+    found = of(planned, tmp_path / "none")
+    assert found.steps == {Step.FIT: len(planned)}
+    assert found.now.known_by == {Basis.TYPICAL: len(planned)}
+    assert found.now.total > 0
+
+
+def test_records_of_the_entrant_go_first_and_what_is_done_takes_no_time(tmp_path):
+    first, *rest = planned = jobs(("knn", "trivial"), TASKS[:1])
+    store = Store.create(tmp_path / "run")
+    done(store, first, 7.0)
+    found = of(planned, store.path)
+    others = sum(job.address.label == first.address.label for job in rest)
+    assert found.steps == {Step.SKIP: 1, Step.FIT: len(rest)}
+    assert found.now.known_by == {Basis.RECORDS: others, Basis.TYPICAL: len(rest) - others}
+    assert found.now.seconds.count(7.0) == others
+
+
+def test_an_entrant_that_nobody_ran_is_expected_to_take_the_mean(tmp_path):
+    (job, *_) = planned = jobs(("knn",), TASKS[:1], folds=1)
+    renamed = [type(job)(**{**vars(job), "address": job.address._replace(label="new")})]
+    assert of(renamed, tmp_path).now.known_by == {Basis.MEAN: 1}
+    assert len(planned) > 1
+
+
+def test_a_fit_that_cases_share_counts_once(tmp_path):
+    planned = jobs(("replay",), ("walking-synthesis",), profile="paper", folds=1)
+    fits = {job.fit_key for job in planned}
+    found = of(planned, tmp_path / "none", "paper")
+    assert len(fits) < len(planned)
+    assert len(found.with_all.seconds) == len(fits)
+    first_run = explain(planned, tmp_path / "none")
+    Store.create(tmp_path / "empty")
+    assert [e.step for e in explain(planned, tmp_path / "empty")] == [e.step for e in first_run]
+
+
+@pytest.mark.usefixtures("nothing_here")
+def test_missing_recordings_are_counted_with_and_without(tmp_path):
+    planned = jobs(("trivial",))
+    found, short = of(planned, tmp_path), sum(bool(job.missing) for job in planned)
+    assert found.steps[Step.CANNOT] == short > 0
+    assert len(found.with_all.seconds) == len(found.now.seconds) + short
+    assert "cmu:35_03" in lacking(planned)
+    assert not any(uri.startswith("gait:") for uri in lacking(planned))
+    line = lacking_line(planned, "do this")
+    assert line == f"data missing: {short} of {len(planned)} jobs lack 11 recordings; do this"
+    lines = list(forecast_lines(found, tmp_path, 2))
+    assert any(line.startswith("time with the missing recordings: about") for line in lines)
+
+
+@pytest.mark.parametrize(("profile", "limited"), [("quick", False), ("paper", True)])
+def test_the_words_say_how_the_time_is_known(tmp_path, profile, limited):
+    planned = jobs(("knn",), TASKS[:1], profile)
+    lines = list(forecast_lines(of(planned, tmp_path / "run", profile), tmp_path / "run", 2))
+    assert lines[0] == f"in {tmp_path / 'run'}: {len(planned)} to fit and score"
+    assert "with 2 jobs at once" in lines[1]
+    assert lines[2] == (
+        f"estimated by the entrant's mean in a run of the developers ({len(planned)} fits)"
+    )
+    assert any("lower limit" in line for line in lines) is limited
+
+
+def test_a_cluster_decides_how_many_jobs_run_at_once(tmp_path):
+    planned = jobs(("knn",), TASKS[:1])
+    text = " ".join(forecast_lines(of(planned, tmp_path / "run"), tmp_path / "run", None))
+    assert "divided among the workers of the cluster" in text
+    assert "at once" not in text
+
+
+def test_a_run_that_is_done_takes_no_time(tmp_path):
+    planned = jobs(("knn",), TASKS[:1])
+    store = Store.create(tmp_path / "run")
+    for job in planned:
+        done(store, job, 1.0)
+    lines = list(forecast_lines(of(planned, store.path), store.path, 2))
+    assert lines == [f"in {store.path}: {len(planned)} done already"]
+
+
+@given(st.lists(st.floats(0.0, 1e3)), st.integers(1, 64))
+def test_no_run_is_shorter_than_its_longest_fit_or_longer_than_its_work(seconds, n_workers):
+    work = Work(tuple(seconds), {})
+    assert max(seconds, default=0.0) <= work.wall_time(n_workers)
+    assert work.wall_time(n_workers) <= work.total * (1 + 1e-12)
+    assert work.wall_time(1) == pytest.approx(work.total)

@@ -1,0 +1,44 @@
+"""Finding cases by what a user types."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark.tasks.case_names import matching_cases
+
+NAMES = ("35-03 four", "35-03 three", "12-02 three", "test 1", "test 10", "synthetic 1", "a_b")
+
+
+@pytest.mark.parametrize(
+    ("wanted", "found"),
+    [
+        ("35_03", {"35-03 four", "35-03 three"}),
+        ("35-03", {"35-03 four", "35-03 three"}),
+        ("35_03 t", {"35-03 three"}),
+        ("35_03*four", {"35-03 four"}),
+        ("12", {"12-02 three"}),
+        ("test 1", {"test 1"}),
+        ("test", {"test 1", "test 10"}),
+        ("test*", {"test 1", "test 10"}),
+        ("*three", {"35-03 three", "12-02 three"}),
+        ("a-b", {"a_b"}),
+        ("three", set()),
+        ("test 11", set()),
+    ],
+)
+def test_a_name_then_a_pattern_then_a_beginning(wanted, found):
+    assert set(matching_cases(wanted, NAMES)) == found
+
+
+@given(st.sampled_from([case.name for name in TASKS.names() for case in TASKS.get(name).cases]))
+def test_every_case_is_found_by_its_own_name_alone(name):
+    cases = [case.name for task in TASKS.names() for case in TASKS.get(task).cases]
+    assert matching_cases(name, cases) == (name,)
+    assert matching_cases(name.replace("-", "_"), cases) == (name,)
+
+
+@given(st.text(max_size=5), st.lists(st.text(max_size=8)))
+def test_what_is_found_is_there_once_and_in_order(wanted, names):
+    found = matching_cases(wanted, names)
+    assert list(found) == [name for name in dict.fromkeys(names) if name in found]

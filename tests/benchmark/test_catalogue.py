@@ -1,0 +1,56 @@
+"""What is registered, as plain values."""
+
+import json
+
+import pytest
+
+from mocapbench.baselines import Imputer
+from mocapbench.benchmark.catalogue import library_entry, model_entry, task_entry
+from mocapbench.benchmark.registry import LIBRARIES, MODELS, TASKS
+from mocapbench.datasets import CMULibrary
+
+
+@pytest.mark.parametrize("name", MODELS.names())
+def test_a_model_says_what_it_is_in_one_line_without_markup(name):
+    summary = model_entry(name)["summary"]
+    assert summary.endswith(".")
+    assert not set("`:\\\n") & set(summary)
+
+
+def test_markup_and_leading_line_breaks_are_left_out():
+    class Mine(Imputer):
+        """
+        Fill as :class:`~sklearn.X` does with ``n`` neighbours.
+
+        More.
+        """
+
+        def fit(self, recordings):
+            return self
+
+        def impute(self, recordings):
+            return []
+
+    MODELS.add("mine", Mine)
+    assert model_entry("mine")["summary"] == "Fill as ~sklearn.X does with n neighbours."
+    Mine.__doc__ = None
+    assert model_entry("mine")["summary"] == ""
+
+
+def test_an_ability_that_follows_from_another_is_not_named():
+    assert model_entry("cubic-spline")["abilities"] == ["imputes any mask", "new recordings too"]
+    assert "imputes whole frames" in model_entry("pose-viterbi")["abilities"]
+
+
+@pytest.mark.parametrize("name", TASKS.names())
+def test_a_task_is_all_that_json_can_hold(name):
+    entry = task_entry(name)
+    assert json.loads(json.dumps(entry)) == entry
+    for profile in entry["profiles"].values():
+        assert set(profile["cases"]) <= set(entry["cases"])
+    assert entry["entrants"]
+
+
+def test_a_library_says_which_files_it_reads():
+    assert library_entry("cmu")["layout"] == list(CMULibrary.layout)
+    assert all(library_entry(name)["summary"] for name in LIBRARIES.names())

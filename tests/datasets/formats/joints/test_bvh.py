@@ -1,0 +1,105 @@
+"""BVH files: any channels, NaN, rotations that wrap, and what is wrong with some."""
+
+import numpy as np
+import pytest
+from format_files import walk, with_gap, write_bvh
+
+from mocapbench.datasets import BVHFormat, FormatError
+
+BVH = BVHFormat()
+SMALL = """\
+HIERARCHY
+ROOT Hips
+{
+\tOFFSET 0.0 0.0 0.0
+\tCHANNELS 6 Zrotation Xrotation Yrotation Xposition Yposition Zposition
+\tJOINT Left Knee
+\t{
+\t\tOFFSET 0.0 -1.0 0.0
+\t\tCHANNELS 1 Xrotation
+\t\tEnd Site
+\t\t{
+\t\t\tOFFSET 0.0 -1.0 0.0
+\t\t}
+\t}
+}
+MOTION
+Frames:\t4
+Frame Time: 0.0333333
+ 170.0 0 0  1.50 2 3\t5.0
+-175 0 0  nan 2 3\t6.00
+NaN  0 0  2.50 2 3\t7.
+-150.0 0 0  3.5 2 3\t+8e0
+"""
+
+
+@pytest.fixture
+def read(tmp_path):
+    """Return a function that reads a text as a BVH file."""
+
+    def read(text):
+        (tmp_path / "walk.bvh").write_text(text, newline="")
+        return BVH.read(tmp_path / "walk.bvh")
+
+    return read
+
+
+def test_channels_keep_their_order_and_rotations_their_unit(read):
+    small = read(SMALL)
+    of_hips = ["Hips.rz", "Hips.rx", "Hips.ry", "Hips.tx", "Hips.ty", "Hips.tz"]
+    assert small.channels == (*of_hips, "Left Knee.rx")
+    assert small.units == ("deg",) * 3 + ("",) * 3 + ("deg",)
+    assert np.allclose(small.times, np.arange(4) * 0.0333333)
+    assert np.array_equal(small.values[:, 0], [170.0, 185.0, np.nan, 210.0], equal_nan=True)
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_only_the_words_of_gaps_change(read, tmp_path, end):
+    text = SMALL.replace("\n", end)
+    small = read(text)
+    values = np.where(small.visible, small.values, [[197.5, 0, 0, 2.25, 0, 0, 0]])
+    BVH.write(tmp_path / "out.bvh", small.with_values(values), like=tmp_path / "walk.bvh")
+    expected = text.replace("nan", "2.25").replace("NaN", "-162.5")
+    assert (tmp_path / "out.bvh").read_bytes().decode() == expected
+
+
+def test_a_gap_that_the_user_names_is_replaced(tmp_path):
+    write_bvh(tmp_path / "walk.bvh", walk())
+    recording = BVH.read(tmp_path / "walk.bvh")
+    replaced = ~with_gap(walk()).visible
+    filled = recording.with_values(np.where(replaced, 0.5, recording.values))
+    BVH.write(tmp_path / "out.bvh", filled, tmp_path / "walk.bvh", replaced)
+    before, after = ((tmp_path / name).read_text().split() for name in ("walk.bvh", "out.bvh"))
+    assert sum(one != two for one, two in zip(before, after, strict=True)) == 30
+
+
+WRONG = {
+    "": "line 1: expected 'MOTION' below the hierarchy, got the end of the file; export",
+    "MOTION\n": "line 1: expected 'Frames:' with a positive number, got the end of the file",
+    "time,hip\n0,1\n": "line 1: expected a hierarchy of joints with OFFSET .*, got 'time,",
+    SMALL.replace("CHANNELS 6", "CHANNELS 5"): "line 5: expected a hierarchy .*, got 'CHANNELS 5 Z",
+    SMALL.replace(
+        "CHANNELS 1 X", "CHANNELS 1 W"
+    ): "line 9: expected .*, got 'CHANNELS 1 Wrotation'",
+    SMALL.replace("}\nMOTION", "MOTION"): "line 15: expected a hierarchy .*, got 'MOTION'",
+    SMALL.replace("}\nMOTION", "}\n}\nMOTION"): "line 16: expected a hierarchy .*, got '}'",
+    SMALL.replace("Left Knee", "Hips"): "channels with different names, got 'Hips.rx' 2 times",
+    SMALL.replace(":\t4", ":\t5"): "expected 5 frames, as 'Frames:' says, got 4 rows; the file may",
+    SMALL.replace(
+        ":\t4", ":\t0"
+    ): "line 17: expected 'Frames:' with a positive number, got 'Frames:",
+    SMALL.replace(
+        "0.0333333", "nan"
+    ): "line 18: expected 'Frame Time:' with a positive number, got",
+    SMALL.replace("7.\n", "\n"): "line 21: expected 7 cells, got 6 cells; export",
+    SMALL.replace("6.00", "6.00 7"): "line 20: expected 7 cells, got 8 cells; export",
+    SMALL.replace("6.00", "soon"): "line 20: expected a number, got 'soon'; correct the cell",
+    SMALL.replace("6.00", "1e999"): "finite numbers, .*, got inf at frame 1 of Left Knee.rx",
+    SMALL[:300]: "expected 4 frames, as 'Frames:' says|expected|7 cells",
+}
+
+
+@pytest.mark.parametrize("text", WRONG)
+def test_what_is_wrong_is_said_plainly(read, text):
+    with pytest.raises(FormatError, match=WRONG[text]):
+        read(text)

@@ -1,0 +1,185 @@
+"""C3D files: invalid points, residuals, integers, results of models, and damaged files."""
+
+import ezc3d
+import numpy as np
+import pytest
+from format_files import markers, with_gap, write_c3d
+
+from mocapbench.datasets import C3DFormat, FormatError
+from mocapbench.datasets.formats.markers.c3d_layout import read_layout
+
+C3D = C3DFormat()
+RESIDUAL = 3
+
+
+@pytest.fixture
+def given(tmp_path):
+    write_c3d(tmp_path / "given.c3d", with_gap(markers(40)))
+    return tmp_path / "given.c3d"
+
+
+def numbers(path):
+    """Return the numbers of all frames, (N, numbers)."""
+    return np.array(read_layout(path).frames(path, 40))
+
+
+def change(path, frame, number, value):
+    layout = read_layout(path)
+    frames = layout.frames(path, 40)
+    frames[frame, number] = value
+    frames.flush()
+
+
+def filled(path, value=0.5):
+    recording = C3D.read(path)
+    return recording.with_values(np.where(recording.visible, recording.values, value))
+
+
+def test_markers_units_rate_and_gaps(given):
+    recording, truth = C3D.read(given), with_gap(markers(40))
+    assert recording.channels == truth.channels
+    assert set(recording.units) == {"mm"}
+    assert np.array_equal(recording.visible, truth.visible)
+    assert np.array_equal(recording.values, truth.values.astype(np.float32), equal_nan=True)
+    assert np.allclose(recording.times, np.arange(40) / 120)
+
+
+@pytest.mark.parametrize("word", [np.nan, -1.0])
+def test_a_point_without_a_valid_number_is_hidden_as_a_whole(given, word):
+    change(given, 3, RESIDUAL if word == -1.0 else 1, word)
+    assert C3D.read(given).visible[3].tolist() == [False] * 3 + [True] * 12
+
+
+def test_a_point_at_the_origin_is_hidden_and_one_on_an_axis_is_not(given):
+    for number in range(3):
+        change(given, 3, number, 0.0)
+        assert C3D.read(given).visible[3, 0] == (number < 2)
+
+
+def test_only_filled_coordinates_and_their_residuals_change(given, tmp_path):
+    out = tmp_path / "out.c3d"
+    C3D.write(out, filled(given), like=given)
+    before, after = numbers(given), numbers(out)
+    expected = before.copy()
+    expected[20:30, :4] = [0.5, 0.5, 0.5, 0.0]
+    assert np.array_equal(after, expected)
+    layout = read_layout(given)
+    one, two = given.read_bytes(), out.read_bytes()
+    assert (one[: layout.start], one[layout.end(40) :]) == (
+        two[: layout.start],
+        two[layout.end(40) :],
+    )
+    analog = ezc3d.c3d(str(out))["data"]["analogs"]
+    assert np.array_equal(analog, ezc3d.c3d(str(given))["data"]["analogs"])
+
+
+def test_a_point_is_filled_as_a_whole_or_not_at_all(given, tmp_path):
+    recording = C3D.read(given)
+    values = recording.values.copy()
+    values[20:30, 0] = 0.5
+    C3D.write(tmp_path / "out.c3d", recording.with_values(values), like=given)
+    assert np.array_equal(numbers(tmp_path / "out.c3d"), numbers(given))
+
+
+def test_one_coordinate_of_a_visible_point_can_be_replaced(given, tmp_path):
+    recording = C3D.read(given)
+    replaced = np.zeros((40, 15), dtype=bool)
+    replaced[5, 4] = True
+    values = np.where(replaced, 0.5, recording.values)
+    C3D.write(tmp_path / "out.c3d", recording.with_values(values), given, replaced)
+    expected = numbers(given)
+    expected[5, [5, 7]] = 0.5, 0.0
+    assert np.array_equal(numbers(tmp_path / "out.c3d"), expected)
+
+
+def as_integers(path, scale):
+    """Rewrite a file of floats as one of integers to be multiplied by ``scale``."""
+    layout = read_layout(path)
+    data = bytearray(path.read_bytes()[: layout.start])
+    data[12:16] = np.float32(scale).tobytes()
+    at = data.index(b"SCALE") + 5 + 2 + 2  # name, offset, type and number of dimensions
+    data[at : at + 4] = np.float32(scale).tobytes()
+    frames = numbers(path)
+    frames[:, : 4 * layout.n_points] /= scale
+    frames[:, 3 : 4 * layout.n_points : 4] *= scale
+    path.write_bytes(bytes(data) + np.round(frames).astype("<i2").tobytes())
+
+
+def test_a_file_of_integers_keeps_them(given, tmp_path):
+    as_integers(given, 0.1)
+    recording = C3D.read(given)
+    assert np.allclose(recording.values, with_gap(markers(40)).values, atol=0.051, equal_nan=True)
+    C3D.write(tmp_path / "out.c3d", filled(given, 12.34), like=given)
+    before, after = numbers(given), numbers(tmp_path / "out.c3d")
+    expected = before.copy()
+    expected[20:30, :4] = [123, 123, 123, 0]
+    assert np.array_equal(after, expected)
+
+
+def test_a_file_of_integers_refuses_what_it_cannot_hold(given, tmp_path):
+    as_integers(given, 0.1)
+    expected = r"coordinates within ±3276.7, as the file stores integers, got -4000; export the"
+    with pytest.raises(FormatError, match=expected):
+        C3D.write(tmp_path / "out.c3d", filled(given, -4000.0), like=given)
+
+
+def test_results_of_a_model_are_no_channels(given, tmp_path):
+    file = ezc3d.c3d(str(given))
+    labels = file["parameters"]["POINT"]["LABELS"]["value"]
+    file.add_parameter("POINT", "ANGLES", [labels[1]])
+    file.write(str(tmp_path / "modelled.c3d"))
+    recording = C3D.read(tmp_path / "modelled.c3d")
+    assert recording.channels == (*markers().channels[:3], *markers().channels[6:])
+    C3D.write(tmp_path / "out.c3d", filled(tmp_path / "modelled.c3d"), tmp_path / "modelled.c3d")
+    expected = numbers(tmp_path / "modelled.c3d")
+    expected[20:30, :4] = [0.5, 0.5, 0.5, 0.0]
+    assert np.array_equal(numbers(tmp_path / "out.c3d"), expected)
+
+
+def header(path, at, *values):
+    data = bytearray(path.read_bytes())
+    data[at : at + len(values)] = bytes(values)
+    path.write_bytes(data)
+
+
+WRONG = {
+    "an empty file": (lambda p: p.write_bytes(b""), "the header of a C3D file, got an empty file"),
+    "another file": (
+        lambda p: p.write_bytes(b"time,hip\n" * 99),
+        "the header of a C3D file, got b't",
+    ),
+    "cut short": (
+        lambda p: p.write_bytes(p.read_bytes()[:3000]),
+        "as its header says, got 3000; th",
+    ),
+    "no points": (lambda p: header(p, 2, 0, 0), "expected 0 points, as its header says, got 5 in"),
+    "DEC": (lambda p: header(p, 515, 85), "Intel or MIPS computers, got those of a DEC computer"),
+    "no computer": (lambda p: header(p, 515, 9), "Intel or MIPS computers, got the type 9; export"),
+    "frames": (lambda p: header(p, 8, 255, 255), "expected [0-9]{7} bytes, as its header says"),
+}
+
+
+def test_a_file_without_markers_says_so(given, tmp_path):
+    file = ezc3d.c3d(str(given))
+    file.add_parameter("POINT", "ANGLES", file["parameters"]["POINT"]["LABELS"]["value"])
+    file.write(str(tmp_path / "angles.c3d"))
+    with pytest.raises(FormatError, match="expected positions of markers, got other signals alone"):
+        C3D.read(tmp_path / "angles.c3d")
+
+
+@pytest.mark.parametrize("damage", WRONG)
+def test_what_is_wrong_is_said_plainly(given, damage):
+    harm, complaint = WRONG[damage]
+    harm(given)
+    with pytest.raises(FormatError, match=complaint):
+        C3D.read(given)
+
+
+def test_a_file_without_a_rate_can_be_given_one(given):
+    header(given, 20, 0, 0, 0, 0)
+    data = given.read_bytes()
+    at = data.index(b"RATE") + 4 + 2 + 2
+    given.write_bytes(data[:at] + bytes(4) + data[at + 4 :])
+    with pytest.raises(FormatError, match="expected a positive frame rate, got 0; name the rate"):
+        C3D.read(given)
+    assert C3D.read(given, rate=50.0).times[1] == 0.02

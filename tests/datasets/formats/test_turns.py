@@ -1,0 +1,95 @@
+"""Angles are unwrapped on the way in and wrapped on the way out."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mocapbench.datasets import Recording, unwrapped
+from mocapbench.datasets.formats.turns import wrapped
+
+TURN = {"deg": 360.0, "rad": 2 * np.pi}
+CURVES = st.lists(st.floats(-0.45, 0.45), min_size=2, max_size=40).map(np.cumsum)
+"""Angles in turns, less than half a turn apart."""
+UNITS = st.sampled_from(["deg", "rad"])
+
+
+def one_channel(angles, unit):
+    times = np.arange(len(angles)) / 100.0
+    return Recording("turning", times, np.reshape(angles, (-1, 1)), ["root.ry"], [unit])
+
+
+def fold(angles, low, turn):
+    return angles - turn * np.floor((angles - low) / turn)
+
+
+@st.composite
+def gaps(draw, curves=CURVES):
+    """Draw a curve in turns and a mask that leaves its first entry visible."""
+    curve = draw(curves)
+    hidden = np.array([False, *draw(st.lists(st.booleans(), min_size=39, max_size=39))])
+    return curve, hidden[: len(curve)]
+
+
+@given(CURVES, UNITS, st.sampled_from([-0.5, 0.0]))
+def test_unwrapping_undoes_wrapping_up_to_whole_turns(curve, unit, low):
+    curve = TURN[unit] * curve
+    again = unwrapped(one_channel(fold(curve, low * TURN[unit], TURN[unit]), unit)).values[:, 0]
+    turns = (again - curve) / TURN[unit]
+    assert np.allclose(turns, np.round(turns[0]), atol=1e-9)
+
+
+@given(gaps(), UNITS, st.sampled_from([-0.5, 0.0]))
+def test_what_is_filled_returns_to_the_range_of_the_file(curve_and_gap, unit, low):
+    curve, hidden = curve_and_gap
+    turn = TURN[unit]
+    file = one_channel(fold(turn * curve, low * turn, turn), unit)
+    new = hidden[:, None]
+    raw = file.hide(new)
+    filled = unwrapped(file).values + (unwrapped(raw).values[0] - unwrapped(file).values[0])
+    out = wrapped(filled, raw, new)[hidden, 0]
+    seen = raw.values[~hidden, 0]
+    if (np.abs(seen) <= turn / 2).all():
+        assert ((out >= -turn / 2) & (out <= turn / 2)).all()
+    elif ((seen >= 0) & (seen <= turn)).all():
+        assert ((out >= 0) & (out <= turn)).all()
+    error = (out - file.values[hidden, 0]) / turn
+    assert np.allclose(error, np.round(error), atol=1e-9)
+
+
+@given(CURVES, st.integers(2, 5))
+def test_a_file_that_counts_turns_goes_on_counting(curve, turns):
+    """What a file without jumps has beyond ±180° stays there."""
+    curve = np.concatenate([[0.0, 0.4, 0.8], 0.8 + 0.4 * np.arange(1, 4 * turns), [*curve[:1] * 0]])
+    curve = 360.0 * curve[:-1]
+    new = np.zeros((len(curve), 1), dtype=bool)
+    new[3:6] = True
+    raw = one_channel(curve, "deg").hide(new)
+    filled = np.interp(np.arange(len(curve)), np.flatnonzero(~new), unwrapped(raw).values[~new])
+    out = wrapped(filled[:, None], raw, new)[3:6, 0]
+    error = (out - filled[3:6]) / 360.0
+    assert np.allclose(error, np.round(error), atol=1e-9)
+    assert np.abs(np.diff([curve[2], *out])).max() < 360.0
+
+
+@pytest.mark.parametrize("unit", ["", "cm", "mm", "deg/s"])
+def test_what_is_no_angle_is_left_alone(unit):
+    values = np.array([170.0, np.nan, -175.0, 9000.0])
+    file = one_channel(values, unit)
+    assert np.array_equal(unwrapped(file).values[:, 0], values, equal_nan=True)
+    new = np.isnan(file.values)
+    assert np.array_equal(wrapped(np.full((4, 1), 500.0), file, new), np.full((4, 1), 500.0))
+
+
+def test_neighbours_across_a_gap_are_neighbours():
+    file = one_channel([170.0, np.nan, np.nan, -170.0], "deg")
+    assert unwrapped(file).values[3, 0] == 190.0
+
+
+@pytest.mark.parametrize("values", [[np.nan], [np.nan, np.nan, np.nan], [200.0]])
+def test_little_is_enough(values):
+    file = one_channel(values, "deg")
+    assert np.array_equal(unwrapped(file).values, file.values, equal_nan=True)
+    new = np.ones((len(values), 1), dtype=bool)
+    out = wrapped(np.full((len(values), 1), 190.0), file.hide(new), new)
+    assert (out == -170.0).all()
