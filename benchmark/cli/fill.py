@@ -52,7 +52,7 @@ def fill(
     ] = None,
     budget: Annotated[
         float, typer.Option(min=1.0, help="Seconds for the trials of each file.")
-    ] = 60.0,
+    ] = 30.0,
     rate: Annotated[
         float | None, typer.Option(help="Frames per second, in place of what the files say.")
     ] = None,

@@ -86,7 +86,7 @@ def _filled(model: type[FrameImputer], question: Question) -> Prediction:
         unit=Unit.natural(len(asked.given.channels)),
     )
     fitted = problem.fit(build_model(model, {}, _SEED))
-    (prediction,) = problem.solve(fitted, _SEED).predictions  # type: ignore[arg-type]
+    (prediction,) = problem.solve(fitted, _SEED).predictions
     spread = partial(_over_channels, question, asked)
     variance = None if prediction.variance is None else spread(prediction.variance)
     return Prediction(spread(prediction.mean), variance)

@@ -14,7 +14,7 @@ from mocapbench.datasets import Mask
 __all__ = ["Episode", "Gap", "episodes_of", "gaps_of", "mask_of"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, order=True)
 class Gap:
     """Channels that are hidden over the same frames.
 

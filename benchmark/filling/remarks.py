@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from mocapbench.benchmark.filling.fill import Filled
 from mocapbench.reports import RankedModel
 
@@ -26,11 +28,11 @@ def verdict(filled: Filled) -> str:
     trials = f"{ranking.n} trial gap{'s' if ranking.n != 1 else ''}"
     if len(ranking.order) == 1:
         return f"No other model has a rank, over {trials}."
+    if ranking.n < 2:
+        return f"It did best in {trials}, which is too few to tell whether that is chance."
     others = [model for model in ranking.sharing if model != ranking.order[0]]
     if not others:
         return f"Its lead over {ranking.order[1]} is more than chance, over {trials}."
-    if ranking.n < 2:
-        return f"It did best in {trials}, which is too few to tell whether that is chance."
     return f"Its lead over {_listed(others)} could be chance, over {trials}."
 
 
@@ -85,7 +87,7 @@ def left_out(filled: Filled) -> Iterator[tuple[str, str]]:
 def units(filled: Filled) -> tuple[str, ...]:
     """Return the units of the filled channels, in order of appearance."""
     given, target = filled.source.request.given, filled.source.request.target
-    channels = target.any(axis=0).nonzero()[0]
+    channels = np.flatnonzero(target.any(axis=0))
     return tuple(dict.fromkeys(given.units[channel] for channel in channels))
 
 

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.request import Entries, Request, select
@@ -91,7 +93,7 @@ def _require_seen(question: Question) -> None:
         seen |= recording.visible.any(axis=0)
     unseen = question.target.any(axis=0) & ~seen
     if unseen.any():
-        names = [question.given.channels[k] for k in unseen.nonzero()[0]]
+        names = [question.given.channels[k] for k in np.flatnonzero(unseen)]
         some = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
         raise UsageError(
             f"{question.given.name}: expected a visible entry of every channel to fill, got none "

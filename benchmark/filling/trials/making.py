@@ -65,9 +65,7 @@ def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
     return trials
 
 
-def _trial(
-    question: Question, used: Mask, turns: _Turns, rng: np.random.Generator
-) -> Trial | None:
+def _trial(question: Question, used: Mask, turns: _Turns, rng: np.random.Generator) -> Trial | None:
     """Return one trial, and mark the frames that it hides as used."""
     recording = question.given
     placed = _Placement(~recording.visible, used, rng)

@@ -53,4 +53,6 @@ def rank(scores: Mapping[str, Scores], interpolations: Collection[str]) -> Ranki
     means = losses.mean()
     order = tuple(means.sort_values(kind="stable").index)
     shared = shared_rank(losses, order)
-    return Ranking(order, means.to_dict(), scores, len(losses), shared.labels)
+    return Ranking(
+        order, {model: float(means[model]) for model in order}, scores, len(losses), shared.labels
+    )

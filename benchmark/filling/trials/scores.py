@@ -1,4 +1,4 @@
-"""Scores of trials: the error of each trial gap, in a unit that makes degrees and centimetres equal."""
+"""Scores of trials: the error of each trial gap, in which degrees and centimetres count alike."""
 
 from __future__ import annotations
 

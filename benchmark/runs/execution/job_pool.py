@@ -18,6 +18,7 @@ from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
 
 __all__ = ["JobPool"]
 
+
 class JobPool:
     """Workers on this machine, started when the first job comes.
 
