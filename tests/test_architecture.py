@@ -14,6 +14,7 @@ LISTS = {
     "baselines": 30,  # one module a model
     "benchmark/tasks": 18,  # one module a protocol
     "baselines/alignment": 17,
+    "benchmark/cli": 18,  # one module a command
 }
 
 

@@ -7,7 +7,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.question import Question, without_unseen
 from mocapbench.benchmark.registry import MODELS
 
-__all__ = ["able_models", "interpolations", "require_able"]
+__all__ = ["able_models", "require_able"]
 
 
 def able_models(question: Question) -> tuple[str, ...]:
@@ -18,11 +18,6 @@ def able_models(question: Question) -> tuple[str, ...]:
     needed = _needed(question)
     names = [name for name in MODELS.names() if _fills(name, needed)]
     return tuple(sorted(names, key=lambda name: not issubclass(MODELS.get(name), Interpolator)))
-
-
-def interpolations() -> frozenset[str]:
-    """Return the models that interpolate each channel."""
-    return frozenset(n for n in MODELS.names() if issubclass(MODELS.get(n), Interpolator))
 
 
 def require_able(name: str, question: Question) -> None:

@@ -13,6 +13,7 @@ from mocapbench.reports.figures.styles import SMALLEST_SCALE, line_swatch
 from mocapbench.reports.figures.svg import LEVELS, PALETTE, STYLE, svg_element
 from mocapbench.reports.figures.svg_figure import Key
 from mocapbench.reports.filling.values import FilledCurve
+from mocapbench.reports.printable import printable
 from mocapbench.reports.text import counted
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def draw_curve(curve: FilledCurve, prefix: str) -> Markup:
             figure,
             prefix,
             role="img",
-            aria_label=f"{curve.channel} over time, with {counted(len(curve.gaps), 'filled gap')}",
+            aria_label=f"{printable(curve.channel)} over time, with {counted(len(curve.gaps), 'filled gap')}",
             style=f"min-width: {SMALLEST_SCALE * WIDTH:.2f}in",
         )
 
@@ -60,8 +61,8 @@ def _draw(axes: Axes, curve: FilledCurve) -> None:
     axes.fill_between(curve.times, low, high, color=FILLED, alpha=0.25, linewidth=0.0)
     axes.plot(curve.times, curve.visible, color=VISIBLE, linewidth=1.1)
     axes.plot(curve.times, _joined(curve), color=FILLED, linewidth=1.3, linestyle="--")
-    axes.set(xlabel="time, s", ylabel=curve.unit)
-    axes.set_title(curve.channel, fontsize=10, loc="left")
+    axes.set(xlabel="time, s", ylabel=printable(curve.unit))
+    axes.set_title(printable(curve.channel), fontsize=10, loc="left")
     axes.grid(axis="y", linewidth=0.6)
     axes.margins(x=0.01)
 

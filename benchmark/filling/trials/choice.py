@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.able import able_models, interpolations
+from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.trials.making import Trial, make_trials
 from mocapbench.benchmark.filling.trials.race import Runner, race
@@ -80,7 +80,7 @@ def choose(
 
 
 def _common(runners: Sequence[Runner]) -> int:
-    """Return the number of first trials to compare by: most answers by models that have them all."""
+    """Return by how many of the first trials to compare: those with most answers in all."""
     counts = sorted((len(runner.answers) for runner in runners), reverse=True)
     totals = [count * place for place, count in enumerate(counts, start=1)]
     return counts[int(np.argmax(totals))]
@@ -94,7 +94,7 @@ def _ranked(question: Question, trials: Sequence[Trial], runners: Sequence[Runne
         if len(runner.answers) >= len(trials)
     }
     return Choice(
-        ranking=rank(scores, interpolations()),
+        ranking=rank(scores),
         left_out=tuple(runner for runner in runners if runner.model not in scores),
         share=min(trial.share for trial in trials),
         seconds={r.model: r.seconds / len(r.answers) for r in runners if r.model in scores},

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mocapbench.benchmark.filling.gaps import Episode, Gap, episodes_of, gaps_of, mask_of
-from mocapbench.benchmark.filling.trials.placement import free_places, occupy
 from mocapbench.benchmark.filling.question import Question
-from mocapbench.datasets import FrameByChannel, Mask, Recording
+from mocapbench.benchmark.filling.trials.placement import free_places, occupy
+from mocapbench.datasets import FrameByChannel, Mask
 
 __all__ = ["Trial", "make_trials"]
 

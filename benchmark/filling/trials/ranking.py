@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import pandas as pd
@@ -28,8 +28,6 @@ class Ranking:
         The number of trial gaps.
     sharing : tuple of str
         Models whose errors differ from those of the one with the least by no more than chance.
-    fallback : str
-        The model with the least mean error, if it is not the choice.
     """
 
     order: tuple[str, ...]
@@ -37,17 +35,12 @@ class Ranking:
     scores: Mapping[str, Scores]
     n: int
     sharing: tuple[str, ...]
-    fallback: str = ""
 
 
-def rank(scores: Mapping[str, Scores], interpolations: Collection[str]) -> Ranking:
+def rank(scores: Mapping[str, Scores]) -> Ranking:
     """Return the ranking of one or more models that answered the same trials.
 
-    Parameters
-    ----------
-    scores : mapping of str to Scores
-    interpolations : collection of str
-        The models that interpolate each channel.
+    Of equal ones, that which comes first in ``scores`` is the better one.
     """
     losses = pd.DataFrame({model: score.errors for model, score in scores.items()})
     means = losses.mean()

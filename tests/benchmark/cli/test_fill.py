@@ -138,7 +138,11 @@ def changed(row, column, text):
 
 HARDSHIPS = {
     "no gap": (rows(gap=()), HEADER, "expected a gap"),
-    "all hidden": (rows(gap=range(N_FRAMES), columns=(1, 2, 3)), HEADER, "0 channels"),
+    "all hidden": (
+        rows(gap=range(N_FRAMES), columns=(1, 2, 3)),
+        HEADER,
+        "expected visible entries",
+    ),
     "NaN in the time column": (changed(7, 0, "nan"), HEADER, "a time for every frame"),
     "times that repeat": (changed(7, 0, "0.1000"), HEADER, "every time after the one before"),
     "times that fall": (changed(7, 0, "0.0100"), HEADER, "every time after the one before"),
@@ -172,30 +176,32 @@ def test_everything_hidden_is_refused(cli, walk, out):
 
 
 @pytest.mark.parametrize(
-    ("header", "step", "message"),
+    "other",
     [
         (HEADER.replace("hip", "ankle"), 1, "channels"),
         (HEADER, 2, "frames per second"),
     ],
 )
-def test_files_to_learn_from_must_be_alike(cli, walk, tmp_path, out, header, step, message):
+def test_files_to_learn_from_must_be_alike(cli, walk, tmp_path, out, other):
+    header, step, message = other
     lines = rows(gap=())
     for frame, line in enumerate(lines):
         line[0] = f"{frame * step / 60:.4f}"
-    other = save(tmp_path / "other.csv", lines, header)
-    assert cli("fill", walk, "--train", other, "--model", "linear", "--out", out) == 2
+    path = save(tmp_path / "other.csv", lines, header)
+    assert cli("fill", walk, "--train", path, "--model", "linear", "--out", out) == 2
     assert message in cli.printed
 
 
 @pytest.mark.parametrize(
-    ("name", "content", "message"),
+    "file",
     [
         ("walk.xyz", b"time,a\n0,1\n", ".csv"),
         ("walk.csv", b"\xff\xfe\x00", "expected"),
         ("walk.csv", None, "No such file"),
     ],
 )
-def test_what_is_no_recording_is_refused(cli, tmp_path, out, name, content, message):
+def test_what_is_no_recording_is_refused(cli, tmp_path, out, file):
+    name, content, message = file
     path = tmp_path / "in" / name
     path.parent.mkdir()
     if content is not None:
