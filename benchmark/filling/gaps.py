@@ -63,6 +63,11 @@ class Episode:
     def __len__(self) -> int:
         return self.stop - self.start
 
+    @property
+    def n_entries(self) -> int:
+        """The number of hidden entries."""
+        return sum(len(gap) * len(gap.channels) for gap in self.gaps)
+
     def moved(self, frames: int) -> Self:
         """Return the episode so many frames later."""
         return replace(self, gaps=tuple(gap.moved(frames) for gap in self.gaps))

@@ -36,9 +36,14 @@ def draw_curve(curve: FilledCurve, prefix: str) -> Markup:
             figure,
             prefix,
             role="img",
-            aria_label=f"{printable(curve.channel)} over time, with {counted(len(curve.gaps), 'filled gap')}",
+            aria_label=_described(curve),
             style=f"min-width: {SMALLEST_SCALE * WIDTH:.2f}in",
         )
+
+
+def _described(curve: FilledCurve) -> str:
+    gaps = counted(len(curve.gaps), "filled gap")
+    return f"{printable(curve.channel)} over time, with {gaps}"
 
 
 def legend() -> tuple[Key, ...]:

@@ -48,7 +48,7 @@ class RankedModel:
     ----------
     name : str
     error : float
-        Mean error over the trial gaps, relative to the spread of the channels.
+        Weighted mean error over the trial gaps, relative to the spread of the channels.
     rmse : tuple of float
         By unit, in the order of `FilledPage.units`.
     coverage : float or None

@@ -13,7 +13,7 @@ from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.trials.making import Trial, make_trials
 from mocapbench.benchmark.filling.trials.race import Runner, race
 from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
-from mocapbench.benchmark.filling.trials.scores import channel_scale, scores_of
+from mocapbench.benchmark.filling.trials.scores import channel_scale, scores_of, weights_of
 from mocapbench.benchmark.filling.workers import Workers
 
 __all__ = ["Choice", "choose"]
@@ -94,7 +94,7 @@ def _ranked(question: Question, trials: Sequence[Trial], runners: Sequence[Runne
         if len(runner.answers) >= len(trials)
     }
     return Choice(
-        ranking=rank(scores),
+        ranking=rank(scores, weights_of(trials)),
         left_out=tuple(runner for runner in runners if runner.model not in scores),
         share=min(trial.share for trial in trials),
         seconds={r.model: r.seconds / len(r.answers) for r in runners if r.model in scores},

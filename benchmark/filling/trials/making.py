@@ -42,6 +42,8 @@ class Trial:
         The values of its frames.
     units : tuple of ndarray of bool of shape (N, D)
         The entries of each trial gap, which are scored together.
+    originals : tuple of Episode
+        The real gaps of which these are copies.
     share : float
         The length of the shortest trial gap relative to the real one; 1 if none was shortened.
     """
@@ -49,6 +51,7 @@ class Trial:
     question: Question
     truth: FrameByChannel
     units: tuple[Mask, ...]
+    originals: tuple[Episode, ...]
     share: float
 
 
@@ -133,6 +136,7 @@ class _Placement:
         self.blocked, self.used, self.rng = hidden.copy(), used, rng
         self.start, self.stop = 0, len(hidden)
         self.episodes: list[Episode] = []
+        self.originals: list[Episode] = []
         self.share = 1.0
 
     def begin(self, gaps: Sequence[Gap]) -> None:
@@ -152,12 +156,14 @@ class _Placement:
             self.blocked[placed.stop :] = True
 
     def within(self, turns: _Turns) -> None:
-        """Place copies of the episodes whose turn it is, as many as a trial may hide."""
+        """Place copies of the episodes whose turn it is, as many as a trial may hide, or one."""
         room = _HIDDEN_SHARE * (self.stop - self.start)
+        hidden = 0
         for _ in range(turns.per_trial):
             episode = turns.next()
-            if self.episodes and sum(map(len, self.episodes)) + len(episode) > room:
+            if hidden and hidden + len(episode) > room:
                 return
+            hidden += len(episode)
             turns.done()
             if self._put(episode, self.start, self.stop) is None:
                 for gap in episode.gaps if len(episode.gaps) > 1 else ():
@@ -174,6 +180,7 @@ class _Placement:
                 occupy(self.blocked, placed)
                 self.used[placed.start : placed.stop] = True
                 self.episodes.append(placed)
+                self.originals.append(episode)
                 self.share = min(self.share, share)
                 return placed
         return None
@@ -192,4 +199,10 @@ def _made(question: Question, placed: _Placement) -> Trial:
     units = tuple(mask_of(episode.gaps, shape)[frames] for episode in placed.episodes)
     target = np.any(units, axis=0)
     given = recording.hide(target)
-    return Trial(Question(given, target, question.train), recording.values, units, placed.share)
+    return Trial(
+        question=Question(given, target, question.train),
+        truth=recording.values,
+        units=units,
+        originals=tuple(placed.originals),
+        share=placed.share,
+    )

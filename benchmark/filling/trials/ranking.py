@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from mocapbench.benchmark.filling.trials.scores import Scores
 from mocapbench.metrics.statistics import shared_rank
@@ -22,7 +24,7 @@ class Ranking:
     order : tuple of str
         The models; the first is the choice.
     means : mapping of str to float
-        The mean error of each.
+        The weighted mean error of each.
     scores : mapping of str to Scores
     n : int
         The number of trial gaps.
@@ -37,12 +39,18 @@ class Ranking:
     sharing: tuple[str, ...]
 
 
-def rank(scores: Mapping[str, Scores]) -> Ranking:
+def rank(scores: Mapping[str, Scores], weights: NDArray[np.float64]) -> Ranking:
     """Return the ranking of one or more models that answered the same trials.
 
     Of equal ones, that which comes first in ``scores`` is the better one.
+
+    Parameters
+    ----------
+    scores : mapping of str to Scores
+    weights : ndarray of shape (n,)
+        How much each trial gap counts, 1 in the mean.
     """
-    losses = pd.DataFrame({model: score.errors for model, score in scores.items()})
+    losses = pd.DataFrame({model: score.errors * weights for model, score in scores.items()})
     means = losses.mean()
     order = tuple(means.sort_values(kind="stable").index)
     shared = shared_rank(losses, order)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -13,7 +14,7 @@ from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.trials.making import Trial
 from mocapbench.datasets import Recording
 
-__all__ = ["Scores", "channel_scale", "scores_of"]
+__all__ = ["Scores", "channel_scale", "scores_of", "weights_of"]
 
 Array = NDArray[np.float64]
 
@@ -51,6 +52,17 @@ def channel_scale(recording: Recording) -> Array:
     units = np.array(recording.units)
     mean = np.array([variance[units == unit].mean() for unit in recording.units])
     return np.sqrt(np.where(mean > 0.0, mean, 1.0))
+
+
+def weights_of(trials: Sequence[Trial]) -> Array:
+    """Return the weight of each trial gap (n,), 1 in the mean.
+
+    A real gap counts by its entries, as it does in the file; its copies share its weight.
+    """
+    originals = [original for trial in trials for original in trial.originals]
+    copies = Counter(originals)
+    weights = np.array([original.n_entries / copies[original] for original in originals])
+    return np.asarray(weights / weights.mean())
 
 
 def scores_of(trials: Sequence[Trial], answers: Sequence[Answer], scale: Array) -> Scores:

@@ -152,3 +152,16 @@ def test_scores_are_closed_forms(waves, hidden):
     np.testing.assert_allclose(scores.errors, 1.0)
     assert scores.rmse == pytest.approx({"deg": 1.0, "cm": 2.0})
     assert scores.coverage == 0.5
+
+
+def test_a_gap_counts_by_its_entries_however_many_copies_it_has(waves, hidden):
+    mask = hidden((0, 10, [0]), (60, 90, [1, 2]), (150, 155, [3]))
+    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))
+    weights = choice.weights_of(trials)
+    originals = [original for trial in trials for original in trial.originals]
+    totals = {e.n_entries: 0.0 for e in originals}
+    for weight, original in zip(weights, originals, strict=True):
+        totals[original.n_entries] += weight
+    assert weights.mean() == pytest.approx(1.0)
+    shares = {entries: total / len(weights) for entries, total in totals.items()}
+    assert shares == pytest.approx({10: 10 / 75, 60: 60 / 75, 5: 5 / 75})
