@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench import reports
 from mocapbench.benchmark import filling
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
-from mocapbench.benchmark.errors import UsageError
-from mocapbench.reports import render_filled
+from mocapbench.benchmark.errors import ExitCode, UsageError
 
 if TYPE_CHECKING:
     from mocapbench.benchmark.filling import Filled, Outputs, Source, Workers
@@ -37,7 +37,7 @@ def fill(
     ] = None,
     model: Annotated[
         str, typer.Option(help="A model, or best: the one that does best in trials.")
-    ] = filling.BEST,
+    ] = "best",
     frames: Annotated[
         str | None, typer.Option(help="Fill frames A:B (0-based, without B), not the gaps.")
     ] = None,
@@ -70,9 +70,13 @@ def fill(
     for source in sources:
         if model != filling.BEST:
             filling.require_able(model, source.question)
-    with filling.Workers(bench.n_cores(), plugins) as workers:
-        for source, written in zip(sources, outputs, strict=True):
-            _fill(source, model, workers, budget, written, console)
+    try:
+        with filling.Workers(bench.n_cores(), plugins) as workers:
+            for source, written in zip(sources, outputs, strict=True):
+                _fill(source, model, workers, budget, written, console)
+    except KeyboardInterrupt:
+        console.print("interrupted; files that were filled are kept, others were not written")
+        raise typer.Exit(ExitCode.INTERRUPTED) from None
 
 
 def _fill(
@@ -86,7 +90,7 @@ def _fill(
     with console.status(f"{source.path.name}: trials") as status:
         watch = _watch(source.path.name, status.update) if console.is_terminal else _ignore
         filled = filling.fill(source, model, workers, budget, watch)
-    filling.write(filled, outputs, render_filled(filling.page_of(filled, _command())))
+    filling.write(filled, outputs, reports.render_filled(filling.page_of(filled, _command())))
     _say(filled, outputs, console)
 
 

@@ -43,7 +43,7 @@ RECORDINGS = {
 }
 LONGEST = 1500
 """Frames."""
-BUDGET = 120.0
+BUDGET = 15.0
 """Seconds."""
 LIMBS = (("lfemur", "ltibia", "lfoot", "ltoes"), ("rhumerus", "rradius", "rwrist", "rhand"))
 

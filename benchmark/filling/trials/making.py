@@ -12,16 +12,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mocapbench.benchmark.filling.gaps import Episode, Gap, episodes_of, gaps_of, mask_of
+from mocapbench.benchmark.filling.gaps import Episode, Gap, episodes_of, gaps_of
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.trials.placement import free_places, occupy
-from mocapbench.datasets import FrameByChannel, Mask
+from mocapbench.datasets import Mask
 
 __all__ = ["Trial", "make_trials"]
 
 MOST_TRIALS, ENOUGH_GAPS = 24, 48
 """Trials are made until there are so many of them, or so many trial gaps."""
+FEWEST_TRIALS, MOST_ENTRIES = 3, 40_000_000
+"""Of long recordings there are fewer: no more than have so many entries (320 MB) in all."""
 _HIDDEN_SHARE = 0.15
 """Of the frames, that a trial may hide besides the real gaps, unless one gap alone is longer."""
 _COPIES = 10
@@ -38,10 +41,10 @@ class Trial:
     ----------
     question : Question
         The recording, or a part of it that begins or ends with a gap, with more hidden.
-    truth : ndarray of shape (N, D)
-        The values of its frames.
-    units : tuple of ndarray of bool of shape (N, D)
-        The entries of each trial gap, which are scored together.
+    truth : ndarray of shape (M,)
+        The values of the wanted entries, in the order of ``np.nonzero(question.target)``.
+    units : tuple of ndarray of int
+        The places among them (M,) of the entries of each trial gap, which are scored together.
     originals : tuple of Episode
         The real gaps of which these are copies.
     share : float
@@ -49,8 +52,8 @@ class Trial:
     """
 
     question: Question
-    truth: FrameByChannel
-    units: tuple[Mask, ...]
+    truth: NDArray[np.float64]
+    units: tuple[NDArray[np.intp], ...]
     originals: tuple[Episode, ...]
     share: float
 
@@ -60,7 +63,8 @@ def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
     trials: list[Trial] = []
     used = np.zeros(len(question.given.times), dtype=bool)
     turns = _Turns(_interior(question), rng)
-    while len(trials) < MOST_TRIALS and sum(len(t.units) for t in trials) < ENOUGH_GAPS:
+    most = min(MOST_TRIALS, max(FEWEST_TRIALS, MOST_ENTRIES // question.target.size))
+    while len(trials) < most and sum(len(trial.units) for trial in trials) < ENOUGH_GAPS:
         trial = _trial(question, used, turns, rng)
         if trial is None:
             break
@@ -195,14 +199,17 @@ class _Placement:
 def _made(question: Question, placed: _Placement) -> Trial:
     frames = np.arange(placed.start, placed.stop)
     recording = question.given.frames(frames)
-    shape = question.target.shape
-    units = tuple(mask_of(episode.gaps, shape)[frames] for episode in placed.episodes)
-    target = np.any(units, axis=0)
-    given = recording.hide(target)
+    owners = np.full(question.target.shape, -1, dtype=np.int32)
+    for number, episode in enumerate(placed.episodes):
+        for gap in episode.gaps:
+            owners[gap.start : gap.stop, list(gap.channels)] = number
+    owners = owners[frames]
+    target = owners >= 0
+    units = (np.flatnonzero(owners[target] == number) for number in range(len(placed.episodes)))
     return Trial(
-        question=Question(given, target, question.train),
-        truth=recording.values,
-        units=units,
+        question=Question(recording.hide(target), target, question.train),
+        truth=recording.values[target],
+        units=tuple(units),
         originals=tuple(placed.originals),
         share=placed.share,
     )

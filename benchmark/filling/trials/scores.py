@@ -76,29 +76,26 @@ def scores_of(trials: Sequence[Trial], answers: Sequence[Answer], scale: Array) 
 
 
 def _errors(trial: Trial, answer: Answer, scale: Array) -> Iterator[float]:
-    target = trial.question.target
-    deviations = np.zeros(target.shape)
-    deviations[target] = answer.mean - trial.truth[target]
+    _, channels = np.nonzero(trial.question.target)
+    squares = ((answer.mean - trial.truth) / scale[channels]) ** 2
     for unit in trial.units:
-        yield float(np.sqrt(np.mean((deviations / scale)[unit] ** 2)))
+        yield float(np.sqrt(squares[unit].mean()))
 
 
 def _by_unit(pairs: Sequence[tuple[Trial, Answer]]) -> Mapping[str, float]:
     squares: dict[str, list[Array]] = {}
     for trial, answer in pairs:
-        target = trial.question.target
-        channels = np.nonzero(target)[1]
+        _, channels = np.nonzero(trial.question.target)
         units = np.array(trial.question.given.units)[channels]
         for unit in dict.fromkeys(units.tolist()):
             chosen = units == unit
-            squares.setdefault(unit, []).append((answer.mean - trial.truth[target])[chosen] ** 2)
+            squares.setdefault(unit, []).append((answer.mean - trial.truth)[chosen] ** 2)
     return {unit: float(np.sqrt(np.concatenate(parts).mean())) for unit, parts in squares.items()}
 
 
 def _coverage(pairs: Sequence[tuple[Trial, Answer]]) -> float | None:
     inside = [
-        np.abs(answer.mean - trial.truth[trial.question.target])
-        <= _WITHIN_95 * np.sqrt(answer.variance)
+        np.abs(answer.mean - trial.truth) <= _WITHIN_95 * np.sqrt(answer.variance)
         for trial, answer in pairs
         if answer.variance is not None
     ]

@@ -145,7 +145,7 @@ def test_scores_are_closed_forms(waves, hidden):
     question = Question(waves().hide(mask), mask)
     trial = choice.make_trials(question, np.random.default_rng(0))[0]
     wanted = trial.question.target
-    truth = trial.truth[wanted]
+    truth = trial.truth
     off = np.where(np.nonzero(wanted)[1] == 3, 2.0, 1.0)
     answer = Answer(truth + off, np.full(truth.shape, (1.5 / 1.96) ** 2))
     scores = choice.scores_of([trial], [answer], np.array([1.0, 1.0, 1.0, 2.0]))
