@@ -7,6 +7,8 @@ import format_files
 import numpy as np
 import pytest
 
+from mocapbench.benchmark import FORMATS, format_for
+from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.datasets import AcclaimFormat, CSVFormat
 from mocapbench.datasets.formats import memory
 
@@ -224,3 +226,35 @@ def test_a_file_larger_than_memory_is_refused(cli, walk, out, monkeypatch):
 def test_frames_are_two_numbers(cli, walk, out, frames):
     assert cli("fill", walk, f"--frames={frames}", "--out", out) == 2
     assert "expected A:B" in cli.printed
+
+
+@pytest.mark.parametrize("name", FORMATS.names())
+def test_files_of_every_format_are_filled_and_read_back(cli, tmp_path, out, name):
+    (tmp_path / "in").mkdir()
+    given = format_files.sample(name, tmp_path / "in")
+    # Neither .amc nor .bvh state gaps; the channels' names end in their axis everywhere.
+    assert cli("fill", given, "--frames", "40:46", "--model", "makima", "--out", out) == 0
+    for skeleton in (tmp_path / "in").glob("*.asf"):
+        shutil.copy(skeleton, out)
+    before, after = (format_for(path).read(path) for path in (given, out / given.name))
+    assert after.visible[40:46].all()
+    kept = before.visible.copy()
+    kept[40:46] = False
+    np.testing.assert_allclose(after.values[kept], before.values[kept], atol=1e-9)
+    moved = np.abs(after.values[40:46] - before.values[40:46])
+    assert np.nanmax(moved) < 0.25 * np.nanmax(np.ptp(before.values[30:56], axis=0)) + 0.5
+
+
+def test_an_interrupt_has_its_own_exit_code(cli, walk, out, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Workers, "submit", interrupt)
+    assert cli("fill", walk, "--model", "linear", "--out", out) == 130
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("rate", ["0", "-1", "nan"])
+def test_a_rate_is_positive(cli, walk, out, rate):
+    assert cli("fill", walk, f"--rate={rate}", "--model", "linear", "--out", out) == 2
+    assert "positive rate" in cli.printed
