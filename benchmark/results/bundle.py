@@ -96,7 +96,9 @@ def _interpolates(model: str) -> bool:
 
 def _metric_info(name: str) -> MetricInfo:
     metric = METRICS.get(name)
-    return MetricInfo(name, metric.title, metric.direction, metric.target)
+    return MetricInfo(
+        name, metric.title, metric.direction, metric.target, of_distribution=metric.needs_variance
+    )
 
 
 def _unique(names: Iterable[str]) -> tuple[str, ...]:

@@ -10,12 +10,12 @@ from typing import Any
 
 from mocapbench.benchmark.errors import UnknownNameError, UnregisteredNameError, UsageError
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.runs.case_names import matching_cases
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.key_parts import key_parts
 from mocapbench.benchmark.runs.keys import fit_contents, key_of, score_contents
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task
-from mocapbench.benchmark.tasks.case_names import matching_cases
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 

@@ -21,6 +21,8 @@ class MetricInfo:
         Or its value: ``"lower"``, ``"higher"``, ``"target"``.
     target : float or None
         The ideal value where the direction is ``TARGET``.
+    of_distribution : bool
+        Whether it scores a predictive distribution, not single predictions or samples.
 
     Raises
     ------
@@ -32,6 +34,7 @@ class MetricInfo:
     title: str
     direction: Direction
     target: float | None = None
+    of_distribution: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "direction", Direction(self.direction))

@@ -1,4 +1,4 @@
-"""The table of calibration: metrics with a target, beside that target."""
+"""The table of calibration: metrics of a distribution with a target, beside that target."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["calibration_table"]
 
 
 def calibration_table(results: TaskResults) -> Table | None:
-    """Return the means of every metric that has a target, such as the coverage of intervals.
+    """Return the means of metrics of a distribution that have a target: coverage of intervals.
 
     Means run over folds and then over cases. Metrics that the task shows in a separate table are
     left out.
@@ -59,7 +59,7 @@ def _targets(results: TaskResults) -> Sequence[str]:
     return [
         name
         for name, info in results.metrics.items()
-        if info.direction is Direction.TARGET and name in scored
+        if info.of_distribution and info.direction is Direction.TARGET and name in scored
     ]
 
 

@@ -124,10 +124,11 @@ def mutated():
 
 @pytest.fixture(scope="session")
 def data_dir():
-    folder = os.environ.get("MOCAPBENCH_DATA")
-    if not folder:
+    """The first folder of real recordings that is named."""
+    folders = os.environ.get("MOCAPBENCH_DATA")
+    if not folders:
         pytest.skip("MOCAPBENCH_DATA does not name a folder of real recordings")
-    return Path(folder)
+    return Path(folders.split(os.pathsep)[0])
 
 
 @pytest.fixture(scope="session")

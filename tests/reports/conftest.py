@@ -28,7 +28,13 @@ METRICS = {
         MetricInfo("mlc", "MLC", Direction.HIGHER),
         MetricInfo("variance_ratio", "Variance ratio", Direction.TARGET, 1.0),
         *(
-            MetricInfo(f"coverage_{p}", f"Coverage at {p} %", Direction.TARGET, p / 100)
+            MetricInfo(
+                f"coverage_{p}",
+                f"Coverage at {p} %",
+                Direction.TARGET,
+                p / 100,
+                of_distribution=True,
+            )
             for p in (50, 80, 90, 95)
         ),
     )

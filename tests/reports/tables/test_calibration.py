@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.tables.calibration import calibration_table
 
@@ -17,3 +19,10 @@ def test_coverage_stands_beside_its_nominal_value(bundle):
 def test_a_target_metric_with_its_own_table_is_not_repeated(small):
     bundle = small({"row": {"a": [0.5]}}, metric="coverage_50")
     assert calibration_table(results_of(bundle)) is None
+
+
+def test_a_ratio_with_a_target_is_no_calibration(small):
+    results = results_of(small({"row": {"a": [0.5]}}, metric="variance_ratio"))
+    page = replace(results.layout.page, metrics=("mse",))
+    elsewhere = replace(results, layout=replace(results.layout, page=page))
+    assert calibration_table(elsewhere) is None
