@@ -91,7 +91,8 @@ def _caption(gaps: Sequence[Gap], shown: Sequence[tuple[Gap, int]]) -> str:
     n_shown = len({gap for gap, _ in shown})
     which = "The only gap" if len(gaps) == 1 else f"{n_shown} of {len(gaps)} gaps"
     most = max(len(gap.channels) for gap, _ in shown)
-    channels = ", with the channels that move most in it" if most > _CHANNELS_PER_GAP else ""
+    them = "it" if len(gaps) == 1 else "each"
+    channels = f", with the channels that move most in {them}" if most > _CHANNELS_PER_GAP else ""
     return f"{which}{channels}. The table beside this page has every filled entry."
 
 

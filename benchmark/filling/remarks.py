@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mocapbench.benchmark.filling.fill import Filled
+from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.reports import RankedModel
 
 __all__ = ["headline", "left_out", "ranked", "remarks", "units", "verdict"]
@@ -44,10 +45,11 @@ def remarks(filled: Filled) -> Iterator[str]:
     if filled.windows:
         yield (
             f"{filled.model} does not take a recording of this length: it was fitted to "
-            f"{_windows(filled.windows)} around the gaps, each on its own."
+            f"{_windows(filled.windows)}."
         )
     if request.left_open:
-        yield f"{len(request.left_open)} longer gaps were left open."
+        n_open = len(request.left_open)
+        yield f"{n_open} longer gap{'s were' if n_open > 1 else ' was'} left open."
     rest = int((~request.given.visible & ~request.target).sum())
     if rest:
         yield f"{rest} hidden entries stay hidden, since they were not to be filled."
@@ -73,7 +75,7 @@ def ranked(filled: Filled) -> Iterator[RankedModel]:
             tuple(scores.rmse[unit] for unit in units(filled)),
             scores.coverage,
             filled.choice.seconds[model],
-            _note(filled, model),
+            _note(filled.choice, model, chosen=filled.model),
         )
 
 
@@ -91,19 +93,17 @@ def units(filled: Filled) -> tuple[str, ...]:
     return tuple(dict.fromkeys(given.units[channel] for channel in channels))
 
 
-def _note(filled: Filled, model: str) -> str:
-    ranking = filled.choice.ranking  # type: ignore[union-attr]
-    chosen = "chosen" if model == filled.model else ""
-    best = ranking.sharing[0]
-    if model == best:
-        equal = "" if len(ranking.sharing) == 1 else "least error"
-    else:
-        equal = f"not separable from {best}" if model in ranking.sharing else ""
-    return ", ".join(filter(None, (chosen, equal)))
+def _note(choice: Choice, model: str, *, chosen: str) -> str:
+    sharing = choice.ranking.sharing
+    alike = f"not separable from {sharing[0]}" if model in sharing[1:] else ""
+    notes = ("chosen" if model == chosen else "", alike)
+    windows = "fitted to windows" if choice.windows[model] else ""
+    return ", ".join(filter(None, (*notes, windows)))
 
 
 def _windows(count: int) -> str:
-    return "1 window" if count == 1 else f"{count} windows"
+    one = "a window around the gap"
+    return one if count == 1 else f"{count} windows around the gaps, each on its own"
 
 
 def _listed(names: list[str]) -> str:

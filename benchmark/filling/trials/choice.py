@@ -35,12 +35,15 @@ class Choice:
         The length of the shortest trial gap relative to the real one.
     seconds : mapping of str to float
         What a trial took each ranked model on average.
+    windows : mapping of str to int
+        Into how many windows each ranked model had a trial cut; 0 if into none.
     """
 
     ranking: Ranking
     left_out: tuple[Runner, ...]
     share: float
     seconds: Mapping[str, float]
+    windows: Mapping[str, int]
 
 
 def choose(
@@ -98,4 +101,5 @@ def _ranked(question: Question, trials: Sequence[Trial], runners: Sequence[Runne
         left_out=tuple(runner for runner in runners if runner.model not in scores),
         share=min(trial.share for trial in trials),
         seconds={r.model: r.seconds / len(r.answers) for r in runners if r.model in scores},
+        windows={r.model: r.windows for r in runners if r.model in scores},
     )
