@@ -30,7 +30,7 @@ __all__ = ["LDS"]
 
 
 class LDS(Imputer, Inductive, Synthesiser):
-    r"""A linear dynamical system: linear dynamics of a few states, seen through linear channels.
+    r"""A linear dynamical system of a few states, seen through linear channels.
 
     .. math:: x_{t+1} = A x_t + w_t, \qquad y_t = C x_t + d + v_t,
 

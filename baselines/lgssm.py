@@ -23,7 +23,7 @@ __all__ = ["LGSSM"]
 
 
 class LGSSM(Clusterer):
-    """A mixture of linear Gaussian state-space models: one linear dynamical system for each style.
+    """A mixture of linear Gaussian state-space models, one for each style.
 
     Each component has the model of `LDS`, which integrates hidden entries out. Learning clusters
     the recordings and fits the components at the same time. It follows Chiappa, Kober and Peters,

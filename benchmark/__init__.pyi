@@ -9,6 +9,7 @@ from .figures.covariances import RecoveredCovariances
 from .figures.filled_channels import FilledChannels
 from .figures.gap_error import GapError
 from .figures.latent_space import LatentSpaces
+from .figures.longest_gaps import LongestGaps
 from .figures.solved import Solved
 from .figures.trend import InferredTrend
 from .formats import format_for
@@ -35,7 +36,7 @@ from .results.bundle import bundle
 from .results.drawn import last_drawn, stamp
 from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
-from .runs.directory.plan_file import plan_document
+from .runs.directory.plan_file import plan_document, planned_task_files
 from .runs.execution.base import Site
 from .runs.execution.choice import open_site
 from .runs.execution.this_machine import ThisMachine
@@ -46,6 +47,10 @@ from .runs.provenance import provenance
 from .runs.record import Record, Status
 from .runs.run import run
 from .runs.store import Store
+from .task_files.building import add_tasks
+from .task_files.checking import open_task_files
+from .task_files.task_file import TaskFile, with_folders
+from .task_files.template import draft
 from .tasks.address import Address
 from .tasks.base import Case, Entrant, Profile, Task
 from .tasks.seeds import Seeds
@@ -80,6 +85,7 @@ __all__ = [
     "JointAngles",
     "JointPositions",
     "LatentSpaces",
+    "LongestGaps",
     "Problem",
     "Profile",
     "Record",
@@ -96,16 +102,19 @@ __all__ = [
     "Store",
     "SynthesiseProblem",
     "Task",
+    "TaskFile",
     "ThisMachine",
     "Unit",
     "UnknownNameError",
     "UsageError",
     "WorkerConfig",
+    "add_tasks",
     "archive_at",
     "bundle",
     "check",
     "compare",
     "data_totals",
+    "draft",
     "explain",
     "explanation_table",
     "fetch_command",
@@ -130,9 +139,11 @@ __all__ = [
     "n_cores",
     "next_data_step",
     "open_site",
+    "open_task_files",
     "plan",
     "plan_document",
     "plan_table",
+    "planned_task_files",
     "provenance",
     "require_recordings",
     "required_sources",
@@ -143,4 +154,5 @@ __all__ = [
     "state_lines",
     "state_table",
     "task_entry",
+    "with_folders",
 ]

@@ -39,5 +39,5 @@ class UnregisteredNameError(UnknownNameError):
     """A name under which no plug-in is registered; perhaps its file was not named."""
 
     def __str__(self) -> str:
-        remedy = "if a file of your own defines it, name that file with --plugin"
+        remedy = "if a file of your own defines it, name that file with --plugin or --task-file"
         return f"{super().__str__()}; {remedy}"

@@ -16,6 +16,7 @@ from mocapbench.benchmark.cli.options import (
     Names,
     Plugins,
     load_plugins,
+    load_tasks,
     require_writable,
     show_left_out,
     split,
@@ -48,6 +49,8 @@ def compare(
     load_plugins(plugin)
     console = LiteralConsole()
     require_writable(markdown, csv)
+    for path in runs:
+        load_tasks(bench.Store.open(path))
     for name in split(tasks):
         bench.TASKS.get(name)
     for name in split(metrics):

@@ -55,7 +55,7 @@ def list_registered(
     ] = False,
     plugin: Plugins = None,
 ) -> None:
-    """List tasks, models, metrics, libraries of recordings or formats of files.
+    """List tasks, models, metrics, libraries or formats of files.
 
     With names, such as those of tasks, all there is to say of them: cases, entrants, parameters.
     """

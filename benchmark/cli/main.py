@@ -21,6 +21,7 @@ __all__ = ["COMMANDS", "app", "main"]
 COMMANDS = {
     "run": "Run the benchmark and write its report.",
     "fill": "Fill the gaps of your own recordings.",
+    "init": "Write a task file for recordings of your own.",
     "status": "Show how far a run is, also one in another terminal.",
     "merge": "Merge run directories into one.",
     "report": "Write the HTML report of a run directory.",
@@ -28,7 +29,7 @@ COMMANDS = {
     "compare": "Compare two runs, or two models of one run, fold by fold.",
     "data": "Look for, fetch and verify recordings.",
     "export": "Write the scores and jobs of a run directory as tables.",
-    "list": "List tasks, models, metrics or libraries of recordings.",
+    "list": "List tasks, models, metrics, libraries or formats of files.",
     "info": "Show versions, the machine, and how to cite.",
 }
 

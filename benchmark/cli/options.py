@@ -14,6 +14,7 @@ from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import UsageError
 
 if TYPE_CHECKING:
+    from mocapbench.benchmark import Store, TaskFile
     from mocapbench.datasets import Archive
 
 __all__ = [
@@ -23,6 +24,7 @@ __all__ = [
     "Out",
     "Plugins",
     "load_plugins",
+    "load_tasks",
     "open_archive",
     "require_writable",
     "show_left_out",
@@ -64,17 +66,30 @@ def load_plugins(paths: Sequence[Path] | None) -> tuple[Path, ...]:
     return files
 
 
-def open_archive(data_dir: Path | None) -> Archive:
+def load_tasks(store: Store) -> tuple[TaskFile, ...]:
+    """Register the tasks that task files gave to a run, and return these files."""
+    files = bench.planned_task_files(store.load_plan())
+    bench.add_tasks(files)
+    return files
+
+
+def open_archive(data_dir: Path | None, task_files: Sequence[TaskFile] = ()) -> Archive:
     """Return the archive of all libraries, given the folders that the user names.
+
+    Parameters
+    ----------
+    data_dir : Path or None
+        See `mocapbench.benchmark.archive_at`.
+    task_files : sequence of TaskFile
+        Whose folders have recordings too, as far as they are still there.
 
     Raises
     ------
     UsageError
-        If one of them is no folder, or none of them holds recordings.
+        If one of ``data_dir`` is no folder, or none of them holds recordings.
     """
-    archive = bench.archive_at(data_dir)
-    bench.require_recordings(data_dir, archive)
-    return archive
+    bench.require_recordings(data_dir, bench.archive_at(data_dir))
+    return bench.archive_at(bench.with_folders(data_dir, task_files))
 
 
 def require_writable(*paths: Path | None) -> None:

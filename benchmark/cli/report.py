@@ -17,6 +17,7 @@ from mocapbench.benchmark.cli.options import (
     Out,
     Plugins,
     load_plugins,
+    load_tasks,
     open_archive,
     require_writable,
     show_left_out,
@@ -44,10 +45,10 @@ def report(
     load_plugins(plugin)
     require_writable(to)
     store, console = bench.Store.open(out), LiteralConsole()
-    plan, records = store.load_plan(), store.planned()
+    plan, records, task_files = store.load_plan(), store.planned(), load_tasks(store)
     if not records:
         raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
-    archive, path = open_archive(data_dir), to or out / "report.html"
+    archive, path = open_archive(data_dir, task_files), to or out / "report.html"
     write_report(records, plan["provenance"], store, archive, path, console)
 
 

@@ -67,6 +67,13 @@ def run(
     ] = 1,
     out: Out = DEFAULT_OUT,
     data_dir: DataDir = None,
+    recordings: Annotated[
+        Path | None, typer.Option(help="A folder of your own recordings, with --task-file.")
+    ] = None,
+    task_file: Annotated[
+        list[Path] | None,
+        typer.Option(help="A TOML file of what to hide in --recordings; `mocapbench init` helps."),
+    ] = None,
     plugin: Plugins = None,
     timeout: Annotated[
         float, typer.Option(min=1, help="Seconds after which a job is killed.")
@@ -90,10 +97,12 @@ def run(
     """
     require_log(log_json, out)
     console, plugins = LiteralConsole(), load_plugins(plugin)
+    task_files = bench.open_task_files(task_file or (), recordings)
+    own = bench.add_tasks(task_files)
     request = bench.Request(
-        profile, split(tasks), split(models), split(cases), split(metrics), folds, seed
+        profile, split(tasks) or own, split(models), split(cases), split(metrics), folds, seed
     )
-    archive = open_archive(data_dir)
+    archive = open_archive(data_dir, task_files)
     if not (offline or dry_run):
         fetch_missing(archive, bench.required_sources(request), console)
     planned = bench.plan(request, archive)
@@ -114,12 +123,13 @@ def run(
         return
     store, site = bench.Store.create(out), bench.open_site(jobs, scheduler, cluster)
     config = bench.WorkerConfig(
-        bench.full_paths(data_dir),
+        bench.full_paths(bench.with_folders(data_dir, task_files)),
         plugins,
         timeout,
         int((memory or site.memory) * 2**30),
         threads,
         _about(planned, request, threads),
+        task_files,
     )
     _interrupt_at_the_end_of_the_session()
     with run_log(log_json) as log, site, store.locked():
@@ -158,7 +168,12 @@ def _run(
     log: EventLog,
 ) -> ExitCode:
     about, started = dict(config.provenance), time.monotonic()
-    document = partial(bench.plan_document, planned, workers=site.n_workers)
+    document = partial(
+        bench.plan_document,
+        planned,
+        workers=site.n_workers,
+        task_files=[file.to_plain() for file in config.task_files],
+    )
     drawn = bench.last_drawn(store, [job.key for job in planned])
     if not drawn:
         store.save_plan(document(provenance=about))
@@ -169,7 +184,7 @@ def _run(
             console.print("interrupted; everything finished is kept, and the same command resumes")
         return ExitCode.INTERRUPTED
     code, report = _ending(planned, records, config, console), store.path / "report.html"
-    found = bench.stamp(records, about)
+    found = bench.stamp(records, about, config.task_files)
     if found == drawn:
         console.print(f"nothing new; report: {report.resolve()}", soft_wrap=True)
         show_left_out(store.damaged, console)

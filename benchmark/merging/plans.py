@@ -13,6 +13,7 @@ from mocapbench.benchmark.merging.sources import DIRECTORY, Source
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, plan_document
 from mocapbench.benchmark.runs.record import Status
+from mocapbench.benchmark.task_files.uniting import united_task_files
 
 __all__ = ["unite_plans"]
 
@@ -43,7 +44,13 @@ def unite_plans(
         rows[job.address._replace(version=0)].setdefault(job.key, job)
     jobs = [_one(list(row.values()), records, keys) for row in rows.values()]
     runs = _distinct(run for source in sources for run in source.runs)
-    return plan_document(_in_table_order(jobs), provenance=_provenance(runs), runs=runs)
+    task_files = united_task_files(file for source in sources for file in source.task_files)
+    return plan_document(
+        _in_table_order(jobs),
+        provenance=_provenance(runs),
+        runs=runs,
+        task_files=[file.to_plain() for file in task_files],
+    )
 
 
 def _one(

@@ -9,9 +9,14 @@ from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
-from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, planned_jobs
+from mocapbench.benchmark.runs.directory.plan_file import (
+    PlannedJob,
+    planned_jobs,
+    planned_task_files,
+)
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.task_files.task_file import TaskFile
 
 __all__ = ["DIRECTORY", "Source", "read_source"]
 
@@ -37,6 +42,8 @@ class Source:
         Its plan, in table order.
     runs : tuple of mapping of str to str
         The provenance of each run that it was merged from, or of its own one.
+    task_files : tuple of TaskFile
+        The user's own tasks in TOML.
     """
 
     store: Store
@@ -45,6 +52,7 @@ class Source:
     keys: Mapping[str, KeyEntry]
     jobs: tuple[PlannedJob, ...]
     runs: tuple[Mapping[str, str], ...]
+    task_files: tuple[TaskFile, ...]
 
 
 def read_source(path: Path) -> Source:
@@ -62,7 +70,8 @@ def read_source(path: Path) -> Source:
     runs = plan.get("runs", ()) or ({DIRECTORY: str(path), **plan["provenance"]},)
     about = tuple({name: str(value) for name, value in run.items()} for run in runs)
     jobs = tuple(_known_jobs(plan, records))
-    return Source(store, records, fits, store.load_keys(), jobs, about)
+    task_files = planned_task_files(plan)
+    return Source(store, records, fits, store.load_keys(), jobs, about, task_files)
 
 
 def _plan(store: Store, records: Iterable[Record]) -> Mapping[str, Any]:

@@ -69,7 +69,8 @@ class ImputeProblem(Problem[FilledRecordings]):
     given : tuple of Recording
         The recordings to fill; NaN marks what is hidden.
     truth : tuple of ndarray (N, D)
-        Their complete values, which no model sees.
+        Their values, which no model sees. An entry that is NaN here too is known to nobody: it is
+        filled and not scored.
     unit : Unit
         The unit that scores are taken in.
     body : Body or None
@@ -103,7 +104,7 @@ class ImputeProblem(Problem[FilledRecordings]):
         Parameters
         ----------
         recording : Recording
-            Complete.
+            Its own missing entries are filled too, and not scored.
         hidden : ndarray of bool, shape (N, D)
             True where its entries are hidden.
         others : sequence of Recording
@@ -138,12 +139,13 @@ class ImputeProblem(Problem[FilledRecordings]):
     def outcome(self, answer: FilledRecordings) -> Imputation:
         """Put the recordings one below the other, in the problem's unit."""
         visible_mean, visible_variance = self._visible_moments()
-        variance = answer.variance
+        variance, truth = answer.variance, np.concatenate(self.truth)
+        known = np.isfinite(truth)
         return Imputation(
-            truth=self.unit.of(np.concatenate(self.truth)),
+            truth=self.unit.of(np.where(known, truth, answer.mean)),
             mean=self.unit.of(answer.mean),
             variance=None if variance is None else variance / self.unit.scale**2,
-            hidden=~np.concatenate([recording.visible for recording in self.given]),
+            hidden=known & ~np.concatenate([recording.visible for recording in self.given]),
             visible_mean=visible_mean,
             visible_variance=visible_variance,
             scales=self.scales,

@@ -10,9 +10,9 @@ from mocapbench.benchmark.problems.internals import Internals
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
-from mocapbench.benchmark.tasks.base import Task
+from mocapbench.benchmark.tasks.base import Case, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, RecordingUnavailable
+from mocapbench.datasets import Archive, FormatError, RecordingUnavailable
 from mocapbench.reports import Picture
 
 __all__ = ["illustrations"]
@@ -21,7 +21,8 @@ __all__ = ["illustrations"]
 def illustrations(records: Sequence[Record], store: Store, archive: Archive) -> tuple[Picture, ...]:
     """Return the figures of every task: of the first case that it names and that has answers.
 
-    The problem is posed again, which takes its recordings; a case that lacks them is not shown.
+    The problem is posed again, which takes its recordings; a case that lacks them, or of which one
+    has changed since, is not shown.
     """
     tasks = [TASKS.get(name) for name in dict.fromkeys(r.address.task for r in records)]
     return tuple(
@@ -51,8 +52,10 @@ def _illustrate(
     case = task.case(records[0].address.case)
     address = records[0].address._replace(case=case.problem_name)
     try:
+        if not _as_they_were(case, records[0], archive):
+            return ()
         problem = case.problem(Seeds(records[0].seed, address), archive)
-    except RecordingUnavailable:
+    except (RecordingUnavailable, FormatError):
         return ()
     solved = Solved(
         task.name,
@@ -67,3 +70,10 @@ def _illustrate(
         for figure in task.page.figures
         for picture in figure.pictures(solved)
     ]
+
+
+def _as_they_were(case: Case, record: Record, archive: Archive) -> bool:
+    """Return whether the recordings of a case are those that the record is of."""
+    digests = {uri: archive.digest(uri) for uri in case.recordings}
+    kept = {uri: record.provenance.get(f"digest of {uri}", now) for uri, now in digests.items()}
+    return kept == digests

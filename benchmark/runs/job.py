@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, Self
 
 from mocapbench.benchmark.runs.fit import Fit
 from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.seeds import Seeds
 
@@ -33,6 +34,8 @@ class WorkerConfig:
         Threads that a job may divide its work among; results do not depend on it.
     provenance : mapping of str to str
         Copied into every record.
+    task_files : tuple of TaskFile
+        The user's own tasks in TOML.
     """
 
     data_dir: Path | None
@@ -41,6 +44,7 @@ class WorkerConfig:
     memory: int
     threads: int
     provenance: Mapping[str, str]
+    task_files: tuple[TaskFile, ...] = ()
 
 
 @dataclass(frozen=True)

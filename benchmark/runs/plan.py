@@ -15,13 +15,12 @@ from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.key_parts import key_parts
 from mocapbench.benchmark.runs.keys import fit_contents, key_of, score_contents
 from mocapbench.benchmark.tasks.address import Address
-from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task
+from mocapbench.benchmark.tasks.base import PROFILES, Case, Entrant, Profile, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 
-__all__ = ["PROFILES", "Request", "entrants", "plan", "required_sources"]
+__all__ = ["Request", "entrants", "plan", "required_sources"]
 
-PROFILES = ("smoke", "quick", "paper")
 _MISSING = "missing"
 
 

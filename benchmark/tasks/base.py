@@ -13,7 +13,10 @@ from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 from mocapbench.reports.bundle.task_page import TaskPage
 
-__all__ = ["Case", "Entrant", "PoseProblem", "Profile", "Task", "on_recordings"]
+__all__ = ["PROFILES", "Case", "Entrant", "PoseProblem", "Profile", "Task", "on_recordings"]
+
+PROFILES = ("smoke", "quick", "paper")
+"""The names of profiles, by what they cost."""
 
 PoseProblem = Callable[[Seeds, Archive], Problem[Any]]
 """From the streams of a fold and the recordings to a problem: a pure function of both."""

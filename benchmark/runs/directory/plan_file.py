@@ -1,8 +1,8 @@
 """The plan of a run directory: what its last run was asked to do.
 
 A JSON object: ``keys`` in table order, the run's ``provenance``, what each of the ``jobs`` is, how
-many ``workers`` it had or from which ``runs`` it was merged. Earlier versions wrote the first two
-alone.
+many ``workers`` it had or from which ``runs`` it was merged, and the user's own ``task_files``.
+Earlier versions wrote the first two alone.
 """
 
 from __future__ import annotations
@@ -15,9 +15,18 @@ from typing import Any, NamedTuple
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
 from mocapbench.benchmark.runs.job import Job
+from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["PLAN", "PlannedJob", "load_plan", "plan_document", "planned_jobs", "save_plan"]
+__all__ = [
+    "PLAN",
+    "PlannedJob",
+    "load_plan",
+    "plan_document",
+    "planned_jobs",
+    "planned_task_files",
+    "save_plan",
+]
 
 PLAN = "plan.json"
 _KINDS = {"keys": list, "provenance": dict}
@@ -36,6 +45,17 @@ def plan_document(jobs: Iterable[Job | PlannedJob], **about: Any) -> dict[str, A
     jobs = list(jobs)
     rows = [{"fit_key": job.fit_key, **job.address._asdict()} for job in jobs]
     return {"keys": [job.key for job in jobs], "jobs": rows, **about}
+
+
+def planned_task_files(plan: Mapping[str, Any]) -> tuple[TaskFile, ...]:
+    """Return the user's own tasks in TOML, with the recordings that they found.
+
+    Raises
+    ------
+    UsageError
+        If one of them is damaged.
+    """
+    return tuple(map(TaskFile.from_plain, plan.get("task_files", ())))
 
 
 def planned_jobs(plan: Mapping[str, Any]) -> list[PlannedJob]:

@@ -117,8 +117,12 @@ class SpooledArchive(Archive):
     def skeleton(self, uri: str) -> Skeleton:
         """Return the skeleton of a recording; see `Archive.skeleton`."""
         content = self._spooled(uri)
-        known = None if content is None else content.skeleton
-        return super().skeleton(uri) if known is None else known
+        if content is None:
+            return super().skeleton(uri)
+        if content.skeleton is None:  # so its library said, where the recording was read
+            library, key = self._resolve(uri)
+            raise SkeletonUnavailable(key, type(library).__name__)
+        return content.skeleton
 
     def _spooled(self, uri: str) -> _Content | None:
         return self.spool.load(uri, self.digests[uri]) if uri in self.digests else None

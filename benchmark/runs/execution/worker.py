@@ -28,6 +28,8 @@ from mocapbench.benchmark.runs.execution.child import (
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Status
+from mocapbench.benchmark.task_files.building import add_tasks
+from mocapbench.benchmark.task_files.task_file import TaskFile
 
 __all__ = ["load_plugins_once", "prepare_worker", "run_job"]
 
@@ -55,6 +57,7 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
     """
     job, started = work.job, time.perf_counter()
     load_plugins_once(config.plugins)
+    _add_tasks(config.task_files)
     _import_code(job.model, job.address.task, job.metrics)
     archive = SpooledArchive(archive_at(config.data_dir).libraries, spool, job.digests)
     try:
@@ -74,6 +77,11 @@ def load_plugins_once(paths: tuple[Path, ...]) -> None:
     """Register what the user's own files define, where this process has not done so."""
     for path in paths:
         load_plugin(path)
+
+
+@cache
+def _add_tasks(files: tuple[TaskFile, ...]) -> None:
+    add_tasks(files)
 
 
 @cache

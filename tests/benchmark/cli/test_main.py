@@ -131,7 +131,7 @@ def test_new_metrics_are_scored_without_refitting(cli, tmp_path):
     assert len(rescored) == 4
 
 
-def test_centimetres_are_scored_from_stored_predictions(cli, records, tmp_path):
+def test_centimetres_are_scored_from_stored_predictions(cli, tmp_path):
     out = tmp_path / "run"
     which = ("run", "--tasks", "missing-frames", "--profile", "smoke", "--models", "knn")
     which = (*which, "--offline", "--out", out)
@@ -140,9 +140,9 @@ def test_centimetres_are_scored_from_stored_predictions(cli, records, tmp_path):
     assert before
     assert cli(*which, "--metrics", "mpjpe") == 0
     assert {p: p.stat().st_mtime_ns for p in (out / "predictions").glob("*/*")} == before
-    (record,) = (r for r in records(out).values() if "mpjpe" in r["scores"])
-    assert 0.0 < record["scores"]["mpjpe"] < 100.0
-    assert len(record["parts"]["mpjpe"]["joint"]) == 31
+    (record,) = Store.open(out).planned()  # of the last run
+    assert 0.0 < record.scores["mpjpe"] < 100.0
+    assert len(record.parts["mpjpe"]["joint"]) == 31
 
 
 def test_a_damaged_record_is_reported_and_computed_again(cli, records, tmp_path):
@@ -218,7 +218,7 @@ def test_a_dry_run_writes_nothing(cli, tmp_path):
 
 @pytest.mark.parametrize(
     ("kind", "registry"),
-    [*zip(["models", "tasks", "metrics", "libraries"], REGISTRIES, strict=True)],
+    [*zip(["models", "tasks", "metrics", "libraries", "formats"], REGISTRIES, strict=True)],
 )
 def test_list_names_everything(cli, kind, registry):
     assert cli("list", kind) == 0

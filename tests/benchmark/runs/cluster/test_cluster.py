@@ -11,6 +11,7 @@ import numpy as np
 import psutil
 import pytest
 from distributed import Client, LocalCluster
+from own_files import write_csv
 
 pytestmark = pytest.mark.slow
 
@@ -206,3 +207,14 @@ def test_a_scheduler_without_workers_is_refused(cli, monkeypatch, tmp_path):
         out = ("--out", tmp_path / "run")
         assert cli(*TOY, "--scheduler", cluster.scheduler_address, *out) == 2
     assert "expected the scheduler to have a worker" in cli.printed
+
+
+def test_own_recordings_travel_to_the_workers(both, tmp_path):
+    folder, task_file = tmp_path / "recordings", tmp_path / "mine.toml"
+    for name in ("a", "b"):
+        write_csv(folder / f"{name}.csv")
+    task_file.write_text('files = "*.csv"\nmodels = ["linear", "knn"]\n[hide]\nfraction = 0.2\n')
+    request = ("run", "--offline", "--recordings", folder, "--task-file", task_file)
+    clustered, alone = both(*request, code=0)
+    assert len(alone) == 4
+    assert computed(clustered) == computed(alone)

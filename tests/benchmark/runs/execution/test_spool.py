@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
-from mocapbench.datasets import Archive, GaitLibrary, Library
+from mocapbench.datasets import Archive, GaitLibrary, Library, SkeletonUnavailable
 
 URI = "gait:01_01"
 
@@ -82,3 +82,25 @@ def test_what_cannot_be_read_is_left_to_the_job_that_wants_it(tmp_path):
     assert not [*tmp_path.iterdir()]
     with pytest.raises(RuntimeError, match="cannot be read"):
         SpooledArchive(libraries, Spool(tmp_path), {"broken:a": "digest"}).recording("broken:a")
+
+
+class Bare(GaitLibrary):
+    """Has no skeletons, and is not everywhere."""
+
+    here = True
+
+    def where(self, key):
+        return super().where(key) if self.here else ""
+
+    def skeleton(self, key):
+        raise SkeletonUnavailable(key, "Bare")
+
+
+def test_that_there_is_no_skeleton_is_known_where_the_library_is_not(tmp_path):
+    library, digests = Bare(), {URI: "digest"}
+    Spool(tmp_path).add(Archive({"gait": library}), digests)
+    library.here = False
+    elsewhere = SpooledArchive({"gait": library}, Spool(tmp_path), digests)
+    assert elsewhere.recording(URI).name == URI
+    with pytest.raises(SkeletonUnavailable):
+        elsewhere.skeleton(URI)

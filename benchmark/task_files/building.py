@@ -1,0 +1,127 @@
+"""From a task file to the task: pure, so that a worker or a report builds the same one."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from functools import partial
+from itertools import product
+from pathlib import PurePosixPath
+
+from mocapbench.baselines import FrameImputer, Imputer
+from mocapbench.benchmark.figures.gap_error import GapError
+from mocapbench.benchmark.figures.longest_gaps import LongestGaps
+from mocapbench.benchmark.registry import MODELS, TASKS
+from mocapbench.benchmark.task_files.document import Document
+from mocapbench.benchmark.task_files.hidden_settings import Hidden, read_hidden
+from mocapbench.benchmark.task_files.library import address_of
+from mocapbench.benchmark.task_files.problem import Protocol, own_problem
+from mocapbench.benchmark.task_files.settings import Settings, read_settings
+from mocapbench.benchmark.task_files.task_file import TaskFile
+from mocapbench.benchmark.tasks.base import PROFILES, Case, Profile, Task
+from mocapbench.reports import TaskPage
+
+__all__ = ["add_tasks", "build_task"]
+
+
+def add_tasks(files: Iterable[TaskFile]) -> tuple[str, ...]:
+    """Register the tasks of task files, and return their names."""
+    tasks = [build_task(file) for file in files]
+    for task in tasks:
+        TASKS.add(task.name, task)
+    return tuple(task.name for task in tasks)
+
+
+def build_task(file: TaskFile) -> Task:
+    """Return the task of a task file: a case for each recording and each variant of the gaps.
+
+    Raises
+    ------
+    TaskFileError
+        If the file does not say what a task needs.
+    """
+    document = file.document
+    settings = read_settings(document)
+    hidden = read_hidden(document, partial(address_of, rate=settings.rate))
+    whole_frames = hidden.whole_frames and file.complete
+    cases = _cases(file, settings, hidden)
+    _check_folds(document, settings, hidden)
+    profile = Profile(
+        tuple(case.name for case in cases), settings.folds, opt_in=_not_chosen(settings)
+    )
+    task = Task(
+        name=settings.name,
+        version=1,
+        page=_page(settings, cases, hidden),
+        requires=(FrameImputer if whole_frames else Imputer,),
+        cases=cases,
+        profiles=dict.fromkeys(PROFILES, profile),
+        max_folds=1 if hidden.repeats else None,
+        independent_folds=not (hidden.repeats or hidden.pattern),
+    )
+    _check_models(document, settings, task)
+    return task
+
+
+def _cases(file: TaskFile, settings: Settings, hidden: Hidden) -> tuple[Case, ...]:
+    address = partial(address_of, rate=settings.rate)
+    names = _names(file.tests)
+    cases = []
+    for test, variant in product(file.tests, hidden.variants):
+        training = tuple(address(path) for path in file.training if path != test)
+        patterns = (address(hidden.pattern),) if hidden.pattern else ()
+        protocol = Protocol(settings.selection, variant.hiding)
+        case = Case(
+            f"{names[test]} {variant.name}".rstrip(),
+            partial(own_problem, protocol, address(test), training),
+            {"recording": names[test], **variant.columns},
+            tuple(dict.fromkeys((address(test), *training, *patterns))),
+        )
+        cases.append(case)
+    return tuple(cases)
+
+
+def _names(paths: tuple[str, ...]) -> dict[str, str]:
+    """Return what to call recordings: their paths, without the suffix where they stay distinct."""
+    short = {path: str(PurePosixPath(path).with_suffix("")) for path in paths}
+    twice = {name for name, count in Counter(short.values()).items() if count > 1}
+    return {path: path if name in twice else name for path, name in short.items()}
+
+
+def _check_folds(document: Document, settings: Settings, hidden: Hidden) -> None:
+    if hidden.repeats and settings.folds > 1:
+        raise document.error(
+            "folds",
+            "1, as hide.frames and hide.channels hide the same in every fold",
+            settings.folds,
+            "write folds = 1, or hide a fraction or runs",
+        )
+
+
+def _check_models(document: Document, settings: Settings, task: Task) -> None:
+    able = [name for name in MODELS.names() if task.accepts(MODELS.get(name))]
+    for name in settings.models:
+        if name not in able:
+            raise document.error(
+                "models",
+                "models that can fill what is hidden here",
+                repr(name),
+                f"choose from {', '.join(able)}",
+            )
+
+
+def _not_chosen(settings: Settings) -> tuple[str, ...]:
+    return tuple(n for n in MODELS.names() if settings.models and n not in settings.models)
+
+
+def _page(settings: Settings, cases: tuple[Case, ...], hidden: Hidden) -> TaskPage:
+    columns, most = list(hidden.variants[0].columns), hidden.variants[-1].columns
+    return TaskPage(
+        title=settings.title,
+        reference="a task file of your own",
+        description=settings.description,
+        metrics=settings.metrics,
+        along=columns[0] if columns else None,
+        illustrated=tuple(case.name for case in cases if case.columns.items() >= most.items()),
+        figures=(LongestGaps(), *((GapError(),) if hidden.whole_frames else ())),
+    )

@@ -1,0 +1,172 @@
+"""What a task file says it hides: the table ``hide``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from mocapbench.benchmark.task_files.document import Document
+from mocapbench.benchmark.task_files.hiding import (
+    Hiding,
+    RandomEntries,
+    RandomGaps,
+    SameGaps,
+    Spans,
+)
+from mocapbench.benchmark.task_files.selection import Span
+from mocapbench.benchmark.task_files.values import (
+    is_count,
+    is_path,
+    is_positive,
+    read_channels,
+    read_spans,
+)
+
+__all__ = ["HIDE_KEYS", "RUN_KEYS", "Hidden", "Variant", "read_hidden"]
+
+_WAYS = ("frames", "fraction", "runs", "pattern-of")
+HIDE_KEYS = (*_WAYS, "channels")
+RUN_KEYS = ("seconds", "count", "together")
+_TOGETHER = ("all", "joint", "channel")
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One of the problems that a task poses of every recording.
+
+    Parameters
+    ----------
+    hiding : Hiding
+    name : str
+        What sets it apart from the others; empty if there is but one.
+    columns : mapping of str to float
+        The same as columns of the table.
+    """
+
+    hiding: Hiding
+    name: str = ""
+    columns: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """What a task hides.
+
+    Parameters
+    ----------
+    variants : tuple of Variant
+    whole_frames : bool
+        Whether all channels are hidden wherever one is.
+    whole_channels : bool
+        Whether a channel is hidden from end to end, so that only other recordings tell of it.
+    pattern : str
+        Path of the file whose gaps are hidden, below the folder of recordings; mostly empty.
+    """
+
+    variants: tuple[Variant, ...]
+    whole_frames: bool = False
+    whole_channels: bool = False
+    pattern: str = ""
+
+    @property
+    def repeats(self) -> bool:
+        """Whether every fold hides the same."""
+        return any(isinstance(variant.hiding, Spans) for variant in self.variants)
+
+
+def read_hidden(document: Document, address: Callable[[str], str]) -> Hidden:
+    """Return what a document hides.
+
+    Parameters
+    ----------
+    document : Document
+    address : callable
+        From the path of a file to the address of the recording.
+
+    Raises
+    ------
+    TaskFileError
+        At the first key that is not as expected.
+    """
+    if not isinstance(document.get("hide"), Mapping) or not document.get("hide"):
+        advice = "write for example [hide] and below it fraction = 0.2"
+        raise document.error("hide", "a table of what is hidden", "none", advice)
+    document.require_known("hide", HIDE_KEYS)
+    channels = read_channels(document, "hide.channels")
+    ways = [way for way in _WAYS if way in document.get("hide")]
+    match ways:
+        case []:
+            return Hidden((Variant(Spans((Span(),), channels)),), whole_channels=True)
+        case ["frames"]:
+            spans = read_spans(document, "hide.frames", [])
+            return Hidden((Variant(Spans(spans, channels)),), whole_frames=not channels)
+        case ["fraction"]:
+            return Hidden(_fractions(document, channels))
+        case ["runs"]:
+            return _runs(document, channels)
+        case ["pattern-of"]:
+            path = document.read(
+                "hide.pattern-of", "", is_path, "a file of the folder", '"gaps.csv"'
+            )
+            return Hidden((Variant(SameGaps(address(path), channels)),), pattern=path)
+        case _:
+            advice = f"remove all but one, or write a task file for each; got {ways}"
+            key = f"hide.{ways[1]}"
+            raise document.error(key, f"one of {', '.join(_WAYS)}", f"{len(ways)}", advice)
+
+
+def _fractions(document: Document, channels: tuple[str, ...]) -> tuple[Variant, ...]:
+    shares = _numbers(
+        document, "hide.fraction", _is_share, "a share between 0 and 1, or a list", "0.2"
+    )
+    return _variants({s: RandomEntries(s, channels) for s in shares}, "hidden", "of entries")
+
+
+def _runs(document: Document, channels: tuple[str, ...]) -> Hidden:
+    if not isinstance(document.get("hide.runs"), Mapping):
+        advice = "write for example runs = { seconds = [0.1, 0.5], count = 3 }"
+        got = repr(document.get("hide.runs"))
+        raise document.error("hide.runs", "a table of seconds and count", got, advice)
+    document.require_known("hide.runs", RUN_KEYS)
+    if document.get("hide.runs.seconds") is None:
+        advice = "write for example seconds = [0.1, 0.5]"
+        raise document.error("hide.runs.seconds", "lengths of gaps", "none", advice)
+    lengths = _numbers(
+        document, "hide.runs.seconds", is_positive, "a length in seconds, or a list", "[0.1, 0.5]"
+    )
+    count = document.read("hide.runs.count", 1, is_count, "a whole number from 1", "3")
+    together = document.read(
+        "hide.runs.together", "all", _TOGETHER.__contains__, f"one of {_TOGETHER}", '"joint"'
+    )
+    gaps = {length: RandomGaps(length, count, together, channels) for length in lengths}
+    return Hidden(_variants(gaps, "seconds", "s"), whole_frames=together == "all" and not channels)
+
+
+def _variants(hidings: Mapping[float, Hiding], column: str, unit: str) -> tuple[Variant, ...]:
+    """Return a variant for each value; the value is its name if there are several."""
+    if len(hidings) == 1:
+        return tuple(map(Variant, hidings.values()))
+    return tuple(
+        Variant(hiding, f"{value:g} {unit}", {column: value}) for value, hiding in hidings.items()
+    )
+
+
+def _numbers(
+    document: Document, key: str, fits: Callable[[Any], bool], expected: str, example: str
+) -> tuple[float, ...]:
+    """Return different numbers, of a list or of one."""
+
+    def all_fit(value: Any) -> bool:
+        numbers = _listed(value)
+        return bool(numbers) and all(map(fits, numbers)) and len({*numbers}) == len(numbers)
+
+    return tuple(map(float, _listed(document.read(key, [], all_fit, expected, example))))
+
+
+def _listed(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else [value]
+
+
+def _is_share(value: Any) -> bool:
+    return is_positive(value) and value < 1

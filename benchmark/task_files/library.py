@@ -1,0 +1,95 @@
+"""The library of users' own recordings: files in a folder, by their paths in it."""
+
+from __future__ import annotations
+
+from pathlib import Path, PurePosixPath
+
+from mocapbench.benchmark.formats import format_for
+from mocapbench.datasets import FormatError, Library, Recording, Skeleton, SkeletonUnavailable
+from mocapbench.datasets.digests import content_digest
+
+__all__ = ["SCHEME", "FolderLibrary", "address_of"]
+
+SCHEME = "files"
+"""The name under which the library is registered."""
+_RATE = "?rate="
+
+
+class FolderLibrary(Library):
+    """Recordings of your own, in files of any registered format below a folder that you name.
+
+    A key is the path of a file below the folder, with slashes: ``monday/walk.csv``. Where the times
+    of a file are missing or wrong, it ends in the frames per second: ``walk.csv?rate=120``.
+
+    Parameters
+    ----------
+    data_dir : Path or None
+        See `Library`. The first folder that has the file counts.
+    """
+
+    def __init__(self, data_dir: Path | None = None) -> None:
+        super().__init__(data_dir)
+        self._digests: dict[str, str] = {}
+
+    def where(self, key: str) -> str:
+        """Return the path of the file, or an empty string; never one outside the folders."""
+        path = PurePosixPath(_split(key)[0])
+        if path.is_absolute() or ".." in path.parts:
+            return ""
+        files = (folder / path for folder in self.folders)
+        return next((str(file) for file in files if file.is_file()), "")
+
+    def recording(self, key: str) -> Recording:
+        """Return a recording, its missing entries hidden and its angles unwrapped.
+
+        Raises
+        ------
+        FormatError
+            If it cannot be read.
+        """
+        path = self.where(key)
+        recording = format_for(path).read(path, _split(key)[1])
+        self._digests[key] = content_digest(recording)
+        return recording
+
+    def digest(self, key: str) -> str:
+        """Return the SHA-256 of what the file says; see `Library.digest`.
+
+        The file is read once for each library, as many cases ask for the digest of one recording.
+        """
+        if key not in self._digests:
+            self.recording(key)
+        return self._digests[key]
+
+    def skeleton(self, key: str) -> Skeleton:
+        """Return the skeleton of a recording; see `Library.skeleton`.
+
+        Raises
+        ------
+        SkeletonUnavailable
+            If its format has none.
+        """
+        path = self.where(key)
+        skeleton = format_for(path).skeleton(Path(path))
+        if skeleton is None:
+            raise SkeletonUnavailable(key, type(self).__name__)
+        return skeleton
+
+
+def address_of(path: str, rate: float | None) -> str:
+    """Return the address of the file at ``path`` below the folder, read at ``rate`` if any.
+
+    Raises
+    ------
+    FormatError
+        If the path cannot be part of an address.
+    """
+    if ":" in path or _RATE in path:
+        expected = f"a file without ':' and '{_RATE}' in its path"
+        raise FormatError(path, expected, repr(path), "rename it")
+    return f"{SCHEME}:{path}" + ("" if rate is None else f"{_RATE}{rate:g}")
+
+
+def _split(key: str) -> tuple[str, float | None]:
+    path, found, rate = key.rpartition(_RATE)
+    return (path, float(rate)) if found else (key, None)

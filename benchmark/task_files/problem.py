@@ -1,0 +1,74 @@
+"""The problem that a task file poses: fill what is hidden of one recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mocapbench.benchmark.problems.body import Body, JointAngles
+from mocapbench.benchmark.problems.impute import ImputeProblem
+from mocapbench.benchmark.task_files.hiding import Hiding, Place
+from mocapbench.benchmark.task_files.selection import Selection
+from mocapbench.benchmark.tasks.seeds import Seeds
+from mocapbench.datasets import Archive, Recording, SkeletonUnavailable
+
+__all__ = ["Protocol", "own_problem"]
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """What is done with a recording, whichever it is.
+
+    Parameters
+    ----------
+    selection : Selection
+        What is taken of it, and of those that models learn from.
+    hiding : Hiding
+        What is hidden of that.
+    """
+
+    selection: Selection
+    hiding: Hiding
+
+
+def own_problem(
+    protocol: Protocol, test: str, training: tuple[str, ...], seeds: Seeds, archive: Archive
+) -> ImputeProblem:
+    """Hide the fold's entries of the recording at ``test``; models see what is left of it.
+
+    Parameters
+    ----------
+    protocol : Protocol
+    test : str
+        Address of the recording.
+    training : tuple of str
+        Addresses of what models learn from besides.
+    seeds, archive
+        See `mocapbench.benchmark.tasks.base.Case`.
+
+    Raises
+    ------
+    ValueError
+        If the recordings do not have what the protocol asks for.
+    """
+    recording = protocol.selection.of(archive.recording(test))
+    place = Place(seeds.fold, seeds.generator("mask"), archive)
+    return ImputeProblem.of_one(
+        recording,
+        protocol.hiding.mask(recording, place),
+        [
+            protocol.selection.of(archive.recording(uri)).select(recording.channels)
+            for uri in training
+        ],
+        body=_body(recording, test, archive),
+    )
+
+
+def _body(recording: Recording, uri: str, archive: Archive) -> Body | None:
+    """Return what places the joints, if the file has a skeleton and the recording all of it."""
+    try:
+        skeleton = archive.skeleton(uri)
+    except SkeletonUnavailable:
+        return None
+    needed = {f"{segment}.{freedom}" for segment, of in skeleton.moving.items() for freedom in of}
+    whole = needed <= {*recording.channels} and recording.visible.all()
+    return JointAngles(skeleton) if whole else None

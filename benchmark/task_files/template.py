@@ -1,0 +1,188 @@
+"""The first task file of a folder: TOML with comments, which runs as it stands."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path, PurePosixPath
+from textwrap import wrap
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.formats import format_for
+from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.task_files.building import build_task
+from mocapbench.benchmark.task_files.checking import checked, require_folder
+from mocapbench.benchmark.task_files.document import Document, TaskFileError
+from mocapbench.benchmark.task_files.finding import readable_files
+from mocapbench.datasets import FormatError, Recording, check_alike
+
+__all__ = ["Draft", "draft"]
+
+_QUICK = (
+    *("hold", "linear", "pchip", "makima", "cubic-spline"),
+    *("pca-regression", "low-rank", "knn", "nn", "pose-kriging", "lds"),
+)
+"""Models that take seconds rather than minutes on a recording of a minute."""
+
+_HIDE = (
+    'runs = { seconds = [0.1, 0.5, 1.0], count = 3, together = "joint" }',
+    'runs = { seconds = [0.1, 0.25], count = 2, together = "joint" }',
+    'runs = { seconds = 0.1, count = 1, together = "joint" }',
+    "fraction = 0.2",
+)
+"""What to hide; the first that the recordings have room for."""
+
+
+@dataclass(frozen=True)
+class Draft:
+    """A task file that runs.
+
+    Parameters
+    ----------
+    text : str
+        The TOML.
+    tests : tuple of str
+        Paths of the recordings that it names.
+    left_out : tuple of str
+        Why other files are not among them.
+    """
+
+    text: str
+    tests: tuple[str, ...]
+    left_out: tuple[str, ...]
+
+
+def draft(file: str, folder: Path, rate: float | None) -> Draft:
+    """Return a task file for the recordings of a folder that are like the first one.
+
+    Parameters
+    ----------
+    file : str
+        The file's name, for messages.
+    folder : Path
+    rate : float or None
+        Frames per second, in place of what the files say.
+
+    Raises
+    ------
+    UsageError
+        If no recording there can be used.
+    """
+    require_folder(folder)
+    tests, left_out = _alike(folder, rate)
+    content = _Content(tests, _patterns(tests, left_out), rate)
+    for hide in _HIDE:
+        try:
+            task_file = checked(Document(file, content.text(hide, ())), folder)
+        except TaskFileError as error:
+            failure = error
+            continue
+        task = build_task(task_file)
+        able = [name for name in MODELS.names() if task.accepts(MODELS.get(name))]
+        return Draft(content.text(hide, able), tests, left_out)
+    raise failure
+
+
+def _alike(folder: Path, rate: float | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the files that can be read and are like the first of them, and why others are not."""
+    recordings: dict[str, Recording] = {}
+    left_out = []
+    for path in readable_files(folder):
+        try:
+            recording = replace(format_for(path).read(folder / path, rate), name=path)
+            check_alike([*list(recordings.values())[:1], recording])
+            recordings[path] = recording
+        except FormatError as error:
+            left_out.append(str(error))
+    if not recordings:
+        reasons = "; ".join(left_out[:3]) or "it has none of a known suffix"
+        raise UsageError(
+            f"--recordings: expected files in {folder} that can be read, got none: {reasons}; "
+            "`mocapbench list formats` shows what can be read, and --rate 120 gives frames per "
+            "second to files without times"
+        )
+    return tuple(recordings), tuple(left_out)
+
+
+def _patterns(tests: tuple[str, ...], left_out: tuple[str, ...]) -> list[str]:
+    """Return patterns of the files, or all their names if a pattern would find others too."""
+    suffixes = {PurePosixPath(path).suffix for path in tests}
+    if left_out or len(suffixes) > 1 or len(tests) == 1:
+        return list(tests)
+    below = "**/" if any("/" in path for path in tests) else ""
+    return [f"{below}*{suffixes.pop()}"]
+
+
+@dataclass(frozen=True)
+class _Content:
+    """What the drafts for one folder have in common."""
+
+    tests: tuple[str, ...]
+    patterns: list[str]
+    rate: float | None
+
+    def text(self, hide: str, able: Sequence[str]) -> str:
+        """Return a draft that hides so, for these models, or for all if none is named."""
+        return "\n".join(self._lines(hide, able)) + "\n"
+
+    def _lines(self, hide: str, able: Sequence[str]) -> Iterator[str]:
+        training = "others" if len(self.tests) > 1 else "none"
+        yield from (
+            "# A benchmark of recordings of your own. Lines that begin with # do nothing: remove",
+            "# the sign from those that you want. docs/own-recordings.md explains every key.",
+            "",
+            'title = "Gaps in our recordings"',
+            'description = "Gaps at random places of each recording, which models fill."',
+            "",
+            "# The recordings to fill, one after the other: names or patterns, * for any text.",
+            f"files = {_quoted(self.patterns)}",
+            "",
+            '# What models learn from besides what is visible of it: the "others" of these files,',
+            '# "none", or patterns such as ["training/*.csv"].',
+            f"training = {_quoted(training)}",
+            "",
+            *self._rate(),
+            "# The part that counts, of every recording; all of it if these are left out.",
+            '# frames = "0:1200"                   # counted from 0, the last one not included',
+            '# channels = ["lknee.*", "rknee.*"]   # regular expressions of whole names',
+            "",
+            "# How often gaps are drawn anew for every recording.",
+            f"folds = {max(1, min(5, 20 // len(self.tests)))}",
+            "",
+            *self._models(able),
+            "# Tables of the report, the first for its headlines; see `mocapbench list metrics`.",
+            'metrics = ["mse", "smse", "crps", "coverage_95"]',
+            "",
+            "[hide]",
+            "# One of these ways. First, gaps of given lengths, `count` of each at random places;",
+            '# together = "all" channels, those of one "joint" or marker, or one "channel".',
+            hide,
+            "# fraction = 0.2                      # of the entries, each by itself",
+            '# frames = ["120:180"]                # the same in every fold, so folds = 1',
+            '# pattern-of = "with-gaps.csv"        # the gaps of another file of the folder',
+            "",
+            "# Only in these channels; alone, without any of the ways above, from end to end.",
+            '# channels = ["lknee.*"]',
+        )
+
+    def _rate(self) -> Iterator[str]:
+        if self.rate is not None:
+            yield from ("# Frames per second, in place of what files say.", f"rate = {self.rate!r}")
+            yield ""
+
+    @staticmethod
+    def _models(able: Sequence[str]) -> Iterator[str]:
+        if not able:
+            return
+        quick = [name for name in _QUICK if name in able]
+        slower = [name for name in able if name not in quick]
+        yield "# Leave this out for every model that can fill such gaps. Besides these quick ones:"
+        yield from (f"# {line}" for line in wrap(", ".join(slower), 96))
+        lines = wrap(", ".join(map(_quoted, quick)), 96)
+        yield from ("models = [", *(f"    {line}" for line in lines), "]", "")
+
+
+def _quoted(value: str | Sequence[str]) -> str:
+    """Return a text or a list of texts as TOML, which writes them as JSON does."""
+    return json.dumps(value, ensure_ascii=False)

@@ -1,0 +1,115 @@
+"""Kinds of values that several keys of a task file have."""
+
+from __future__ import annotations
+
+import re
+from math import isfinite
+from pathlib import PurePosixPath
+from typing import Any
+
+from mocapbench.benchmark.task_files.document import Document
+from mocapbench.benchmark.task_files.selection import Span
+
+__all__ = [
+    "is_count",
+    "is_path",
+    "is_positive",
+    "is_text",
+    "read_channels",
+    "read_names",
+    "read_patterns",
+    "read_spans",
+]
+
+_SPANS = 'a text such as "120:180", with frames counted from 0 and the last one left out'
+
+
+def is_text(value: Any) -> bool:
+    """Return whether a value is a text that says something."""
+    return isinstance(value, str) and bool(value.strip())
+
+
+def is_path(value: Any) -> bool:
+    """Return whether a value is a path or pattern that stays below a folder, without a colon."""
+    if not is_text(value) or ":" in value:
+        return False
+    path = PurePosixPath(value)
+    return not path.is_absolute() and ".." not in path.parts
+
+
+def is_count(value: Any) -> bool:
+    """Return whether a value is a whole number from 1."""
+    return type(value) is int and value > 0
+
+
+def is_positive(value: Any) -> bool:
+    """Return whether a value is a finite number above 0."""
+    return type(value) in {int, float} and isfinite(value) and value > 0
+
+
+def read_names(document: Document, key: str, example: str) -> tuple[str, ...]:
+    """Return a list of different texts, none where the file has no such key."""
+    names: list[str] = document.read(key, [], _are_names, "a list of different texts", example)
+    return tuple(names)
+
+
+def read_patterns(document: Document, key: str, default: list[str]) -> tuple[str, ...]:
+    """Return patterns of files below the folder of recordings; a text stands for a list of one."""
+    patterns = document.read(
+        key,
+        default,
+        lambda value: _are_patterns(_listed(value)),
+        "names or patterns of files in the folder of recordings, without .. and : and a leading /",
+        '["*.csv"]',
+    )
+    return tuple(_listed(patterns))
+
+
+def read_channels(document: Document, key: str) -> tuple[str, ...]:
+    """Return regular expressions of names of channels, none where the file has no such key."""
+    patterns: list[str] = document.read(
+        key,
+        [],
+        lambda value: _are_expressions(_listed(value)),
+        "regular expressions of whole names of channels",
+        '["lknee.*", "rknee.*"]',
+    )
+    return tuple(_listed(patterns))
+
+
+def read_spans(document: Document, key: str, default: list[str]) -> tuple[Span, ...]:
+    """Return spans of frames; a text stands for a list of one."""
+    texts = document.read(
+        key, default, lambda value: _are_spans(_listed(value)), _SPANS, '"120:180"'
+    )
+    return tuple(Span.of_text(text) for text in _listed(texts))
+
+
+def _listed(value: Any) -> Any:
+    return [value] if isinstance(value, str) else value
+
+
+def _are_names(value: Any) -> bool:
+    return _are_texts(value) and len(set(value)) == len(value)
+
+
+def _are_texts(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(map(is_text, value))
+
+
+def _are_patterns(value: Any) -> bool:
+    return _are_texts(value) and all(map(is_path, value))
+
+
+def _are_expressions(value: Any) -> bool:
+    try:
+        return _are_texts(value) and all(map(re.compile, value))
+    except re.error:
+        return False
+
+
+def _are_spans(value: Any) -> bool:
+    try:
+        return _are_texts(value) and all(map(Span.of_text, value))
+    except ValueError:
+        return False
