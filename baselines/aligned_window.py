@@ -105,6 +105,8 @@ class AlignedWindow(FrameImputer, Inductive):
     True
     """
 
+    max_frames = 8000
+
     def __init__(self, n_windows: int = 5) -> None:
         self.n_windows = n_windows
 

@@ -125,6 +125,8 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
     True
     """
 
+    max_frames = 500
+
     def __init__(
         self,
         *,

@@ -78,6 +78,8 @@ class GPIndependent(Channelwise[LMCIndependent]):
     ((20, 2), True)
     """
 
+    max_frames = 200
+
     @staticmethod
     def of_one_channel() -> LMCIndependent:
         """Return an unfitted model of one channel."""

@@ -74,6 +74,8 @@ class GPLVM(LatentVariableModel):
     ((20, 2), (1, 2))
     """
 
+    max_frames = 300
+
     def __init__(
         self,
         *,

@@ -98,6 +98,8 @@ class HGP(Channelwise[MOHGP], Trended):
     ((5, 2), (5, 2))
     """
 
+    max_frames = 200
+
     def __init__(
         self,
         *,

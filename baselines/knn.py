@@ -76,6 +76,8 @@ class KNN(Imputer, Inductive):
            [3., 6.]])
     """
 
+    max_frames = 2000
+
     def __init__(self, n_neighbors: int = 15) -> None:
         self.n_neighbors = n_neighbors
 

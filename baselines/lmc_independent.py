@@ -107,6 +107,8 @@ class LMCIndependent(GaussianProcess):
     ((20, 2), True)
     """
 
+    max_frames = 200
+
     def grow(self, names: Sequence[str]) -> Tree:
         """Return one draw for every recording."""
         return {CHILD: [(name,) for name in names]}

@@ -106,6 +106,8 @@ class MOA(TrendedProcess):
     ((20, 2), (4, 20, 2))
     """
 
+    max_frames = 200
+
     def grow(self, names: Sequence[str]) -> Tree:
         """Return the one draw that all recordings depend on."""
         return {PARENT: [()] * len(names)}

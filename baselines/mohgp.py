@@ -119,6 +119,8 @@ class MOHGP(TrendedProcess):
     >>> mean, variance = model.trend(np.linspace(0.0, 6.0, 5), group=("slow",))
     """
 
+    max_frames = 200
+
     def __init__(
         self,
         *,

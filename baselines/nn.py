@@ -66,6 +66,8 @@ class NN(Imputer, Inductive):
            [ 8., 30.]])
     """
 
+    max_frames = 4000
+
     def __init__(self, weights: Mapping[str, float] | None = None) -> None:
         self.weights = weights
 

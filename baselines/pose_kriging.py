@@ -92,6 +92,8 @@ class PoseKriging(FrameImputer, Inductive):
     True
     """
 
+    max_frames = 1000
+
     def __init__(
         self,
         smoothness: float = 10.0,

@@ -75,6 +75,8 @@ class PoseViterbi(FrameImputer, Inductive):
     True
     """
 
+    max_frames = 1000
+
     def __init__(self, smoothness: float = 10.0, subject_offset: float = 1.0) -> None:
         self.smoothness = smoothness
         self.subject_offset = subject_offset

@@ -29,7 +29,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -153,6 +153,10 @@ class FrameImputer(Model):
     Every frame of a recording to fill is either visible or hidden in all channels. See `Imputer`
     for an example of an implementation.
     """
+
+    max_frames: ClassVar[int | None] = None
+    """The most frames, all recordings together, that the model fills in some seconds; None is no
+    limit. `mocapbench fill` gives it windows of longer recordings, around their gaps."""
 
     @abstractmethod
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -14,6 +14,8 @@ from .bundle.pictures import (
 )
 from .bundle.regression_check import RegressionCheck
 from .bundle.task_page import Figure, RowNotes, TaskPage
+from .filling.page import render_filled
+from .filling.values import FilledCurve, FilledPage, RankedModel
 from .page.page import render
 from .spreadsheet import csv_text
 from .text import counted
@@ -24,6 +26,8 @@ __all__ = [
     "CaseLayout",
     "Curve",
     "Figure",
+    "FilledCurve",
+    "FilledPage",
     "HeatMap",
     "HeatMaps",
     "Illustration",
@@ -31,6 +35,7 @@ __all__ = [
     "Panel",
     "Path3D",
     "Picture",
+    "RankedModel",
     "RegressionCheck",
     "RowNotes",
     "Space",
@@ -39,4 +44,5 @@ __all__ = [
     "counted",
     "csv_text",
     "render",
+    "render_filled",
 ]

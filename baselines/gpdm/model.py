@@ -120,6 +120,8 @@ class GPDM(DynamicalModel):
     True
     """
 
+    max_frames = 300
+
     def __init__(
         self,
         learning: str = "balanced",

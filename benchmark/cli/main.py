@@ -20,6 +20,7 @@ __all__ = ["COMMANDS", "app", "main"]
 
 COMMANDS = {
     "run": "Run the benchmark and write its report.",
+    "fill": "Fill the gaps of your own recordings.",
     "init": "Write a task file for recordings of your own.",
     "status": "Show how far a run is, also one in another terminal.",
     "merge": "Merge run directories into one.",

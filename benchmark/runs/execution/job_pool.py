@@ -6,24 +6,17 @@ libraries loaded but has computed nothing, and one that dies is replaced.
 
 from __future__ import annotations
 
-import multiprocessing
 from collections.abc import Collection
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 
-from pebble import ProcessExpired, ProcessPool
+from pebble import ProcessExpired
 
 from mocapbench.benchmark.runs.execution.spool import Spool
-from mocapbench.benchmark.runs.execution.worker import prepare_worker, run_job
+from mocapbench.benchmark.runs.execution.worker import run_job
+from mocapbench.benchmark.runs.execution.worker_pool import worker_pool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
 
 __all__ = ["JobPool"]
-
-_PRELOAD = [
-    "mocapbench.benchmark.runs.execution.worker",
-    "scipy.interpolate",
-    "scipy.optimize",
-    "sklearn.impute",
-]
 
 
 class JobPool:
@@ -39,9 +32,7 @@ class JobPool:
     """
 
     def __init__(self, n_workers: int, config: WorkerConfig, spool: Spool) -> None:
-        context = multiprocessing.get_context("forkserver")
-        context.set_forkserver_preload(_PRELOAD)
-        self._pool = ProcessPool(n_workers, context=context, initializer=prepare_worker)
+        self._pool = worker_pool(n_workers)
         self._config = config
         self._spool = spool
 

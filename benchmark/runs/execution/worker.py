@@ -31,7 +31,7 @@ from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.task_files.building import add_tasks
 from mocapbench.benchmark.task_files.task_file import TaskFile
 
-__all__ = ["prepare_worker", "run_job"]
+__all__ = ["load_plugins_once", "prepare_worker", "run_job"]
 
 
 def prepare_worker() -> None:
@@ -56,7 +56,7 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
         The recordings that the run has read.
     """
     job, started = work.job, time.perf_counter()
-    _load_plugins(config.plugins)
+    load_plugins_once(config.plugins)
     _add_tasks(config.task_files)
     _import_code(job.model, job.address.task, job.metrics)
     archive = SpooledArchive(archive_at(config.data_dir).libraries, spool, job.digests)
@@ -73,7 +73,8 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
 
 
 @cache
-def _load_plugins(paths: tuple[Path, ...]) -> None:
+def load_plugins_once(paths: tuple[Path, ...]) -> None:
+    """Register what the user's own files define, where this process has not done so."""
     for path in paths:
         load_plugin(path)
 

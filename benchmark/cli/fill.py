@@ -1,0 +1,128 @@
+"""``mocapbench fill``: fill the gaps of the user's own recordings."""
+
+from __future__ import annotations
+
+import re
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from shlex import join
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from mocapbench import benchmark as bench
+from mocapbench import reports
+from mocapbench.benchmark import filling
+from mocapbench.benchmark.cli.console import LiteralConsole
+from mocapbench.benchmark.cli.options import Plugins, load_plugins
+from mocapbench.benchmark.errors import ExitCode, UsageError
+
+if TYPE_CHECKING:
+    from mocapbench.benchmark.filling import Filled, Outputs, Source, Workers
+
+__all__ = ["app"]
+
+app = typer.Typer(add_completion=False)
+
+_FRAMES = re.compile(r"(\d{1,9}):(\d{1,9})")
+
+
+@app.command()
+def fill(
+    files: Annotated[list[Path], typer.Argument(help="The recordings to fill.")],
+    train: Annotated[
+        list[Path] | None, typer.Option(help="A recording to learn from besides; may be repeated.")
+    ] = None,
+    model: Annotated[
+        str, typer.Option(help="A model, or best: the one that does best in trials.")
+    ] = "best",
+    frames: Annotated[
+        str | None, typer.Option(help="Fill frames A:B (0-based, without B), not the gaps.")
+    ] = None,
+    channels: Annotated[
+        str | None, typer.Option(help="Fill only channels that this regular expression matches.")
+    ] = None,
+    out: Annotated[
+        Path, typer.Option(help="The folder to write to; nothing in it is overwritten.")
+    ] = Path("mocapbench-filled"),
+    max_gap: Annotated[
+        float | None, typer.Option(min=0.0, help="Seconds; leave longer gaps open.")
+    ] = None,
+    budget: Annotated[
+        float, typer.Option(min=1.0, help="Seconds for the trials of each file.")
+    ] = 30.0,
+    rate: Annotated[
+        float | None, typer.Option(help="Frames per second, in place of what the files say.")
+    ] = None,
+    plugin: Plugins = None,
+) -> None:
+    """Fill the gaps of your own recordings.
+
+    Each file is written in its own format, with a table of every filled entry and a page that
+    shows them.
+    """
+    console, plugins = LiteralConsole(), load_plugins(plugin)
+    outputs = filling.outputs_of(files, out)
+    entries = filling.Entries(_range(frames), channels, max_gap)
+    sources = filling.read_sources(files, train or (), rate, entries)
+    for source in sources:
+        if model != filling.BEST:
+            filling.require_able(model, source.question)
+    try:
+        with filling.Workers(bench.n_cores(), plugins) as workers:
+            for source, written in zip(sources, outputs, strict=True):
+                _fill(source, model, workers, budget, written, console)
+    except KeyboardInterrupt:
+        console.print("interrupted; files that were filled are kept, others were not written")
+        raise typer.Exit(ExitCode.INTERRUPTED) from None
+
+
+def _fill(
+    source: Source,
+    model: str,
+    workers: Workers,
+    budget: float,
+    outputs: Outputs,
+    console: LiteralConsole,
+) -> None:
+    with console.status(f"{source.path.name}: trials") as status:
+        watch = _watch(source.path.name, status.update) if console.is_terminal else _ignore
+        filled = filling.fill(source, model, workers, budget, watch)
+    filling.write(filled, outputs, reports.render_filled(filling.page_of(filled, _command())))
+    _say(filled, outputs, console)
+
+
+def _watch(name: str, show: Callable[[str], object]) -> Callable[[int, int], None]:
+    started = time.monotonic()
+
+    def watch(done: int, total: int) -> None:
+        show(f"{name}: {done} of {total} trials, {time.monotonic() - started:.0f} s")
+
+    return watch
+
+
+def _ignore(_done: int, _total: int) -> None:
+    """Show nothing: the output is no terminal."""
+
+
+def _say(filled: Filled, outputs: Outputs, console: LiteralConsole) -> None:
+    sentences = (filling.headline(filled), filling.verdict(filled), *filling.remarks(filled))
+    for text in filter(None, sentences):
+        console.print(f"{filled.source.path.name}: {text}", soft_wrap=True, highlight=False)
+    for path in outputs:
+        console.print(f"  {path}", soft_wrap=True, highlight=False)
+
+
+def _range(frames: str | None) -> tuple[int, int] | None:
+    if frames is None:
+        return None
+    found = _FRAMES.fullmatch(frames)
+    if found is None:
+        raise UsageError(f"--frames: expected A:B, such as 120:180, got {frames!r}")
+    return int(found[1]), int(found[2])
+
+
+def _command() -> str:
+    return join(["mocapbench", *sys.argv[1:]])

@@ -1,0 +1,26 @@
+from .able import require_able
+from .fill import BEST, Filled, fill
+from .page import page_of
+from .remarks import headline, remarks, verdict
+from .request import Entries
+from .sources import Source, read_sources
+from .workers import Workers
+from .writing import Outputs, outputs_of, write
+
+__all__ = [
+    "BEST",
+    "Entries",
+    "Filled",
+    "Outputs",
+    "Source",
+    "Workers",
+    "fill",
+    "headline",
+    "outputs_of",
+    "page_of",
+    "read_sources",
+    "remarks",
+    "require_able",
+    "verdict",
+    "write",
+]

@@ -1,0 +1,50 @@
+"""Which registered models can fill what is hidden."""
+
+from __future__ import annotations
+
+from mocapbench.baselines import FrameImputer, Imputer, Informed, Interpolator, Misinformed
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.question import Question, without_unseen
+from mocapbench.benchmark.registry import MODELS
+
+__all__ = ["able_models", "require_able"]
+
+
+def able_models(question: Question) -> tuple[str, ...]:
+    """Return the models that have the abilities to answer, those that interpolate first.
+
+    All models learn from the recording that they fill, so that none needs to be `Inductive`.
+    """
+    needed = _needed(question)
+    names = [name for name in MODELS.names() if _fills(name, needed)]
+    return tuple(sorted(names, key=lambda name: not issubclass(MODELS.get(name), Interpolator)))
+
+
+def require_able(name: str, question: Question) -> None:
+    """Refuse a model that cannot answer.
+
+    Raises
+    ------
+    UsageError
+        The message names the models that can.
+    """
+    MODELS.get(name)
+    able = able_models(question)
+    if name in able:
+        return
+    reason = "hidden frames that are hidden in part" if _needed(question) is Imputer else "gaps"
+    raise UsageError(
+        f"--model: expected a model that fills {reason}, got {name!r}; choose {', '.join(able)}"
+    )
+
+
+def _needed(question: Question) -> type[FrameImputer]:
+    """Return the ability that it takes: the lesser one where every frame is whole or hidden."""
+    visible = without_unseen(question).given.visible
+    whole = bool((visible.all(axis=1) == visible.any(axis=1)).all())
+    return FrameImputer if whole else Imputer
+
+
+def _fills(name: str, needed: type[FrameImputer]) -> bool:
+    model = MODELS.get(name)
+    return issubclass(model, needed) and not issubclass(model, Informed | Misinformed)

@@ -1,0 +1,118 @@
+"""Gaps: runs of hidden entries, and those that occur together."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from mocapbench.datasets import Mask
+
+__all__ = ["Episode", "Gap", "episodes_of", "gaps_of", "mask_of"]
+
+
+@dataclass(frozen=True, order=True)
+class Gap:
+    """Channels that are hidden over the same frames.
+
+    Parameters
+    ----------
+    start, stop : int
+        The frames [start, stop), 0-based.
+    channels : tuple of int
+        Indices, ascending.
+    """
+
+    start: int
+    stop: int
+    channels: tuple[int, ...]
+
+    def __len__(self) -> int:
+        return self.stop - self.start
+
+    def moved(self, frames: int) -> Self:
+        """Return the gap so many frames later."""
+        return replace(self, start=self.start + frames, stop=self.stop + frames)
+
+
+@dataclass(frozen=True)
+class Episode:
+    """Gaps that overlap in time, directly or through others.
+
+    Parameters
+    ----------
+    gaps : tuple of Gap
+        At least one.
+    """
+
+    gaps: tuple[Gap, ...]
+
+    @property
+    def start(self) -> int:
+        """The first frame with a hidden entry."""
+        return min(gap.start for gap in self.gaps)
+
+    @property
+    def stop(self) -> int:
+        """One more than the last frame with a hidden entry."""
+        return max(gap.stop for gap in self.gaps)
+
+    def __len__(self) -> int:
+        return self.stop - self.start
+
+    @property
+    def n_entries(self) -> int:
+        """The number of hidden entries."""
+        return sum(len(gap) * len(gap.channels) for gap in self.gaps)
+
+    def moved(self, frames: int) -> Self:
+        """Return the episode so many frames later."""
+        return replace(self, gaps=tuple(gap.moved(frames) for gap in self.gaps))
+
+    def shortened(self, share: float) -> Self:
+        """Return the episode with all its times, from its start on, cut to a share of them."""
+        start = self.start
+
+        def at(frame: int) -> int:
+            return start + int((frame - start) * share)
+
+        gaps = (
+            replace(g, start=at(g.start), stop=max(at(g.stop), at(g.start) + 1)) for g in self.gaps
+        )
+        return replace(self, gaps=tuple(gaps))
+
+
+def gaps_of(hidden: Mask) -> tuple[Gap, ...]:
+    """Return the gaps of a mask (N, D), by their first frame; together they are the mask."""
+    edges = np.diff(np.pad(hidden, ((1, 1), (0, 0))).astype(np.int8), axis=0).T
+    channels, starts = np.nonzero(edges == 1)
+    _, stops = np.nonzero(edges == -1)
+    alike: dict[tuple[int, int], list[int]] = defaultdict(list)
+    for channel, start, stop in zip(
+        channels.tolist(), starts.tolist(), stops.tolist(), strict=True
+    ):
+        alike[start, stop].append(channel)
+    return tuple(Gap(start, stop, tuple(alike[start, stop])) for start, stop in sorted(alike))
+
+
+def mask_of(gaps: Iterable[Gap], shape: tuple[int, ...]) -> Mask:
+    """Return the mask (N, D) of the entries in any of the gaps."""
+    hidden = np.zeros(shape, dtype=bool)
+    for gap in gaps:
+        hidden[gap.start : gap.stop, list(gap.channels)] = True
+    return hidden
+
+
+def episodes_of(gaps: Sequence[Gap]) -> tuple[Episode, ...]:
+    """Return the gaps grouped into episodes, by their first frame."""
+    groups: list[list[Gap]] = []
+    reach = 0
+    for gap in sorted(gaps, key=lambda gap: (gap.start, gap.stop)):
+        if not groups or gap.start >= reach:
+            groups.append([])
+        groups[-1].append(gap)
+        reach = max(reach, gap.stop)
+    return tuple(Episode(tuple(group)) for group in groups)

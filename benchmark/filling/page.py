@@ -1,0 +1,106 @@
+"""The page of a filled file, as the values that `mocapbench.reports` draws."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from mocapbench.benchmark.figures.stick_figures import strip
+from mocapbench.benchmark.filling.fill import Filled
+from mocapbench.benchmark.filling.gaps import Gap, gaps_of
+from mocapbench.benchmark.filling.remarks import headline, left_out, ranked, remarks, units, verdict
+from mocapbench.benchmark.problems.body import JointAngles
+from mocapbench.datasets import Mask, Recording
+from mocapbench.reports import FilledCurve, FilledPage, Panel
+
+__all__ = ["page_of"]
+
+_MOST_CURVES, _CHANNELS_PER_GAP = 16, 4
+_BESIDE = 1.0
+"""How much of the recording is shown on each side of a gap, relative to its length."""
+_LEAST_BESIDE = 15
+_ROOT_PATH = frozenset({"root.tx", "root.ty", "root.tz"})
+
+
+def page_of(filled: Filled, command: str) -> FilledPage:
+    """Return the page of a filled file, made by ``command``."""
+    gaps, recording = filled.source.request.gaps, filled.recording
+    shown = list(_shown(recording, gaps))
+    choice = filled.choice
+    return FilledPage(
+        file=filled.source.path.name,
+        headline=headline(filled),
+        verdict=verdict(filled),
+        remarks=tuple(remarks(filled)),
+        curves=tuple(_curves(filled, recording, shown)),
+        caption=_caption(gaps, shown),
+        motion=_motion(filled, recording, max(gaps, key=len)),
+        units=units(filled),
+        n=choice.ranking.n if choice else 0,
+        ranking=tuple(ranked(filled)),
+        left_out=tuple(left_out(filled)),
+        command=command,
+    )
+
+
+def _shown(recording: Recording, gaps: Sequence[Gap]) -> Iterator[tuple[Gap, int]]:
+    """Yield gaps at even distances, each with its channels that move most."""
+    per_gap = min(_CHANNELS_PER_GAP, max(len(gap.channels) for gap in gaps))
+    places = np.linspace(0, len(gaps) - 1, min(len(gaps), _MOST_CURVES // per_gap))
+    for gap in (gaps[place] for place in np.unique(places.round().astype(int))):
+        moved = np.ptp(recording.values[gap.start : gap.stop, list(gap.channels)], axis=0)
+        for place in np.argsort(-moved, kind="stable")[:per_gap]:
+            yield gap, gap.channels[place]
+
+
+def _curves(
+    filled: Filled, recording: Recording, shown: Sequence[tuple[Gap, int]]
+) -> Iterator[FilledCurve]:
+    request = filled.source.request
+    deviations = np.full(request.target.shape, np.nan)
+    deviations[request.target] = filled.deviations
+    for gap, channel in shown:
+        frames = _around(gap, len(recording.times))
+        yield FilledCurve(
+            recording.channels[channel],
+            recording.units[channel],
+            recording.times[frames],
+            request.given.values[frames, channel],
+            np.where(request.target[frames, channel], recording.values[frames, channel], np.nan),
+            deviations[frames, channel],
+            tuple(_spans(recording, request.target[frames, channel], frames)),
+        )
+
+
+def _spans(recording: Recording, filled: Mask, frames: slice) -> Iterator[tuple[float, float]]:
+    """Yield from when until when a channel (n,) was filled, up to the frames beside."""
+    last = len(recording.times) - 1
+    for gap in gaps_of(filled[:, None]):
+        first, stop = frames.start + gap.start - 1, frames.start + gap.stop
+        yield float(recording.times[max(first, 0)]), float(recording.times[min(stop, last)])
+
+
+def _around(gap: Gap, n_frames: int) -> slice:
+    """Return the frames of a gap and those beside it."""
+    beside = max(int(_BESIDE * len(gap)), _LEAST_BESIDE)
+    return slice(max(gap.start - beside, 0), min(gap.stop + beside, n_frames))
+
+
+def _caption(gaps: Sequence[Gap], shown: Sequence[tuple[Gap, int]]) -> str:
+    n_shown = len({gap for gap, _ in shown})
+    which = "The only gap" if len(gaps) == 1 else f"{n_shown} of {len(gaps)} gaps"
+    most = max(len(gap.channels) for gap, _ in shown)
+    them = "it" if len(gaps) == 1 else "each"
+    channels = f", with the channels that move most in {them}" if most > _CHANNELS_PER_GAP else ""
+    return f"{which}{channels}. The table beside this page has every filled entry."
+
+
+def _motion(filled: Filled, recording: Recording, gap: Gap) -> Panel | None:
+    """Return stick figures from before a gap until after it, where the file has a skeleton."""
+    skeleton = filled.source.format.skeleton(filled.source.path)
+    frames = _around(gap, len(recording.times))
+    part = recording.frames(np.arange(frames.start, frames.stop))
+    if skeleton is None or not part.visible.all() or not set(part.channels) >= _ROOT_PATH:
+        return None
+    return strip(part, JointAngles(skeleton), "filled")

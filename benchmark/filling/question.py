@@ -1,0 +1,71 @@
+"""What a model is asked, and what it answers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.datasets import Mask, Recording
+
+__all__ = ["Answer", "Question", "without_unseen"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """A recording to fill, and what to learn from.
+
+    Parameters
+    ----------
+    given : Recording
+        N frames of D channels; models learn from its visible entries too.
+    target : ndarray of bool of shape (N, D)
+        The hidden entries that are wanted.
+    train : tuple of Recording
+        Other recordings of the same channels.
+    """
+
+    given: Recording
+    target: Mask
+    train: tuple[Recording, ...] = ()
+
+    @property
+    def n_frames(self) -> int:
+        """The number of frames of all recordings together."""
+        return sum(len(recording.times) for recording in (self.given, *self.train))
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What a model puts at M wanted entries, in the order of ``np.nonzero(question.target)``.
+
+    Parameters
+    ----------
+    mean : ndarray of shape (M,)
+    variance : ndarray of shape (M,) or None
+        None if the model has no predictive distribution.
+    """
+
+    mean: Array
+    variance: Array | None
+
+
+def without_unseen(question: Question) -> Question:
+    """Return the question without channels of which nothing is visible, unless they are wanted."""
+    recordings = (question.given, *question.train)
+    seen = np.any([recording.visible.any(axis=0) for recording in recordings], axis=0)
+    kept = np.flatnonzero(seen | question.target.any(axis=0))
+    names = [question.given.channels[channel] for channel in kept]
+    given, *train = _selected(recordings, names)
+    return Question(given, question.target[:, kept], tuple(train))
+
+
+def _selected(recordings: Sequence[Recording], names: Sequence[str]) -> list[Recording]:
+    return [
+        recording if len(names) == len(recording.channels) else recording.select(names)
+        for recording in recordings
+    ]

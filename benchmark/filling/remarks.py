@@ -1,0 +1,111 @@
+"""What the page and the terminal say of a filled file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mocapbench.benchmark.filling.fill import Filled
+from mocapbench.benchmark.filling.trials.choice import Choice
+from mocapbench.reports import RankedModel
+
+__all__ = ["headline", "left_out", "ranked", "remarks", "units", "verdict"]
+
+
+def headline(filled: Filled) -> str:
+    """Return which model filled how much."""
+    request = filled.source.request
+    n_entries, n_gaps = int(request.target.sum()), len(request.gaps)
+    gaps = "1 gap" if n_gaps == 1 else f"{n_gaps} gaps"
+    return f"{filled.model} filled {n_entries} entries in {gaps}."
+
+
+def verdict(filled: Filled) -> str:
+    """Return by how much the model leads in trials, and whether by more than chance."""
+    if filled.choice is None:
+        return ""
+    ranking = filled.choice.ranking
+    trials = f"{ranking.n} trial gap{'s' if ranking.n != 1 else ''}"
+    if len(ranking.order) == 1:
+        return f"No other model has a rank, over {trials}."
+    if ranking.n < 2:
+        return f"It did best in {trials}, which is too few to tell whether that is chance."
+    others = [model for model in ranking.sharing if model != ranking.order[0]]
+    if not others:
+        return f"Its lead over {ranking.order[1]} is more than chance, over {trials}."
+    return f"Its lead over {_listed(others)} could be chance, over {trials}."
+
+
+def remarks(filled: Filled) -> Iterator[str]:
+    """Yield what was cut, left open or shortened, and what failed."""
+    request, choice = filled.source.request, filled.choice
+    for model, trouble in filled.failed:
+        yield f"{model} did better in trials, but did not fill the file: {trouble}."
+    if filled.windows:
+        yield (
+            f"{filled.model} does not take a recording of this length: it was fitted to "
+            f"{_windows(filled.windows)}."
+        )
+    if request.left_open:
+        n_open = len(request.left_open)
+        yield f"{n_open} longer gap{'s were' if n_open > 1 else ' was'} left open."
+    rest = int((~request.given.visible & ~request.target).sum())
+    if rest:
+        yield f"{rest} hidden entries stay hidden, since they were not to be filled."
+    if choice and choice.share < 1.0:
+        yield (
+            "No visible stretch is long enough for gaps of the real lengths: trial gaps are down "
+            f"to {100 * choice.share:.3g} % as long, and errors in the real ones larger."
+        )
+    if filled.answer.variance is None:
+        yield f"{filled.model} has no predictive distribution: there are no bands."
+
+
+def ranked(filled: Filled) -> Iterator[RankedModel]:
+    """Yield the ranking, the chosen model first."""
+    if filled.choice is None:
+        return
+    ranking = filled.choice.ranking
+    for model in ranking.order:
+        scores = ranking.scores[model]
+        yield RankedModel(
+            model,
+            ranking.means[model],
+            tuple(scores.rmse[unit] for unit in units(filled)),
+            scores.coverage,
+            filled.choice.seconds[model],
+            _note(filled.choice, model, chosen=filled.model),
+        )
+
+
+def left_out(filled: Filled) -> Iterator[tuple[str, str]]:
+    """Yield the models without a rank, each with the reason."""
+    for runner in filled.choice.left_out if filled.choice else ():
+        done = f"{len(runner.answers)} trials done; " if runner.answers else ""
+        yield runner.model, f"{done}{runner.trouble}"
+
+
+def units(filled: Filled) -> tuple[str, ...]:
+    """Return the units of the filled channels, in order of appearance."""
+    given, target = filled.source.request.given, filled.source.request.target
+    channels = np.flatnonzero(target.any(axis=0))
+    return tuple(dict.fromkeys(given.units[channel] for channel in channels))
+
+
+def _note(choice: Choice, model: str, *, chosen: str) -> str:
+    sharing = choice.ranking.sharing
+    alike = f"not separable from {sharing[0]}" if model in sharing[1:] else ""
+    notes = ("chosen" if model == chosen else "", alike)
+    windows = "fitted to windows" if choice.windows[model] else ""
+    return ", ".join(filter(None, (*notes, windows)))
+
+
+def _windows(count: int) -> str:
+    one = "a window around the gap"
+    return one if count == 1 else f"{count} windows around the gaps, each on its own"
+
+
+def _listed(names: list[str]) -> str:
+    *most, last = names
+    return f"{', '.join(most)} and {last}" if most else last

@@ -1,0 +1,101 @@
+"""The user's files: those to fill, and those to learn from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.request import Entries, Request, select
+from mocapbench.benchmark.formats import format_for
+from mocapbench.datasets import Format, Recording, check_alike
+
+__all__ = ["Source", "read_sources"]
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A file to fill.
+
+    Parameters
+    ----------
+    path : Path
+    format : Format
+        In which it is read and written.
+    request : Request
+        What of it is to be filled.
+    train : tuple of Recording
+        Other files that models learn from.
+    """
+
+    path: Path
+    format: Format
+    request: Request
+    train: tuple[Recording, ...]
+
+    @property
+    def question(self) -> Question:
+        """What is asked of a model."""
+        return Question(self.request.given, self.request.target, self.train)
+
+
+def read_sources(
+    files: Sequence[Path], train: Sequence[Path], rate: float | None, entries: Entries
+) -> list[Source]:
+    """Return the files to fill, all of them read and found to be usable.
+
+    Parameters
+    ----------
+    files, train : sequence of Path
+        Files to fill, and files to learn from; each file to fill is left out of the latter.
+    rate : float or None
+        Frames per second, in place of what the files say.
+    entries : Entries
+        What to fill in each file.
+
+    Raises
+    ------
+    FormatError
+        If a file cannot be read, or has other channels, units or another rate than those to learn
+        from.
+    UsageError
+        If there is nothing to fill, or nothing to fill it from.
+    """
+    others = {path.resolve(): _read(path, rate) for path in train}
+    sources = [_source(path, others, rate, entries) for path in files]
+    for source in sources:
+        _require_seen(source.question)
+    return sources
+
+
+def _source(
+    path: Path, others: dict[Path, Recording], rate: float | None, entries: Entries
+) -> Source:
+    recording = _read(path, rate)
+    train = tuple(other for file, other in others.items() if file != path.resolve())
+    check_alike([recording, *train])
+    return Source(path, format_for(path), select(recording, entries), train)
+
+
+def _read(path: Path, rate: float | None) -> Recording:
+    """Return the recording of a file under its path, since models want distinct names."""
+    return replace(format_for(path).read(path, rate), name=str(path))
+
+
+def _require_seen(question: Question) -> None:
+    """Refuse channels to fill of which nothing is visible anywhere."""
+    seen = question.given.visible.any(axis=0)
+    for recording in question.train:
+        seen |= recording.visible.any(axis=0)
+    unseen = question.target.any(axis=0) & ~seen
+    if unseen.any():
+        names = [question.given.channels[k] for k in np.flatnonzero(unseen)]
+        some = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+        raise UsageError(
+            f"{question.given.name}: expected a visible entry of every channel to fill, got none "
+            f"of {some}; name the other channels with --channels, or --train files that have these"
+        )

@@ -1,0 +1,105 @@
+"""The choice of a model by trials."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.able import able_models
+from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.trials.making import Trial, make_trials
+from mocapbench.benchmark.filling.trials.race import Runner, race
+from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
+from mocapbench.benchmark.filling.trials.scores import channel_scale, scores_of, weights_of
+from mocapbench.benchmark.filling.workers import Workers
+
+__all__ = ["Choice", "choose"]
+
+_SEED = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """How models did in trials.
+
+    Parameters
+    ----------
+    ranking : Ranking
+        Of the models that answered the same trials.
+    left_out : tuple of Runner
+        The others.
+    share : float
+        The length of the shortest trial gap relative to the real one.
+    seconds : mapping of str to float
+        What a trial took each ranked model on average.
+    windows : mapping of str to int
+        Into how many windows each ranked model had a trial cut; 0 if into none.
+    """
+
+    ranking: Ranking
+    left_out: tuple[Runner, ...]
+    share: float
+    seconds: Mapping[str, float]
+    windows: Mapping[str, int]
+
+
+def choose(
+    question: Question, workers: Workers, budget: float, watch: Callable[[int, int], object]
+) -> Choice:
+    """Return which model fills gaps like those of a question best.
+
+    Parameters
+    ----------
+    question : Question
+    workers : Workers
+    budget : float
+        Seconds.
+    watch : callable
+        Is told how many of how many answers there are.
+
+    Raises
+    ------
+    UsageError
+        If there is no room for a trial, or no model answers one within the budget.
+    """
+    models = able_models(question)
+    trials = make_trials(question, np.random.default_rng(_SEED))
+    if not trials:
+        raise UsageError(
+            f"{question.given.name}: expected a visible stretch to try models on, got none that is "
+            f"free of gaps; name a model with --model: {', '.join(models)}"
+        )
+    runners = race(models, trials, workers, budget, watch)
+    count = _common(runners)
+    if count == 0:
+        raise UsageError(
+            f"{question.given.name}: expected a model that fills a trial gap within {budget:g} s, "
+            f"got none ({runners[0].model}: {runners[0].trouble}); raise --budget"
+        )
+    return _ranked(question, trials[:count], runners)
+
+
+def _common(runners: Sequence[Runner]) -> int:
+    """Return by how many of the first trials to compare: those with most answers in all."""
+    counts = sorted((len(runner.answers) for runner in runners), reverse=True)
+    totals = [count * place for place, count in enumerate(counts, start=1)]
+    return counts[int(np.argmax(totals))]
+
+
+def _ranked(question: Question, trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:
+    scale = channel_scale(question.given)
+    scores = {
+        runner.model: scores_of(trials, runner.answers[: len(trials)], scale)
+        for runner in runners
+        if len(runner.answers) >= len(trials)
+    }
+    return Choice(
+        ranking=rank(scores, weights_of(trials)),
+        left_out=tuple(runner for runner in runners if runner.model not in scores),
+        share=min(trial.share for trial in trials),
+        seconds={r.model: r.seconds / len(r.answers) for r in runners if r.model in scores},
+        windows={r.model: r.windows for r in runners if r.model in scores},
+    )

@@ -1,0 +1,110 @@
+"""Workers: each attempt runs in a killable process, with limits of time and memory."""
+
+from __future__ import annotations
+
+import itertools
+import pickle
+import time
+from collections.abc import Collection
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from functools import lru_cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import TracebackType
+from typing import Self
+
+from pebble import ProcessExpired
+
+from mocapbench.benchmark.filling.attempt import Attempt, attempt
+from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.runs.execution.child import (
+    ProcessDiedError,
+    call_in_child,
+    kill_children,
+)
+from mocapbench.benchmark.runs.execution.worker import load_plugins_once
+from mocapbench.benchmark.runs.execution.worker_pool import worker_pool
+from mocapbench.benchmark.runs.machine import memory_share
+
+__all__ = ["Workers"]
+
+
+class Workers:
+    """Processes on this machine that answer questions; they end with the context.
+
+    Parameters
+    ----------
+    count : int
+        How many attempts run at once.
+    plugins : tuple of Path
+        The user's own files of models.
+    """
+
+    def __init__(self, count: int, plugins: tuple[Path, ...] = ()) -> None:
+        self.count = count
+        self._plugins = plugins
+        self._numbers = itertools.count()
+        self._memory = int(memory_share(count) * 2**30)
+
+    def __enter__(self) -> Self:
+        self._folder = TemporaryDirectory(prefix="mocapbench-fill-")
+        self._pool = worker_pool(self.count)
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._pool.stop()  # type: ignore[no-untyped-call]
+        self._pool.join()
+        self._folder.cleanup()
+
+    def keep(self, question: Question) -> Path:
+        """Write a question where the workers read it, and return the file."""
+        path = Path(self._folder.name, f"question-{next(self._numbers)}")
+        path.write_bytes(pickle.dumps(question, protocol=pickle.HIGHEST_PROTOCOL))
+        return path
+
+    def submit(self, model: str, question: Path, seconds: float) -> Future[Attempt]:
+        """Have a model answer a question as soon as a worker is free, within so many seconds."""
+        arguments = (model, question, seconds, self._memory, self._plugins)
+        future: Future[Attempt] = self._pool.schedule(_answered, arguments)
+        return future
+
+    def ended(self, futures: Collection[Future[Attempt]]) -> Collection[Future[Attempt]]:
+        """Wait until one or more of ``futures`` have ended, and return them."""
+        return wait(futures, return_when=FIRST_COMPLETED).done
+
+    def result(self, future: Future[Attempt]) -> Attempt:
+        """Return how an attempt ended, whose worker may have died."""
+        try:
+            return future.result()
+        except ProcessExpired as error:
+            return Attempt(None, f"its worker died with exit code {error.exitcode}")
+
+
+def _answered(
+    name: str, question: Path, seconds: float, memory: int, plugins: tuple[Path, ...]
+) -> Attempt:
+    """Return one attempt, made in a child of this process."""
+    started = time.perf_counter()
+    load_plugins_once(plugins)
+    model, asked = MODELS.get(name), _question(question)
+    try:
+        made: Attempt = call_in_child(attempt, model, asked, memory, timeout=seconds)
+    except TimeoutError:
+        made = Attempt(None, f"took longer than {seconds:.3g} s", slow=True)
+    except ProcessDiedError as error:
+        made = Attempt(None, f"its process died with exit code {error.exit_code}")
+    finally:
+        kill_children()  # what the model started and left running
+    return made.taking(time.perf_counter() - started)
+
+
+@lru_cache(maxsize=2)
+def _question(path: Path) -> Question:
+    question: Question = pickle.loads(path.read_bytes())
+    return question

@@ -1,0 +1,62 @@
+"""The page: one HTML file that contains everything and needs no network."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+
+from jinja2 import Environment, StrictUndefined
+from markupsafe import Markup
+
+from mocapbench.reports.bundle.panels import Illustration
+from mocapbench.reports.figures.panels import draw
+from mocapbench.reports.filling.curves import draw_curve, legend
+from mocapbench.reports.filling.values import FilledPage
+from mocapbench.reports.printable import printable
+from mocapbench.reports.text import counted, decimals, number
+
+__all__ = ["render_filled"]
+
+
+def render_filled(page: FilledPage) -> str:
+    """Return the page of a filled file as one self-contained HTML page."""
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters["counted"] = counted
+    environment.filters["printable"] = printable
+    template = environment.from_string(_resource("mocapbench.reports.filling", "page.html.j2"))
+    return template.render(
+        page=page,
+        curves=[draw_curve(curve, f"curve-{place}") for place, curve in enumerate(page.curves)],
+        legend=legend(),
+        motion=_motion(page),
+        rows=_rows(page),
+        css=Markup(_resource("mocapbench.reports.page", "report.css")),
+    )
+
+
+def _resource(package: str, name: str) -> str:
+    return (files(package) / name).read_text(encoding="utf-8")
+
+
+def _motion(page: FilledPage) -> Markup | None:
+    if page.motion is None:
+        return None
+    return draw(Illustration("filled", "Motion", "", (page.motion,))).svg
+
+
+def _rows(page: FilledPage) -> list[tuple[str, ...]]:
+    """Return the cells of the ranking, its numbers with equal decimals in a column."""
+    errors = decimals(model.error for model in page.ranking)
+    places = [decimals(column) for column in zip(*(m.rmse for m in page.ranking), strict=True)]
+    return [
+        (
+            model.name,
+            number(model.error, errors),
+            *(number(value, n) for value, n in zip(model.rmse, places, strict=True)),
+            "–" if model.coverage is None else f"{100 * model.coverage:.0f} %",
+            number(model.seconds, 1),
+            model.note,
+        )
+        for model in page.ranking
+    ]

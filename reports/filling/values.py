@@ -1,0 +1,110 @@
+"""What the page of a filled file shows, as plain values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.reports.bundle.panels import Panel
+
+__all__ = ["FilledCurve", "FilledPage", "RankedModel"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class FilledCurve:
+    """A channel around some of its gaps.
+
+    Parameters
+    ----------
+    channel, unit : str
+    times : ndarray of shape (N,)
+        Seconds.
+    visible, filled : ndarray of shape (N,)
+        Values that were there, and that the model put in; NaN where there are none.
+    deviation : ndarray of shape (N,)
+        Standard deviations of the filled values; NaN where there are none.
+    gaps : tuple of (float, float)
+        From when until when the channel was filled.
+    """
+
+    channel: str
+    unit: str
+    times: Array
+    visible: Array
+    filled: Array
+    deviation: Array
+    gaps: tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class RankedModel:
+    """A model in the ranking.
+
+    Parameters
+    ----------
+    name : str
+    error : float
+        Weighted mean error over the trial gaps, relative to the spread of the channels.
+    rmse : tuple of float
+        By unit, in the order of `FilledPage.units`.
+    coverage : float or None
+        The share of trial entries inside the model's 95 % bands, if it has any.
+    seconds : float
+    note : str
+        Such as that it shares the first rank.
+    """
+
+    name: str
+    error: float
+    rmse: tuple[float, ...]
+    coverage: float | None
+    seconds: float
+    note: str
+
+
+@dataclass(frozen=True, eq=False)
+class FilledPage:
+    """Everything that the page shows.
+
+    Parameters
+    ----------
+    file : str
+        Name of the file.
+    headline : str
+        Which model filled how much, and why this one.
+    verdict : str
+        Whether its lead is more than chance; empty if there were no trials.
+    remarks : tuple of str
+        What was cut into windows, left open or shortened, and what failed.
+    curves : tuple of FilledCurve
+    caption : str
+        Which gaps the curves show.
+    motion : Panel or None
+        Stick figures.
+    units : tuple of str
+        The units of the errors.
+    n : int
+        The number of trial gaps.
+    ranking : tuple of RankedModel
+    left_out : tuple of (str, str)
+        Models without a rank, each with the reason.
+    command : str
+        The command that made the page.
+    """
+
+    file: str
+    headline: str
+    verdict: str
+    remarks: tuple[str, ...]
+    curves: tuple[FilledCurve, ...]
+    caption: str
+    motion: Panel | None
+    units: tuple[str, ...]
+    n: int
+    ranking: tuple[RankedModel, ...]
+    left_out: tuple[tuple[str, str], ...]
+    command: str

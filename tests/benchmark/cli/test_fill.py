@@ -1,0 +1,260 @@
+"""`mocapbench fill`, from files to files."""
+
+import csv
+import shutil
+
+import format_files
+import numpy as np
+import pytest
+
+from mocapbench.benchmark import FORMATS, format_for
+from mocapbench.benchmark.filling.workers import Workers
+from mocapbench.datasets import AcclaimFormat, CSVFormat
+from mocapbench.datasets.formats import memory
+
+HEADER = "time,hip [deg],knee [deg],height [cm]"
+N_FRAMES = 120
+
+
+def rows(gap=range(50, 60), columns=(2,)):
+    """Return the lines of a file with a gap in some columns."""
+    times = np.arange(N_FRAMES) / 60
+    curves = [times, 20 * np.sin(7 * times), 30 * np.cos(7 * times), 90 + times]
+    return [
+        [
+            "" if frame in gap and column in columns else f"{curve[frame]:.4f}"
+            for column, curve in enumerate(curves)
+        ]
+        for frame in range(N_FRAMES)
+    ]
+
+
+def save(path, lines, header=HEADER):
+    path.write_text("\n".join([header, *map(",".join, lines)]) + "\n")
+    return path
+
+
+@pytest.fixture
+def walk(tmp_path):
+    return save(tmp_path / "walk.csv", rows())
+
+
+@pytest.fixture
+def out(tmp_path):
+    return tmp_path / "out"
+
+
+def test_gaps_are_filled_and_nothing_else_changes(cli, walk, out):
+    assert cli("fill", walk, "--model", "cubic-spline", "--out", out) == 0
+    before, after = (p.read_text().splitlines() for p in (walk, out / "walk.csv"))
+    assert [n for n, pair in enumerate(zip(before, after, strict=True)) if pair[0] != pair[1]] == [
+        *range(51, 61)
+    ]
+    filled = CSVFormat().read(out / "walk.csv")
+    truth = 30 * np.cos(7 * filled.times)
+    np.testing.assert_allclose(filled.values[:, 1], truth, atol=0.5)
+
+
+def test_the_table_has_every_filled_entry(cli, walk, out):
+    assert cli("fill", walk, "--model", "trivial", "--out", out) == 0
+    with (out / "walk.csv.entries.csv").open(newline="") as file:
+        table = list(csv.DictReader(file))
+    assert [int(row["frame"]) for row in table] == [*range(50, 60)]
+    assert {(row["channel"], row["unit"]) for row in table} == {("knee", "deg")}
+    assert all(float(row["sd"]) > 0 for row in table)
+
+
+def test_the_best_model_is_chosen_and_the_page_shows_the_ranking(cli, walk, out):
+    assert cli("fill", walk, "--budget", "4", "--out", out) == 0
+    page = (out / "walk.csv.html").read_text()
+    assert "trial gap" in page
+    assert "linear</th>" in page
+    assert "cubic-spline" in page
+    assert "http" not in page.replace("http://www.w3.org", "").replace("http-equiv", "")
+
+
+def test_named_frames_of_a_motion_are_replaced_and_its_page_shows_it(cli, tmp_path, out):
+    recording, given = format_files.walk(), tmp_path / "walker.amc"
+    format_files.write_acclaim(given, recording)
+    named = ("--frames", "20:30", "--channels", "lfemur.*", "--model", "linear")
+    assert cli("fill", given, *named, "--out", out) == 0
+    shutil.copy(tmp_path / "walker.asf", out)
+    before, after = (AcclaimFormat().read(p).values for p in (given, out / "walker.amc"))
+    channels = [k for k, name in enumerate(recording.channels) if name.startswith("lfemur")]
+    others = np.ones(before.shape, dtype=bool)
+    others[20:30, channels] = False
+    np.testing.assert_array_equal(after[others], before[others])
+    line = np.linspace(before[19], before[30], 12)[1:-1, channels]
+    np.testing.assert_allclose(after[20:30, channels], line, atol=1e-4)
+    assert "The motion" in (out / "walker.amc.html").read_text()
+
+
+def test_nothing_is_overwritten(cli, walk, tmp_path, out):
+    assert cli("fill", walk, "--model", "linear", "--out", tmp_path) == 2
+    assert "which would be overwritten" in cli.printed
+    assert cli("fill", walk, "--model", "linear", "--out", out) == 0
+    kept = {path: path.read_bytes() for path in out.iterdir()}
+    assert cli("fill", walk, "--model", "hold", "--out", out) == 2
+    assert kept == {path: path.read_bytes() for path in out.iterdir()}
+
+
+def test_files_of_one_name_are_refused(cli, walk, tmp_path, out):
+    (tmp_path / "other").mkdir()
+    other = shutil.copy(walk, tmp_path / "other")
+    assert cli("fill", walk, other, "--model", "linear", "--out", out) == 2
+    assert "different names" in cli.printed
+
+
+def test_a_model_that_cannot_fill_the_mask_is_refused_with_those_that_can(cli, walk, out):
+    assert cli("fill", walk, "--model", "aligned-window", "--out", out) == 2
+    assert "hidden in part, got 'aligned-window'; choose" in cli.printed
+    assert "cubic-spline" in cli.printed
+
+
+def test_a_model_of_whole_frames_fills_whole_frames(cli, walk, tmp_path, out):
+    whole = save(tmp_path / "whole.csv", rows(columns=(1, 2, 3)))
+    complete = save(tmp_path / "complete.csv", rows(gap=()))
+    chosen = ("--model", "aligned-window", "--train", complete)
+    assert cli("fill", whole, *chosen, "--out", out) == 0
+
+
+def test_a_model_that_fails_says_why_and_leaves_nothing(cli, walk, out, tmp_path):
+    plugin = tmp_path / "bad.py"
+    plugin.write_text(
+        "from mocapbench.baselines import Imputer\n"
+        "class Bad(Imputer):\n"
+        "    def fit(self, recordings):\n        return self\n"
+        "    def impute(self, recordings):\n        raise ValueError('out of ideas')\n"
+        "MODELS = {'bad': Bad}\n"
+    )
+    assert cli("fill", walk, "--model", "bad", "--plugin", plugin, "--out", out) == 2
+    assert "bad did not fill it: ValueError: out of ideas" in cli.printed
+    assert not out.exists()
+
+
+def changed(row, column, text):
+    lines = rows()
+    lines[row][column] = text
+    return lines
+
+
+HARDSHIPS = {
+    "no gap": (rows(gap=()), HEADER, "expected a gap"),
+    "all hidden": (
+        rows(gap=range(N_FRAMES), columns=(1, 2, 3)),
+        HEADER,
+        "expected visible entries",
+    ),
+    "NaN in the time column": (changed(7, 0, "nan"), HEADER, "a time for every frame"),
+    "times that repeat": (changed(7, 0, "0.1000"), HEADER, "every time after the one before"),
+    "times that fall": (changed(7, 0, "0.0100"), HEADER, "every time after the one before"),
+    "text among numbers": (changed(7, 1, "n/a!"), HEADER, "expected"),
+    "a missing cell": ([*rows()[:5], ["1"]], HEADER, "expected"),
+}
+
+
+@pytest.mark.parametrize("name", HARDSHIPS)
+def test_a_file_that_cannot_be_filled_ends_in_one_message(cli, tmp_path, out, name):
+    lines, header, message = HARDSHIPS[name]
+    path = save(tmp_path / "bad.csv", lines, header)
+    assert cli("fill", path, "--model", "linear", "--out", out) == 2
+    assert message in cli.printed
+    assert cli.printed.count("error:") == 1
+    assert not out.exists()
+
+
+def test_a_channel_never_visible_is_refused_unless_others_have_it(cli, walk, tmp_path, out):
+    named = ("--frames", f"0:{N_FRAMES}", "--channels", "knee", "--model", "linear", "--out", out)
+    assert cli("fill", walk, *named) == 2
+    assert "expected a visible entry of every channel to fill, got none of knee" in cli.printed
+    other = save(tmp_path / "other.csv", rows(gap=()))
+    assert cli("fill", walk, *named, "--train", other) == 0
+
+
+def test_everything_hidden_is_refused(cli, walk, out):
+    named = ("--frames", f"0:{N_FRAMES}", "--model", "linear", "--out", out)
+    assert cli("fill", walk, *named) == 2
+    assert "expected visible entries to fill the others from, got none" in cli.printed
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        (HEADER.replace("hip", "ankle"), 1, "channels"),
+        (HEADER, 2, "frames per second"),
+    ],
+)
+def test_files_to_learn_from_must_be_alike(cli, walk, tmp_path, out, other):
+    header, step, message = other
+    lines = rows(gap=())
+    for frame, line in enumerate(lines):
+        line[0] = f"{frame * step / 60:.4f}"
+    path = save(tmp_path / "other.csv", lines, header)
+    assert cli("fill", walk, "--train", path, "--model", "linear", "--out", out) == 2
+    assert message in cli.printed
+
+
+@pytest.mark.parametrize(
+    "file",
+    [
+        ("walk.xyz", b"time,a\n0,1\n", ".csv"),
+        ("walk.csv", b"\xff\xfe\x00", "expected"),
+        ("walk.csv", None, "No such file"),
+    ],
+)
+def test_what_is_no_recording_is_refused(cli, tmp_path, out, file):
+    name, content, message = file
+    path = tmp_path / "in" / name
+    path.parent.mkdir()
+    if content is not None:
+        path.write_bytes(content)
+    assert cli("fill", path, "--model", "linear", "--out", out) == 2
+    assert message in cli.printed
+    assert not out.exists()
+
+
+def test_a_file_larger_than_memory_is_refused(cli, walk, out, monkeypatch):
+    class Full:
+        available = 1000
+
+    monkeypatch.setattr(memory.psutil, "virtual_memory", Full)
+    assert cli("fill", walk, "--model", "linear", "--out", out) == 2
+    assert "memory" in cli.printed
+
+
+@pytest.mark.parametrize("frames", ["120", "9:", "a:b", "-3:4"])
+def test_frames_are_two_numbers(cli, walk, out, frames):
+    assert cli("fill", walk, f"--frames={frames}", "--out", out) == 2
+    assert "expected A:B" in cli.printed
+
+
+@pytest.mark.parametrize("name", FORMATS.names())
+def test_files_of_every_format_are_filled_and_read_back(cli, tmp_path, out, name):
+    (tmp_path / "in").mkdir()
+    given = format_files.sample(name, tmp_path / "in")
+    # Neither .amc nor .bvh state gaps; the channels' names end in their axis everywhere.
+    assert cli("fill", given, "--frames", "40:46", "--model", "makima", "--out", out) == 0
+    for skeleton in (tmp_path / "in").glob("*.asf"):
+        shutil.copy(skeleton, out)
+    before, after = (format_for(path).read(path) for path in (given, out / given.name))
+    assert after.visible[40:46].all()
+    kept = before.visible.copy()
+    kept[40:46] = False
+    np.testing.assert_allclose(after.values[kept], before.values[kept], atol=1e-9)
+    moved = np.abs(after.values[40:46] - before.values[40:46])
+    assert np.nanmax(moved) < 0.25 * np.nanmax(np.ptp(before.values[30:56], axis=0)) + 0.5
+
+
+def test_an_interrupt_has_its_own_exit_code(cli, walk, out, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Workers, "submit", interrupt)
+    assert cli("fill", walk, "--model", "linear", "--out", out) == 130
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("rate", ["0", "-1", "nan"])
+def test_a_rate_is_positive(cli, walk, out, rate):
+    assert cli("fill", walk, f"--rate={rate}", "--model", "linear", "--out", out) == 2
+    assert "positive rate" in cli.printed

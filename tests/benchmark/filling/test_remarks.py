@@ -1,0 +1,72 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mocapbench.benchmark.filling.fill import Filled
+from mocapbench.benchmark.filling.gaps import Gap
+from mocapbench.benchmark.filling.question import Answer
+from mocapbench.benchmark.filling.remarks import headline, ranked, remarks, verdict
+from mocapbench.benchmark.filling.request import Request
+from mocapbench.benchmark.filling.sources import Source
+from mocapbench.benchmark.filling.trials.choice import Choice
+from mocapbench.benchmark.filling.trials.ranking import rank
+from mocapbench.benchmark.filling.trials.scores import Scores
+from mocapbench.datasets import CSVFormat
+
+
+@pytest.fixture
+def filled(waves, hidden):
+    """Return a function from what is special to a filled file."""
+
+    def make(choice=None, *, left_open=(), windows=0, failed=()):
+        target = hidden((50, 60, [0, 1]))
+        request = Request(waves().hide(target), target, left_open)
+        source = Source(Path("waves.csv"), CSVFormat(), request, ())
+        return Filled(source, "one", Answer(np.zeros(20), np.ones(20)), windows, choice, failed)
+
+    return make
+
+
+def choice_of(errors, share=1.0):
+    scores = {
+        model: Scores(np.array(e, dtype=float), {"deg": 1.0}, None) for model, e in errors.items()
+    }
+    ranking = rank(scores, np.ones(len(next(iter(errors.values())))))
+    seconds = dict.fromkeys(errors, 0.1)
+    return Choice(ranking, (), share, seconds, dict.fromkeys(errors, 2))
+
+
+def test_the_headline_counts(filled):
+    assert headline(filled()) == "one filled 20 entries in 1 gap."
+
+
+@pytest.mark.parametrize(
+    ("errors", "said"),
+    [
+        ({"one": [1, 2, 1, 2, 1], "two": [5, 6, 5, 6, 5.1]}, "over two is more than chance"),
+        ({"one": [1, 2, 1, 2, 1], "two": [2, 1, 2, 1, 2]}, "over two could be chance"),
+        ({"one": [1], "two": [2]}, "too few to tell"),
+        ({"one": [1, 2]}, "No other model has a rank"),
+    ],
+)
+def test_the_verdict_says_whether_the_lead_is_more_than_chance(filled, errors, said):
+    assert said in verdict(filled(choice_of(errors)))
+
+
+def test_what_was_done_is_said(filled):
+    kind = {"left_open": (Gap(100, 150, (0,)),), "windows": 3, "failed": (("two", "it broke"),)}
+    said = " ".join(remarks(filled(choice_of({"one": [1, 2]}, share=0.25), **kind)))
+    for words in ("1 longer gap was left open", "3 windows", "25 % as long", "two did better"):
+        assert words in said
+
+
+def test_nothing_special_is_passed_over_in_silence(filled):
+    assert list(remarks(filled())) == []
+
+
+def test_the_ranking_notes_the_choice_and_what_is_not_separable(filled):
+    rows = list(ranked(filled(choice_of({"one": [1, 2, 1, 2], "two": [2, 1, 2, 1.5]}))))
+    assert [row.name for row in rows] == ["one", "two"]
+    assert rows[0].note == "chosen, fitted to windows"
+    assert rows[1].note.startswith("not separable from one")

@@ -1,0 +1,57 @@
+import numpy as np
+import pytest
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.gaps import Gap
+from mocapbench.benchmark.filling.request import Entries, select
+from mocapbench.datasets import Recording
+
+
+def test_without_names_the_gaps_are_what_is_hidden(waves, hidden):
+    mask = hidden((20, 30, [0]), (90, 95, [1, 2]))
+    np.testing.assert_array_equal(select(waves().hide(mask), Entries()).target, mask)
+
+
+def test_named_frames_are_filled_though_they_are_visible_and_other_gaps_are_not(waves, hidden):
+    recording = waves().hide(hidden((20, 30, [0])))
+    request = select(recording, Entries(frames=(50, 60), channels="hip.*"))
+    np.testing.assert_array_equal(request.target, hidden((50, 60, [0, 1])))
+    assert not request.given.visible[50:60, :2].any()
+    assert not request.given.visible[20:30, 0].any()
+
+
+def test_a_pattern_matches_whole_names(waves, hidden):
+    recording = waves().hide(hidden((20, 30, [0, 2])))
+    assert select(recording, Entries(channels="knee.rx")).gaps == (Gap(20, 30, (2,)),)
+    with pytest.raises(UsageError, match="to match a channel, got 'knee'"):
+        select(recording, Entries(channels="knee"))
+
+
+def test_longer_gaps_stay_open(waves, hidden):
+    recording = waves().hide(hidden((20, 30, [0]), (90, 140, [1])))
+    request = select(recording, Entries(max_gap=0.5))  # 25 frames
+    assert request.gaps == (Gap(20, 30, (0,)),)
+    assert request.left_open == (Gap(90, 140, (1,)),)
+
+
+def test_angles_beside_a_named_gap_are_unwrapped_across_it():
+    angles = [[170.0], [178.0], [-174.0], [-166.0]]
+    turning = Recording("turn", np.arange(4) / 10, angles, ("hip.rx",), ("deg",))
+    given = select(turning, Entries(frames=(1, 2))).given
+    np.testing.assert_allclose(given.values.ravel(), [170.0, np.nan, 186.0, 194.0])
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        (Entries(), "expected a gap, got all entries visible"),
+        (Entries(frames=(0, 200)), "expected visible entries to fill the others from, got none"),
+        (Entries(frames=(150, 201)), "expected --frames within 0:200"),
+        (Entries(frames=(60, 60)), "the first before the last, got 60:60"),
+        (Entries(channels="("), "expected a regular expression"),
+        (Entries(frames=(50, 100), max_gap=0.1), "raise --max-gap"),
+    ],
+)
+def test_what_cannot_be_filled_is_refused(waves, entries, message):
+    with pytest.raises(UsageError, match=message):
+        select(waves(), entries)

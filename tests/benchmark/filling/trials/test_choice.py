@@ -1,0 +1,167 @@
+from concurrent.futures import Future
+
+import numpy as np
+import pytest
+
+from mocapbench.baselines import Imputer, Prediction
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.attempt import Attempt, attempt
+from mocapbench.benchmark.filling.question import Answer, Question
+from mocapbench.benchmark.filling.trials import choice
+from mocapbench.benchmark.filling.trials.choice import choose
+from mocapbench.benchmark.filling.trials.race import race
+from mocapbench.benchmark.registry import MODELS
+
+
+class Remembers(Imputer):
+    """Fills with the training recording of the same frames, whatever is beside the gap."""
+
+    def fit(self, recordings):
+        self.first_ = recordings[0]
+        return self
+
+    def impute(self, recordings):
+        return [Prediction.around(r, self.first_.values[: len(r.times)]) for r in recordings]
+
+
+class Here:
+    """Workers of this process, which need no time; slow models take longer than any limit."""
+
+    count = 2
+
+    def __init__(self, slow=()):
+        self.slow, self.kept, self.limits = slow, [], []
+
+    def keep(self, question):
+        self.kept.append(question)
+        return len(self.kept) - 1
+
+    def submit(self, model, question, seconds):
+        self.limits.append((model, seconds))
+        ended = Future()
+        if model in self.slow:
+            ended.set_result(Attempt(None, "took longer", slow=True))
+        else:
+            ended.set_result(attempt(MODELS.get(model), self.kept[question], 2**45))
+        return ended
+
+    def ended(self, futures):
+        return list(futures)[:1]
+
+    def result(self, future):
+        return future.result()
+
+
+@pytest.fixture
+def few_models(monkeypatch):
+    MODELS.add("remembers", Remembers)
+    names = ("hold", "linear", "cubic-spline", "remembers")
+    monkeypatch.setattr(choice, "able_models", lambda question: names)
+
+
+@pytest.mark.usefixtures("few_models")
+def test_smooth_curves_are_filled_by_the_smooth_model(waves, hidden):
+    mask = hidden((50, 58, [0, 2]))
+    chosen = choose(Question(waves().hide(mask), mask), Here(), 60.0, lambda *_: None)
+    assert chosen.ranking.order[0] == "cubic-spline"
+    assert chosen.ranking.order[-1] in {"hold", "remembers"}
+
+
+@pytest.mark.usefixtures("few_models")
+def test_standing_still_is_not_filled_with_the_motion_of_training(waves, hidden):
+    mask = hidden((50, 80, [0, 1, 2, 3]))
+    still = waves().with_values(np.tile([10.0, -5.0, 3.0, 90.0], (200, 1)))
+    question = Question(still.hide(mask), mask, (waves(name="walk"),))
+    chosen = choose(question, Here(), 60.0, lambda *_: None)
+    assert chosen.ranking.order[-1] == "remembers"
+    assert chosen.ranking.means[chosen.ranking.order[0]] < 1e-9
+
+
+@pytest.mark.usefixtures("few_models")
+def test_what_training_knows_is_filled_from_it(waves, hidden):
+    mask = hidden((50, 90, [0, 1, 2, 3]))
+    question = Question(waves().hide(mask), mask, (waves(name="same"),))
+    assert choose(question, Here(), 60.0, lambda *_: None).ranking.order[0] != "hold"
+
+
+@pytest.mark.usefixtures("few_models")
+def test_models_that_are_too_slow_have_no_rank_and_say_why(waves, hidden):
+    mask = hidden((50, 58, [0]))
+    workers = Here(slow=("cubic-spline",))
+    chosen = choose(Question(waves().hide(mask), mask), workers, 64.0, lambda *_: None)
+    assert ("cubic-spline", "took longer") in [(r.model, r.trouble) for r in chosen.left_out]
+    assert "cubic-spline" not in chosen.ranking.order
+    limits = [seconds for model, seconds in workers.limits if model == "cubic-spline"]
+    assert limits == [2.0, 8.0, 32.0]
+
+
+@pytest.mark.usefixtures("few_models")
+def test_hidden_values_do_not_matter(waves, hidden):
+    mask = hidden((50, 58, [0, 2]), (120, 140, [1]))
+    other = waves().values.copy()
+    other[mask] = 1e6
+    means = [
+        choose(Question(recording.hide(mask), mask), Here(), 60.0, lambda *_: None).ranking.means
+        for recording in (waves(), waves().with_values(other))
+    ]
+    assert means[0] == means[1]
+
+
+@pytest.mark.usefixtures("few_models")
+def test_without_room_for_a_trial_a_model_has_to_be_named(waves, hidden):
+    mask = hidden((1, 199, [0, 1, 2, 3]))
+    with pytest.raises(UsageError, match=r"expected a visible stretch to try models on.*linear"):
+        choose(Question(waves().hide(mask), mask), Here(), 60.0, lambda *_: None)
+
+
+@pytest.mark.usefixtures("few_models")
+def test_without_an_answer_in_time_the_budget_is_to_be_raised(waves, hidden):
+    mask = hidden((50, 58, [0]))
+    workers = Here(slow=("hold", "linear", "cubic-spline", "remembers"))
+    with pytest.raises(UsageError, match="raise --budget"):
+        choose(Question(waves().hide(mask), mask), workers, 60.0, lambda *_: None)
+
+
+def test_nothing_starts_after_the_budget(waves, hidden):
+    mask = hidden((50, 58, [0]))
+    trial = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[0]
+    workers = Here()
+    (runner,) = race(["linear"], [trial], workers, 0.0, lambda *_: None)
+    assert not workers.limits
+    assert "budget" in runner.trouble
+
+
+def test_progress_counts_answers(waves, hidden):
+    mask = hidden((50, 58, [0]))
+    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[:2]
+    told = []
+    race(["linear", "hold"], trials, Here(), 60.0, lambda done, total: told.append((done, total)))
+    assert told[-1] == (4, 4)
+    assert told == sorted(told)
+
+
+def test_scores_are_closed_forms(waves, hidden):
+    mask = hidden((50, 54, [0, 3]))
+    question = Question(waves().hide(mask), mask)
+    trial = choice.make_trials(question, np.random.default_rng(0))[0]
+    wanted = trial.question.target
+    truth = trial.truth
+    off = np.where(np.nonzero(wanted)[1] == 3, 2.0, 1.0)
+    answer = Answer(truth + off, np.full(truth.shape, (1.5 / 1.96) ** 2))
+    scores = choice.scores_of([trial], [answer], np.array([1.0, 1.0, 1.0, 2.0]))
+    np.testing.assert_allclose(scores.errors, 1.0)
+    assert scores.rmse == pytest.approx({"deg": 1.0, "cm": 2.0})
+    assert scores.coverage == 0.5
+
+
+def test_a_gap_counts_by_its_entries_however_many_copies_it_has(waves, hidden):
+    mask = hidden((0, 10, [0]), (60, 90, [1, 2]), (150, 155, [3]))
+    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))
+    weights = choice.weights_of(trials)
+    originals = [original for trial in trials for original in trial.originals]
+    totals = {e.n_entries: 0.0 for e in originals}
+    for weight, original in zip(weights, originals, strict=True):
+        totals[original.n_entries] += weight
+    assert weights.mean() == pytest.approx(1.0)
+    shares = {entries: total / len(weights) for entries, total in totals.items()}
+    assert shares == pytest.approx({10: 10 / 75, 60: 60 / 75, 5: 5 / 75})

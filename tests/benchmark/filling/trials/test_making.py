@@ -1,0 +1,88 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocapbench.benchmark.filling.gaps import gaps_of
+from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.trials.making import make_trials
+from mocapbench.datasets import Recording
+
+N_FRAMES = 200
+BLOCKS = st.lists(
+    st.tuples(st.integers(0, N_FRAMES), st.integers(1, 30), st.integers(0, 2)),
+    min_size=1,
+    max_size=4,
+)
+
+
+def question(blocks):
+    target = np.zeros((N_FRAMES, 3), dtype=bool)
+    for start, length, channel in blocks:
+        target[min(start, N_FRAMES - 1) : start + length, channel] = True
+    values = np.arange(3.0 * N_FRAMES).reshape(N_FRAMES, 3)
+    whole = Recording("r", np.arange(N_FRAMES) / 10, values, ("a", "b", "c"), ("", "", ""))
+    return Question(whole.hide(target), target)
+
+
+@settings(deadline=None)
+@given(BLOCKS)
+def test_trials_know_the_truth_and_hide_it(blocks):
+    asked = question(blocks)
+    for trial in make_trials(asked, np.random.default_rng(0)):
+        target = trial.question.target
+        first = round(trial.question.given.times[0] * 10)
+        whole = np.arange(3.0 * N_FRAMES).reshape(N_FRAMES, 3)[first : first + len(target)]
+        np.testing.assert_array_equal(trial.truth, whole[target])
+        assert not trial.question.given.visible[target].any()
+        places = np.sort(np.concatenate(trial.units))
+        np.testing.assert_array_equal(places, np.arange(target.sum()))
+        seen = trial.question.given.visible
+        np.testing.assert_array_equal(trial.question.given.values[seen], whole[seen])
+
+
+@settings(deadline=None)
+@given(BLOCKS)
+def test_every_trial_gap_has_the_shape_of_a_real_one(blocks):
+    asked = question(blocks)
+    real = {(len(gap), gap.channels) for gap in gaps_of(asked.target)}
+    for trial in make_trials(asked, np.random.default_rng(0)):
+        if trial.share == 1.0:
+            made = {(len(gap), gap.channels) for gap in gaps_of(trial.question.target)}
+            assert made <= real
+
+
+def test_gaps_at_the_ends_are_tried_at_the_ends():
+    asked = question([(0, 10, 0), (190, 10, 1)])
+    for trial in make_trials(asked, np.random.default_rng(0)):
+        gaps = gaps_of(trial.question.target)
+        assert {(gap.start, gap.channels) for gap in gaps if gap.start == 0} == {(0, (0,))}
+        assert {gap.channels for gap in gaps if gap.stop == len(trial.question.target)} == {(1,)}
+
+
+def test_gaps_get_equally_many_copies():
+    asked = question([(20, 5, 0), (80, 25, 1), (150, 10, 2)])
+    trials = make_trials(asked, np.random.default_rng(0))
+    lengths = [len(unit) for trial in trials for unit in trial.units]
+    counts = [lengths.count(length) for length in (5, 25, 10)]
+    assert max(counts) - min(counts) <= 1
+
+
+def test_a_gap_longer_than_any_visible_stretch_is_shortened():
+    asked = question([(60, 110, 0)])
+    trials = make_trials(asked, np.random.default_rng(0))
+    assert trials
+    assert {trial.share for trial in trials} == {0.5}
+
+
+def test_there_is_no_trial_without_room():
+    asked = question([(1, 198, 0)])
+    assert make_trials(asked, np.random.default_rng(0)) == []
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_the_same_seed_makes_the_same_trials(seed):
+    asked = question([(20, 5, 0)])
+    one, two = (make_trials(asked, np.random.default_rng(seed)) for _ in range(2))
+    for first, second in zip(one, two, strict=True):
+        np.testing.assert_array_equal(first.question.target, second.question.target)
