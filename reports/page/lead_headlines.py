@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from mocapbench.reports.analysis.interpolation import best_interpolation
+from mocapbench.reports.analysis.best_over_cases import best_over_cases
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.wins import mean_over_cases
 from mocapbench.reports.bundle.layout import CaseLayout
@@ -30,21 +30,30 @@ def lead_headlines(results: TaskResults, metric: str) -> list[Headline]:
 def _lead(results: TaskResults, metric: str, label: str, cases: Sequence[CaseLayout]) -> str:
     led = [case for case in cases if results.ranking(case.name, metric)[0] == label]
     title, where = results.metrics[metric].title, cases_phrase(led, len(cases))
-    seconds = [results.ranking(case.name, metric)[1:2] for case in led]
-    if not all(seconds):
+    if not any(results.ranking(case.name, metric)[1:] for case in led):
         return f"is the only entrant with a score in {where} ({title})."
-    first = mean_over_cases(results, metric, led, [label] * len(led))
-    second = mean_over_cases(results, metric, led, [label for (label,) in seconds])
-    mean, next_best = same_places(first, second)
-    lead = f"is best in {where} by {title}: {mean} on average, next best {next_best}."
+    lead = f"is best in {where} by {title}: {_margin(results, metric, label, led)}."
     beside = _beside(results, metric, label, led)
     note = lead_note(results, metric, label, [case.name for case in led])
     return " ".join(filter(None, (lead, note, beside)))
 
 
+def _margin(results: TaskResults, metric: str, label: str, led: Sequence[CaseLayout]) -> str:
+    """Return the mean over the cases that ``label`` leads, and that of the next best model."""
+    first = mean_over_cases(results, metric, led, [label] * len(led))
+    others = [other for other in results.layout.ranked if other != label]
+    following = best_over_cases(results, metric, led, others, beside=label)
+    if following is None:
+        (mean,) = same_places(first)
+        return f"{mean} on average, and no other entrant has every score there"
+    second = mean_over_cases(results, metric, led, [following] * len(led))
+    mean, next_best = same_places(first, second)
+    return f"{mean} on average, next best {following} with {next_best}"
+
+
 def _beside(results: TaskResults, metric: str, label: str, led: Sequence[CaseLayout]) -> str:
     """Return a sentence that names the best interpolation, empty where none takes part."""
-    best = best_interpolation(results, metric, led, beside=label)
+    best = best_over_cases(results, metric, led, results.layout.interpolations, beside=label)
     if best is None:
         return ""
     if best == label:

@@ -26,7 +26,7 @@ def test_the_best_entrant_of_each_case_is_named(small):
     texts = {headline.subject: headline.text for headline in headlines}
     assert texts["mohgp-3"] == (
         "is best in 1 of 2 cases (observed 40) by MSE: "
-        "0.10 on average, next best 0.15. Not tested: one fold."
+        "0.10 on average, next best gp-independent with 0.15. Not tested: one fold."
     )
 
 
@@ -220,3 +220,19 @@ def test_a_value_that_is_not_comparable_is_no_better_value(small, not_comparable
         published_metrics={"mse": "MCC"},
     )
     assert len(published_headlines(results_of(bundle), "mse")) == found
+
+
+def test_the_next_best_is_one_model_over_all_cases(small):
+    """Each case has another runner-up; the mean of runners-up is that of no model."""
+    values = {
+        "one": {"a": [1.0], "b": [2.0], "c": [9.0]},
+        "two": {"a": [1.0], "b": [8.0], "c": [3.0]},
+    }
+    (found,) = lead_headlines(results_of(small(values)), "mse")
+    assert "1.00 on average, next best b with 5.00." in found.text
+
+
+def test_a_model_that_lacks_a_case_is_not_next_best(small):
+    values = {"one": {"a": [1.0], "b": [2.0]}, "two": {"a": [1.0], "c": [3.0]}}
+    (found,) = lead_headlines(results_of(small(values)), "mse")
+    assert "1.00 on average, and no other entrant has every score there." in found.text

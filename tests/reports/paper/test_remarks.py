@@ -28,6 +28,7 @@ def test_the_first_remark_that_matches_counts():
 @pytest.mark.parametrize(
     ("address", "words"),
     [
+        (("toy-interpolation-1", "test 2", "SMSE", "MOA"), "cannot both be right"),
         (("toy-interpolation-1", "test 4", "MSE", "MOHGP"), "tests 4 and 7"),
         (("toy-interpolation-1", "test 7", "MSLL", "MOHGP"), "tests 4 and 7"),
         (("toy-interpolation-3", "test 3", "MSE", "MOHGP"), "noise variance"),
@@ -53,6 +54,11 @@ def test_errata_are_true():
     toy = published_values("toy-interpolation-1")
     for metric in ("MSE", "SMSE", "MSLL"):
         assert toy["test 4", metric, "MOHGP"].value == toy["test 7", metric, "MOHGP"].value
+    mohgp, moa = (
+        toy["test 2", "MSE", model].value / toy["test 2", "SMSE", model].value
+        for model in ("MOHGP", "MOA")
+    )
+    assert (round(mohgp, 1), round(moa, 1)) == (1.9, 0.7)
     control = published_values("toy-synthesis")
     for metric in ("MCC", "MLC"):
         for pair in ((1, 3), (5, 8)):

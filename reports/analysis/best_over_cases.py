@@ -1,21 +1,25 @@
-"""The best interpolation: what a winner is worth beside the simplest way to fill gaps."""
+"""The best of some entrants over the same cases, such as what a winner is to be compared with."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 
-__all__ = ["best_interpolation"]
+__all__ = ["best_over_cases"]
 
 
-def best_interpolation(
-    results: TaskResults, metric: str, cases: Sequence[CaseLayout], beside: str
+def best_over_cases(
+    results: TaskResults,
+    metric: str,
+    cases: Sequence[CaseLayout],
+    labels: Iterable[str],
+    beside: str,
 ) -> str | None:
-    """Return the interpolation with the best mean over ``cases``.
+    """Return the label of ``labels`` with the best mean over ``cases``.
 
     Parameters
     ----------
@@ -23,19 +27,20 @@ def best_interpolation(
     metric : str
     cases : sequence of CaseLayout
         Cases in which ``beside`` has a score.
+    labels : iterable of str
     beside : str
-        The label that it stands beside. An interpolation that has fewer folds in some case takes no
-        part: they may be the easy ones.
+        The label that it stands beside. One that has fewer folds in some case takes no part: they
+        may be the easy ones.
 
     Returns
     -------
     str or None
-        None where no interpolation takes part.
+        None where none takes part.
     """
     needed = [results.estimates[case.name, beside, metric].n for case in cases]
     losses = {
         label: _mean_loss(results, metric, cases, label)
-        for label in results.layout.interpolations
+        for label in labels
         if all(
             (mean := results.estimate(case.name, label, metric)) is not None and mean.n >= n
             for case, n in zip(cases, needed, strict=True)
