@@ -190,7 +190,9 @@ class FAM(Imputer, Inductive, Aligner):
         rng = np.random.default_rng(self.random_state)
         firsts = rng.permutation(len(scaled))[: self.n_restarts]
         runs = [shift_together(statistics, int(first), self.smoothness) for first in firsts]
-        return min(runs, key=lambda run: run.objectives[-1])
+        least = min(run.objectives[-1] for run in runs)
+        # Runs often end alike but for a shift of all recordings: rounding must not choose.
+        return next(run for run in runs if run.objectives[-1] <= least * (1.0 + 1e-9))
 
     def _learn(self, cycles: Cycles, rank: NDArray[np.intp]) -> None:
         """Fit mean and components, and set what follows in the order of ``rank`` (K,)."""

@@ -1,5 +1,5 @@
 from .able import require_able
-from .fill import BEST, Filled, fill
+from .filler import BEST, Filled, fill
 from .page import page_of
 from .remarks import headline, remarks, verdict
 from .request import Entries

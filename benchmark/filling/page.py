@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mocapbench.benchmark.figures.stick_figures import strip
-from mocapbench.benchmark.filling.fill import Filled
+from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of
 from mocapbench.benchmark.filling.remarks import headline, left_out, ranked, remarks, units, verdict
 from mocapbench.benchmark.problems.body import JointAngles

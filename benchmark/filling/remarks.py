@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mocapbench.benchmark.filling.fill import Filled
+from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.reports import RankedModel
 

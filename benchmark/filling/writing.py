@@ -11,7 +11,7 @@ import pandas as pd
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
-from mocapbench.benchmark.filling.fill import Filled
+from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.reports import csv_text
 
 __all__ = ["Outputs", "entry_table", "outputs_of", "write"]

@@ -3,7 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.filling.fill import Filled
+from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.gaps import Gap
 from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.remarks import headline, ranked, remarks, verdict
