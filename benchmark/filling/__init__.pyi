@@ -1,9 +1,9 @@
 from .able import require_able
 from .filler import BEST, Filled, fill
 from .page import page_of
-from .remarks import headline, remarks, verdict
 from .request import Entries
 from .sources import Source, read_sources
+from .wording import headline, remarks, verdict
 from .workers import Workers
 from .writing import Outputs, outputs_of, write
 

@@ -9,7 +9,7 @@ import numpy as np
 from mocapbench.benchmark.figures.stick_figures import strip
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of
-from mocapbench.benchmark.filling.remarks import headline, left_out, ranked, remarks, units, verdict
+from mocapbench.benchmark.filling.wording import headline, left_out, ranked, remarks, units, verdict
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.datasets import Mask, Recording
 from mocapbench.reports import FilledCurve, FilledPage, Panel

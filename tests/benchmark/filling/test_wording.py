@@ -6,12 +6,12 @@ import pytest
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.gaps import Gap
 from mocapbench.benchmark.filling.question import Answer
-from mocapbench.benchmark.filling.remarks import headline, ranked, remarks, verdict
 from mocapbench.benchmark.filling.request import Request
 from mocapbench.benchmark.filling.sources import Source
 from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.benchmark.filling.trials.ranking import rank
 from mocapbench.benchmark.filling.trials.scores import Scores
+from mocapbench.benchmark.filling.wording import headline, ranked, remarks, verdict
 from mocapbench.datasets import CSVFormat
 
 
