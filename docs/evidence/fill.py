@@ -162,7 +162,7 @@ def by_halves(result: Result, rng: np.random.Generator) -> list[float]:
 def main() -> None:
     """Print a row per recording and kind of gaps, and how often the bars are missed."""
     rows, halves = [], []
-    folder = Path(os.environ["MOCAPBENCH_DATA"])
+    folder = Path(os.environ["MOCAPBENCH_DATA"].split(os.pathsep)[0])
     print("| recording | gaps | n | best | error, ° | hindsight | error, ° | linear, ° |")
     print("|---|---|---|---|---|---|---|---|")
     with Workers(os.cpu_count() or 1) as workers:

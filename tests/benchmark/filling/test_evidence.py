@@ -28,9 +28,8 @@ def test_whole_frames_of_walks_are_filled_almost_as_well_as_by_hindsight(evidenc
         pytest.skip("MOCAPBENCH_DATA names no recordings")
     ratios = []
     with Workers(2) as workers:
-        for _, kind, recording, hidden in evidence.problems(
-            Path(os.environ["MOCAPBENCH_DATA"]), NAMES
-        ):
+        folder = Path(os.environ["MOCAPBENCH_DATA"].split(os.pathsep)[0])
+        for _, kind, recording, hidden in evidence.problems(folder, NAMES):
             if kind == "frames":
                 result = evidence.evaluate(recording, hidden, workers, budget=20.0)
                 errors, choice = result.errors(), result.choice
