@@ -195,9 +195,10 @@ def test_no_table_where_the_paper_has_nothing(small):
 def test_an_erratum_stands_on_the_number_and_under_the_table(bundle):
     table = verdict_table(task_results(bundle, bundle.layouts[0]), "mse")
     marked = [(row[0].text, row[2].text) for row in table.rows if row[5].mark]
-    assert marked == [("test 4", "MOHGP"), ("test 7", "MOHGP")]
+    assert marked == [("test 4", "MOHGP"), ("test 7", "MOHGP"), ("test 2", "MOA")]
     assert table.notes[0].startswith("a: The thesis prints identical")
-    assert (table.data["erratum"] != "").sum() == 2
+    assert "cannot both be right" in table.notes[1]
+    assert (table.data["erratum"] != "").sum() == 3
 
 
 def test_a_row_may_have_a_reason_of_its_own(small):
