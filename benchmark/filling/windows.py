@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mocapbench.benchmark.filling.gaps import gaps_of
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.datasets import Recording
 
@@ -76,16 +77,16 @@ def windows_of(question: Question, max_frames: int | None) -> list[tuple[Window,
 
 def _groups(question: Question, room: int) -> list[tuple[int, int]]:
     """Return frames [first, stop) of gaps that fit in one window of ``room`` frames together."""
-    wanted = np.pad(question.target.any(axis=1), 1).astype(np.int8)
     groups: list[tuple[int, int]] = []
-    for first, stop in np.flatnonzero(np.diff(wanted)).reshape(-1, 2).tolist():
-        if stop - first + 2 * _LEAST_CONTEXT > room:
+    frames = np.asarray(question.target.any(axis=1))
+    for gap in gaps_of(frames[:, np.newaxis]):
+        if len(gap) + 2 * _LEAST_CONTEXT > room:
             raise ValueError(
                 f"expected gaps of at most {max(room - 2 * _LEAST_CONTEXT, 0)} frames, got one of "
-                f"{stop - first}; choose a model that takes longer ones"
+                f"{len(gap)}; choose a model that takes longer ones"
             )
-        together = bool(groups) and stop - groups[-1][0] + 2 * _LEAST_CONTEXT <= room
-        groups.append((groups.pop()[0] if together else first, stop))
+        together = bool(groups) and gap.stop - groups[-1][0] + 2 * _LEAST_CONTEXT <= room
+        groups.append((groups.pop()[0] if together else gap.start, gap.stop))
     return groups
 
 
