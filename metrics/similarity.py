@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
@@ -205,7 +205,10 @@ def _metric(
     )
 
 
-_RANGES = {cross_correlation: "0 to the number of frames", linear_correlation: "−1 to 1"}
+_RANGES: Mapping[Correlation, str] = {
+    cross_correlation: "0 to the number of frames",
+    linear_correlation: "−1 to 1",
+}
 
 mcc = _metric(
     "mcc",
