@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,6 +104,8 @@ class AlignedWindow(FrameImputer, Inductive):
     >>> bool(np.allclose(prediction.mean, knee))
     True
     """
+
+    family: ClassVar[str] = "Alignment"
 
     max_frames = 8000
 

@@ -9,7 +9,7 @@ Pereira, 2017.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
@@ -23,7 +23,7 @@ __all__ = ["Control"]
 
 
 class Control(Synthesiser, Misinformed):
-    """Draw recordings from an unrelated process, each with a new parent function.
+    """Draw recordings of an unrelated process, which a useful synthesiser must surpass.
 
     Attributes
     ----------
@@ -49,6 +49,8 @@ class Control(Synthesiser, Misinformed):
     >>> Control().misinform(unrelated).fit(children).sample(times, 4, random_state=0).shape
     (4, 20, 2)
     """
+
+    family: ClassVar[str] = "References"
 
     def misinform(self, process: ToyProcess) -> Self:
         """Set the process, which generated none of the recordings."""

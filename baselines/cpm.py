@@ -17,7 +17,7 @@ __all__ = ["CPM"]
 
 
 class CPM(CycleAligner):
-    r"""A latent trace of one cycle, learnt by EM; recordings are noisy, time-warped copies of it.
+    r"""One cycle, learnt from all recordings, of which each is a noisy, time-warped copy.
 
     The cyclic left-to-right Markov chain and the noise are those of `CyclicAlignment`. There is one
     trace, a point estimate, and one noise variance for each channel. The amplitude factors of the

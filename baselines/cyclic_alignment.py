@@ -33,7 +33,7 @@ __all__ = ["CyclicAlignment"]
 
 
 class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
-    r"""Cycles of C latent styles with a common parent, warped in time, learnt by variational EM.
+    r"""A cycle for each style around a common cycle, warped in time to fit each recording.
 
     Each recording has one style. Its frames follow that style's cycle of M states through a cyclic
     left-to-right Markov chain, which advances by 1 to J states a frame. The noise has one variance

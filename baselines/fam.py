@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,7 @@ __all__ = ["FAM"]
 
 
 class FAM(Imputer, Inductive, Aligner):
-    r"""Smooth periodic mean and functional principal components of cycles.
+    r"""A smooth mean cycle, and a few components by which single cycles differ from it.
 
     A recording is folded at the length of cycle with the highest signal-to-noise ratio, and shifted
     in phase to a reference curve, which is refitted in turn. Its cycles are then a mean curve plus
@@ -107,6 +107,8 @@ class FAM(Imputer, Inductive, Aligner):
     >>> bool(np.abs(prediction.mean - walks[1].values).max() < 0.1)
     True
     """
+
+    family: ClassVar[str] = "Functional"
 
     def __init__(
         self,

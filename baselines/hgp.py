@@ -26,7 +26,7 @@ __all__ = ["HGP"]
 
 
 class HGP(Channelwise[MOHGP], Trended):
-    """A hierarchy of Gaussian processes with noise for each channel on its own.
+    """Recordings vary around a common trend, a Gaussian process for each channel on its own.
 
     Parameters
     ----------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
@@ -19,7 +19,7 @@ __all__ = ["KCPM"]
 
 
 class KCPM(Clusterer, Aligner):
-    """K-means on the prototypical cycles of `CPM`, standardised per channel.
+    """Cluster recordings by their cycles as `CPM` aligns them (K-means).
 
     Parameters
     ----------
@@ -73,6 +73,8 @@ class KCPM(Clusterer, Aligner):
     >>> bool(model.labels_[0] == model.labels_[1]), bool(model.labels_[0] == model.labels_[2])
     (True, False)
     """
+
+    family: ClassVar[str] = "Alignment"
 
     def __init__(
         self,

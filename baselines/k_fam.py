@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
@@ -18,7 +18,7 @@ __all__ = ["KFAM"]
 
 
 class KFAM(Clusterer, Aligner):
-    """K-means on the prototypical cycles of `FAM`, standardised per channel.
+    """Cluster recordings by their cycles as `FAM` describes them (K-means).
 
     Parameters
     ----------
@@ -63,6 +63,8 @@ class KFAM(Clusterer, Aligner):
     >>> bool(model.labels_[0] == model.labels_[1]), bool(model.labels_[0] == model.labels_[2])
     (True, False)
     """
+
+    family: ClassVar[str] = "Functional"
 
     def __init__(
         self,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 class KMeans(Clusterer):
-    """Cluster recordings by the raw values of their first cycle.
+    """Cluster recordings by the raw values of their first cycle (K-means).
 
     The length of a cycle is estimated for each recording by its autocorrelation; a recording
     without a recurrence counts as one cycle. The cycle is resampled to a fixed number of frames by
@@ -67,6 +67,8 @@ class KMeans(Clusterer):
     >>> bool(labels[0] == labels[1]), bool(labels[0] == labels[2])
     (True, False)
     """
+
+    family: ClassVar[str] = "Neighbours"
 
     def __init__(
         self,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,6 +75,8 @@ class KNN(Imputer, Inductive):
     array([[2., 4.],
            [3., 6.]])
     """
+
+    family: ClassVar[str] = "Neighbours"
 
     max_frames = 2000
 

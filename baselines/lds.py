@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
@@ -30,7 +30,7 @@ __all__ = ["LDS"]
 
 
 class LDS(Imputer, Inductive, Synthesiser):
-    r"""A linear dynamical system of a few states, seen through linear channels.
+    r"""A few hidden states that move linearly over time, and channels linear in them.
 
     .. math:: x_{t+1} = A x_t + w_t, \qquad y_t = C x_t + d + v_t,
 
@@ -96,6 +96,8 @@ class LDS(Imputer, Inductive, Synthesiser):
     >>> bool(np.abs(prediction.mean - new.values).max() < 0.2)
     True
     """
+
+    family: ClassVar[str] = "State space"
 
     def __init__(self, n_states: int = 15, *, max_iter: int = 10, tolerance: float = 1e-3) -> None:
         self.n_states = n_states

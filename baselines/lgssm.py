@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ __all__ = ["LGSSM"]
 
 
 class LGSSM(Clusterer):
-    """A mixture of linear Gaussian state-space models, one for each style.
+    """A linear dynamical system for each style; a recording joins the one that fits it best.
 
     Each component has the model of `LDS`, which integrates hidden entries out. Learning clusters
     the recordings and fits the components at the same time. It follows Chiappa, Kober and Peters,
@@ -86,6 +86,8 @@ class LGSSM(Clusterer):
     >>> bool(labels[0] == labels[2]), bool(labels[1] == labels[3]), bool(labels[0] == labels[1])
     (True, True, False)
     """
+
+    family: ClassVar[str] = "State space"
 
     def __init__(
         self,

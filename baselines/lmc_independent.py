@@ -23,7 +23,7 @@ __all__ = ["LMCIndependent"]
 
 
 class LMCIndependent(GaussianProcess):
-    """Recordings are independent draws of one process.
+    """A Gaussian process over all channels, of which recordings are independent draws.
 
     `impute` conditions each recording on its own visible entries. `sample` draws from the prior.
 

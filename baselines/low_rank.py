@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,7 @@ _LEAST_NOISE = 1e-6
 
 
 class LowRank(Imputer, Inductive):
-    r"""Probabilistic principal component analysis (PPCA) with hidden entries.
+    r"""Fill hidden channels of a frame along the main directions in which poses vary (PPCA).
 
     A frame is :math:`y = m + S (W x + \varepsilon)` with latent :math:`x \sim N(0, I_q)` and noise
     :math:`\varepsilon \sim N(0, \sigma^2 I)`. The mean m is the recording's own, of its visible
@@ -90,6 +90,8 @@ class LowRank(Imputer, Inductive):
     >>> bool(np.abs(prediction.mean - values).max() < 0.01)
     True
     """
+
+    family: ClassVar[str] = "Across channels"
 
     def __init__(
         self,

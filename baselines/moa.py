@@ -23,7 +23,7 @@ __all__ = ["MOA"]
 
 
 class MOA(TrendedProcess):
-    """Recordings are noisy observations of one function.
+    """A Gaussian process over all channels; recordings are noisy copies of one function.
 
     `impute` and `trend` give the posterior of that function. `sample` takes its posterior mean as
     the trend and draws with the prior covariance around it.

@@ -28,7 +28,7 @@ __all__ = ["MOHGP"]
 
 
 class MOHGP(TrendedProcess):
-    """Recordings vary around a common trend, or around the trends of their groups.
+    """A Gaussian process over all channels, in which recordings vary around a common trend.
 
     `impute` gives the posterior of each child. `sample` follows the thesis: new children are
     drawn from K_f around the trend's posterior mean, or around a draw of the trend with

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,6 +65,8 @@ class NN(Imputer, Inductive):
     array([[ 4., 20.],
            [ 8., 30.]])
     """
+
+    family: ClassVar[str] = "Neighbours"
 
     max_frames = 4000
 

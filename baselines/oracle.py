@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,7 +64,7 @@ class _Pattern:
 
 
 class Oracle(Imputer, Synthesiser, Trended, Informed):
-    """Condition the true process on all visible entries.
+    """The true process itself, given all visible entries; the limit that models can reach.
 
     The recordings given to `fit` are children of one parent. `impute` gives the exact mean and
     variance of hidden observations, noise included, and `sample` exact draws of new children, both
@@ -103,6 +103,8 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
     >>> bool((prediction.variance[10] > process.noise).all())
     True
     """
+
+    family: ClassVar[str] = "References"
 
     def inform(self, process: ToyProcess) -> Self:
         """Set the process that generated the recordings."""

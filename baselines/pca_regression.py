@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,6 +85,8 @@ class PCARegression(Imputer, Inductive):
     >>> bool(np.abs(prediction.mean - values).max() < 0.01)
     True
     """
+
+    family: ClassVar[str] = "Across channels"
 
     def __init__(self, hidden_weight: float = 0.02, *, share: float = 0.99) -> None:
         self.hidden_weight = hidden_weight

@@ -9,7 +9,7 @@ predicts the residuals at hidden frames from those at visible frames (kriging).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +35,7 @@ _LEAST_VARIANCE = 1e-12
 
 
 class PoseKriging(FrameImputer, Inductive):
-    r"""Fill frames from matched training recordings and a Gaussian process of the residuals.
+    r"""Fill frames from matched training recordings, corrected by a Gaussian process.
 
     Training recording k contributes the poses :math:`m_k(t)` of its cheapest path. A first path
     gives the subject's offset; it is subtracted before the path is found again. The poses are
@@ -91,6 +91,8 @@ class PoseKriging(FrameImputer, Inductive):
     >>> bool(np.abs(prediction.mean - shifted.values).max() < 0.5)
     True
     """
+
+    family: ClassVar[str] = "Alignment"
 
     max_frames = 1000
 

@@ -9,7 +9,7 @@ the visible frames is added to the whole path.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,6 +74,8 @@ class PoseViterbi(FrameImputer, Inductive):
     >>> bool(np.abs(prediction.mean - shifted.values).max() < 0.5)
     True
     """
+
+    family: ClassVar[str] = "Alignment"
 
     max_frames = 1000
 

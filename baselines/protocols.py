@@ -126,6 +126,9 @@ class Model(BaseEstimator, ABC):  # type: ignore[misc]
     rather than this class.
     """
 
+    family: ClassVar[str] = "Your models"
+    """The rows of a report under which the model stands, beside others of its kind."""
+
     @abstractmethod
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Learn from recordings.
@@ -216,6 +219,8 @@ class Interpolator(Imputer):
     Only where a channel has none in the recording may others help. Reports name the best model
     that is marked so beside every winner. It adds no method. See `Imputer` for an example.
     """
+
+    family: ClassVar[str] = "Interpolation"
 
 
 class Synthesiser(Model):

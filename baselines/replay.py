@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
@@ -16,7 +16,7 @@ __all__ = ["Replay"]
 
 
 class Replay(Synthesiser):
-    """Draw recordings from those given to `fit`, with replacement.
+    """Repeat the training recordings as samples, which are real motion but not new.
 
     The scores of a synthesiser are best read beside those of real recordings, which this model
     provides. Hidden entries, and times between frames, are interpolated linearly; before the first
@@ -44,6 +44,8 @@ class Replay(Synthesiser):
     array([[2., 4.],
            [2., 4.]])
     """
+
+    family: ClassVar[str] = "References"
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the recordings.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
@@ -23,7 +23,7 @@ _LEAST_VARIANCE = 1e-12
 
 
 class Trivial(Imputer, Inductive):
-    """Predict each channel's visible mean and variance.
+    """Predict the mean and variance of each channel’s visible entries, whatever the time.
 
     They are those of the visible entries of all recordings given to `fit` and `impute` (ddof 0).
     The mean standardised log loss (MSLL) is defined relative to this Gaussian, so that this model
@@ -50,6 +50,8 @@ class Trivial(Imputer, Inductive):
     >>> prediction.mean[:, 0], prediction.variance[:, 0]
     (array([1., 3., 2.]), array([0., 0., 1.]))
     """
+
+    family: ClassVar[str] = "References"
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the recordings.

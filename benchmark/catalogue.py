@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import inspect
-import re
 from collections.abc import Mapping
 from typing import Any
 
 from mocapbench import baselines
 from mocapbench.baselines import Model
+from mocapbench.benchmark.docstrings import source, summary
 from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.plan import entrants
 
@@ -26,7 +25,6 @@ _ABILITIES = {
     "Informed": "is given the generating process",
     "Misinformed": "is given an unrelated process",
 }
-_ROLE = re.compile(r":[\w:]+:(?=`)")
 
 
 def task_entry(name: str) -> Mapping[str, Any]:
@@ -36,6 +34,7 @@ def task_entry(name: str) -> Mapping[str, Any]:
     return {
         "name": name,
         "title": task.page.title,
+        "question": task.page.question,
         "reference": task.page.reference,
         "description": task.page.description,
         "requires": [_ABILITIES.get(able.__name__, able.__name__) for able in task.requires],
@@ -51,22 +50,28 @@ def task_entry(name: str) -> Mapping[str, Any]:
 
 
 def model_entry(name: str) -> Mapping[str, Any]:
-    """Return what a model is: the first line of its docstring, its abilities and parameters."""
+    """Return what a model is: its sentence and papers, its abilities and parameters."""
     model = MODELS.get(name)
     return {
         "name": name,
-        "summary": _summary(model),
+        "summary": summary(model),
+        "family": model.family,
+        "source": source(model),
         "abilities": _abilities(model),
         "parameters": model().get_params(),
     }
 
 
 def metric_entry(name: str) -> Mapping[str, Any]:
-    """Return what a metric is: its title, which values are better, and of what it is."""
+    """Return what a metric is: its title and facts, which values are better, of what it is."""
     metric = METRICS.get(name)
     return {
         "name": name,
         "title": metric.title,
+        "sentence": metric.sentence,
+        "unit": metric.unit,
+        "range": metric.range,
+        "source": metric.source,
         "better": metric.direction.value if metric.target is None else f"near {metric.target:g}",
         "of": metric.outcome.__name__.lower(),
     }
@@ -75,7 +80,7 @@ def metric_entry(name: str) -> Mapping[str, Any]:
 def library_entry(name: str) -> Mapping[str, Any]:
     """Return what a library is: the first line of its docstring, and which files it reads."""
     library = LIBRARIES.get(name)
-    return {"name": name, "summary": _summary(library), "layout": list(library.layout)}
+    return {"name": name, "summary": summary(library), "layout": list(library.layout)}
 
 
 def format_entry(name: str) -> Mapping[str, Any]:
@@ -83,7 +88,7 @@ def format_entry(name: str) -> Mapping[str, Any]:
     kind = FORMATS.get(name)
     return {
         "name": name,
-        "summary": _summary(kind),
+        "summary": summary(kind),
         "suffixes": list(kind.suffixes),
         "needs": f"mocapbench[{kind.needs.name}]" if kind.needs else "",
     }
@@ -98,9 +103,3 @@ def _abilities(model: type[Model]) -> list[str]:
         for text, ability in able.items()
         if not any(issubclass(other, ability) for other in able.values() if other is not ability)
     ]
-
-
-def _summary(described: type) -> str:
-    """Return the first line of a docstring, without markup."""
-    first, _, _ = inspect.cleandoc(described.__doc__ or "").partition("\n")
-    return _ROLE.sub("", first).replace("`", "")

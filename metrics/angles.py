@@ -142,6 +142,10 @@ rms_angle = Metric(
     Imputation,
     root_mean_square_of_angles,
     defined=_has_scales,
+    sentence="Root mean square error over all hidden joint angles.",
+    unit="degrees",
+    range="0 to ∞",
+    source="Lawrence 2007",
 )
 cumulative_scaled_error = Metric(
     "cumulative_scaled_error",
@@ -150,4 +154,10 @@ cumulative_scaled_error = Metric(
     Imputation,
     cumulative_error_of_scaled_angles,
     defined=_has_scales,
+    sentence=(
+        "Squared errors of joint angles, each multiplied by its scale, summed over hidden frames "
+        "and averaged over angles; it grows with the gap."
+    ),
+    range="0 to ∞",
+    source="Taylor et al. 2006",
 )

@@ -230,6 +230,14 @@ class Metric(Generic[OutcomeT]):
     former_names : tuple of str
         Names that the metric had in earlier versions; stored values and options may still use
         them.
+    sentence : str
+        What it says, for people who do not know it; at most 30 words.
+    unit : str
+        For example ``"cm"``; empty where it has none.
+    range : str
+        The values that it can take, for example ``"0 to ∞"``.
+    source : str
+        The paper that defines it, or ``"this project"``.
     """
 
     name: str
@@ -241,6 +249,10 @@ class Metric(Generic[OutcomeT]):
     target: float | None = None
     defined: Callable[[OutcomeT], bool] = _always
     former_names: tuple[str, ...] = ()
+    sentence: str = ""
+    unit: str = ""
+    range: str = ""
+    source: str = ""
 
     def applies(self, outcome: object) -> bool:
         """Return whether the metric is defined for ``outcome``, which may be of any kind."""

@@ -233,6 +233,12 @@ def _coverage(percent: int) -> Metric[Imputation]:
         partial(interval_coverage, level=level),
         needs_variance=True,
         target=level,
+        sentence=(
+            f"Share of hidden entries inside their central {percent} % interval: less is too sure, "
+            "more too cautious."
+        ),
+        range="0 to 1",
+        source="Gneiting et al. 2007",
     )
 
 
@@ -247,6 +253,12 @@ pit = Metric(
     Imputation,
     pit_distance,
     needs_variance=True,
+    sentence=(
+        "How far the truth’s ranks within its predictive distributions are from uniform: 0 where "
+        "the distributions are right."
+    ),
+    range="0 to 0.9",
+    source="Gneiting et al. 2007",
 )
 sharpness = Metric(
     "sharpness",
@@ -255,6 +267,13 @@ sharpness = Metric(
     Imputation,
     mean_deviation,
     needs_variance=True,
+    sentence=(
+        "Mean predictive standard deviation; small is good only among models whose intervals "
+        "cover as they should."
+    ),
+    unit="that of the data",
+    range="0 to ∞",
+    source="Gneiting et al. 2007",
 )
 crps = Metric(
     "crps",
@@ -263,4 +282,11 @@ crps = Metric(
     Imputation,
     gaussian_crps,
     needs_variance=True,
+    sentence=(
+        "Absolute error of a predictive distribution: small where it is both near the truth and "
+        "narrow."
+    ),
+    unit="that of the data",
+    range="0 to ∞",
+    source="Gneiting and Raftery 2007",
 )

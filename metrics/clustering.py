@@ -110,7 +110,29 @@ def _counts(outcome: Clustering) -> NDArray[np.intp]:
     return np.asarray(contingency_matrix(truth, labels))
 
 
-purity = Metric("purity", "Purity", Direction.HIGHER, Clustering, average_purity)
+purity = Metric(
+    "purity",
+    "Purity",
+    Direction.HIGHER,
+    Clustering,
+    average_purity,
+    sentence=(
+        "Share of recordings that belong to the majority style of their cluster; it grows with "
+        "the number of clusters by itself."
+    ),
+    range="0 to 1",
+    source="Pan and Torresani 2009",
+)
 adjusted_rand = Metric(
-    "adjusted_rand", "Adjusted Rand index", Direction.HIGHER, Clustering, adjusted_rand_index
+    "adjusted_rand",
+    "Adjusted Rand index",
+    Direction.HIGHER,
+    Clustering,
+    adjusted_rand_index,
+    sentence=(
+        "Share of pairs of recordings rightly put together or apart, corrected for chance: 0 by "
+        "chance, 1 for the styles."
+    ),
+    range="−0.5 to 1",
+    source="Hubert and Arabie 1985",
 )

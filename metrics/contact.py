@@ -162,6 +162,13 @@ foot_skate = Metric(
     Imputation,
     imputed_foot_skate,
     defined=has_poses,
+    sentence=(
+        "Mean horizontal speed of a filled foot while the true foot stands; recorded walks have 6 "
+        "to 10 themselves."
+    ),
+    unit="cm/s",
+    range="0 to ∞",
+    source="this project",
 )
 sample_foot_skate = Metric(
     "sample_foot_skate",
@@ -170,4 +177,11 @@ sample_foot_skate = Metric(
     Synthesis,
     sampled_foot_skate,
     defined=has_poses,
+    sentence=(
+        "Mean horizontal speed of sampled feet near the ground; recorded walks have 4 to 12 "
+        "themselves."
+    ),
+    unit="cm/s",
+    range="0 to ∞",
+    source="Zhang et al. 2018",
 )

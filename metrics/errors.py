@@ -180,13 +180,29 @@ def pooled_standardised_error(outcome: Imputation) -> Score:
     return average(_squared_error(outcome) / scale, scored, left_out)
 
 
-mse = Metric("mse", "Mean squared error (MSE)", Direction.LOWER, Imputation, mean_squared_error)
+mse = Metric(
+    "mse",
+    "Mean squared error (MSE)",
+    Direction.LOWER,
+    Imputation,
+    mean_squared_error,
+    sentence="Mean squared difference of prediction and truth at hidden entries.",
+    unit="that of the data, squared",
+    range="0 to ∞",
+    source="Rasmussen and Williams 2006",
+)
 smse = Metric(
     "smse",
     "Standardised MSE (SMSE)",
     Direction.LOWER,
     Imputation,
     standardised_error,
+    sentence=(
+        "MSE over the variance of the true values, channel by channel, then averaged; predicting "
+        "the mean scores 1."
+    ),
+    range="0 to ∞",
+    source="Rasmussen and Williams 2006",
 )
 smse_pooled = Metric(
     "smse_pooled",
@@ -194,4 +210,10 @@ smse_pooled = Metric(
     Direction.LOWER,
     Imputation,
     pooled_standardised_error,
+    sentence=(
+        "MSE over the variance of the true values, both over all channels together, as the thesis "
+        "tabulates it."
+    ),
+    range="0 to ∞",
+    source="Gil López 2017",
 )

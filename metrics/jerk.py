@@ -145,6 +145,11 @@ jerk_ratio = Metric(
     imputed_jerk,
     target=1.0,
     defined=has_poses,
+    sentence=(
+        "Jerk of filled joints over that of the true ones: below 1 too smooth, above 1 too rough."
+    ),
+    range="0 to ∞",
+    source="this project",
 )
 sample_jerk_ratio = Metric(
     "sample_jerk_ratio",
@@ -154,4 +159,9 @@ sample_jerk_ratio = Metric(
     sampled_jerk,
     target=1.0,
     defined=has_poses,
+    sentence=(
+        "Jerk of sampled joints over that of the references: below 1 too smooth, above 1 too rough."
+    ),
+    range="0 to ∞",
+    source="this project",
 )

@@ -79,4 +79,11 @@ msll = Metric(
     Imputation,
     mean_standardised_log_loss,
     needs_variance=True,
+    sentence=(
+        "Log loss of the predictive distributions minus that of each channel’s visible mean and "
+        "variance, which therefore scores 0."
+    ),
+    unit="nats",
+    range="−∞ to ∞",
+    source="Rasmussen and Williams 2006",
 )

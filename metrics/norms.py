@@ -177,6 +177,13 @@ rms_per_frame = Metric(
     Direction.LOWER,
     Imputation,
     rms_error_per_frame,
+    sentence=(
+        "Mean over hidden frames of the Euclidean norm of the error of all channels, degrees and "
+        "root steps added as they are."
+    ),
+    unit="that of the data",
+    range="0 to ∞",
+    source="Wang et al. 2008",
 )
 angle_error_per_frame = Metric(
     "angle_error_per_frame",
@@ -185,6 +192,10 @@ angle_error_per_frame = Metric(
     Imputation,
     angle_error,
     defined=_has_angles,
+    sentence="Mean over hidden frames of the Euclidean norm of the error of all hidden angles.",
+    unit="degrees",
+    range="0 to ∞",
+    source="this project",
 )
 root_error_per_frame = Metric(
     "root_error_per_frame",
@@ -193,4 +204,11 @@ root_error_per_frame = Metric(
     Imputation,
     root_error,
     defined=_has_angles_and_path,
+    sentence=(
+        "Mean over hidden frames of the Euclidean norm of the error of the root’s translation or "
+        "steps."
+    ),
+    unit="skeleton units (5.64 cm in the CMU database)",
+    range="0 to ∞",
+    source="this project",
 )

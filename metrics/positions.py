@@ -206,6 +206,13 @@ mpjpe = Metric(
     Imputation,
     relative_joint_position_error,
     defined=has_poses,
+    sentence=(
+        "Mean distance of predicted joints from true ones, both placed by forward kinematics "
+        "relative to the root."
+    ),
+    unit="cm",
+    range="0 to ∞",
+    source="Ionescu et al. 2014",
 )
 mpjpe_global = Metric(
     "mpjpe_global",
@@ -214,6 +221,13 @@ mpjpe_global = Metric(
     Imputation,
     joint_position_error,
     defined=has_poses,
+    sentence=(
+        "Mean distance of predicted joints from true ones in space; errors of the root’s steps "
+        "add up along a gap."
+    ),
+    unit="cm",
+    range="0 to ∞",
+    source="Ionescu et al. 2014",
 )
 bone_length_error = Metric(
     "bone_length_error",
@@ -222,4 +236,11 @@ bone_length_error = Metric(
     Imputation,
     bone_length_difference,
     defined=_are_positions,
+    sentence=(
+        "Mean difference of predicted from true bone lengths, at hidden joints; defined where "
+        "channels are positions."
+    ),
+    unit="cm",
+    range="0 to ∞",
+    source="this project",
 )

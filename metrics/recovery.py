@@ -6,7 +6,6 @@ thesis, Universidad Tecnológica de Pereira, 2017 (thesis), §5.2.3.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -25,7 +24,6 @@ __all__ = [
 ]
 
 Array = NDArray[np.float64]
-Statistic = Callable[..., Score]
 
 
 def relative_frobenius(outcome: Recovery, layer: str) -> Score:
@@ -134,38 +132,44 @@ def _has(outcome: Recovery, layer: str) -> bool:
     return layer in outcome.estimate
 
 
-def _metric(name: str, title: str, of_layer: Statistic, layer: str) -> Metric[Recovery]:
+_COVARIANCES = {
+    "child": "covariance of children around their parent",
+    "parent": "covariance of the parent",
+}
+
+
+def _relative_error(name: str, title: str, layer: str) -> Metric[Recovery]:
     return Metric(
         name,
         title,
         Direction.LOWER,
         Recovery,
-        partial(of_layer, layer=layer),
+        partial(relative_frobenius, layer=layer),
         defined=partial(_has, layer=layer),
+        sentence=f"Size of the error of the {_COVARIANCES[layer]}, over the size of the true one.",
+        range="0 to ∞",
+        source="this project",
     )
 
 
-frobenius_child = _metric(
-    "frobenius_child",
-    "Relative Frobenius error, child K_f",
-    relative_frobenius,
-    "child",
+def _divergence(name: str, title: str, layer: str) -> Metric[Recovery]:
+    return Metric(
+        name,
+        title,
+        Direction.LOWER,
+        Recovery,
+        partial(log_det_divergence, layer=layer),
+        defined=partial(_has, layer=layer),
+        sentence=f"Log loss from taking the estimated {_COVARIANCES[layer]} for the true one.",
+        unit="nats",
+        range="0 to ∞",
+        source="Kullback and Leibler 1951",
+    )
+
+
+frobenius_child = _relative_error("frobenius_child", "Relative Frobenius error, child K_f", "child")
+frobenius_parent = _relative_error(
+    "frobenius_parent", "Relative Frobenius error, parent K_g", "parent"
 )
-frobenius_parent = _metric(
-    "frobenius_parent",
-    "Relative Frobenius error, parent K_g",
-    relative_frobenius,
-    "parent",
-)
-logdet_child = _metric(
-    "logdet_child",
-    "Log-determinant divergence, child K_f",
-    log_det_divergence,
-    "child",
-)
-logdet_parent = _metric(
-    "logdet_parent",
-    "Log-determinant divergence, parent K_g",
-    log_det_divergence,
-    "parent",
-)
+logdet_child = _divergence("logdet_child", "Log-determinant divergence, child K_f", "child")
+logdet_parent = _divergence("logdet_parent", "Log-determinant divergence, parent K_g", "parent")

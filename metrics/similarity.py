@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
@@ -186,20 +186,59 @@ def marginal_variance_ratio(outcome: Synthesis) -> Score:
     return Score(float(outcome.samples.var(axis=0, ddof=1).mean() / of_references))
 
 
-def _mean(name: str, title: str, correlation: Correlation) -> Metric[Synthesis]:
-    statistic = partial(mean_similarity, correlation=correlation)
-    return Metric(name, title, Direction.HIGHER, Synthesis, statistic)
+def _metric(
+    name: str,
+    title: str,
+    similarity: Callable[..., Score],
+    correlation: Correlation,
+    sentence: str,
+) -> Metric[Synthesis]:
+    return Metric(
+        name,
+        title,
+        Direction.HIGHER,
+        Synthesis,
+        partial(similarity, correlation=correlation),
+        sentence=sentence,
+        range=_RANGES[correlation],
+        source="Gil López 2017",
+    )
 
 
-def _best(name: str, title: str, correlation: Correlation) -> Metric[Synthesis]:
-    statistic = partial(best_similarity, correlation=correlation)
-    return Metric(name, title, Direction.HIGHER, Synthesis, statistic)
+_RANGES: Mapping[Correlation, str] = {
+    cross_correlation: "0 to the number of frames",
+    linear_correlation: "−1 to 1",
+}
 
-
-mcc = _mean("mcc", "Maximum cross-correlation (MCC)", cross_correlation)
-mlc = _mean("mlc", "Mean linear correlation (MLC)", linear_correlation)
-mcc_best = _best("mcc_best", "Maximum cross-correlation, best match", cross_correlation)
-mlc_best = _best("mlc_best", "Mean linear correlation, best match", linear_correlation)
+mcc = _metric(
+    "mcc",
+    "Maximum cross-correlation (MCC)",
+    mean_similarity,
+    cross_correlation,
+    "Likeness of samples and references at the best shift in time, channels scaled to [0, 1]; "
+    "it grows with the number of frames.",
+)
+mlc = _metric(
+    "mlc",
+    "Mean linear correlation (MLC)",
+    mean_similarity,
+    linear_correlation,
+    "Correlation of samples and references frame by frame, averaged over channels and references.",
+)
+mcc_best = _metric(
+    "mcc_best",
+    "Maximum cross-correlation, best match",
+    best_similarity,
+    cross_correlation,
+    "MCC with the one reference that all samples together resemble most.",
+)
+mlc_best = _metric(
+    "mlc_best",
+    "Mean linear correlation, best match",
+    best_similarity,
+    linear_correlation,
+    "MLC with the one reference that all samples together resemble most.",
+)
 variance_ratio = Metric(
     "variance_ratio",
     "Variance ratio",
@@ -208,4 +247,10 @@ variance_ratio = Metric(
     marginal_variance_ratio,
     target=1.0,
     former_names=("spread",),
+    sentence=(
+        "How much samples vary around their mean, over how much references do: 0 for samples that "
+        "are all equal."
+    ),
+    range="0 to ∞",
+    source="this project",
 )

@@ -163,6 +163,13 @@ npss = Metric(
     Imputation,
     imputed_spectrum,
     defined=has_poses,
+    sentence=(
+        "Distance of the power spectra of filled and true gaps, strong channels weighing more; "
+        "phases do not matter."
+    ),
+    unit="steps of frequency",
+    range="0 to ∞",
+    source="Gopalakrishnan et al. 2019",
 )
 sample_npss = Metric(
     "sample_npss",
@@ -171,4 +178,11 @@ sample_npss = Metric(
     Synthesis,
     sampled_spectrum,
     defined=has_poses,
+    sentence=(
+        "Distance of the power spectra of samples and references, strong channels weighing more; "
+        "a sample need not be in step."
+    ),
+    unit="steps of frequency",
+    range="0 to ∞",
+    source="Gopalakrishnan et al. 2019",
 )

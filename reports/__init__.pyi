@@ -1,6 +1,7 @@
 from .bundle.bundle import Bundle
 from .bundle.layout import CaseLayout, TaskLayout
 from .bundle.metric_info import MetricInfo
+from .bundle.model_info import ModelInfo
 from .bundle.pictures import (
     Band,
     Curve,
@@ -32,6 +33,7 @@ __all__ = [
     "HeatMaps",
     "Illustration",
     "MetricInfo",
+    "ModelInfo",
     "Panel",
     "Path3D",
     "Picture",

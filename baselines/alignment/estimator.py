@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
@@ -29,6 +29,8 @@ class CycleAligner(Aligner):
     The model works on channels of zero mean and unit variance. Recordings are sorted by name, so
     that their order does not affect results.
     """
+
+    family: ClassVar[str] = "Alignment"
 
     n_states: int | None
     max_jump: int

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -60,6 +60,8 @@ class Channelwise(ChannelPosteriors[Single]):
     solver_ : str
         The solvers that were used.
     """
+
+    family: ClassVar[str] = "Gaussian processes"
 
     def __init__(
         self,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from joblib import effective_n_jobs
@@ -105,6 +105,8 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
     noise_ : ndarray of shape (D,)
         Noise variances, in the outputs' own units.
     """
+
+    family: ClassVar[str] = "Gaussian processes"
 
     def __init__(
         self,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +45,8 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
     A subclass provides the prior and the learning algorithm. Its constructor stores ``n_latent``,
     ``start``, ``subject_offset``, ``fill_iter`` and ``random_state``; see `GPDM`.
     """
+
+    family: ClassVar[str] = "Latent dynamics"
 
     n_latent: int
     start: str

@@ -39,7 +39,7 @@ _POSITION_STEP = 3e-3
 
 
 class GPDM(DynamicalModel):
-    r"""A Gaussian process dynamical model of several sequences.
+    r"""Poses and their dynamics as smooth functions of a path through a latent space.
 
     Poses are :math:`y_t = W^{-1}(g(x_t) + n_{y,t})` and latent positions :math:`x_t =
     f(x_{t-1}) + n_{x,t}`, with both functions integrated out under Gaussian-process priors. To

@@ -8,6 +8,7 @@ from typing import Any
 from mocapbench.baselines import Interpolator
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.results.frames import job_table, score_table
+from mocapbench.benchmark.results.model_infos import model_infos
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import (
@@ -86,6 +87,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
         independent_folds=task.independent_folds,
         budget=budget,
         interpolations=_unique(r.address.label for r in of_task if _interpolates(r.model)),
+        models=model_infos(task, of_task),
     )
 
 
@@ -97,7 +99,15 @@ def _interpolates(model: str) -> bool:
 def _metric_info(name: str) -> MetricInfo:
     metric = METRICS.get(name)
     return MetricInfo(
-        name, metric.title, metric.direction, metric.target, of_distribution=metric.needs_variance
+        name,
+        metric.title,
+        metric.direction,
+        metric.target,
+        of_distribution=metric.needs_variance,
+        sentence=metric.sentence,
+        unit=metric.unit,
+        range=metric.range,
+        source=metric.source,
     )
 
 

@@ -120,8 +120,15 @@ def _page(settings: Settings, cases: tuple[Case, ...], hidden: Hidden) -> TaskPa
         title=settings.title,
         reference="a task file of your own",
         description=settings.description,
+        question=_question(hidden),
         metrics=settings.metrics,
         along=columns[0] if columns else None,
         illustrated=tuple(case.name for case in cases if case.columns.items() >= most.items()),
         figures=(LongestGaps(), *((GapError(),) if hidden.whole_frames else ())),
     )
+
+
+def _question(hidden: Hidden) -> str:
+    if hidden.whole_frames:
+        return "hidden-frames"
+    return "scattered-samples" if hidden.scattered else "other-channels"

@@ -60,6 +60,8 @@ class Hidden:
         Whether all channels are hidden wherever one is.
     whole_channels : bool
         Whether a channel is hidden from end to end, so that only other recordings tell of it.
+    scattered : bool
+        Whether entries are hidden one by one.
     pattern : str
         Path of the file whose gaps are hidden, below the folder of recordings; mostly empty.
     """
@@ -67,6 +69,7 @@ class Hidden:
     variants: tuple[Variant, ...]
     whole_frames: bool = False
     whole_channels: bool = False
+    scattered: bool = False
     pattern: str = ""
 
     @property
@@ -102,7 +105,7 @@ def read_hidden(document: Document, address: Callable[[str], str]) -> Hidden:
             spans = read_spans(document, "hide.frames", [])
             return Hidden((Variant(Spans(spans, channels)),), whole_frames=not channels)
         case ["fraction"]:
-            return Hidden(_fractions(document, channels))
+            return Hidden(_fractions(document, channels), scattered=True)
         case ["runs"]:
             return _runs(document, channels)
         case ["pattern-of"]:

@@ -93,6 +93,13 @@ def is_documented(subject: Subject) -> None:
     require(own, "a docstring of the class", repr(own), "say what the model is")
 
 
+def names_its_family(subject: Subject) -> None:
+    """Check that the class says among which models a report shows it."""
+    family: object = subject.model.family
+    named = isinstance(family, str) and family.strip() != ""
+    require(named, "a family, such as 'Your models'", repr(family), "name it or leave it out")
+
+
 def constructor_only_stores(subject: Subject) -> None:
     """Check that the constructor works without arguments and only stores them."""
     model = subject.model()
@@ -123,6 +130,7 @@ def fit_returns_the_model(subject: Subject) -> None:
 _CHECKS: Mapping[type, tuple[ModelCheck, ...]] = {
     Model: (
         is_documented,
+        names_its_family,
         constructor_only_stores,
         fit_returns_the_model,
     ),

@@ -75,12 +75,23 @@ PENDULUMS = Task(
         title="Pendulums",
         reference="an example",
         description="Fill a gap in the swing of a pendulum, having seen others of other lengths.",
+        question="hidden-frames",
         metrics=("rms_per_frame", "worst_error"),
         illustrated=("long",),
         figures=(GapError(),),
     ),
 )
-WORST_ERROR = Metric("worst_error", "Worst error", Direction.LOWER, Imputation, worst_error)
+WORST_ERROR = Metric(
+    "worst_error",
+    "Worst error",
+    Direction.LOWER,
+    Imputation,
+    worst_error,
+    sentence="Largest difference of prediction and truth over all hidden entries.",
+    unit="that of the data",
+    range="0 to ∞",
+    source="an example",
+)
 
 LIBRARIES = {"pendulums": Pendulums}
 MODELS = {"linear-dynamics": LinearDynamics}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from mocapbench.reports.bundle.model_info import ModelInfo
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
 __all__ = ["CaseLayout", "Setting", "TaskLayout"]
@@ -74,6 +75,8 @@ class TaskLayout:
         The label that returns the training recordings as its samples. It is not ranked.
     interpolations : tuple of str
         The labels that fill each channel from its own course alone. The headlines name the best.
+    models : mapping of str to ModelInfo
+        The model behind each label.
     """
 
     name: str
@@ -86,9 +89,14 @@ class TaskLayout:
     control: str = "control"
     replay: str = "replay"
     interpolations: tuple[str, ...] = ()
+    models: Mapping[str, ModelInfo] = field(default_factory=dict)
 
     @property
     def ranked(self) -> tuple[str, ...]:
         """The labels that compete: all but the oracle, the control and the replay."""
         unranked = {self.oracle, self.control, self.replay}
         return tuple(label for label in self.labels if label not in unranked)
+
+    def model(self, label: str) -> ModelInfo:
+        """Return the model behind ``label``; nothing but the label where nothing is known."""
+        return self.models.get(label, ModelInfo(label))

@@ -11,7 +11,7 @@ __all__ = ["MetricInfo"]
 
 @dataclass(frozen=True)
 class MetricInfo:
-    """The title of a metric and the direction in which it improves.
+    """The title of a metric, the direction in which it improves, and what it says.
 
     Parameters
     ----------
@@ -23,6 +23,9 @@ class MetricInfo:
         The ideal value where the direction is ``TARGET``.
     of_distribution : bool
         Whether it scores a predictive distribution, not single predictions or samples.
+    sentence, unit, range, source : str
+        What it says, its unit, the values it can take and the paper that defines it; each empty
+        where it is not stated, and the unit where there is none.
 
     Raises
     ------
@@ -35,6 +38,10 @@ class MetricInfo:
     direction: Direction
     target: float | None = None
     of_distribution: bool = False
+    sentence: str = ""
+    unit: str = ""
+    range: str = ""
+    source: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "direction", Direction(self.direction))
@@ -44,3 +51,8 @@ class MetricInfo:
     def loss(self, value: float) -> float:
         """Return the loss of ``value``: lower is better for every direction."""
         return self.direction.loss(value, self.target)
+
+    @property
+    def better(self) -> str:
+        """Which values are better: ``"lower"``, ``"higher"`` or ``"closest to 1"``."""
+        return self.direction.value if self.target is None else f"closest to {self.target:g}"

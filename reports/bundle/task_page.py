@@ -10,6 +10,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
+from mocapbench.reports.bundle.questions import BY_KIND, question
+
 if TYPE_CHECKING:
     from mocapbench.reports.bundle.pictures import Picture
 
@@ -58,6 +60,9 @@ class TaskPage:
         One or two sentences for readers.
     kind : str
         ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``.
+    question : str
+        Name of what the task asks (`mocapbench.reports.bundle.questions`), under which the page
+        shows it. By default that of its kind; for ``"impute"`` it is ``"hidden-frames"``.
     metrics : tuple of str
         The tables to show, in order. The headlines use the first.
     rows : mapping of str to RowNotes
@@ -81,12 +86,18 @@ class TaskPage:
         Names of cases. The first of them that has solutions is shown in figures.
     figures : tuple of Figure
         The figures of that case, in page order.
+
+    Raises
+    ------
+    ValueError
+        If there is no such kind or question.
     """
 
     title: str
     reference: str
     description: str
     kind: str = "impute"
+    question: str = ""
     metrics: tuple[str, ...]
     rows: Mapping[str, RowNotes] = field(default_factory=dict)
     published_models: Mapping[str, str] = field(default_factory=dict)
@@ -98,6 +109,11 @@ class TaskPage:
     along: str | None = None
     illustrated: tuple[str, ...] = ()
     figures: tuple[Figure, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.kind not in BY_KIND:
+            raise ValueError(f"kind: expected one of {', '.join(BY_KIND)}, got {self.kind!r}")
+        object.__setattr__(self, "question", question(self.question or BY_KIND[self.kind]).name)
 
     def notes(self, case: str) -> RowNotes:
         """Return the notes on ``case``; empty notes where the page has none."""

@@ -36,6 +36,10 @@ class Raises(_Mean):
         raise RuntimeError("the model <b>raised</b>")
 
 
+class Nameless(_Mean):
+    family = ""
+
+
 class Singular(_Mean):
     def fit(self, recordings):
         np.linalg.cholesky(np.zeros((2, 2)) - np.eye(2))
@@ -325,6 +329,7 @@ class Bends(_Styles):
 
 
 NONCONFORMING = {
+    Nameless: "expected a family, such as 'Your models', got ''",
     Raises: "expected that .* got RuntimeError: the model <b>raised</b>",
     NotANumber: "expected a finite mean, got 40 NaN or infinite entries",
     WrongShape: r"expected a mean of shape \(20, 2\), got \(2, 2\)",

@@ -18,6 +18,7 @@ PAGE = TaskPage(
         "as it is; MCC of a recording with itself is what a sample could reach."
     ),
     kind="synthesise",
+    question="recover",
     metrics=("mcc", "mlc"),
     rows={pair: RowNotes(published=pair) for pair in _PAIRS},
     published_models={"replay": "real"},

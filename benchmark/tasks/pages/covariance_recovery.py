@@ -17,6 +17,7 @@ PAGE = TaskPage(
         "K_g, of the fitted models are compared with the true ones. Every fold draws a new process."
     ),
     kind="recover",
+    question="recover",
     metrics=("frobenius_child", "frobenius_parent", "logdet_child", "logdet_parent"),
     remarks=(
         "The thesis shows these covariances as pictures of one dataset and gives no numbers.",

@@ -22,6 +22,7 @@ PAGE = TaskPage(
         "steps; beside it stand its two parts, and the error of the joints in centimetres, by "
         "forward kinematics."
     ),
+    question="hidden-frames",
     metrics=("rms_per_frame", "mpjpe", "angle_error_per_frame", "root_error_per_frame"),
     remarks=(
         "The paper shows models of these swings and fills none of their frames: the protocol is "

@@ -20,6 +20,7 @@ PAGE = TaskPage(
         "every fourth fold. Models see what is visible of the recording, and three others of the "
         "same subject or none."
     ),
+    question="other-channels",
     metrics=("mpjpe", "bone_length_error", "jerk_ratio", "coverage_90", "msll"),
     along="seconds",
     remarks=(

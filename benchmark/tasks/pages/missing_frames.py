@@ -27,6 +27,7 @@ PAGE = TaskPage(
         "which adds degrees and root steps; beside it stand its two parts, and the error of the "
         "joints in centimetres, by forward kinematics."
     ),
+    question="hidden-frames",
     metrics=("rms_per_frame", "mpjpe", "angle_error_per_frame", "root_error_per_frame"),
     rows={
         f"{test} {group}": RowNotes(published=test, remark=remark)

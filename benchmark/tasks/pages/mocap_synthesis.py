@@ -66,6 +66,7 @@ WALKING_PAGE = TaskPage(
         "is of one component a layer and three walks, and of three components and two walks."
     ),
     kind="synthesise",
+    question="invent-motion",
     metrics=_METRICS,
     rows={
         **_rows(WALKS, _SEVERAL_WALKS, not_comparable={"mohgp-1": _TRAINED_ON_THREE}),
@@ -91,6 +92,7 @@ EXAGGERATED_PAGE = TaskPage(
         "25 samples of each are compared with walks of other people."
     ),
     kind="synthesise",
+    question="invent-motion",
     metrics=_METRICS,
     rows=_rows(WALKS, _SEVERAL_WALKS),
     published_models=_THREE_COMPONENTS,
@@ -109,6 +111,7 @@ SOCCER_PAGE = TaskPage(
         "kicks."
     ),
     kind="synthesise",
+    question="invent-motion",
     metrics=_METRICS,
     rows={
         **_rows(KICKS, _SEVERAL_KICKS),

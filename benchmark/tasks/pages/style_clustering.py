@@ -19,6 +19,7 @@ PAGE = TaskPage(
         "the recordings are the same, the model's random start is another."
     ),
     kind="cluster",
+    question="find-styles",
     metrics=("purity", "adjusted_rand"),
     remarks=(
         "Purity is the share of recordings that belong to the majority style of their cluster. It "

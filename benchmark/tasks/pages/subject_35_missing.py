@@ -19,6 +19,7 @@ PAGE = TaskPage(
         "hidden angles, and the papers’ cumulative scaled error, in which each error is multiplied "
         "by its angle’s scale and squared, summed over frames and averaged over angles."
     ),
+    question="other-channels",
     metrics=("rms_angle", "cumulative_scaled_error"),
     rows={name: RowNotes(published=name) for name in ("right leg", "upper body")},
     published_models={"nn-scaled": "scaled NN", "nn-radians": "NN"},

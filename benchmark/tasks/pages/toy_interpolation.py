@@ -39,6 +39,7 @@ ONE_INCOMPLETE_PAGE = TaskPage(
         "are visible; the rest is to be filled. Every fold draws a new process, new children and "
         "a new mask."
     ),
+    question="scattered-samples",
     metrics=_METRICS,
     rows=_rows(9),
     published_models={"mohgp-3": "MOHGP", "moa-3": "MOA"},
@@ -57,6 +58,7 @@ TOO_FEW_COMPONENTS_PAGE = TaskPage(
         "has one component a layer where the process has three; the reference model has three and "
         "is trained from five starts."
     ),
+    question="scattered-samples",
     metrics=_METRICS,
     rows=_rows(6),
     published_models={"mohgp-1": "MOHGP", "moa-3": "MOA"},
@@ -75,6 +77,7 @@ MUCH_NOISE_PAGE = TaskPage(
         "are visible. The hierarchical model has one component a layer, as the process has; the "
         "reference model has three and is trained from ten starts."
     ),
+    question="scattered-samples",
     metrics=_METRICS,
     rows=_rows(4),
     published_models={"mohgp-1": "MOHGP", "moa-3": "MOA"},

@@ -19,6 +19,7 @@ PAGE = TaskPage(
         "each of a parent of its own. Every fold draws new processes and new children."
     ),
     kind="synthesise",
+    question="invent-motion",
     metrics=("mcc", "mlc", "variance_ratio", "mcc_best", "mlc_best"),
     rows={f"test {n}": RowNotes(published=f"test {n}") for n in range(1, 10)},
     published_models={"mohgp-3": "MOHGP", "moa-3": "MOA", "control": "Control"},

@@ -19,6 +19,7 @@ PAGE = TaskPage(
         "trunk, the head, the arms and the hips. The root, the knees, the feet and the toes stay "
         "visible. MSE is the mean squared error per joint angle, in squared degrees."
     ),
+    question="other-channels",
     metrics=("mse", "mpjpe", "msll"),
     rows={"subject 07 walks": RowNotes(published="subject 07 walk")},
     published_models={"nn": "NN", "cyclic-alignment": "HLM"},

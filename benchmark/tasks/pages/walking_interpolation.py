@@ -17,6 +17,7 @@ PAGE = TaskPage(
         "channel are visible, drawn anew for every channel and fold; the rest is to be filled. "
         "Scores are taken after mapping each channel to [0, 1] by the complete recording's range."
     ),
+    question="scattered-samples",
     metrics=("smse_pooled", "mpjpe", "mse", "msll", "smse"),
     rows={f"observed {n}": RowNotes(published=f"observed {n}") for n in (40, 30, 20, 10)},
     published_models={

@@ -45,6 +45,30 @@ def test_interpolations_are_known_by_the_nature_of_their_model():
     assert layout.interpolations == ("hold", "my-spline")
 
 
+def test_each_label_has_the_facts_of_its_model():
+    records = [
+        replace(_record("nn", {}), model="nn"),
+        replace(_record("old", {}), model="no longer registered"),
+    ]
+    (layout,) = bundle(records, {"profile": "smoke"}).layouts
+    nearest, old = (layout.model(label) for label in layout.labels)
+    assert (nearest.name, nearest.family, nearest.parameters) == ("nn", "Neighbours", "")
+    assert nearest.sentence.startswith("Copy hidden entries")
+    assert nearest.source == "Pan and Torresani 2009; Taylor et al. 2007"
+    assert (old.name, old.sentence, old.source, old.family) == (
+        *("no longer registered", "", "", "Your models"),
+    )
+    assert layout.model("nobody").name == "nobody"
+
+
+def test_a_label_has_the_parameters_that_its_entrant_sets():
+    task = TASKS.get("missing-frames")
+    address = Address(task.name, task.version, task.cases[0].name, 0, "gpdm-map-linear")
+    record = replace(_record("gpdm-map-linear", {}), address=address, model="gpdm")
+    (layout,) = bundle([record], {}).layouts
+    assert layout.model("gpdm-map-linear").parameters == "learning=map, start=linear"
+
+
 def test_the_budget_of_the_profile_is_written_out(made):
     assert made.layouts[0].budget == "max_iter=3, n_restarts=1, n_styles=2"
     assert bundle([_record("nn", {})], {"profile": "paper"}).layouts[0].budget == ""
@@ -53,6 +77,8 @@ def test_the_budget_of_the_profile_is_written_out(made):
 def test_metrics_are_those_that_the_page_shows_and_those_that_were_scored(made):
     assert list(made.metrics) == ["mpjpe", "mse", "msll", "smse"]
     assert made.metrics["mse"].title == "Mean squared error (MSE)"
+    assert made.metrics["mse"].unit == "that of the data, squared"
+    assert made.metrics["mse"].sentence
 
 
 def test_a_case_that_the_task_does_not_have_is_refused_by_name():

@@ -71,6 +71,22 @@ def test_gaps_of_a_file_itself_are_filled_and_not_scored(pose, folder):
     assert np.isnan(gappy.given[0].values[40:45, 1]).all()
 
 
+@pytest.mark.parametrize(
+    ("hidden", "question"),
+    [
+        ('frames = "20:30"', "hidden-frames"),
+        ("runs = { seconds = [0.1, 0.2] }", "hidden-frames"),
+        ("fraction = 0.2", "scattered-samples"),
+        ('runs = { seconds = 0.1, together = "channel" }', "other-channels"),
+        ('frames = "20:30"\nchannels = "knee.*"', "other-channels"),
+        ('channels = "knee.*"', "other-channels"),
+    ],
+)
+def test_the_question_follows_from_what_is_hidden(check, hidden, question):
+    task = build_task(check(f'files = "*.csv"\ntraining = "others"\n[hide]\n{hidden}\n'))
+    assert task.page.question == question
+
+
 def test_a_task_is_alike_in_all_profiles_and_names_its_models(check):
     task = build_task(check('models = ["linear", "knn"]\nfolds = 1\n' + TEXT.format("others")))
     assert set(task.profiles) == set(PROFILES)

@@ -21,4 +21,8 @@ median_absolute_error = Metric(
     Direction.LOWER,
     Imputation,
     median_of_errors,
+    sentence="Median difference of prediction and truth over all hidden entries.",
+    unit="that of the data",
+    range="0 to ∞",
+    source="mocapbench-waves",
 )

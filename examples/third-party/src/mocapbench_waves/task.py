@@ -55,6 +55,7 @@ waves = Task(
         title="Waves with a gap",
         reference="mocapbench-waves",
         description="Fill a gap in a noisy wave, given three whole ones of other phases.",
+        question="hidden-frames",
         metrics=("mse", "median_absolute_error"),
     ),
 )
