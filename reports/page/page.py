@@ -10,6 +10,7 @@ from mocapbench.reports.analysis.troubles import DATA_MISSING, troubles
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.model_info import ModelInfo, in_families
 from mocapbench.reports.bundle.questions import QUESTIONS, question
+from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.front.answers import answers
 from mocapbench.reports.front.board import SHADES
 from mocapbench.reports.front.scoreboard import scoreboard
@@ -27,7 +28,8 @@ __all__ = ["render"]
 def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
     results = sorted((task_results(bundle, layout) for layout in bundle.layouts), key=_place)
-    views = [task_view(of_task, bundle.illustrations) for of_task in results]
+    looks = model_styles(bundle.layouts)
+    views = [task_view(of_task, looks, bundle.illustrations) for of_task in results]
     no_score = troubles(bundle)
     families = in_families(_models(results))
     return template("page.html.j2").render(

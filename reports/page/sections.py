@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.analysis.ranks import ranks_over_cases
@@ -12,6 +12,7 @@ from mocapbench.reports.bundle.pictures import Picture
 from mocapbench.reports.figures.along import curves_along
 from mocapbench.reports.figures.draw import draw
 from mocapbench.reports.figures.ranks import rank_figure
+from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.page.headline import Headline
 from mocapbench.reports.page.lead_headlines import lead_headlines
@@ -94,7 +95,9 @@ class TaskView:
         return self.metrics[1:]
 
 
-def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> TaskView:
+def task_view(
+    results: TaskResults, styles: Mapping[str, Style], illustrations: Iterable[Picture] = ()
+) -> TaskView:
     """Return the section of one task, with the ``illustrations`` that belong to it."""
     layout, first = results.layout, results.layout.page.metrics[0]
     ran = {case.name for case in results.cases}
@@ -103,7 +106,7 @@ def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> Ta
         layout=layout,
         leads=[*lead_headlines(results, first), *published_headlines(results, first)],
         wins=win_headlines(results, first),
-        metrics=[_metric_view(results, metric) for metric in layout.page.metrics],
+        metrics=[_metric_view(results, metric, styles) for metric in layout.page.metrics],
         figures=_figures(results, first),
         pictures=[draw(picture) for picture in illustrations if picture.task == layout.name],
         summaries=_summaries(results, first),
@@ -111,11 +114,11 @@ def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> Ta
     )
 
 
-def _metric_view(results: TaskResults, metric: str) -> MetricView:
+def _metric_view(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> MetricView:
     crossed, title = results.layout.page.crossed, results.metrics[metric].title
     if crossed:
         return MetricView(title, None, cross_table(results, metric, crossed))
-    return MetricView(title, score_table(results, metric), None)
+    return MetricView(title, score_table(results, metric, styles), None)
 
 
 def _figures(results: TaskResults, metric: str) -> list[SvgFigure]:

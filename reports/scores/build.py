@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.scores.behind import behind_cell, mean_cell
 from mocapbench.reports.scores.cells import cell_address, published_cell, score_cell
+from mocapbench.reports.scores.drawing import Drawing
 from mocapbench.reports.scores.table import NO_SCORE, CaseHead, ScoreCell, ScoreRow, ScoreTable
 from mocapbench.reports.text import counted, decimals, number, slug
 
@@ -23,24 +25,33 @@ def metric_places(results: TaskResults, metric: str) -> int:
     return decimals(e.mean for (_, _, name), e in results.estimates.items() if name == metric)
 
 
-def score_table(results: TaskResults, metric: str) -> ScoreTable:
+def score_table(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> ScoreTable:
     """Return the table of ``metric``: competitors best first, then references and papers' models.
 
     The mean is over the representative cases, each of which weighs the same.
+
+    Parameters
+    ----------
+    results : TaskResults
+    metric : str
+    styles : mapping of str to Style
+        How each label is drawn.
     """
     counting = results.representative_cases(metric)
     shown = [] if len(results.cases) == 1 else _in_order(results, counting)
     places = metric_places(results, metric)
     info = results.metrics[metric]
+    drawing = Drawing.of(results, metric, counting, styles)
     return ScoreTable(
         id=slug(results.layout.name, metric),
         metric=metric,
         title=info.title,
-        better=info.direction.value if info.target is None else f"near {info.target:g}",
+        better=info.better,
         basis=_basis(results, metric, counting),
         mean_head=CaseHead(f"mean of {counted(len(counting), 'case')}") if shown else _only(results),
         heads=tuple(map(_head, shown)),
-        rows=tuple(_rows(results, metric, counting, shown, places)),
+        rows=tuple(_rows(results, metric, counting, shown, places, drawing)),
+        axis=drawing.axis,
     )
 
 
@@ -79,6 +90,7 @@ def _rows(
     counting: Sequence[CaseLayout],
     shown: Sequence[CaseLayout],
     places: int,
+    drawing: Drawing,
 ) -> Iterator[ScoreRow]:
     ranked = {standing.label: standing for standing in standings(results, metric)}
     competing = set(results.layout.ranked)
@@ -93,8 +105,9 @@ def _rows(
             "ranked" if label in competing else "reference",
             _mean(results, metric, label, counting, places, standing),
             behind_cell(standing, places),
-            None,
+            drawing.strip(label),
             cells,
+            results.layout.model(label).family,
         )
     yield from _published(results, metric, counting, shown, places)
 
