@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from mocapbench.reports.analysis.comparisons import Tally, comparisons, every_comparison, tally
-from mocapbench.reports.analysis.ranks import ranks_over_cases, ranks_over_tasks
+from mocapbench.reports.analysis.published_totals import Tally, tally
+from mocapbench.reports.analysis.ranks import ranks_over_tasks, ranks_over_units
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.pictures import Picture
@@ -50,7 +50,6 @@ class MetricView:
     table: Table
     figure: SvgFigure | None
     published: Table | None
-    verdicts: Tally
     ranks: SvgFigure | None
     contrasts: Table | None
 
@@ -67,7 +66,7 @@ class TaskView:
     leads, wins : sequence of Headline
         On the best means, and on models that the paper lacks.
     verdicts : Tally
-        Over all metrics.
+        Of the published values of the task.
     metrics : sequence of MetricView
     figures : sequence of SvgFigure
         The pictures of the task.
@@ -107,7 +106,7 @@ def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> Ta
         layout=layout,
         leads=[*lead_headlines(results, first), *published_headlines(results, first)],
         wins=win_headlines(results, first),
-        verdicts=tally(every_comparison(results)),
+        verdicts=tally(results),
         metrics=[_metric_view(results, metric) for metric in layout.page.metrics],
         figures=[draw(picture) for picture in illustrations if picture.task == layout.name],
         summaries=[table for table in summaries if table is not None],
@@ -123,7 +122,6 @@ def _metric_view(results: TaskResults, metric: str) -> MetricView:
         table=cross_table(results, metric, crossed) if crossed else score_table(results, metric),
         figure=None if crossed else _figure(results, metric),
         published=verdict_table(results, metric),
-        verdicts=tally(comparisons(results, metric)),
         ranks=_rank_figure(results, metric),
         contrasts=contrast_table(results, metric),
     )
@@ -137,9 +135,9 @@ def _figure(results: TaskResults, metric: str) -> SvgFigure | None:
 
 
 def _rank_figure(results: TaskResults, metric: str) -> SvgFigure | None:
-    ranks, title = ranks_over_cases(results, metric), results.metrics[metric].title
+    ranks, title = ranks_over_units(results, metric), results.metrics[metric].title
     name = slug(results.layout.name, metric)
-    return rank_figure(ranks, f"{title}, ranks over cases", name) if ranks else None
+    return rank_figure(ranks, f"{title}, ranks over {ranks.unit}s", name) if ranks else None
 
 
 def overall_ranks(tasks: Sequence[TaskResults]) -> list[SvgFigure]:

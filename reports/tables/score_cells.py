@@ -18,10 +18,8 @@ MISSING_ID = "missing-data"
 
 
 def folds_cell(results: TaskResults, case: str, metric: str) -> Cell:
-    """Return the number of folds of a row, and whether its first rank was tested."""
-    rank = results.first_rank(case, metric)
-    untested = rank is not None and not rank.tested
-    return Cell(f"n={_n_folds(results, case, metric)}", note="no test" if untested else "")
+    """Return the number of folds of a row."""
+    return Cell(f"n={_n_folds(results, case, metric)}")
 
 
 def score_cells(results: TaskResults, case: str, metric: str, places: int) -> list[Cell]:
@@ -30,12 +28,12 @@ def score_cells(results: TaskResults, case: str, metric: str, places: int) -> li
     records = results.records[results.records["case"] == case]
     if (records["status"] == DATA_MISSING).all():
         return [Cell("data missing", kind="trouble", link=MISSING_ID, span=len(labels))]
-    best, expected = results.best(case, metric), _n_folds(results, case, metric)
+    best, expected = results.best_label(case, metric), _n_folds(results, case, metric)
     return [
         _score(
             results.estimate(case, label, metric),
             results.troubles.get((case, label), ()),
-            "best" if label in best else "",
+            "best" if label == best else "",
             expected,
             places,
         )
@@ -59,7 +57,7 @@ def _score(
     lost = [f"{count} {status}" for status, count in counts.items()]
     return Cell(
         text=number(estimate.mean, places),
-        spread=plus_minus(estimate.spread, places),
+        spread=plus_minus(estimate.half_width, places),
         note=", ".join(filter(None, [remaining, *lost])),
         kind=kind,
         link=link,

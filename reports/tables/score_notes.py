@@ -9,8 +9,7 @@ from mocapbench.reports.text import counted
 
 __all__ = ["OVER_SAMPLES", "score_caption", "score_notes"]
 
-OVER_FOLDS = "2 sd over folds"
-OVER_WINDOWS = "spread over overlapping windows (2 sd)"
+INTERVAL = "half its 95 % interval"
 OVER_SAMPLES = "2 sd over the samples of a fold, averaged over folds"
 
 
@@ -18,15 +17,12 @@ def score_caption(results: TaskResults, metric: str) -> str:
     """Return the metric's title, the meaning of ±, and which values are better."""
     info = results.metrics[metric]
     goal = info.direction.value if info.target is None else f"closest to {info.target:g}"
-    spread = _spread_meaning(results, metric)
-    return f"{info.title}: mean ± {spread}, {goal} is better, first rank in bold"
-
-
-def _spread_meaning(results: TaskResults, metric: str) -> str:
-    estimates = (e for (_, _, name), e in results.estimates.items() if name == metric)
-    if any(estimate.sample_two_sd is not None for estimate in estimates):
-        return OVER_SAMPLES
-    return OVER_FOLDS if results.layout.independent_folds else OVER_WINDOWS
+    intervals = (
+        mean.half_width for (_, _, name), mean in results.estimates.items() if name == metric
+    )
+    known = any(half is not None for half in intervals)
+    spread = f" ± {INTERVAL}" if known else ""
+    return f"{info.title}: mean{spread}, {goal} is better, the best in bold"
 
 
 def score_notes(results: TaskResults, metric: str) -> tuple[str, ...]:

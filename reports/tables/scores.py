@@ -1,4 +1,4 @@
-"""The paper's table of one metric: a row per case, a column per entrant, mean ± 2 sd."""
+"""The paper's table of one metric: a row per case, a column per entrant, mean ± interval."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def _case_note(case: CaseLayout) -> str:
 
 def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:
     """Return one row per (case, label), with n = 0 where there is no score."""
-    best = {case.name: results.best(case.name, metric) for case in results.cases}
+    best = {case.name: results.best_label(case.name, metric) for case in results.cases}
     return pd.DataFrame(
         [
             {
@@ -81,7 +81,7 @@ def _tidy(results: TaskResults, metric: str) -> pd.DataFrame:
                 "label": label,
                 "metric": metric,
                 **vars(results.estimate(case.name, label, metric) or FoldMean(np.nan, None, 0)),
-                "first_rank": label in best[case.name],
+                "best": label == best[case.name],
             }
             for case in results.cases
             for label in results.layout.labels
