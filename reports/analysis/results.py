@@ -12,7 +12,7 @@ import pandas as pd
 from mocapbench.reports.analysis.estimates import estimates
 from mocapbench.reports.analysis.fold_mean import FoldMean
 from mocapbench.reports.analysis.grid import Grid
-from mocapbench.reports.analysis.troubles import Trouble, troubles
+from mocapbench.reports.analysis.troubles import DATA_MISSING, Trouble, troubles
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout, TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
@@ -54,6 +54,11 @@ class TaskResults:
         """The cases that ran, in table order."""
         ran = set(self.records["case"])
         return tuple(case for case in self.layout.cases if case.name in ran)
+
+    def lacks_data(self, case: CaseLayout) -> bool:
+        """Return whether no job of ``case`` could run for lack of its recordings."""
+        of_case = self.records.loc[self.records["case"] == case.name, "status"]
+        return bool((of_case == DATA_MISSING).all())
 
     def estimate(self, case: str, label: str, metric: str) -> FoldMean | None:
         """Return the mean over folds, or None where the label has no score."""

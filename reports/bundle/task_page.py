@@ -56,6 +56,8 @@ class TaskPage:
     ----------
     title, reference : str
         Heading, and place in the paper (``"thesis §5.1.1, Tables 1–3"``).
+    short : str
+        The title in a word or two, under the heading of the question; by default the title.
     description : str
         One or two sentences for readers.
     kind : str
@@ -98,6 +100,7 @@ class TaskPage:
     description: str
     kind: str = "impute"
     question: str = ""
+    short: str = ""
     metrics: tuple[str, ...]
     rows: Mapping[str, RowNotes] = field(default_factory=dict)
     published_models: Mapping[str, str] = field(default_factory=dict)
@@ -113,6 +116,7 @@ class TaskPage:
     def __post_init__(self) -> None:
         if self.kind not in BY_KIND:
             raise ValueError(f"kind: expected one of {', '.join(BY_KIND)}, got {self.kind!r}")
+        object.__setattr__(self, "short", self.short or self.title)
         object.__setattr__(self, "question", question(self.question or BY_KIND[self.kind]).name)
 
     def notes(self, case: str) -> RowNotes:

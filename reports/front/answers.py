@@ -9,12 +9,17 @@ from dataclasses import dataclass
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Standing, standings
-from mocapbench.reports.bundle.questions import QUESTIONS
+from mocapbench.reports.bundle.questions import QUESTIONS, Question
 from mocapbench.reports.front.board_cells import board_cells, first_metric, reference_of
 from mocapbench.reports.scores.build import metric_places
-from mocapbench.reports.text import counted, number, slug
+from mocapbench.reports.text import number, slug
 
 __all__ = ["Answer", "Finding", "answers"]
+
+OF_TOYS = "recover"
+"""A question that only generated data can answer, and no user asks."""
+Ranked = Sequence[Standing]
+"""Standings, best first."""
 
 
 @dataclass(frozen=True)
@@ -24,17 +29,15 @@ class Finding:
     Parameters
     ----------
     id, title : str
-        The anchor of the task's section, and its title.
+        The anchor of the task's section, and its short title.
     text : str
-        The best model, the next, and the margin.
-    sure : str
-        Whether the margin may be chance, or is not tested.
+        The best model, its mean, the next, the margin, and what the test says of it where that is
+        not the same for all tasks of the question.
     """
 
     id: str
     title: str
     text: str
-    sure: str
 
 
 @dataclass(frozen=True)
@@ -43,63 +46,61 @@ class Answer:
 
     Parameters
     ----------
-    question : str
-        Its title.
-    ask : str
-        The question in one sentence.
-    models : str
-        The model that is best in most of its tasks, or all that are best in as many.
-    led : str
-        In how many of its tasks.
+    question, ask : str
+        Its title, and the question in one sentence.
+    model : str
+        The model that is best in most of its tasks; empty where several are in as many.
     findings : tuple of Finding
-        One for each task.
+        One for each task, those that ``model`` leads first.
+    sure : str
+        What the tests say of all leads; empty where they say different things.
     """
 
     question: str
     ask: str
-    models: str
-    led: str
+    model: str
     findings: tuple[Finding, ...]
+    sure: str
 
 
 def answers(tasks: Sequence[TaskResults]) -> list[Answer]:
     """Return an answer for each question that a task with a ranked score puts."""
     ranked = [(task, standings(task, first_metric(task))) for task in tasks]
     return [
-        _answer(each.title, each.ask, group)
+        _answer(each, group)
         for each in QUESTIONS
-        if (group := [(t, s) for t, s in ranked if s and t.layout.page.question == each.name])
+        if each.name != OF_TOYS
+        and (group := [(t, s) for t, s in ranked if s and t.layout.page.question == each.name])
     ]
 
 
-def _answer(
-    title: str, ask: str, group: Sequence[tuple[TaskResults, Sequence[Standing]]]
-) -> Answer:
+def _answer(question: Question, group: Sequence[tuple[TaskResults, Ranked]]) -> Answer:
     leaders = Counter(ranked[0].label for _, ranked in group)
-    most = max(leaders.values())
-    first = [label for label, count in leaders.items() if count == most]
-    led = f"best in {most} of {counted(len(group), 'task')}" if len(group) > 1 else ""
+    (model, most), *others = leaders.most_common()
+    alone = all(count < most for _, count in others)
+    first = sorted(group, key=lambda pair: alone and pair[1][0].label != model)
+    sure = {_sure(ranked) for _, ranked in first}
     return Answer(
-        question=title,
-        ask=ask,
-        models=first[0] if len(first) == 1 else "no single model",
-        led=led if len(first) == 1 else "",
-        findings=tuple(_finding(task, ranked) for task, ranked in group),
+        question.title,
+        question.ask,
+        model if alone else "",
+        tuple(_finding(task, ranked, told=len(sure) == 1) for task, ranked in first),
+        f"The lead: {sure.pop()}." if len(sure) == 1 else "",
     )
 
 
-def _finding(results: TaskResults, ranked: Sequence[Standing]) -> Finding:
-    best, *others = ranked
-    second = next((other for other in others if other.complete), None)
+def _finding(results: TaskResults, ranked: Ranked, *, told: bool) -> Finding:
+    best, second = ranked[0], _next(ranked)
     text = f"{best.label} {_mean(results, best)}"
     if second is not None:
         text += f", next {second.label} {_mean(results, second)}{_margin(results, second)}"
-    return Finding(
-        slug("task", results.layout.name),
-        results.layout.page.title,
-        text + _beside(results, best.label),
-        second.finding if second else "nothing to compare with",
-    )
+    text += _beside(results, best.label) + ("" if told else f"; {_sure(ranked)}")
+    return Finding(slug("task", results.layout.name), results.layout.page.short, text)
+
+
+def _next(ranked: Ranked) -> Standing | None:
+    """Return the best of the others that has every score."""
+    return next((other for other in ranked[1:] if other.complete), None)
 
 
 def _mean(results: TaskResults, standing: Standing) -> str:
@@ -111,7 +112,13 @@ def _margin(results: TaskResults, second: Standing) -> str:
         return ""
     places = metric_places(results, first_metric(results))
     low, high = number(second.low, places), number(second.high, places)
-    return f" (+{number(second.difference, places)}, {low} to {high})"
+    return f" (behind by {low} to {high})"
+
+
+def _sure(ranked: Ranked) -> str:
+    """Return what the test says of the lead."""
+    second = _next(ranked)
+    return second.finding if second else "no rival"
 
 
 def _beside(results: TaskResults, best: str) -> str:

@@ -17,24 +17,27 @@ class BoardColumn:
 
     Parameters
     ----------
-    id, title : str
-        The anchor of its section, and its title.
+    id, title, long_title : str
+        The anchor of its section, its short title and its title.
     question : str
         The title of the question that it puts.
-    metric : str
-        Its first metric, by which it is scored.
+    metric, unit : str
+        Its first metric, by which it is scored, and the acronym or unit of that.
     arrow : str
         Which values are better.
-    basis : str
-        How many cases its means are over.
+    basis, units : str
+        How many cases its means are over, and how many independent units these are.
     """
 
     id: str
     title: str
+    long_title: str
     question: str
     metric: str
+    unit: str
     arrow: str
     basis: str
+    units: str
 
 
 @dataclass(frozen=True)

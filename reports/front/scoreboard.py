@@ -8,6 +8,7 @@ from dataclasses import replace
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
+from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.questions import question
 from mocapbench.reports.front.board import BoardCell, BoardColumn, BoardRow, Scoreboard
 from mocapbench.reports.front.board_cells import board_cells, first_metric
@@ -17,6 +18,7 @@ __all__ = ["scoreboard"]
 
 REFERENCES = "References"
 INTERPOLATION = "best interpolation"
+LONGEST_UNIT = 8
 ARROWS = {Direction.LOWER: "↓", Direction.HIGHER: "↑", Direction.TARGET: "→"}
 
 Column = Mapping[str, BoardCell]
@@ -54,15 +56,25 @@ def _rows(labels: Sequence[str], columns: Sequence[Column]) -> tuple[BoardRow, .
 def _column(results: TaskResults) -> BoardColumn:
     metric, page = first_metric(results), results.layout.page
     ranked = standings(results, metric)
-    units = f", {ranked[0].units}" if ranked else ""
     return BoardColumn(
         id=slug("task", results.layout.name),
-        title=page.title,
+        title=page.short,
         question=question(page.question).title,
         metric=metric,
+        unit=_unit(results.metrics[metric]),
         arrow=ARROWS[results.metrics[metric].direction],
-        basis=counted(len(results.representative_cases(metric)), "case") + units,
+        basis=counted(len(results.representative_cases(metric)), "case"),
+        units=ranked[0].units if ranked else "",
+        long_title=page.title,
     )
+
+
+def _unit(metric: MetricInfo) -> str:
+    """Return the acronym in a metric's title, else its unit, unless that is too long for a head."""
+    _, _, rest = metric.title.partition("(")
+    acronym = rest.partition(")")[0]
+    named = acronym if acronym.isupper() else metric.unit
+    return named if 0 < len(named) <= LONGEST_UNIT else "error"
 
 
 def _best_interpolations(

@@ -42,14 +42,14 @@ def score_table(results: TaskResults, metric: str, styles: Mapping[str, Style]) 
         title=results.metrics[metric].title,
         better=results.metrics[metric].better,
         basis=basis(results, metric, counting),
-        mean_head=_mean_head(results.cases, counting),
-        heads=tuple(map(_head, shown)),
+        mean_head=_mean_head(results, counting),
+        heads=tuple(_head(results, case) for case in shown),
         rows=tuple(_rows(results, metric, counting, shown, drawing)),
         axis=drawing.axis,
     )
 
 
-def _mean_head(cases: Sequence[CaseLayout], counting: Sequence[CaseLayout]) -> CaseHead:
+def _mean_head(results: TaskResults, counting: Sequence[CaseLayout]) -> CaseHead:
     """Return the head of the means, which is that of the case where there is but one."""
     return (
         _head(cases[0])
@@ -58,10 +58,14 @@ def _mean_head(cases: Sequence[CaseLayout], counting: Sequence[CaseLayout]) -> C
     )
 
 
-def _head(case: CaseLayout) -> CaseHead:
-    facts = [f"{name} {value}" for name, value in case.columns.items() if str(value) != case.name]
-    remark = "generated" if case.synthetic else case.remark
-    return CaseHead(case.name, (*facts, *filter(None, [remark])))
+def _head(results: TaskResults, case: CaseLayout) -> CaseHead:
+    """Return the name of a case with what it varies and the name does not say."""
+    facts = [
+        f"{name} {value}" for name, value in case.columns.items() if str(value) not in case.name
+    ]
+    lacking = "recording missing" if results.lacks_data(case) else ""
+    generated = "generated" if case.synthetic and "synthetic" not in case.name else ""
+    return CaseHead(case.name, tuple(filter(None, (*facts, generated, lacking))))
 
 
 def _rows(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from urllib.parse import quote
 
 from mocapbench.reports.analysis.results import TaskResults
@@ -27,12 +26,14 @@ def score_cell(
     troubles = results.troubles.get((case.name, label), ())
     link = cell_address(results.layout.name, case.name, label)
     if estimate is None:
-        return ScoreCell(_reasons(troubles), kind="trouble", link=link) if troubles else NO_SCORE
+        reasons = _reasons(troubles)
+        return ScoreCell(reasons, kind="trouble", link=link) if reasons else NO_SCORE
     lost = f"{counted(len(troubles), 'fold')} lost" if troubles else ""
     text, kind = number(estimate.mean, places), "best" if best else ""
     return ScoreCell(text, estimate.mean, kind, lost, link)
 
 
 def _reasons(troubles: tuple[Trouble, ...]) -> str:
-    reasons = Counter(trouble.status for trouble in troubles)
-    return ", ".join("no data" if r == DATA_MISSING else r.replace("-", " ") for r in reasons)
+    """Return why there is no score, nothing where the recording is missing: the head says so."""
+    reasons = dict.fromkeys(trouble.status for trouble in troubles)
+    return ", ".join(reason.replace("-", " ") for reason in reasons if reason != DATA_MISSING)

@@ -13,9 +13,8 @@ import pandas as pd
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.scores.build import metric_places
-
+from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.text import number, plus_minus, slug
 
 __all__ = ["best_reference_table"]
@@ -48,7 +47,7 @@ def best_reference_table(results: TaskResults) -> Table | None:
         return None
     return Table(
         id=slug(results.layout.name, "matches"),
-        caption=f"Best-matched reference beside the mean over references: mean ± 2 sd over samples",
+        caption="Best-matched reference beside the mean over references: mean ± 2 sd over samples",
         columns=(
             *headings(["case", "entrant"], "text"),
             *headings([results.metrics[name].title for name in metrics]),

@@ -59,6 +59,7 @@ _TRAINED_ON_THREE = "the paper trained this model on three walks"
 
 WALKING_PAGE = TaskPage(
     title="Walking synthesis",
+    short="Walking",
     reference="thesis §5.2.2, Tables 14–15, Figures 8 and 22",
     description=(
         "Models learn from two walks of one person, or from three of two persons; 25 samples of "
@@ -86,6 +87,7 @@ WALKING_PAGE = TaskPage(
 
 EXAGGERATED_PAGE = TaskPage(
     title="Exaggerated walking synthesis",
+    short="Strides",
     reference="thesis §5.2.2, Table 16, Figures 9 and 23",
     description=(
         "Models learn from a walk of one person and a walk with an exaggerated stride of another; "
@@ -102,6 +104,7 @@ EXAGGERATED_PAGE = TaskPage(
 
 SOCCER_PAGE = TaskPage(
     title="Soccer synthesis",
+    short="Soccer",
     reference="thesis §5.2.2, Table 17, Figures 10 and 24",
     description=(
         "Models learn from two soccer kicks of one person; 25 samples of each are compared with "

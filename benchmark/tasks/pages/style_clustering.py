@@ -12,6 +12,7 @@ _NUMBERS = (4, 1, 2, 3, 5, 6, 7, 8)
 
 PAGE = TaskPage(
     title="Style clustering",
+    short="Walk styles",
     reference="HLM §4.1, Figures 1 and 2",
     description=(
         "Recordings of walks, slow walks, strides and runs, at 30 Hz and without labels, are to be "

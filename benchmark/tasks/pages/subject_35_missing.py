@@ -9,6 +9,7 @@ __all__ = ["PAGE"]
 
 PAGE = TaskPage(
     title="Right leg or upper body of subject 35 missing",
+    short="Subject 35",
     reference="Taylor 2006 and Lawrence 2007",
     description=(
         "Models are trained on 31 recordings of one subject, 2,613 frames at 30 Hz, mostly walks "

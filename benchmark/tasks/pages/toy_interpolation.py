@@ -32,6 +32,7 @@ def _rows(n_tests: int) -> dict[str, RowNotes]:
 
 ONE_INCOMPLETE_PAGE = TaskPage(
     title="Toy interpolation, one incomplete child",
+    short="Toy 1",
     reference="thesis §5.1.1, Tables 1–3, Figure 17",
     description=(
         "Children of one parent are drawn from a two-layer LMC Gaussian process with three "
@@ -51,6 +52,7 @@ ONE_INCOMPLETE_PAGE = TaskPage(
 
 TOO_FEW_COMPONENTS_PAGE = TaskPage(
     title="Toy interpolation, one component against three",
+    short="Toy 2",
     reference="thesis §5.1.1, Tables 4–6, Figure 18",
     description=(
         "Data as in the first experiment, three outputs and ten children, of which all or only "
@@ -70,6 +72,7 @@ TOO_FEW_COMPONENTS_PAGE = TaskPage(
 
 MUCH_NOISE_PAGE = TaskPage(
     title="Toy interpolation under much noise",
+    short="Toy 3",
     reference="thesis §5.1.1, Tables 7–9, Figure 19",
     description=(
         "Data from one component a layer with noise of variance .1, three outputs and ten "

@@ -11,6 +11,7 @@ _ANOTHER_WALK = "the paper scores one walk, which it does not name; ours is a me
 
 PAGE = TaskPage(
     title="Upper body missing",
+    short="Upper body",
     reference="HLM §4.3, Figure 4",
     description=(
         "Each of eleven walks of one subject is held out in turn, and models are trained on the "
