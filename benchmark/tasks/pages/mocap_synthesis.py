@@ -103,9 +103,9 @@ SOCCER_PAGE = TaskPage(
     reference="thesis §5.2.2, Table 17, Figures 10 and 24",
     description=(
         "Models learn from two soccer kicks of one person; 25 samples of each are compared with "
-        "five kicks of this and another person. Two of these are excerpts of the training kicks, "
-        "or short kicks themselves: like the thesis, judge best matches by the three unseen. On "
-        "generated gait, runs take the place of kicks."
+        "five kicks of this and another person. Two of these are excerpts of the training kicks "
+        "(the same recordings where kicks are short): like the thesis, judge best matches by the "
+        "three unseen. On generated gait, runs take the place of kicks."
     ),
     kind="synthesise",
     question="invent-motion",
