@@ -15,6 +15,13 @@ from matplotlib.figure import Figure
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.figures.line_styles import (
+    LINES,
+    MARKERS,
+    SMALLEST_SCALE,
+    cycled,
+    line_swatch,
+)
 from mocapbench.reports.figures.point_axes import (
     LINE_WIDTH,
     MARKER_SIZE,
@@ -22,13 +29,6 @@ from mocapbench.reports.figures.point_axes import (
     finish_axes,
     names_collide,
     t_interval,
-)
-from mocapbench.reports.figures.styles import (
-    LINES,
-    MARKERS,
-    SMALLEST_SCALE,
-    cycled,
-    line_swatch,
 )
 from mocapbench.reports.figures.svg import PALETTE, STYLE, svg_element
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure

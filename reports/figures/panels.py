@@ -10,7 +10,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from mocapbench.reports.bundle.panels import Illustration, Panel
-from mocapbench.reports.figures.styles import LINES, SMALLEST_SCALE, cycled, line_swatch
+from mocapbench.reports.figures.line_styles import LINES, SMALLEST_SCALE, cycled, line_swatch
 from mocapbench.reports.figures.svg import PALETTE, STYLE, svg_element
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
 from mocapbench.reports.text import counted, slug

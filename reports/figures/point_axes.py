@@ -9,7 +9,7 @@ import pandas as pd
 import seaborn as sns
 
 from mocapbench.reports.analysis.fold_mean import FoldMean
-from mocapbench.reports.figures.styles import LINES, MARKERS, cycled
+from mocapbench.reports.figures.line_styles import LINES, MARKERS, cycled
 from mocapbench.reports.figures.svg import PALETTE
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from mocapbench.reports.analysis.ranks import Ranks
-from mocapbench.reports.figures.styles import SMALLEST_SCALE
+from mocapbench.reports.figures.line_styles import SMALLEST_SCALE
 from mocapbench.reports.figures.svg import INK, PALETTE, RULE, STYLE, svg_element
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.text import counted, slug

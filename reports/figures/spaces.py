@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from mocapbench.reports.bundle.spaces import Space
-from mocapbench.reports.figures.styles import LINES, line_swatch
+from mocapbench.reports.figures.line_styles import LINES, line_swatch
 from mocapbench.reports.figures.svg import LEVELS, PALETTE, STYLE, svg_element
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
 from mocapbench.reports.text import counted, slug

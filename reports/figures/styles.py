@@ -1,52 +1,95 @@
-"""Line styles and markers, which distinguish the series of a figure without colour."""
+"""One hue and one marker for each model, through the whole page."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import cache
-from typing import Any, Literal, TypeVar
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
-from markupsafe import Markup
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
+from markupsafe import escape
 
-from mocapbench.reports.figures.svg import svg_element
+from mocapbench.reports.bundle.layout import TaskLayout
 
-__all__ = ["LINES", "MARKERS", "SMALLEST_SCALE", "cycled", "line_swatch"]
+__all__ = ["N_HUES", "N_SHAPES", "TRUTH", "Style", "model_styles"]
 
-MARKERS = ["o", "s", "^", "D", "v", "P", "X", "<", ">", "p"]
-LINES: list[Literal["-", "--", ":", "-."]] = ["-", "--", ":", "-."]
-SMALLEST_SCALE = 0.7
-"""How far a page narrower than a figure shrinks it before it scrolls."""
-
-_ANY_PREFIX = "any-prefix"
-
-StyleT = TypeVar("StyleT", bound=str)
+N_HUES, N_SHAPES = 10, 6
+REFERENCES = ("trivial",)
+"""Labels of every task that are drawn in grey, beside those that its layout does not rank."""
 
 
-def cycled(styles: Sequence[StyleT], place: int) -> StyleT:
-    """Return the style of the series at ``place``; styles repeat after the last."""
-    return styles[place % len(styles)]
-
-
-def line_swatch(prefix: str, x: Sequence[float] = (0.0, 1.0), **style: Any) -> Markup:
-    """Return a short horizontal line through the points ``x`` as an SVG element.
+@dataclass(frozen=True)
+class Style:
+    """How a model is drawn.
 
     Parameters
     ----------
-    prefix : str
-        Start of the element's ids.
-    x : sequence of float
-        From 0 to 1.
-    **style
-        Properties of `matplotlib.lines.Line2D`.
+    hue : str
+        The class of its colour: ``"h0"`` to ``"h9"``, ``"hr"`` (references) or ``"ht"`` (the truth).
+    shape : int
+        Its marker, which also sets the dashes of its lines.
+    label : str
+        The model; empty for what is none, such as the truth.
     """
-    drawn = _drawn_line(tuple(x), tuple(sorted(style.items())))
-    return Markup(drawn.replace(_ANY_PREFIX, prefix))
+
+    hue: str
+    shape: int = 0
+    label: str = ""
+
+    @property
+    def classes(self) -> str:
+        """The classes of a group of marks."""
+        return f"{self.hue} k{self.shape}"
+
+    @property
+    def model(self) -> str:
+        """The attribute by which a script finds the marks of a model."""
+        return f' data-model="{escape(self.label)}"' if self.label else ""
 
 
-@cache  # a page has hundreds, and few that differ
-def _drawn_line(x: tuple[float, ...], style: tuple[tuple[str, Any], ...]) -> str:
-    figure = Figure(figsize=(0.34, 0.14))
-    figure.add_artist(Line2D(x, [0.5] * len(x), **dict(style)))
-    return str(svg_element(figure, _ANY_PREFIX, aria_hidden="true"))
+TRUTH = Style("ht")
+
+
+def model_styles(layouts: Sequence[TaskLayout]) -> Mapping[str, Style]:
+    """Return the style of every label of the page.
+
+    A label takes the hue that fewest labels beside it in a table have, then fewest of the page; of
+    the labels with one hue each has its own marker. References, which are not ranked, are grey.
+
+    Parameters
+    ----------
+    layouts : sequence of TaskLayout
+
+    Returns
+    -------
+    mapping of str to Style
+        The first sixty models have styles of their own.
+    """
+    labels = dict.fromkeys(label for layout in layouts for label in layout.labels)
+    references = {label for layout in layouts for label in _references(layout)}
+    greys = [label for label in labels if label in references]
+    styles = {label: Style("hr", i % N_SHAPES, label) for i, label in enumerate(greys)}
+    hues: dict[str, int] = {}
+    for label in labels:
+        if label not in references:
+            hue = _hue(hues, _beside(layouts, label))
+            shape = Counter(hues.values())[hue] % N_SHAPES
+            hues[label], styles[label] = hue, Style(f"h{hue}", (hue + shape) % N_SHAPES, label)
+    return {label: styles[label] for label in labels}
+
+
+def _references(layout: TaskLayout) -> set[str]:
+    return {*layout.labels} - {*layout.ranked} | {*REFERENCES}
+
+
+def _beside(layouts: Iterable[TaskLayout], label: str) -> Counter[str]:
+    """Return how many tables hold each label together with ``label``."""
+    return Counter(name for each in layouts if label in each.labels for name in each.labels)
+
+
+def _hue(hues: Mapping[str, int], beside: Mapping[str, int]) -> int:
+    """Return the hue for one more label."""
+    near = Counter[int]()
+    for label, hue in hues.items():
+        near[hue] += beside.get(label, 0)
+    used = Counter(hues.values())
+    return min(range(N_HUES), key=lambda hue: (used[hue] // N_SHAPES, near[hue], used[hue], hue))

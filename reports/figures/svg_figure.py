@@ -18,10 +18,13 @@ class Key:
     label : str
     swatch : Markup
         An SVG element in the style of the series or level that the label names.
+    model : str
+        The model that it is of, by which a script highlights it; empty where it is of none.
     """
 
     label: str
     swatch: Markup
+    model: str = ""
 
 
 @dataclass(frozen=True)
@@ -32,7 +35,7 @@ class SvgFigure:
     ----------
     title : str
     svg : Markup
-        The SVG element.
+        One SVG element, or several side by side.
     legend : tuple of Key
         Text of the page, so that it wraps on a narrow screen while the SVG scales.
     caption : str

@@ -9,7 +9,7 @@ from markupsafe import Markup
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from mocapbench.reports.figures.styles import SMALLEST_SCALE, line_swatch
+from mocapbench.reports.figures.line_styles import SMALLEST_SCALE, line_swatch
 from mocapbench.reports.figures.svg import LEVELS, PALETTE, STYLE, svg_element
 from mocapbench.reports.figures.svg_figure import Key
 from mocapbench.reports.filling.values import FilledCurve

@@ -11,6 +11,7 @@ from mocapbench.reports.bundle.panels import Illustration
 from mocapbench.reports.figures.panels import draw
 from mocapbench.reports.filling.curves import draw_curve, legend
 from mocapbench.reports.filling.values import FilledPage
+from mocapbench.reports.page.resources import styles
 from mocapbench.reports.printable import printable
 from mocapbench.reports.text import counted, decimals, number
 
@@ -31,7 +32,7 @@ def render_filled(page: FilledPage) -> str:
         legend=legend(),
         motion=_motion(page),
         rows=_rows(page),
-        css=Markup(_resource("mocapbench.reports.page", "report.css")),
+        css=styles(),
     )
 
 

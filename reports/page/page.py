@@ -2,83 +2,68 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable
-from importlib.resources import files
+from collections.abc import Mapping, Sequence
+from itertools import groupby
 
-from jinja2 import Environment, StrictUndefined, Template
-from markupsafe import Markup
-
-from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.results import TaskResults, task_results
 from mocapbench.reports.analysis.troubles import DATA_MISSING, troubles
-from mocapbench.reports.bundle.bundle import STATUSES, Bundle
-from mocapbench.reports.page.downloads import to_csv, to_latex
+from mocapbench.reports.bundle.bundle import Bundle
+from mocapbench.reports.bundle.model_info import ModelInfo, in_families
+from mocapbench.reports.bundle.questions import QUESTIONS, question
+from mocapbench.reports.figures.styles import model_styles
+from mocapbench.reports.front.answers import answers
+from mocapbench.reports.front.board import SHADES
+from mocapbench.reports.front.scoreboard import scoreboard
+from mocapbench.reports.front.trust import trust
 from mocapbench.reports.page.missing_data import missing_data
-from mocapbench.reports.page.sections import overall_ranks, task_view
+from mocapbench.reports.page.resources import scripts, styles, template
+from mocapbench.reports.page.sections import TaskView, task_view
 from mocapbench.reports.paper.citations import citations_of
-from mocapbench.reports.tables.base import Table
 from mocapbench.reports.tables.check import check_table
 from mocapbench.reports.tables.papers import papers_table
-from mocapbench.reports.tables.score_cells import MISSING_ID
-from mocapbench.reports.text import counted, slug
 
 __all__ = ["render"]
 
 
 def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
-    results = [task_results(bundle, layout) for layout in bundle.layouts]
-    tasks = [task_view(of_task, bundle.illustrations) for of_task in results]
+    results = sorted((task_results(bundle, layout) for layout in bundle.layouts), key=_place)
+    looks = model_styles(bundle.layouts)
+    views = [task_view(of_task, looks, bundle.illustrations) for of_task in results]
     no_score = troubles(bundle)
-    check = check_table(bundle.check) if bundle.check else None
-    papers = papers_table(results)
-    tables = [*(table for task in tasks for table in task.tables), check, papers]
-    return _template().render(
+    families = in_families(_models(results))
+    return template("page.html.j2").render(
         bundle=bundle,
+        metrics=bundle.metrics,
         provenance=bundle.provenance,
-        tasks=tasks,
-        overall=overall_ranks(results),
-        statuses=_statuses(bundle),
-        entrants=bundle.records["label"].nunique(),
-        folds=bundle.records["fold"].nunique(),
-        fold_counts=_fold_counts(bundle),
+        trust=trust(bundle, results),
+        answers=answers(results),
+        board=scoreboard(results, families),
+        shades=[name for _, name in SHADES],
+        tasks=views,
+        by_question=_by_question(views),
+        families=list(families),
+        labels=[label for labels in families.values() for label in labels],
         failures=[trouble for trouble in no_score if trouble.status != DATA_MISSING],
         missing=missing_data(trouble for trouble in no_score if trouble.status == DATA_MISSING),
-        missing_id=MISSING_ID,
-        check_table=check,
-        papers_table=papers,
+        check_table=check_table(bundle.check) if bundle.check else None,
+        papers_table=papers_table(results),
         citations=citations_of(layout.page.reference for layout in bundle.layouts),
-        downloads=_downloads(table for table in tables if table is not None),
-        css=Markup(_resource("report.css")),
-        js=Markup(_resource("report.js")),
+        css=styles(),
+        js=scripts(),
     )
 
 
-def _template() -> Template:
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    environment.globals["slug"] = slug
-    environment.filters["counted"] = counted
-    return environment.from_string(_resource("report.html.j2"))
+def _place(results: TaskResults) -> int:
+    """Return the place of a task's question on the page."""
+    return [each.name for each in QUESTIONS].index(results.layout.page.question)
 
 
-def _resource(name: str) -> str:
-    return (files(__package__) / name).read_text(encoding="utf-8")
+def _by_question(views: Sequence[TaskView]) -> list[tuple[str, list[TaskView]]]:
+    groups = groupby(views, key=lambda view: view.layout.page.question)
+    return [(question(name).title, list(group)) for name, group in groups]
 
 
-def _statuses(bundle: Bundle) -> dict[str, int]:
-    counts = Counter(bundle.records["status"])
-    return {status: counts[status] for status in STATUSES if counts[status]}
-
-
-def _fold_counts(bundle: Bundle) -> str:
-    """Return how many folds the cases with scores have, for example "1, 3 or 12 folds"."""
-    done = bundle.records[bundle.records["status"] == "ok"]
-    *most, last = sorted(set(done.groupby(["task", "case"])["fold"].nunique())) or [0]
-    others = ", ".join(map(str, most))
-    return f"{others} or {counted(last, 'fold')}" if most else counted(last, "fold")
-
-
-def _downloads(tables: Iterable[Table]) -> dict[str, dict[str, str]]:
-    return {table.id: {"csv": to_csv(table), "tex": to_latex(table)} for table in tables}
+def _models(results: Sequence[TaskResults]) -> Mapping[str, ModelInfo]:
+    """Return the model behind every label of the page."""
+    return {label: task.layout.model(label) for task in results for label in task.layout.labels}

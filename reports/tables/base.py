@@ -72,7 +72,7 @@ class Table:
     caption: str
     columns: tuple[Cell, ...]
     rows: tuple[tuple[Cell, ...], ...]
-    data: pd.DataFrame
+    data: pd.DataFrame | None = None
     notes: tuple[str, ...] = ()
 
 

@@ -14,8 +14,8 @@ import pandas as pd
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
-from mocapbench.reports.tables.score_notes import OVER_SAMPLES
-from mocapbench.reports.tables.scores import metric_decimals
+from mocapbench.reports.scores.build import metric_places
+
 from mocapbench.reports.text import number, plus_minus, slug
 
 __all__ = ["best_reference_table"]
@@ -48,7 +48,7 @@ def best_reference_table(results: TaskResults) -> Table | None:
         return None
     return Table(
         id=slug(results.layout.name, "matches"),
-        caption=f"Best-matched reference beside the mean over references: mean ± {OVER_SAMPLES}",
+        caption=f"Best-matched reference beside the mean over references: mean ± 2 sd over the samples of a fold, averaged over folds",
         columns=(
             *headings(["case", "entrant"], "text"),
             *headings([results.metrics[name].title for name in metrics]),
@@ -75,9 +75,9 @@ def _cell(results: TaskResults, case: str, label: str, metric: str) -> Cell:
     estimate = results.estimate(case, label, metric)
     if estimate is None:
         return ABSENT
-    places = metric_decimals(results, metric)
+    places = metric_places(results, metric)
     spread = plus_minus(estimate.spread, places)
-    kind = "best" if label in results.best(case, metric) else ""
+    kind = "best" if results.ranking(case, metric)[:1] == [label] else ""
     return Cell(number(estimate.mean, places), spread=spread, kind=kind)
 
 

@@ -6,10 +6,10 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.paper.remarks import footnotes, marks
+from mocapbench.reports.scores.build import metric_places
+from mocapbench.reports.scores.cells import cell_address
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
-from mocapbench.reports.tables.score_cells import MISSING_ID
-from mocapbench.reports.tables.scores import metric_decimals, score_table
-from mocapbench.reports.text import number
+from mocapbench.reports.text import number, slug
 
 __all__ = ["cross_table"]
 
@@ -30,9 +30,8 @@ def cross_table(results: TaskResults, metric: str, crossed: tuple[str, str]) -> 
     Returns
     -------
     Table
-        The published value is shown below ours. The tidy data are those of `score_table`.
+        The published value is shown below ours.
     """
-    plain = score_table(results, metric)
     along_rows, along_columns = crossed
     pairs = {
         (str(case.columns[along_rows]), str(case.columns[along_columns])): case
@@ -41,7 +40,7 @@ def cross_table(results: TaskResults, metric: str, crossed: tuple[str, str]) -> 
     rows, columns = (list(dict.fromkeys(names)) for names in zip(*pairs, strict=True))
     lettered = marks(_erratum(results, case, metric) for case in results.cases)
     return Table(
-        id=plain.id,
+        id=slug(results.layout.name, metric),
         caption=f"{results.metrics[metric].title} of each {along_rows} with each {along_columns}, "
         "and the published value below it",
         columns=headings([along_rows, *columns]),
@@ -49,8 +48,7 @@ def cross_table(results: TaskResults, metric: str, crossed: tuple[str, str]) -> 
             (Cell(row), *(_cell(results, pairs.get((row, at)), metric, lettered) for at in columns))
             for row in rows
         ),
-        data=plain.data,
-        notes=(*plain.notes, *footnotes(lettered)),
+        notes=tuple(footnotes(lettered)),
     )
 
 
@@ -65,10 +63,11 @@ def _cell(results: TaskResults, case: CaseLayout | None, metric: str, lettered: 
     (label,) = results.layout.labels
     estimate = results.estimate(case.name, label, metric)
     if estimate is None:
-        return Cell("missing", kind="trouble", link=MISSING_ID)
-    places = metric_decimals(results, metric)
+        return Cell("missing", kind="trouble")
+    places = metric_places(results, metric)
     note = _note(results.published_value(case, label, metric), places, lettered)
-    return Cell(number(estimate.mean, places), note=note)
+    link = "" if note else cell_address(results.layout.name, case.name, label)
+    return Cell(number(estimate.mean, places), note=note, link=link)
 
 
 def _note(published: PublishedValue | None, places: int, lettered: Lettered) -> str:

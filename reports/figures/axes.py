@@ -1,0 +1,107 @@
+"""Axes around marks: one panel of a figure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+from mocapbench.reports.figures.marks import horizontal, svg, text, vertical
+from mocapbench.reports.figures.scale import Scale
+from mocapbench.reports.text import MINUS
+
+__all__ = [
+    "BOTTOM",
+    "LEFT",
+    "TOP",
+    "WIDTH",
+    "Axes",
+    "bottom_axis",
+    "left_axis",
+    "names",
+    "panels",
+    "written",
+]
+
+WIDTH = 340.0
+"""Of a panel, in pixels: it fits a phone."""
+LEFT, RIGHT, TOP, BOTTOM = 48.0, 12.0, 36.0, 36.0
+_POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_SUFFIX = 5
+
+
+@dataclass(frozen=True)
+class Axes:
+    """Two axes and what is written around them.
+
+    Parameters
+    ----------
+    x, y : Scale
+        Their places are those in the panel: y starts at its lower end.
+    title, x_label, y_label : str
+        Heading, and the quantity along each axis with its unit.
+    """
+
+    x: Scale
+    y: Scale
+    title: str
+    x_label: str
+    y_label: str
+
+    def draw(self, marks: Iterable[str], label: str) -> Markup:
+        """Return the panel with its marks; ``label`` is its accessible name."""
+        ends = self.x.start, self.x.stop
+        return svg(
+            self.x.stop + RIGHT,
+            self.y.start + BOTTOM,
+            label,
+            [
+                text(0.0, 13.0, self.title, "title"),
+                text(0.0, 27.0, self.y_label),
+                left_axis(self.y, *ends),
+                bottom_axis(self.x, self.y.start, self.x_label),
+                *marks,
+            ],
+        )
+
+
+def panels(drawings: Iterable[Markup]) -> Markup:
+    """Return drawings side by side, as many in a row as the page has room for."""
+    return Markup('<div class="panels">{}</div>').format(Markup("").join(drawings))
+
+
+def bottom_axis(scale: Scale, y: float, label: str) -> str:
+    """Return an axis along the bottom at ``y``, its ticks and its label."""
+    ticks = scale.ticks()
+    return "".join(
+        [
+            horizontal(scale.start, scale.stop, y, "axis"),
+            vertical(map(scale.place, ticks), y, y + 4.0, "axis"),
+            *(text(scale.place(tick), y + 16.0, written(tick), "middle") for tick in ticks),
+            text((scale.start + scale.stop) / 2.0, y + 31.0, label, "middle"),
+        ]
+    )
+
+
+def left_axis(scale: Scale, x: float, end: float) -> str:
+    """Return lines across the panel at the ticks, from ``x`` to ``end``, and their values."""
+    places = [(tick, scale.place(tick)) for tick in scale.ticks()]
+    lines = (horizontal(x, end, y, "grid") for _, y in places)
+    values = (text(x - 5.0, y + 4.0, written(tick), "end") for tick, y in places)
+    return "".join([*lines, *values])
+
+
+def names(labels: Sequence[str], places: Iterable[float], x: float) -> str:
+    """Return names that end at ``x``, one at each place."""
+    return "".join(text(x, y + 4.0, n, "end") for n, y in zip(labels, places, strict=True))
+
+
+def written(tick: float) -> str:
+    """Return a tick as text: up to six digits, or a power of ten where it is far from one."""
+    mantissa, exponent = f"{tick:e}".split("e")
+    if abs(int(exponent)) < _SUFFIX - 1:
+        return f"{tick:.6g}".replace("-", MINUS)
+    power = f"10{str(int(exponent)).translate(_POWERS)}"
+    factor = f"{float(mantissa):g}".replace("-", MINUS)
+    return power if factor == "1" else f"{factor}·{power}"

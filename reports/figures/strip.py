@@ -1,0 +1,82 @@
+"""Strips: the drawing in one row of a table, every fold a tick, the mean a dot.
+
+All strips of a column share one scale, which its head or foot shows by `strip_axis`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from markupsafe import Markup, escape
+
+from mocapbench.reports.figures.axes import written
+from mocapbench.reports.figures.intervals import centre
+from mocapbench.reports.figures.marks import dot, horizontal, text, vertical
+from mocapbench.reports.figures.scale import Scale, fitted
+from mocapbench.reports.figures.styles import Style
+
+__all__ = ["STRIP_HEIGHT", "STRIP_WIDTH", "strip", "strip_axis", "strip_scale"]
+
+STRIP_WIDTH, STRIP_HEIGHT = 180.0, 20.0
+"""As ``figures.css`` has them, in pixels."""
+_EDGE = 8.0
+_MIDDLE = STRIP_HEIGHT / 2.0
+_TICK = 4.0
+
+
+def strip_scale(values: Iterable[float]) -> Scale:
+    """Return the scale of strips that show ``values``, ends of intervals among them or not."""
+    return fitted(values, _EDGE, STRIP_WIDTH - _EDGE)
+
+
+def strip(
+    values: Sequence[float],
+    interval: tuple[float, float] | None,
+    scale: Scale,
+    label: str,
+    style: Style,
+) -> Markup:
+    """Return the strip of one row.
+
+    Parameters
+    ----------
+    values : sequence of float
+        One a fold; on a logarithmic scale the dot is at their geometric mean.
+    interval : (float, float) or None
+        Of the mean, for example by `mocapbench.reports.figures.intervals.interval`; it is cut
+        where the scale ends. None where the folds give none.
+    scale : Scale
+    label : str
+        Accessible name, such as "knn, 5 folds".
+    style : Style
+    """
+    places = scale.places(np.array(values, dtype=float))
+    middle = scale.place(centre(values, scale))
+    marks = [
+        *([_interval(interval, scale)] if interval else []),
+        *([vertical(places, _MIDDLE - _TICK, _MIDDLE + _TICK)] if len(values) > 1 else []),
+        dot(middle, _MIDDLE, style.shape),
+    ]
+    return Markup(  # marks are numbers
+        f'<svg class="strip {style.classes}"{style.model} role="img" aria-label="{escape(label)}">'
+        f"{''.join(marks)}</svg>"
+    )
+
+
+def strip_axis(scale: Scale, label: str) -> Markup:
+    """Return the axis of the strips, for the head or foot of their column."""
+    ticks = scale.ticks(4)
+    marks = [
+        horizontal(scale.start, scale.stop, 4.0, "axis"),
+        vertical(map(scale.place, ticks), 4.0, 8.0, "axis"),
+        *(text(scale.place(tick), 18.0, written(tick), "middle") for tick in ticks),
+    ]
+    return Markup(
+        f'<svg class="strip" role="img" aria-label="{escape(label)}">{"".join(marks)}</svg>'
+    )
+
+
+def _interval(ends: tuple[float, float], scale: Scale) -> str:
+    low, high = (min(max(end, scale.low), scale.high) for end in ends)
+    return horizontal(scale.place(low), scale.place(high), _MIDDLE)

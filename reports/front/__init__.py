@@ -1,0 +1,1 @@
+"""The first screen: a sentence for each question, and the scoreboard."""

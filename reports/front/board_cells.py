@@ -1,0 +1,94 @@
+"""One column of the scoreboard: the mean of every model in one task."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from mocapbench.metrics.base import Direction
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.standings import Standing, standings
+from mocapbench.reports.bundle.metric_info import MetricInfo
+from mocapbench.reports.front.board import SHADES, BoardCell
+from mocapbench.reports.scores.build import metric_places
+from mocapbench.reports.scores.cells import cell_address
+from mocapbench.reports.text import number
+
+__all__ = ["board_cells", "first_metric", "reference_of"]
+
+WORSE = "worse"
+TRIVIAL = "trivial"
+
+
+def first_metric(results: TaskResults) -> str:
+    """Return the metric by which the task is scored."""
+    return results.layout.page.metrics[0]
+
+
+def board_cells(results: TaskResults) -> Mapping[str, BoardCell]:
+    """Return the cell of each label that has a score."""
+    metric = first_metric(results)
+    ranked = {standing.label: standing for standing in standings(results, metric)}
+    return {
+        label: _cell(results, metric, label, mean, ranked)
+        for label in results.layout.labels
+        if (mean := _mean(results, metric, label)) is not None
+    }
+
+
+def reference_of(results: TaskResults) -> str | None:
+    """Return the label that a model has to beat: replayed training motion, else the channel mean.
+
+    None where the task has neither.
+    """
+    metric, layout = first_metric(results), results.layout
+    names = (layout.replay, TRIVIAL)
+    return next((name for name in names if _mean(results, metric, name) is not None), None)
+
+
+def _mean(results: TaskResults, metric: str, label: str) -> float | None:
+    cases = results.representative_cases(metric)
+    found = [results.estimate(case.name, label, metric) for case in cases]
+    means = [estimate.mean for estimate in found if estimate is not None]
+    return float(np.mean(means)) if means else None
+
+
+def _cell(
+    results: TaskResults, metric: str, label: str, mean: float, ranked: Mapping[str, Standing]
+) -> BoardCell:
+    total = len(results.representative_cases(metric))
+    link = cell_address(results.layout.name, "", label)
+    text = number(mean, metric_places(results, metric))
+    if label not in ranked:
+        return BoardCell(text, mean, link=link)
+    info, own = results.metrics[metric], ranked[label]
+    best = next(iter(ranked.values())).mean
+    reference = reference_of(results)
+    lacking = "" if own.n_cases == total else f"{own.n_cases} of {total} cases"
+    beaten = label != reference and _beaten(results, metric, mean, reference)
+    return BoardCell(text, mean, _shade(info, mean, best), beaten, link, lacking)
+
+
+def _beaten(results: TaskResults, metric: str, mean: float, reference: str | None) -> bool:
+    """Return whether a mean is no better than that of the reference."""
+    other = _mean(results, metric, reference) if reference else None
+    loss = results.metrics[metric].loss
+    return other is not None and loss(mean) >= loss(other)
+
+
+def _shade(info: MetricInfo, mean: float, best: float) -> str:
+    """Return the name of the shade: how many times worse than the best a mean is."""
+    times = _times_worse(info, mean, best)
+    return next((name for most, name in SHADES if times <= most), WORSE)
+
+
+def _times_worse(info: MetricInfo, mean: float, best: float) -> float:
+    """Return the ratio of a mean to the best one, 1 or more; infinite across zero."""
+    if mean == best:
+        return 1.0
+    better, worse = (mean, best) if info.direction is Direction.HIGHER else (best, mean)
+    if info.direction is Direction.TARGET:
+        better, worse = info.loss(best), info.loss(mean)
+    return worse / better if better > 0.0 and worse > 0.0 else math.inf

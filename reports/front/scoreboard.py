@@ -1,0 +1,83 @@
+"""The scoreboard, made from the results of all tasks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from mocapbench.metrics.base import Direction
+from mocapbench.reports.analysis.best_over_cases import best_over_cases
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.standings import standings
+from mocapbench.reports.bundle.questions import question
+from mocapbench.reports.front.board import BoardCell, BoardColumn, BoardRow, Scoreboard
+from mocapbench.reports.front.board_cells import board_cells, first_metric
+from mocapbench.reports.text import counted, slug
+
+__all__ = ["scoreboard"]
+
+REFERENCES = "References"
+INTERPOLATION = "best interpolation"
+ARROWS = {Direction.LOWER: "↓", Direction.HIGHER: "↑", Direction.TARGET: "→"}
+
+Column = Mapping[str, BoardCell]
+
+
+def scoreboard(tasks: Sequence[TaskResults], families: Mapping[str, Sequence[str]]) -> Scoreboard:
+    """Return the scoreboard by the first metric of each task.
+
+    Parameters
+    ----------
+    tasks : sequence of TaskResults
+        In page order. Tasks without a score, and tables of pairs, are left out.
+    families : mapping of str to sequence of str
+        The labels of each family, families in the order of the rows.
+    """
+    shown = [task for task in tasks if board_cells(task) and not task.layout.page.crossed]
+    columns = [board_cells(task) for task in shown]
+    groups = {family: _rows(labels, columns) for family, labels in families.items()}
+    below = groups.pop(REFERENCES, ())
+    return Scoreboard(
+        tuple(map(_column, shown)),
+        tuple((family, rows) for family, rows in groups.items() if rows),
+        (*below, *_best_interpolations(shown, columns)),
+    )
+
+
+def _rows(labels: Sequence[str], columns: Sequence[Column]) -> tuple[BoardRow, ...]:
+    return tuple(
+        BoardRow(label, tuple(column.get(label) for column in columns))
+        for label in labels
+        if any(label in column for column in columns)
+    )
+
+
+def _column(results: TaskResults) -> BoardColumn:
+    metric, page = first_metric(results), results.layout.page
+    n_cases = len(results.representative_cases(metric))
+    n_units = max((standing.n_units for standing in standings(results, metric)), default=n_cases)
+    return BoardColumn(
+        id=slug("task", results.layout.name),
+        title=page.title,
+        question=question(page.question).title,
+        metric=metric,
+        arrow=ARROWS[results.metrics[metric].direction],
+        basis=counted(n_cases, "case") + ("" if n_units == n_cases else f", n={n_units}"),
+    )
+
+
+def _best_interpolations(
+    tasks: Sequence[TaskResults], columns: Sequence[Column]
+) -> Sequence[BoardRow]:
+    """Return a row of the best interpolation of each task, none where no task has any."""
+    cells = tuple(_best(task, column) for task, column in zip(tasks, columns, strict=True))
+    return (BoardRow(INTERPOLATION, cells),) if any(cells) else ()
+
+
+def _best(results: TaskResults, column: Column) -> BoardCell | None:
+    metric = first_metric(results)
+    present = [label for label in results.layout.interpolations if label in column]
+    cases = results.representative_cases(metric)
+    if not present:
+        return None
+    best = best_over_cases(results, metric, cases, present, beside=present[0]) or present[0]
+    return BoardCell(column[best].text, column[best].value, link=column[best].link, note=best)

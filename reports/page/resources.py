@@ -1,0 +1,47 @@
+"""The parts, style sheets and scripts of a page, which is one file that needs no other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib.resources import files
+
+from jinja2 import Environment, FunctionLoader, StrictUndefined, Template
+from markupsafe import Markup
+
+from mocapbench.reports.printable import printable
+from mocapbench.reports.text import counted, slug
+
+__all__ = ["scripts", "styles", "template"]
+
+
+def template(name: str) -> Template:
+    """Return the template ``parts/name``, which may use the other parts."""
+    environment = Environment(
+        autoescape=True,
+        loader=FunctionLoader(lambda part: _read("parts", part)),
+        lstrip_blocks=True,
+        trim_blocks=True,
+        undefined=StrictUndefined,
+    )
+    environment.globals["slug"] = slug
+    environment.filters |= {"counted": counted, "printable": printable}
+    return environment.get_template(name)
+
+
+def styles() -> Markup:
+    """Return every style sheet, in the order of their names."""
+    return Markup("\n").join(map(Markup, _every("styles")))
+
+
+def scripts() -> Markup:
+    """Return every script, in the order of their names. Each is a function that calls itself."""
+    return Markup("\n").join(map(Markup, _every("scripts")))
+
+
+def _every(folder: str) -> Iterator[str]:
+    names = sorted(file.name for file in (files(__package__) / folder).iterdir() if file.is_file())
+    return (_read(folder, name) for name in names)
+
+
+def _read(folder: str, name: str) -> str:
+    return (files(__package__) / folder / name).read_text(encoding="utf-8")

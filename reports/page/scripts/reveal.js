@@ -1,0 +1,32 @@
+"use strict";
+
+// What is folded stands in a template until it is opened, so that the page is there at once.
+(() => {
+  const fill = (details) => details.querySelectorAll(":scope > template").forEach((template) => {
+    template.replaceWith(template.content);
+    details.dispatchEvent(new Event("filled", { bubbles: true }));
+  });
+
+  const holder = (id) => [...document.querySelectorAll("details > template")].find(
+    (template) => template.content.getElementById(id),
+  );
+
+  const reveal = () => {
+    const id = decodeURIComponent(location.hash.slice(1));
+    if (!id || id.startsWith("cell=")) return;
+    const folded = holder(id);
+    if (folded) fill(folded.parentElement);
+    const target = document.getElementById(id);
+    for (let node = target; node; node = node.parentElement) {
+      if (node instanceof HTMLDetailsElement) node.open = true;
+    }
+    target?.scrollIntoView();
+  };
+
+  document.addEventListener("toggle", ({ target }) => target.open && fill(target), true);
+  addEventListener("beforeprint", () => {
+    document.querySelectorAll("details").forEach((details) => { fill(details); details.open = true; });
+  });
+  addEventListener("hashchange", reveal);
+  reveal();
+})();

@@ -1,0 +1,1 @@
+"""The tables of scores: a row a model, a column a case."""

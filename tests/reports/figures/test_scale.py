@@ -1,0 +1,88 @@
+"""Scales map ends to ends, are monotone, and have ticks at round values within them."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from mocapbench.reports.figures.axes import written
+from mocapbench.reports.figures.intervals import centre, interval
+from mocapbench.reports.figures.scale import LinearScale, LogScale, fitted, remark
+
+NUMBERS = st.floats(-1e6, 1e6, allow_nan=False).map(lambda x: round(x, 6))
+POSITIVE = st.floats(1e-6, 1e6)
+
+
+@pytest.fixture(params=[LinearScale, LogScale])
+def kind(request):
+    return request.param
+
+
+@given(low=POSITIVE, ratio=st.floats(1.01, 1e9), shares=st.lists(st.floats(0, 1), min_size=2))
+@pytest.mark.parametrize("scale_type", [LinearScale, LogScale])
+def test_a_scale_maps_ends_to_ends_and_is_monotone(scale_type, low, ratio, shares):
+    scale = scale_type(low, low * ratio, 300.0, 20.0)
+    assert scale.place(scale.low) == pytest.approx(300.0)
+    assert scale.place(scale.high) == pytest.approx(20.0)
+    values = low + np.sort(shares) * (low * ratio - low)
+    assert (np.diff(scale.places(values)) <= 1e-9).all()
+
+
+@given(low=POSITIVE, ratio=st.floats(1.01, 1e9))
+@pytest.mark.parametrize("scale_type", [LinearScale, LogScale])
+def test_ticks_are_few_ascending_round_and_within_the_ends(scale_type, low, ratio):
+    scale = scale_type(low, low * ratio, 0.0, 100.0)
+    ticks = scale.ticks(5)
+    assert 1 <= len(ticks) <= 12
+    assert ticks == sorted(set(ticks))
+    assert all(scale.low - 1e-9 * low <= tick <= scale.high * (1 + 1e-9) for tick in ticks)
+    assert len({written(tick) for tick in ticks}) == len(ticks) or ratio < 1.02
+
+
+@given(values=st.lists(NUMBERS, min_size=1))
+def test_the_fitted_scale_shows_every_value(values):
+    scale = fitted([*values, math.nan], 10.0, 90.0)
+    places = scale.places(np.array(values))
+    assert ((places > 10.0) & (places < 90.0)).all()
+
+
+def test_values_over_more_than_a_factor_ten_take_a_logarithmic_scale():
+    assert isinstance(fitted([1.0, 11.0], 0.0, 1.0), LogScale)
+    assert isinstance(fitted([1.0, 9.0], 0.0, 1.0), LinearScale)
+    assert isinstance(fitted([-1.0, 100.0], 0.0, 1.0), LinearScale)
+
+
+def test_an_axis_that_spans_little_says_so():
+    assert "spans 1 %" in remark(LinearScale(99.0, 100.0, 0.0, 1.0))
+    assert remark(LinearScale(50.0, 100.0, 0.0, 1.0)) == ""
+
+
+@given(values=st.lists(st.floats(0.01, 100.0), min_size=2, max_size=12))
+def test_the_interval_of_the_logarithm_has_its_closed_form(values):
+    from scipy import stats
+
+    assume(np.ptp(np.log(values)) > 1e-6)
+    expected = stats.ttest_1samp(np.log(values), 0.0).confidence_interval(0.95)
+    scale = LogScale(0.001, 1000.0, 0.0, 1.0)
+    assert interval(values, scale) == pytest.approx((np.exp(expected.low), np.exp(expected.high)))
+    assert centre(values, scale) == pytest.approx(stats.gmean(values))
+
+
+def test_the_linear_interval_covers_as_it_claims():
+    rng, scale = np.random.default_rng(0), LinearScale(-9.0, 9.0, 0.0, 1.0)
+    bounds = [interval(rng.standard_normal(5).tolist(), scale) for _ in range(2000)]
+    assert np.mean([low < 0.0 < high for low, high in bounds]) == pytest.approx(0.95, abs=0.02)
+
+
+def test_one_fold_has_no_interval(kind):
+    assert interval([2.0], kind(1.0, 3.0, 0.0, 1.0)) is None
+
+
+@pytest.mark.parametrize(
+    ("tick", "text"),
+    [(0.0, "0"), (-1.5, "−1.5"), (0.0002, "2·10⁻⁴"), (1e6, "10⁶"), (2500.0, "2500")],
+)
+def test_ticks_are_written_for_people(tick, text):
+    assert written(tick) == text
