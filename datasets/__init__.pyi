@@ -19,6 +19,7 @@ from .formats.tables.comma_separated import CSVFormat
 from .formats.tables.parquet import ParquetFormat
 from .formats.turns import unwrapped
 from .gait import GAIT_VERSION, GaitLibrary, gait_style
+from .keys import subject_of
 from .kinematics import (
     FrameByJointBy3,
     joint_positions,
@@ -99,6 +100,7 @@ __all__ = [
     "resample",
     "restart",
     "root_differences",
+    "subject_of",
     "taylor_deviations",
     "taylor_features",
     "taylor_scales",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-__all__ = ["split_key"]
+__all__ = ["split_key", "subject_of"]
 
 _KEY = re.compile(r"([0-9]{2,3})_([0-9]{2})")
 
@@ -21,3 +21,14 @@ def split_key(key: str) -> tuple[str, str]:
     if match is None:
         raise ValueError(f"expected a recording as SUBJECT_TRIAL, such as 35_02, got {key!r}")
     return match[1], match[2]
+
+
+def subject_of(address: str) -> str:
+    """Return whose recording ``cmu:35_02`` or ``35_02`` is: the subject's number, ``35``.
+
+    Raises
+    ------
+    ValueError
+        If the key is malformed.
+    """
+    return split_key(address.rpartition(":")[2])[0]

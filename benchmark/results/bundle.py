@@ -80,6 +80,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
                 synthetic=case.synthetic,
                 averages_references=task.averages_references(case),
                 notes=task.page.notes(case.name),
+                subjects=case.subjects,
             )
             for case in task.cases
         ),

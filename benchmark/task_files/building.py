@@ -19,6 +19,7 @@ from mocapbench.benchmark.task_files.problem import Protocol, own_problem
 from mocapbench.benchmark.task_files.settings import Settings, read_settings
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Profile, Task
+from mocapbench.datasets import subject_of
 from mocapbench.reports import TaskPage
 
 __all__ = ["add_tasks", "build_task"]
@@ -65,7 +66,7 @@ def build_task(file: TaskFile) -> Task:
 
 def _cases(file: TaskFile, settings: Settings, hidden: Hidden) -> tuple[Case, ...]:
     address = partial(address_of, rate=settings.rate)
-    names = _names(file.tests)
+    names, subjects = _names(file.tests), _subjects(file.tests)
     cases = []
     for test, variant in product(file.tests, hidden.variants):
         training = tuple(address(path) for path in file.training if path != test)
@@ -76,6 +77,7 @@ def _cases(file: TaskFile, settings: Settings, hidden: Hidden) -> tuple[Case, ..
             partial(own_problem, protocol, address(test), training),
             {"recording": names[test], **variant.columns},
             tuple(dict.fromkeys((address(test), *training, *patterns))),
+            subjects=subjects[test],
         )
         cases.append(case)
     return tuple(cases)
@@ -86,6 +88,24 @@ def _names(paths: tuple[str, ...]) -> dict[str, str]:
     short = {path: str(PurePosixPath(path).with_suffix("")) for path in paths}
     twice = {name for name, count in Counter(short.values()).items() if count > 1}
     return {path: path if name in twice else name for path, name in short.items()}
+
+
+def _subjects(paths: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
+    """Return whose recordings they are: CMU's subject where a file has its name, else unknown.
+
+    Of an unknown subject each recording counts for itself. All cases and folds of one recording
+    are draws on it, and have no subject.
+    """
+    if len(paths) == 1:
+        return {paths[0]: ()}
+    return {path: (_subject(path),) for path in paths}
+
+
+def _subject(path: str) -> str:
+    try:
+        return subject_of(PurePosixPath(path).stem)
+    except ValueError:
+        return path
 
 
 def _check_folds(document: Document, settings: Settings, hidden: Hidden) -> None:

@@ -46,6 +46,10 @@ class Case:
         ``references``, the one argument that may differ. By default the case's own name.
     synthetic : bool
         Whether it stands on generated gait rather than recordings of people.
+    subjects : tuple of str
+        Whose recordings its folds are, in turn: one name where all folds are of one subject. The
+        report counts each subject once. Empty for generated motion, and where all cases and folds
+        of the task are draws on the same recordings.
     parameters : mapping
         Parameters set on every model that has them, for example ``{"n_styles": 4}``.
     """
@@ -57,6 +61,7 @@ class Case:
     references: tuple[str, ...] = ()
     problem_name: str = ""
     synthetic: bool = False
+    subjects: tuple[str, ...] = ()
     parameters: Mapping[str, object] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

@@ -19,7 +19,7 @@ from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.gpdm_entrants import NOT_QUICK, POSE_VITERBI, SLOW, WITH_BEST_START
 from mocapbench.benchmark.tasks.pages.golf_swings import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, Recording, gpdm_features, one_based_frames
+from mocapbench.datasets import Archive, Recording, gpdm_features, one_based_frames, subject_of
 
 __all__ = ["golf_problem", "golf_swings"]
 
@@ -62,7 +62,9 @@ def _swing(archive: Archive, uri: str, first: int, last: int) -> Recording:
 def _case(name: str, swing: str, held_out: str, frames: dict[str, tuple[int, int]]) -> Case:
     sources = (held_out, *(uri for uri in frames if uri != held_out))
     problem = partial(golf_problem, frames, held_out)
-    return Case(name, problem, {"swing": swing}, sources, synthetic=frames is SYNTHETIC)
+    synthetic = frames is SYNTHETIC
+    subjects = () if synthetic else (subject_of(held_out),)
+    return Case(name, problem, {"swing": swing}, sources, synthetic=synthetic, subjects=subjects)
 
 
 def _real(uri: str) -> Case:

@@ -19,7 +19,7 @@ from mocapbench.benchmark.problems.masks import Run, hide_runs
 from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.pages.marker_gaps import ALONE, OTHERS, PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, Recording, joint_trajectories
+from mocapbench.datasets import Archive, Recording, joint_trajectories, subject_of
 
 __all__ = ["marker_gaps", "marker_gaps_problem"]
 
@@ -171,6 +171,7 @@ def _cases(
             {"hidden": place, "trained on": training, "seconds": seconds},
             tuple(uri for motion in motions for uri in (motion.tested, *trained_on(motion))),
             synthetic=synthetic,
+            subjects=() if synthetic else tuple(subject_of(motion.tested) for motion in motions),
         )
         for place in places
         for training, trained_on in _TRAINING.items()

@@ -18,7 +18,7 @@ from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task, on_rec
 from mocapbench.benchmark.tasks.gpdm_entrants import GPDM_STARTS, NOT_QUICK, POSE_VITERBI, SLOW
 from mocapbench.benchmark.tasks.pages.missing_frames import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, Recording, gpdm_features, one_based_frames
+from mocapbench.datasets import Archive, Recording, gpdm_features, one_based_frames, subject_of
 
 __all__ = ["missing_frames", "missing_frames_problem"]
 
@@ -73,7 +73,9 @@ def _case(
     name: str, columns: dict[str, str], test: str, training: tuple[str, ...], *, synthetic: bool
 ) -> Case:
     problem = partial(missing_frames_problem, test, training)
-    return Case(name, problem, columns, (test, *training), synthetic=synthetic)
+    subjects = () if synthetic else (subject_of(test),)
+    sources = (test, *training)
+    return Case(name, problem, columns, sources, synthetic=synthetic, subjects=subjects)
 
 
 def _real(trial: str, group: str) -> Case:

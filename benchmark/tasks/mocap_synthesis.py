@@ -23,7 +23,7 @@ from mocapbench.benchmark.tasks.thesis_recordings import (
     Window,
     read_excerpt,
 )
-from mocapbench.datasets import Archive
+from mocapbench.datasets import Archive, subject_of
 
 __all__ = ["exaggerated_synthesis", "motion_problem", "soccer_synthesis", "walking_synthesis"]
 
@@ -88,6 +88,7 @@ def _rows(
             sources,
             uris,
             problem_name=problem_name,
+            subjects=(subject_of(uris[0]),) if len(uris) == 1 else (),
         )
         for name, group in groups.items()
         for uris in [tuple(references[member] for member in group)]

@@ -22,6 +22,7 @@ from mocapbench.datasets import (
     Archive,
     Mask,
     Recording,
+    subject_of,
     taylor_deviations,
     taylor_features,
     taylor_scales,
@@ -79,7 +80,7 @@ def _natural_unit() -> Unit:
 def _real(part: str) -> Case:
     columns = {"hidden": part, "trained on": "31 recordings of subject 35"}
     problem = partial(subject_35_problem, TRAINING, TEST, part)
-    return Case(part, problem, columns, (TEST, *TRAINING))
+    return Case(part, problem, columns, (TEST, *TRAINING), subjects=(subject_of(TEST),))
 
 
 def _synthetic(part: str) -> Case:

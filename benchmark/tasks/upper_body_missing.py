@@ -50,6 +50,7 @@ _CASES = (
         partial(upper_body_problem, CMU, "cmu:07"),
         {"trained on": "subjects 07, 08, 09, 35"},
         CMU.sources,
+        subjects=("07",),
     ),
     Case(
         "synthetic walks",

@@ -16,6 +16,11 @@ from mocapbench.metrics.statistics.differences import (
     signed_rank_test,
     t_test,
 )
+from mocapbench.metrics.statistics.families import (
+    TestedMeans,
+    tested_differences,
+    tested_means,
+)
 from mocapbench.metrics.statistics.pairing import case_units, pair, pooled_units
 from mocapbench.metrics.statistics.posterior import Posterior, correlated_t_test
 from mocapbench.metrics.statistics.ranking import RankComparison, compare_ranks, nemenyi
@@ -28,6 +33,7 @@ __all__ = [
     "Posterior",
     "RankComparison",
     "SharedRank",
+    "TestedMeans",
     "case_units",
     "compare_ranks",
     "contrast",
@@ -41,4 +47,6 @@ __all__ = [
     "shared_rank",
     "signed_rank_test",
     "t_test",
+    "tested_differences",
+    "tested_means",
 ]

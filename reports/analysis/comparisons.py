@@ -1,18 +1,25 @@
-"""Our estimates beside the published values, with a verdict on each pair."""
+"""Our estimates beside the published values, with a verdict on each pair.
+
+Several of our rows and entrants may correspond to one published value: other kernels, or other
+readings of what the paper left open. One of them *answers* it, by a rule that no score enters: the
+first, in the order of the page's rows and then of its `published_models`, that may be compared and
+has a score. The others are shown beside it and counted nowhere.
+"""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import product
 
 from mocapbench.reports.analysis.fold_mean import FoldMean
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.verdicts import PublishedVerdict, verdict
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.paper.published import PublishedValue
+from mocapbench.reports.paper.remarks import PublishedAddress
 
-__all__ = ["Comparison", "Tally", "comparisons", "every_comparison", "tally"]
+__all__ = ["Comparison", "answers", "comparisons", "every_comparison", "never_comparable"]
 
 
 @dataclass(frozen=True)
@@ -22,11 +29,9 @@ class Comparison:
     Parameters
     ----------
     case : CaseLayout
-    label : str
+    label, metric : str
     ours : FoldMean
     published : PublishedValue
-    half_width : float or None
-        Half the 95 % interval of our mean; None where the folds give none.
     verdict : PublishedVerdict
     reason : str
         Why the two cannot be compared, empty where they can.
@@ -34,32 +39,16 @@ class Comparison:
 
     case: CaseLayout
     label: str
+    metric: str
     ours: FoldMean
     published: PublishedValue
-    half_width: float | None
     verdict: PublishedVerdict
     reason: str
 
     @property
     def on_one_fold(self) -> bool:
         """Whether the verdict rests on a single fold."""
-        return self.ours.n == 1 and self.verdict is not PublishedVerdict.NOT_COMPARABLE
-
-
-@dataclass(frozen=True)
-class Tally:
-    """A count of verdicts.
-
-    Parameters
-    ----------
-    counts : mapping of str to int
-        By verdict, all of them in fixed order.
-    on_one_fold : int
-        How many verdicts rest on a single fold.
-    """
-
-    counts: Mapping[str, int]
-    on_one_fold: int
+        return self.ours.n == 1 and not self.reason
 
 
 def comparisons(results: TaskResults, metric: str) -> list[Comparison]:
@@ -72,6 +61,31 @@ def every_comparison(results: TaskResults) -> list[Comparison]:
     return [pair for metric in results.layout.page.metrics for pair in comparisons(results, metric)]
 
 
+def answers(results: TaskResults) -> Mapping[PublishedAddress, Comparison]:
+    """Return, for each published value that may be compared and is, the comparison that counts."""
+    cases = [case.name for case in results.cases]
+    models = list(results.layout.page.published_models)
+    may = [pair for pair in every_comparison(results) if not pair.reason]
+    may.sort(key=lambda pair: (cases.index(pair.case.name), models.index(pair.label)))
+    first: dict[PublishedAddress, Comparison] = {}
+    for pair in may:
+        first.setdefault(pair.published.address, pair)
+    return first
+
+
+def never_comparable(results: TaskResults) -> set[PublishedAddress]:
+    """Return the published values that rows and entrants stand for, with a reason against each."""
+    page = results.layout.page
+    readings = [
+        (published.address, _reason(results, case, label, metric, published))
+        for case, label, metric in product(
+            results.layout.cases, page.published_models, page.published_metrics
+        )
+        if (published := results.published_value(case, label, metric)) is not None
+    ]
+    return {address for address, _ in readings} - {a for a, reason in readings if not reason}
+
+
 def _comparisons(results: TaskResults, metric: str) -> Iterator[Comparison]:
     for label in results.layout.labels:
         for case in results.cases:
@@ -79,10 +93,9 @@ def _comparisons(results: TaskResults, metric: str) -> Iterator[Comparison]:
             ours = results.estimate(case.name, label, metric)
             if published is not None and ours is not None:
                 reason = _reason(results, case, label, metric, published)
-                half_width = ours.half_width if results.layout.independent_folds else None
-                by_rule = verdict(ours.mean, published, results.metrics[metric], half_width)
+                by_rule = verdict(ours.mean, published, results.metrics[metric], ours.half_width)
                 final = PublishedVerdict.NOT_COMPARABLE if reason else by_rule
-                yield Comparison(case, label, ours, published, half_width, final, reason)
+                yield Comparison(case, label, metric, ours, published, final, reason)
 
 
 def _reason(
@@ -94,12 +107,3 @@ def _reason(
     synthetic = "generated motion" if case.synthetic else ""
     shared = of_task.get((label, metric)) or of_task.get((label, "*"))
     return shared or of_case or published.not_comparable or synthetic
-
-
-def tally(pairs: Sequence[Comparison]) -> Tally:
-    """Count the verdicts of ``pairs``."""
-    counts = Counter(pair.verdict for pair in pairs)
-    return Tally(
-        {verdict.value: counts[verdict] for verdict in PublishedVerdict},
-        sum(pair.on_one_fold for pair in pairs),
-    )

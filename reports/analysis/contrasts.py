@@ -1,47 +1,132 @@
-"""Paired contrasts of two entrants over the cases of a task, with Holm's correction."""
+"""Paired contrasts of many pairs of entrants at once, by the units of the page."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mocapbench.metrics.statistics import ALPHA, Contrast, contrast, holm, pair, pooled_units
-from mocapbench.reports.analysis.results import TaskResults
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
 
-__all__ = ["CorrectedContrast", "corrected_contrasts", "pooled_contrast"]
+from mocapbench.metrics.statistics import ALPHA, ROPE, tested_means
+from mocapbench.reports.analysis.cells import Cells
+from mocapbench.reports.analysis.grid import Array
+from mocapbench.reports.analysis.units import FEWEST_UNITS
+
+__all__ = ["PairContrast", "contrasts"]
 
 
 @dataclass(frozen=True)
-class CorrectedContrast:
-    """A contrast and the p-value of its paired t-test, corrected over a family of contrasts."""
+class PairContrast:
+    """How much better one label is than another, over the units that both have.
 
-    contrast: Contrast
-    p: float
+    Parameters
+    ----------
+    n : int
+        The number of units; below `FEWEST_UNITS` nothing is tested.
+    first, second : float
+        Mean values over the units; NaN where there is none.
+    advantage : float
+        By how much the first is better; negative where it is worse.
+    low, high : float
+        The interval of the advantage at the level at which Holm's method decides its test
+        (`mocapbench.metrics.statistics.families`); NaN without a test.
+    t_p, t_p_holm : float
+        Two-sided p of the paired t-test, before and after Holm's correction over the family.
+    better, equivalent, worse : float
+        Probabilities by the Bayesian correlated t-test; equivalent is within 2 %.
+    """
+
+    n: int
+    first: float
+    second: float
+    advantage: float
+    low: float
+    high: float
+    t_p: float
+    t_p_holm: float
+    better: float
+    equivalent: float
+    worse: float
+
+    @property
+    def tested(self) -> bool:
+        """Whether there are enough units for a test."""
+        return self.n >= FEWEST_UNITS
 
     @property
     def separable(self) -> bool:
         """Whether the difference is more than chance; never without a test."""
-        return self.p <= ALPHA
+        return self.t_p_holm <= ALPHA
 
 
-def corrected_contrasts(contrasts: Sequence[Contrast]) -> list[CorrectedContrast]:
-    """Correct a family of contrasts by Holm's method."""
-    p_values = holm([contrast.t_p for contrast in contrasts])
+def contrasts(scored: Cells, pairs: Sequence[tuple[str, str]]) -> list[PairContrast]:
+    """Return the contrasts of ``pairs`` of labels, one family."""
+    if not pairs:
+        return []
+    rows = np.array([[scored.labels.index(label) for label in pair] for pair in pairs])
+    n, first, second, mean, deviation, size = _samples(scored, rows)
+    enough = n >= FEWEST_UNITS
+    errors = np.where(enough, deviation / np.sqrt(np.maximum(n, 1)), np.nan)
+    tested = tested_means(mean, errors, n)
+    better, worse = _posterior(mean, deviation, np.where(enough, n, np.nan), ROPE * size)
+    columns = (
+        *(first, second, mean, tested.low, tested.high, tested.uncorrected_p, tested.p),
+        *(better, 1.0 - better - worse, worse),
+    )
     return [
-        CorrectedContrast(contrast, float(p))
-        for contrast, p in zip(contrasts, p_values, strict=True)
+        PairContrast(int(count), *map(float, values))
+        for count, values in zip(n, np.transpose(columns), strict=True)
     ]
 
 
-def pooled_contrast(results: TaskResults, metric: str, first: str, second: str) -> Contrast:
-    """Return the contrast of two labels over the representative cases.
+def _samples(scored: Cells, rows: NDArray[np.int_]) -> tuple[Array, ...]:
+    """Return units, means of both, mean and deviation of advantages, and mean size of values.
+
+    Pairs with scores in the same cells, usually all of them, are taken together.
+    """
+    shared = scored.scored[rows].all(axis=1)
+    patterns, pattern_of = np.unique(shared, axis=0, return_inverse=True)
+    found = np.full((6, len(rows)), np.nan)
+    for number, kept in enumerate(patterns):
+        chosen = np.flatnonzero(pattern_of.reshape(-1) == number)
+        weights = scored.weights(kept)
+        found[0, chosen] = len(weights)
+        if len(weights):
+            values, losses = (
+                array[:, kept][rows[chosen]] @ weights.T for array in (scored.values, scored.losses)
+            )
+            found[1:, chosen] = _summaries(values, losses[:, 1] - losses[:, 0])
+    return tuple(found)
+
+
+def _summaries(values: Array, advantages: Array) -> Array:
+    """Return what `_samples` does for pairs with ``values`` of shape (n_pairs, 2, n_units)."""
+    deviation = advantages.std(axis=1, ddof=1) if advantages.shape[1] > 1 else np.nan
+    equal = np.ptp(advantages, axis=1) == 0.0
+    return np.stack(
+        [
+            *values.mean(axis=2).T,
+            np.where(equal, advantages[:, 0], advantages.mean(axis=1)),
+            np.where(equal & (advantages.shape[1] > 1), 0.0, deviation),
+            np.abs(values).mean(axis=(1, 2)),
+        ]
+    )
+
+
+def _posterior(mean: Array, deviation: Array, n: Array, rope: Array) -> tuple[Array, Array]:
+    """Return the probabilities of better and worse by the correlated t-test, ρ = 1/n.
 
     See Also
     --------
-    mocapbench.metrics.statistics.pooled_units : what counts as one unit.
+    mocapbench.metrics.statistics.correlated_t_test : the same for a single sample.
     """
-    values = results.representative_values[metric]
-    units = pooled_units(
-        pair(values[first], values[second]), independent=results.layout.independent_folds
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scale = deviation * np.sqrt(1.0 / n + 1.0 / (n - 1.0))
+        # Where all advantages are equal the quotient is infinite, or 0/0 on the region's edge.
+        upper, lower = ((mean - rope) / scale, (-mean - rope) / scale)
+    return tuple(  # type: ignore[return-value]
+        np.where(np.isnan(t) & np.isfinite(n), 0.0, special.stdtr(n - 1.0, t))
+        for t in (upper, lower)
     )
-    return contrast(units, results.metrics[metric].loss)

@@ -1,4 +1,8 @@
-"""Mean ranks of entrants over the cases of a task, and over tasks."""
+"""Mean ranks of entrants over the units of a task, and over tasks.
+
+Ranks are compared only where they can separate: over at least `FEWEST_UNITS` units, and where the
+critical difference is less than k − 1, which is how far apart the first and the last of k can be.
+"""
 
 from __future__ import annotations
 
@@ -10,12 +14,14 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
-from mocapbench.metrics.statistics import RankComparison, compare_ranks
+from mocapbench.metrics.statistics import RankComparison, compare_ranks, nemenyi
+from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.units import FEWEST_UNITS
 
-__all__ = ["Ranks", "case_losses", "ranks_over_cases", "ranks_over_tasks"]
+__all__ = ["Ranks", "ranks_over_tasks", "ranks_over_units", "unit_losses"]
 
-FEWEST_ENTRANTS, FEWEST_BLOCKS = 3, 2
+FEWEST_ENTRANTS = 3
 
 
 @dataclass(frozen=True)
@@ -25,71 +31,60 @@ class Ranks:
     Parameters
     ----------
     labels : tuple of str
-        Entrants with a score in every block, in table order.
+        Entrants with a score in every case and fold, in table order.
     left_out : tuple of str
-        Entrants with a score in some blocks but not in all.
-    blocks : str
-        What the entrants are ranked over: ``"cases"`` or ``"tasks"``.
+        Entrants that lack some.
+    unit : str
+        What the entrants are ranked over: ``"subject"``, ``"fold"``, ``"case"`` or ``"task"``.
     comparison : RankComparison
     """
 
     labels: tuple[str, ...]
     left_out: tuple[str, ...]
-    blocks: str
+    unit: str
     comparison: RankComparison
 
 
-def ranks_over_cases(results: TaskResults, metric: str) -> Ranks | None:
-    """Return the ranks over the representative cases of a task; None where there are too few.
-
-    Each case counts once, by the means over its folds.
-    """
-    return _ranks(case_losses(results, metric), "cases")
+def ranks_over_units(results: TaskResults, metric: str) -> Ranks | None:
+    """Return the ranks over the units of a task; None where they cannot separate any two."""
+    scored = cells(results, metric)
+    return _ranks(unit_losses(scored), scored.unit)
 
 
 def ranks_over_tasks(tasks: Iterable[TaskResults]) -> Ranks | None:
-    """Return the ranks over tasks, each by its first metric; None where there are too few.
+    """Return the ranks over tasks, each by its first metric; None where they separate none.
 
-    Each task counts once, by the mean ranks over its cases of the entrants that all tasks share.
+    Each task counts once, by the mean ranks over its units of the entrants that all tasks share.
     """
-    losses = [case_losses(task, task.layout.page.metrics[0]) for task in tasks]
+    losses = [unit_losses(cells(task, task.layout.page.metrics[0])) for task in tasks]
     losses = [table for table in losses if not table.empty]
-    if len(losses) < FEWEST_BLOCKS:
+    if len(losses) < FEWEST_UNITS:
         return None
     common = reduce(pd.Index.intersection, [table.dropna(axis=1).columns for table in losses])
     ranked = [stats.rankdata(table[common], axis=1).mean(axis=0) for table in losses]
     entered = list(dict.fromkeys(label for table in losses for label in table.columns))
-    return _ranks(pd.DataFrame(ranked, columns=common).reindex(columns=entered), "tasks")
+    return _ranks(pd.DataFrame(ranked, columns=common).reindex(columns=entered), "task")
 
 
-def case_losses(results: TaskResults, metric: str) -> pd.DataFrame:
-    """Return the losses of the entrants' means.
+def unit_losses(scored: Cells) -> pd.DataFrame:
+    """Return mean losses, one row per unit and one column per label.
 
-    Returns
-    -------
-    DataFrame
-        One row per representative case and one column per entrant with a score; NaN where an
-        entrant has no score in a case.
+    A label that lacks a score in any cell is NaN throughout: what it lacks may be hard.
     """
-    loss = results.metrics[metric].loss
-    cases = [case.name for case in results.representative_cases(metric)]
-    table = {
-        label: [
-            loss(estimate.mean) if (estimate := results.estimate(case, label, metric)) else np.nan
-            for case in cases
-        ]
-        for label in results.layout.ranked
-    }
-    return pd.DataFrame(table, index=cases).dropna(axis=1, how="all")
+    whole = scored.scored.all(axis=1)
+    weights = scored.weights(np.ones(len(scored.cases), dtype=bool))
+    losses = weights @ np.where(np.expand_dims(whole, 1), scored.losses, np.nan).T
+    return pd.DataFrame(losses, columns=list(scored.labels))
 
 
-def _ranks(losses: pd.DataFrame, blocks: str) -> Ranks | None:
+def _ranks(losses: pd.DataFrame, unit: str) -> Ranks | None:
     whole = losses.dropna(axis=1)
-    if len(whole) < FEWEST_BLOCKS or len(whole.columns) < FEWEST_ENTRANTS:
+    n, n_labels = whole.shape
+    if n < FEWEST_UNITS or n_labels < FEWEST_ENTRANTS or nemenyi(n, n_labels) >= n_labels - 1:
         return None
     left_out = [label for label in losses.columns if label not in whole.columns]
     return Ranks(
-        _names(whole.columns), _names(left_out), blocks, compare_ranks(whole.to_numpy(float))
+        _names(whole.columns), _names(left_out), unit, compare_ranks(whole.to_numpy(float))
     )
 
 

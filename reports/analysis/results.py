@@ -9,8 +9,9 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 
-from mocapbench.metrics.statistics import SharedRank, shared_rank
+from mocapbench.reports.analysis.estimates import estimates
 from mocapbench.reports.analysis.fold_mean import FoldMean
+from mocapbench.reports.analysis.grid import Grid
 from mocapbench.reports.analysis.troubles import Trouble, troubles
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout, TaskLayout
@@ -30,6 +31,8 @@ class TaskResults:
     metrics : mapping of str to MetricInfo
     scores, records : DataFrame
         The task's rows of the bundle's tables, without scores that are not finite.
+    grid : Grid
+        The scores as an array.
     estimates : mapping of (case, label, metric) to FoldMean
     troubles : mapping of (case, label) to tuple of Trouble
         Jobs that failed or whose data are missing.
@@ -41,11 +44,12 @@ class TaskResults:
     metrics: Mapping[str, MetricInfo]
     scores: pd.DataFrame
     records: pd.DataFrame
+    grid: Grid
     estimates: Mapping[tuple[str, str, str], FoldMean]
     troubles: Mapping[tuple[str, str], tuple[Trouble, ...]]
     published: PublishedTask
 
-    @property
+    @cached_property
     def cases(self) -> tuple[CaseLayout, ...]:
         """The cases that ran, in table order."""
         ran = set(self.records["case"])
@@ -73,51 +77,9 @@ class TaskResults:
         loss = self.metrics[metric].loss
         return sorted(scored, key=lambda name: (scored[name].n < most, loss(scored[name].mean)))
 
-    @cached_property
-    def values(self) -> Mapping[str, pd.DataFrame]:
-        """By metric, the scores by (case, fold), one column per label, NaN where there is none."""
-        return {
-            str(metric): rows.pivot(index=["case", "fold"], columns="label", values="value")
-            for metric, rows in self.scores.groupby("metric", sort=False)
-        }
-
-    @cached_property
-    def representative_values(self) -> Mapping[str, pd.DataFrame]:
-        """The `values` of the representative cases."""
-        cases = {m: [case.name for case in self.representative_cases(m)] for m in self.values}
-        return {
-            metric: values[values.index.get_level_values("case").isin(cases[metric])]
-            for metric, values in self.values.items()
-        }
-
-    def first_rank(self, case: str, metric: str) -> SharedRank | None:
-        """Return the entrants that share the first rank of a row, by a paired test.
-
-        Returns
-        -------
-        SharedRank or None
-            None where no entrant has a score.
-        """
-        return self._first_ranks.get((case, metric))
-
-    @cached_property
-    def _first_ranks(self) -> Mapping[tuple[str, str], SharedRank | None]:
-        rows = {(case, metric): None for case, _, metric in self.estimates}
-        return {row: self._first_rank(*row) for row in rows}
-
-    def _first_rank(self, case: str, metric: str) -> SharedRank | None:
-        order = tuple(self.ranking(case, metric))
-        if not order:
-            return None
-        units = self.values[metric].loc[[case], list(order)]
-        if not self.layout.independent_folds:
-            units = units.groupby(level="case").mean()
-        return shared_rank(units.map(self.metrics[metric].loss), order)
-
-    def best(self, case: str, metric: str) -> set[str]:
-        """Return the labels of the first rank: the best mean, and all not separable from it."""
-        rank = self.first_rank(case, metric)
-        return set(rank.labels) if rank else set()
+    def best_label(self, case: str, metric: str) -> str | None:
+        """Return the competing label with the best mean, or None where no label has a score."""
+        return next(iter(self.ranking(case, metric)), None)
 
     def representative_cases(self, metric: str) -> list[CaseLayout]:
         """Return the cases with scores that enter counts, ranks and means over cases.
@@ -125,7 +87,12 @@ class TaskResults:
         Generated motion enters only where there are no recordings. A row that averages over
         references enters only where the rows of those references are missing.
         """
-        scored = [case for case in self.cases if self.ranking(case.name, metric)]
+        ranked = self.layout.ranked
+        scored = [
+            case
+            for case in self.cases
+            if any((case.name, label, metric) in self.estimates for label in ranked)
+        ]
         recorded = [case for case in scored if not case.synthetic] or scored
         return [case for case in recorded if not case.averages_references] or recorded
 
@@ -134,16 +101,14 @@ def task_results(bundle: Bundle, layout: TaskLayout) -> TaskResults:
     """Return the results of the task that ``layout`` describes."""
     scores = bundle.scores[bundle.scores["task"] == layout.name]
     scores = scores[np.isfinite(scores["value"].to_numpy(float))].sort_values("fold", kind="stable")
-    groups = scores.groupby(["case", "label", "metric"], sort=False)
+    grid = Grid.of(scores, layout.labels, [case.name for case in layout.cases])
     return TaskResults(
         layout=layout,
         metrics=bundle.metrics,
         scores=scores,
         records=bundle.records[bundle.records["task"] == layout.name],
-        estimates={
-            key: FoldMean.of(group["value"].to_list(), group["sample_two_sd"].to_list())
-            for key, group in groups
-        },
+        grid=grid,
+        estimates=estimates(grid, layout.cases, independent=layout.independent_folds),
         troubles=_troubles_by_cell(bundle, layout.name),
         published=published_values(layout.name),
     )

@@ -1,43 +1,158 @@
-"""STUB, replaced at the merge."""
+"""Where each label stands against the best one: the one comparison that the page makes.
+
+The best label has the least mean loss over units (`mocapbench.reports.analysis.units`) among the
+labels with the most scores. Every other label that has all of its scores is compared with it, and
+only with it, so that no two labels are ever said to be alike. Of labels that cannot be told from
+the best, one may well be better than another.
+"""
+
 from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-import math
-from collections.abc import Sequence
+
 import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.metrics.statistics import tested_differences
+from mocapbench.reports.analysis.cells import Cells, cells
+from mocapbench.reports.analysis.grid import Array
 from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.units import FEWEST_UNITS
 from mocapbench.reports.bundle.layout import CaseLayout
-__all__ = ["Standing", "StandingKind", "standings"]
-class StandingKind(Enum):
+from mocapbench.reports.text import counted
+
+__all__ = ["Place", "Standing", "standings"]
+
+
+class Place(Enum):
+    """How a label stands against the best one."""
+
     BEST = "best"
     INSEPARABLE = "may be chance"
-    BEHIND = "behind"
+    BEHIND = "more than chance"
     UNTESTED = "too few to test"
     INCOMPLETE = "incomplete"
+
+
 @dataclass(frozen=True)
 class Standing:
+    """One label against the best one.
+
+    Parameters
+    ----------
+    label : str
+    mean : float
+        Of the metric, over the units where the label has scores, each weighing the same.
+    n_cases, n_units : int
+        In how many cases and units it has scores.
+    unit : str
+        What a unit is: ``"subject"``, ``"fold"`` or ``"case"``.
+    complete : bool
+        Whether it has a score in every case and fold where the best one has.
+    difference : float
+        How much greater its mean loss is than that of the best; 0 for the best, NaN where it is
+        incomplete.
+    low, high : float
+        The interval of the difference by Student's t at the level at which Holm's method decides
+        its test (`mocapbench.metrics.statistics.families`): it includes 0 where the difference may
+        be chance. NaN where there is no test.
+    standing : Place
+    """
+
     label: str
     mean: float
     n_cases: int
     n_units: int
+    unit: str
     complete: bool
     difference: float
     low: float
     high: float
-    standing: StandingKind
-def standings(results: TaskResults, metric: str, cases: Sequence[CaseLayout] | None = None) -> tuple[Standing, ...]:
-    cases = results.representative_cases(metric) if cases is None else cases
-    loss = results.metrics[metric].loss
-    means = {}
-    for label in results.layout.ranked:
-        e = [results.estimate(c.name, label, metric) for c in cases]
-        e = [x.mean for x in e if x]
-        if e: means[label] = (float(np.mean(e)), len(e))
-    order = sorted(means, key=lambda l: (means[l][1] < len(cases), loss(means[l][0])))
-    out = []
-    for l in order:
-        m, n = means[l]
-        best = means[order[0]][0]
-        kind = StandingKind.BEST if l == order[0] else (StandingKind.UNTESTED if n == len(cases) else StandingKind.INCOMPLETE)
-        out.append(Standing(l, m, n, len(cases), n == len(cases), loss(m) - loss(best), math.nan, math.nan, kind))
-    return tuple(out)
+    standing: Place
+
+    @property
+    def units(self) -> str:
+        """Over how many units it is: ``"4 subjects"``."""
+        return counted(self.n_units, self.unit)
+
+    @property
+    def finding(self) -> str:
+        """What the page says of it, with the number of units where they are too few."""
+        few = f" ({self.units})" if self.standing is Place.UNTESTED else ""
+        return f"{self.standing.value}{few}"
+
+
+def standings(
+    results: TaskResults, metric: str, cases: Sequence[CaseLayout] | None = None
+) -> tuple[Standing, ...]:
+    """Return how every ranked label with a score stands, best first, incomplete ones last.
+
+    Parameters
+    ----------
+    results : TaskResults
+    metric : str
+    cases : sequence of CaseLayout or None
+        By default the representative cases; one case for a row of a table. The tests of one call
+        are one family.
+    """
+    return _standings(cells(results, metric, cases))
+
+
+def _standings(scored: Cells) -> tuple[Standing, ...]:
+    if not scored.labels:
+        return ()
+    best = _best(scored)
+    complete = (scored.scored == scored.scored[best]).all(axis=1)
+    kept = scored.scored[best]
+    losses = scored.losses[:, kept] @ scored.weights(kept).T
+    differences = losses - losses[best]
+    low, high, separable = _tested(differences, complete & (np.arange(len(complete)) != best))
+    mean = differences.mean(axis=1)
+    order = np.lexsort((mean, np.arange(len(mean)) != best, ~complete))
+    return tuple(
+        Standing(
+            scored.labels[row],
+            scored.mean(row),
+            scored.n_cases(row),
+            scored.n_units(row),
+            scored.unit,
+            bool(complete[row]),
+            float(mean[row]),
+            float(low[row]),
+            float(high[row]),
+            _place(row == best, complete[row], losses.shape[1], separable[row]),
+        )
+        for row in map(int, order)
+    )
+
+
+def _best(scored: Cells) -> int:
+    """Return the row with the least mean loss among those with the most scores."""
+    n_scores = scored.scored.sum(axis=1)
+    candidates = np.flatnonzero(n_scores == n_scores.max()).tolist()
+    means = [scored.mean_loss(row) for row in candidates]
+    return int(candidates[np.argmin(means)])
+
+
+def _tested(
+    differences: Array, rivals: NDArray[np.bool_]
+) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Return intervals and whether 0 is outside, of the rows that are ``rivals``."""
+    low, high = np.full((2, len(rivals)), np.nan)
+    separable = np.zeros(len(rivals), dtype=bool)
+    if differences.shape[1] >= FEWEST_UNITS and rivals.any():
+        tested = tested_differences(differences[rivals])
+        low[rivals], high[rivals], separable[rivals] = tested.low, tested.high, tested.separable
+    return low, high, separable
+
+
+def _place(best: bool, complete: bool, n_units: int, separable: bool) -> Place:
+    if best:
+        return Place.BEST
+    if not complete:
+        return Place.INCOMPLETE
+    if n_units < FEWEST_UNITS:
+        return Place.UNTESTED
+    return Place.BEHIND if separable else Place.INSEPARABLE

@@ -17,13 +17,15 @@ RELATIVE_TOLERANCE = 0.02
 
 
 class PublishedVerdict(Enum):
-    """How our mean compares with a published value."""
+    """How our mean compares with a published value, or why there is no comparison."""
 
-    REPRODUCED = "reproduced"
+    WITHIN_2_PERCENT = "within 2 %"
+    WITHIN_PAPER_SD = "within the paper’s ±"
     BETTER = "better"
     WORSE = "worse"
     UNDECIDED = "undecided"
     NOT_COMPARABLE = "not comparable"
+    NOT_RUN = "not run"
 
 
 def allowance(published: PublishedValue) -> float:
@@ -49,15 +51,17 @@ def verdict(
     Returns
     -------
     PublishedVerdict
-        *Reproduced* where both the difference and the half-width are within the `allowance`;
-        *better* or *worse* where the published value lies outside our interval widened by the
-        allowance; otherwise *undecided*.
+        *Within 2 %* where both the difference and the half-width are; *within the paper's ±*
+        where both are, and not within 2 %; *better* or *worse* where the published value lies
+        outside our interval widened by the `allowance`, the greater of the two; otherwise
+        *undecided*.
     """
-    allowed, uncertainty = allowance(published), half_width or 0.0
-    distance = abs(ours - published.value)
-    if max(distance, uncertainty) <= allowed:
-        return PublishedVerdict.REPRODUCED
-    if distance <= allowed + uncertainty:
+    uncertainty, distance = half_width or 0.0, abs(ours - published.value)
+    if max(distance, uncertainty) <= RELATIVE_TOLERANCE * abs(published.value):
+        return PublishedVerdict.WITHIN_2_PERCENT
+    if max(distance, uncertainty) <= (published.two_sd or 0.0):
+        return PublishedVerdict.WITHIN_PAPER_SD
+    if distance <= allowance(published) + uncertainty:
         return PublishedVerdict.UNDECIDED
     better = info.loss(ours) < info.loss(published.value)
     return PublishedVerdict.BETTER if better else PublishedVerdict.WORSE

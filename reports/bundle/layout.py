@@ -31,6 +31,9 @@ class CaseLayout:
         Whether the row is a mean over references that have rows of their own. Those rows then
         count in its place wherever cases are averaged or counted.
     notes : RowNotes
+    subjects : tuple of str
+        Whose recordings the folds are, in turn: one name where all folds are of one subject. Empty
+        where motion is generated, or where all cases and folds are draws on the same recordings.
     """
 
     name: str
@@ -38,6 +41,11 @@ class CaseLayout:
     synthetic: bool = False
     averages_references: bool = False
     notes: RowNotes = field(default_factory=RowNotes)
+    subjects: tuple[str, ...] = ()
+
+    def subject(self, fold: int) -> str:
+        """Return whose recording a fold is, empty where the case has no subjects."""
+        return self.subjects[fold % len(self.subjects)] if self.subjects else ""
 
     @property
     def heading(self) -> str:

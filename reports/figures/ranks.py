@@ -44,7 +44,7 @@ def _diagram(ranks: Ranks, title: str, prefix: str) -> Markup:
     _draw_means(axes, [mean_ranks[entrant] for entrant in order])
     _draw_groups(axes, ranks, {entrant: row for row, entrant in enumerate(order)})
     _label_axes(axes, [ranks.labels[entrant] for entrant in order])
-    n = counted(ranks.comparison.n, ranks.blocks.removesuffix("s"))
+    n = counted(ranks.comparison.n, ranks.unit)
     return svg_element(
         figure,
         prefix,
@@ -80,8 +80,8 @@ def _label_axes(axes: Axes, labels: Sequence[str]) -> None:
 
 
 def _caption(ranks: Ranks) -> str:
-    comparison, block = ranks.comparison, ranks.blocks.removesuffix("s")
-    n = counted(comparison.n, block)
+    comparison, unit = ranks.comparison, ranks.unit
+    n = counted(comparison.n, unit)
     groups = "; ".join(", ".join(ranks.labels[entrant] for entrant in g) for g in comparison.groups)
     together = f"Not separable, joined by a bar: {groups}." if groups else "All are separable."
     left_out = ", ".join(ranks.left_out)
@@ -89,6 +89,6 @@ def _caption(ranks: Ranks) -> str:
         [
             f"mean ranks over {n}. Friedman’s test of no difference: p = {comparison.p_value:.2g};",
             f"Nemenyi’s critical difference at 5 %: {comparison.difference:.2f} ranks. {together}",
-            *([f"Left out, without a score in every {block}: {left_out}."] if left_out else []),
+            *([f"Left out, without every score: {left_out}."] if left_out else []),
         ]
     )

@@ -8,18 +8,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.standings import Standing, StandingKind, standings
+from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.bundle.questions import QUESTIONS
 from mocapbench.reports.front.board_cells import board_cells, first_metric, reference_of
 from mocapbench.reports.scores.build import metric_places
 from mocapbench.reports.text import counted, number, slug
 
 __all__ = ["Answer", "Finding", "answers"]
-
-SURE = {
-    StandingKind.BEHIND: "more than chance",
-    StandingKind.INSEPARABLE: "may be chance",
-}
 
 
 @dataclass(frozen=True)
@@ -103,7 +98,7 @@ def _finding(results: TaskResults, ranked: Sequence[Standing]) -> Finding:
         slug("task", results.layout.name),
         results.layout.page.title,
         text + _beside(results, best.label),
-        _sure(second, best.n_units),
+        second.finding if second else "nothing to compare with",
     )
 
 
@@ -117,13 +112,6 @@ def _margin(results: TaskResults, second: Standing) -> str:
     places = metric_places(results, first_metric(results))
     low, high = number(second.low, places), number(second.high, places)
     return f" (+{number(second.difference, places)}, {low} to {high})"
-
-
-def _sure(second: Standing | None, n_units: int) -> str:
-    """Return how sure the lead is."""
-    if second is None:
-        return "nothing to compare with"
-    return SURE.get(second.standing, f"too few to test (n={n_units})")
 
 
 def _beside(results: TaskResults, best: str) -> str:

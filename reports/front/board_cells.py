@@ -49,6 +49,7 @@ def reference_of(results: TaskResults) -> str | None:
 
 
 def _mean(results: TaskResults, metric: str, label: str) -> float | None:
+    """Return the mean over the cases that count; None where the label has no score."""
     cases = results.representative_cases(metric)
     found = [results.estimate(case.name, label, metric) for case in cases]
     means = [estimate.mean for estimate in found if estimate is not None]

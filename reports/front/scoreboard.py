@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from mocapbench.metrics.base import Direction
-from mocapbench.reports.analysis.best_over_cases import best_over_cases
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.bundle.questions import question
@@ -53,15 +53,15 @@ def _rows(labels: Sequence[str], columns: Sequence[Column]) -> tuple[BoardRow, .
 
 def _column(results: TaskResults) -> BoardColumn:
     metric, page = first_metric(results), results.layout.page
-    n_cases = len(results.representative_cases(metric))
-    n_units = max((standing.n_units for standing in standings(results, metric)), default=n_cases)
+    ranked = standings(results, metric)
+    units = f", {ranked[0].units}" if ranked else ""
     return BoardColumn(
         id=slug("task", results.layout.name),
         title=page.title,
         question=question(page.question).title,
         metric=metric,
         arrow=ARROWS[results.metrics[metric].direction],
-        basis=counted(n_cases, "case") + ("" if n_units == n_cases else f", n={n_units}"),
+        basis=counted(len(results.representative_cases(metric)), "case") + units,
     )
 
 
@@ -74,10 +74,7 @@ def _best_interpolations(
 
 
 def _best(results: TaskResults, column: Column) -> BoardCell | None:
-    metric = first_metric(results)
-    present = [label for label in results.layout.interpolations if label in column]
-    cases = results.representative_cases(metric)
-    if not present:
-        return None
-    best = best_over_cases(results, metric, cases, present, beside=present[0]) or present[0]
-    return BoardCell(column[best].text, column[best].value, link=column[best].link, note=best)
+    """Return the cell of the best interpolation of a task, with its name."""
+    ranked = standings(results, first_metric(results))
+    labels = [each.label for each in ranked if each.label in results.layout.interpolations]
+    return replace(column[labels[0]], note=labels[0], shade="", beaten=False) if labels else None

@@ -27,12 +27,10 @@ class Headline:
     text: str
 
 
-def cases_phrase(cases: Sequence[CaseLayout], total: int) -> str:
-    """Return how many of ``total`` cases these are, with their names unless they are all."""
-    if len(cases) < total:
-        return f"{len(cases)} of {total} cases ({', '.join(case.heading for case in cases)})"
+def cases_phrase(cases: Sequence[CaseLayout]) -> str:
+    """Return how many cases there are, and how many of them are generated."""
     synthetic = sum(case.synthetic for case in cases)
-    whole = {1: "the only case", 2: "both cases"}.get(total, f"all {total} cases")
+    whole = {1: "the only case", 2: "both cases"}.get(len(cases), f"all {len(cases)} cases")
     return whole + (f" ({synthetic} synthetic)" if synthetic else "")
 
 

@@ -1,62 +1,57 @@
-"""Headlines on the best mean of each case."""
+"""The headline on a task's best entrant, and the words for a tested difference."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
-
-from mocapbench.reports.analysis.best_over_cases import best_over_cases
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.wins import mean_over_cases
-from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.analysis.standings import Place, Standing, standings
 from mocapbench.reports.page.headline import Headline, cases_phrase, same_places
-from mocapbench.reports.tables.rank_notes import lead_note
 
 __all__ = ["lead_headlines"]
 
 
 def lead_headlines(results: TaskResults, metric: str) -> list[Headline]:
-    """Name the entrants with the best mean, in which cases and by how much, most cases first.
+    """Name the entrant with the best mean over all representative cases, and the next best.
 
-    The best interpolation over the same cases stands beside each, where one takes part.
+    Returns
+    -------
+    list of Headline
+        Empty where no entrant has a score.
     """
-    cases = results.representative_cases(metric)
-    leaders = Counter(results.ranking(case.name, metric)[0] for case in cases)
-    return [
-        Headline(label, _lead(results, metric, label, cases)) for label, _ in leaders.most_common()
-    ]
+    found = standings(results, metric)
+    return [Headline(found[0].label, _lead(results, metric, *found))] if found else []
 
 
-def _lead(results: TaskResults, metric: str, label: str, cases: Sequence[CaseLayout]) -> str:
-    led = [case for case in cases if results.ranking(case.name, metric)[0] == label]
-    title, where = results.metrics[metric].title, cases_phrase(led, len(cases))
-    if not any(results.ranking(case.name, metric)[1:] for case in led):
+def _lead(results: TaskResults, metric: str, best: Standing, *others: Standing) -> str:
+    title = results.metrics[metric].title
+    where = cases_phrase(results.representative_cases(metric))
+    if not others:
         return f"is the only entrant with a score in {where} ({title})."
-    lead = f"is best in {where} by {title}: {_margin(results, metric, label, led)}."
-    beside = _beside(results, metric, label, led)
-    note = lead_note(results, metric, label, [case.name for case in led])
-    return " ".join(filter(None, (lead, note, beside)))
-
-
-def _margin(results: TaskResults, metric: str, label: str, led: Sequence[CaseLayout]) -> str:
-    """Return the mean over the cases that ``label`` leads, and that of the next best model."""
-    first = mean_over_cases(results, metric, led, [label] * len(led))
-    others = [other for other in results.layout.ranked if other != label]
-    following = best_over_cases(results, metric, led, others, beside=label)
+    following = next((other for other in others if other.complete), None)
     if following is None:
-        (mean,) = same_places(first)
-        return f"{mean} on average, and no other entrant has every score there"
-    second = mean_over_cases(results, metric, led, [following] * len(led))
-    mean, next_best = same_places(first, second)
-    return f"{mean} on average, next best {following} with {next_best}"
+        (mean,) = same_places(best.mean)
+        return f"is best over {where} by {title}, {mean}; no other entrant has every score."
+    sentence = f"is best over {where} by {title}: {_margin(best, following)}."
+    return " ".join(filter(None, (sentence, _interpolation(results, best, *others))))
 
 
-def _beside(results: TaskResults, metric: str, label: str, led: Sequence[CaseLayout]) -> str:
-    """Return a sentence that names the best interpolation, empty where none takes part."""
-    best = best_over_cases(results, metric, led, results.layout.interpolations, beside=label)
-    if best is None:
+def _margin(best: Standing, following: Standing) -> str:
+    """Return both means and their difference, with what the test says of it."""
+    if following.standing is Place.UNTESTED:
+        mean, next_best = same_places(best.mean, following.mean)
+        return f"{mean}, next best {following.label} {next_best}; {following.finding}"
+    mean, next_best, difference, low, high = same_places(
+        best.mean, following.mean, following.difference, following.low, following.high
+    )
+    interval = f"difference {difference} ({low} to {high})"
+    return f"{mean}, next best {following.label} {next_best}; {interval}, {following.finding}"
+
+
+def _interpolation(results: TaskResults, *found: Standing) -> str:
+    """Return which interpolation is best, unless the sentence before names it."""
+    complete = [standing for standing in found if standing.complete]
+    labels = results.layout.interpolations
+    place = next((at for at, standing in enumerate(complete) if standing.label in labels), 0)
+    if place < 2:
         return ""
-    if best == label:
-        return "The best model is itself an interpolation."
-    (mean,) = same_places(mean_over_cases(results, metric, led, [best] * len(led)))
-    return f"Best interpolation: {best}, {mean}."
+    (mean,) = same_places(complete[place].mean)
+    return f"Best interpolation: {complete[place].label}, {mean}."

@@ -20,12 +20,8 @@ def published_headlines(results: TaskResults, metric: str) -> list[Headline]:
         for case, value in published.items()
         if value and results.ranking(case, metric)
     ]
-    better = [
-        f"{case}: {value.model} {value.value:g}"
-        for case, value in compared
-        if loss(value.value) < _best_loss(results, case, metric)
-    ]
-    where = f"in {len(better)} of {counted(len(compared), 'case')} ({'; '.join(better)})."
+    better = sum(loss(value.value) < _best_loss(results, case, metric) for case, value in compared)
+    where = f"in {better} of {counted(len(compared), 'case')}."
     return [Headline("The paper prints better values than any here", where)] if better else []
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from mocapbench.reports.analysis.ranks import ranks_over_cases
+from mocapbench.reports.analysis.ranks import ranks_over_units
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.pictures import Picture
@@ -125,9 +125,9 @@ def _figures(results: TaskResults, metric: str) -> list[SvgFigure]:
     """Return curves along a column where the page names one, and ranks where these separate."""
     along = results.layout.page.along
     curves = curves_along(results, metric, along) if along else None
-    ranks, title = ranks_over_cases(results, metric), results.metrics[metric].title
+    ranks, title = ranks_over_units(results, metric), results.metrics[metric].title
     name = slug(results.layout.name, metric)
-    diagram = rank_figure(ranks, f"{title}, ranks over cases", name) if ranks else None
+    diagram = rank_figure(ranks, f"{title}, ranks over {ranks.unit}s", name) if ranks else None
     return [figure for figure in (curves, diagram) if figure is not None]
 
 

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
-import numpy as np
-
-from mocapbench.reports.analysis.standings import Standing, StandingKind
+from mocapbench.reports.analysis.standings import Place, Standing
 from mocapbench.reports.scores.table import NO_SCORE, ScoreCell
 from mocapbench.reports.text import number
 
@@ -15,17 +12,10 @@ __all__ = ["behind_cell", "mean_cell"]
 
 
 def mean_cell(
-    means: Sequence[float], n_cases: int, standing: Standing | None, places: int, link: str
+    mean: float, standing: Standing | None, places: int, note: str, link: str
 ) -> ScoreCell:
-    """Return the mean of ``means``, bold where it is the best of all.
-
-    A model that lacks cases says how many it has: they may be the easy ones.
-    """
-    if not means:
-        return NO_SCORE
-    best = standing is not None and standing.standing is StandingKind.BEST
-    note = "" if len(means) == n_cases else f"{len(means)} of {n_cases} cases"
-    mean = float(np.mean(means))
+    """Return a mean, bold where it is the best of all."""
+    best = standing is not None and standing.standing is Place.BEST
     return ScoreCell(number(mean, places), mean, "best" if best else "", note, link)
 
 
@@ -34,11 +24,11 @@ def behind_cell(standing: Standing | None, places: int) -> ScoreCell:
 
     A difference that may be chance is marked.
     """
-    if standing is None or standing.standing is StandingKind.BEST:
+    if standing is None or standing.standing is Place.BEST:
         return ScoreCell("")
-    if standing.standing is StandingKind.INCOMPLETE:
+    if standing.standing is Place.INCOMPLETE:
         return NO_SCORE
-    mark = "≈ " if standing.standing is StandingKind.INSEPARABLE else ""
+    mark = "≈ " if standing.standing is Place.INSEPARABLE else ""
     text = f"{mark}+{number(standing.difference, places)}"
     kind = "tied" if mark else ""
     if math.isnan(standing.low):

@@ -8,11 +8,10 @@ from urllib.parse import quote
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.troubles import DATA_MISSING, Trouble
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.scores.table import NO_SCORE, ScoreCell
 from mocapbench.reports.text import counted, number
 
-__all__ = ["cell_address", "published_cell", "score_cell"]
+__all__ = ["cell_address", "score_cell"]
 
 
 def cell_address(task: str, case: str, label: str) -> str:
@@ -21,15 +20,14 @@ def cell_address(task: str, case: str, label: str) -> str:
 
 
 def score_cell(
-    results: TaskResults, case: CaseLayout, label: str, metric: str, places: int
+    results: TaskResults, case: CaseLayout, label: str, metric: str, places: int, *, best: bool
 ) -> ScoreCell:
-    """Return the mean over folds, bold where it is the best of the case, or why there is none."""
+    """Return the mean over folds, bold where it is the ``best``, or why there is none."""
     estimate = results.estimate(case.name, label, metric)
     troubles = results.troubles.get((case.name, label), ())
     link = cell_address(results.layout.name, case.name, label)
     if estimate is None:
         return ScoreCell(_reasons(troubles), kind="trouble", link=link) if troubles else NO_SCORE
-    best = results.ranking(case.name, metric)[:1] == [label]
     lost = f"{counted(len(troubles), 'fold')} lost" if troubles else ""
     text, kind = number(estimate.mean, places), "best" if best else ""
     return ScoreCell(text, estimate.mean, kind, lost, link)
@@ -38,10 +36,3 @@ def score_cell(
 def _reasons(troubles: tuple[Trouble, ...]) -> str:
     reasons = Counter(trouble.status for trouble in troubles)
     return ", ".join("no data" if r == DATA_MISSING else r.replace("-", " ") for r in reasons)
-
-
-def published_cell(value: PublishedValue | None, places: int) -> ScoreCell:
-    """Return a published number."""
-    if value is None:
-        return NO_SCORE
-    return ScoreCell(number(value.value, places), value.value, "published")

@@ -24,7 +24,7 @@ BEST = "_best"
 """Suffix of a metric that looks at the best-matched reference alone."""
 NOTE = (
     "Real motions differ, so no sample can resemble every reference. The thesis (§A.4.2) therefore "
-    "compares models by the best-matched reference. First rank in bold."
+    "compares models by the best-matched reference. The best mean of a row is in bold."
 )
 
 
@@ -48,7 +48,7 @@ def best_reference_table(results: TaskResults) -> Table | None:
         return None
     return Table(
         id=slug(results.layout.name, "matches"),
-        caption=f"Best-matched reference beside the mean over references: mean ± 2 sd over the samples of a fold, averaged over folds",
+        caption=f"Best-matched reference beside the mean over references: mean ± 2 sd over samples",
         columns=(
             *headings(["case", "entrant"], "text"),
             *headings([results.metrics[name].title for name in metrics]),
@@ -76,8 +76,8 @@ def _cell(results: TaskResults, case: str, label: str, metric: str) -> Cell:
     if estimate is None:
         return ABSENT
     places = metric_places(results, metric)
-    spread = plus_minus(estimate.spread, places)
-    kind = "best" if results.ranking(case, metric)[:1] == [label] else ""
+    spread = plus_minus(estimate.sample_two_sd, places)
+    kind = "best" if label == results.best_label(case, metric) else ""
     return Cell(number(estimate.mean, places), spread=spread, kind=kind)
 
 

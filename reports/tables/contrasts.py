@@ -8,50 +8,40 @@ from itertools import combinations
 
 import pandas as pd
 
-from mocapbench.metrics.statistics import ALPHA, holm, least_signed_rank_p
-from mocapbench.reports.analysis.contrasts import (
-    CorrectedContrast,
-    corrected_contrasts,
-    pooled_contrast,
-)
+from mocapbench.reports.analysis.cells import cells
+from mocapbench.reports.analysis.contrasts import PairContrast, contrasts
 from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.units import FEWEST_UNITS
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
-from mocapbench.reports.text import decimals, number, slug
+from mocapbench.reports.text import counted, decimals, number, slug
 
 __all__ = ["contrast_table"]
 
-Contrasts = Mapping[tuple[str, str], CorrectedContrast]
+Contrasts = Mapping[tuple[str, str], PairContrast]
 """By the two labels, first and second."""
 
 
 def contrast_table(results: TaskResults, metric: str) -> Table | None:
-    """Return the matrix of all pairs of competitors; None where no pair has two units."""
-    scored = {label for _, label, name in results.estimates if name == metric}
-    labels = [label for label in results.layout.ranked if label in scored]
-    pairs = list(combinations(labels, 2))
-    family = corrected_contrasts([pooled_contrast(results, metric, *pair) for pair in pairs])
-    contrasts = dict(zip(pairs, family, strict=True))
-    most = max((corrected.contrast.n for corrected in family), default=0)
-    if most < 2:
+    """Return the matrix of all pairs of competitors; None where no pair has enough units."""
+    scored = cells(results, metric)
+    pairs = list(combinations(scored.labels, 2))
+    by_pair = dict(zip(pairs, contrasts(scored, pairs), strict=True))
+    most = max((contrast.n for contrast in by_pair.values()), default=0)
+    if most < FEWEST_UNITS:
         return None
-    places = _places(contrasts)
+    places = decimals(c.advantage for c in by_pair.values() if math.isfinite(c.advantage))
     title = results.metrics[metric].title
     return Table(
         id=slug(results.layout.name, metric, "contrasts"),
         caption=f"{title}, model against model: by how much the row is better than the column",
-        columns=headings(["entrant", *(f"than {label}" for label in labels)], "contrast"),
+        columns=headings(["entrant", *(f"than {label}" for label in scored.labels)], "contrast"),
         rows=tuple(
-            (Cell(row), *(_cell(contrasts, row, column, places) for column in labels))
-            for row in labels
+            (Cell(row), *(_cell(by_pair, row, column, places) for column in scored.labels))
+            for row in scored.labels
         ),
-        data=_tidy(results, metric, contrasts),
-        notes=_notes(results, metric, most),
+        data=_tidy(results, metric, by_pair),
+        notes=_notes(counted(most, scored.unit)),
     )
-
-
-def _places(contrasts: Contrasts) -> int:
-    advantages = [corrected.contrast.advantage for corrected in contrasts.values()]
-    return decimals(advantage for advantage in advantages if math.isfinite(advantage))
 
 
 def _cell(contrasts: Contrasts, row: str, column: str, places: int) -> Cell:
@@ -62,10 +52,9 @@ def _cell(contrasts: Contrasts, row: str, column: str, places: int) -> Cell:
     return ABSENT
 
 
-def _contrast_cell(corrected: CorrectedContrast, sign: float, places: int) -> Cell:
+def _contrast_cell(contrast: PairContrast, sign: float, places: int) -> Cell:
     """Return the cell of a contrast, seen from its first label (1) or its second (−1)."""
-    contrast = corrected.contrast
-    if contrast.n < 2:
+    if not contrast.tested:
         return ABSENT
     low, high = sorted((sign * contrast.low, sign * contrast.high))
     better, worse = (contrast.better, contrast.worse)[:: int(sign)]
@@ -74,7 +63,7 @@ def _contrast_cell(corrected: CorrectedContrast, sign: float, places: int) -> Ce
     return Cell(
         number(sign * contrast.advantage, places),
         note=f"{_unbroken(f'{number(low, places)} to {number(high, places)}')}; {shares}",
-        kind=f"contrast {side}" if corrected.separable else "contrast",
+        kind=f"contrast {side}" if contrast.separable else "contrast",
     )
 
 
@@ -82,26 +71,17 @@ def _unbroken(text: str) -> str:
     return text.replace(" ", "\N{NO-BREAK SPACE}")
 
 
-def _notes(results: TaskResults, metric: str, most: int) -> tuple[str, ...]:
-    n_cases = len(results.representative_cases(metric))
-    unit = "cases, each the mean of its folds" if n_cases > 1 else "folds of the only case"
-    floor = least_signed_rank_p(most)
-    powerless = (
-        f"Wilcoxon’s signed-rank test, in the CSV, cannot go below p = {floor:.4g} with "
-        f"{most} units, so it cannot reach significance here."
-    )
+def _notes(units: str) -> tuple[str, ...]:
     return (
-        f"Below each difference: its 95 % interval (Student’s t over {most} {unit}), and the "
-        "probabilities that the row is better, equivalent within 2 %, or worse than the column "
-        "(Bayesian correlated t-test).",
-        "▲ ahead, ▼ behind: more than chance by the paired t-test with Holm’s correction over all "
-        "pairs, 5 %. No mark: the two share a rank.",
-        *([powerless] if floor > ALPHA else []),
+        f"Below each difference: its interval over {units} (Student’s t, at the level at which "
+        "Holm’s method decides the pair among all pairs), and the probabilities that the row is "
+        "better, equivalent within 2 %, or worse than the column (Bayesian correlated t-test).",
+        "▲ ahead, ▼ behind: the interval excludes 0, more than chance at 5 %. No mark: it may be "
+        "chance. That does not make the two alike.",
     )
 
 
-def _tidy(results: TaskResults, metric: str, contrasts: Contrasts) -> pd.DataFrame:
-    signed_ranks = holm([corrected.contrast.signed_rank_p for corrected in contrasts.values()])
+def _tidy(results: TaskResults, metric: str, by_pair: Contrasts) -> pd.DataFrame:
     return pd.DataFrame(
         [
             {
@@ -109,12 +89,8 @@ def _tidy(results: TaskResults, metric: str, contrasts: Contrasts) -> pd.DataFra
                 "metric": metric,
                 "first_label": first,
                 "second_label": second,
-                **vars(corrected.contrast),
-                "t_p_holm": corrected.p,
-                "signed_rank_p_holm": signed_rank_p,
+                **vars(contrast),
             }
-            for ((first, second), corrected), signed_rank_p in zip(
-                contrasts.items(), signed_ranks, strict=True
-            )
+            for (first, second), contrast in by_pair.items()
         ]
     )

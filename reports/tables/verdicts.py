@@ -3,35 +3,39 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import pandas as pd
 
-from mocapbench.reports.analysis.comparisons import Comparison, comparisons
+from mocapbench.reports.analysis.comparisons import Comparison, answers, comparisons
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.verdicts import allowance
-from mocapbench.reports.bundle.layout import TaskLayout
+from mocapbench.reports.analysis.verdicts import PublishedVerdict, allowance
 from mocapbench.reports.paper.published import PublishedValue
-from mocapbench.reports.paper.remarks import footnotes, marks
+from mocapbench.reports.paper.remarks import PublishedAddress, footnotes, marks
 from mocapbench.reports.tables.base import Cell, Table, headings
 from mocapbench.reports.text import decimals, number, plus_minus, slug
 
 __all__ = ["verdict_table"]
 
-ALLOWANCE = "2 % of the published value, or the ± that the paper prints where that is more"
+KINDS = {
+    verdict: "reproduced"
+    if verdict in (PublishedVerdict.WITHIN_2_PERCENT, PublishedVerdict.WITHIN_PAPER_SD)
+    else slug(verdict.value)
+    for verdict in PublishedVerdict
+}
+"""The class of a verdict's cell in the style sheet."""
 RULES = (
-    f"Reproduced: our mean differs from the published value by no more than the allowance "
-    f"({ALLOWANCE}), and half its 95 % interval over folds (Student’s t) is no wider than the "
-    "allowance.",
-    "Better, worse: the published value lies outside our interval widened by the allowance. "
-    "Undecided: neither, because the folds are too few or too noisy.",
-    "One fold has no interval: its verdict rests on the difference alone.",
-)
-WINDOW_RULES = (
-    f"Reproduced: our mean differs from the published value by no more than the allowance "
-    f"({ALLOWANCE}). Better, worse: it differs by more.",
-    "The folds are overlapping windows of one recording, and the published value is a mean over "
-    "all windows of the paper. The ± is the spread over windows, and the verdict compares means "
-    "only. A run with fewer windows than the paper averages over another set.",
+    "The ± is two standard deviations over folds, as the papers print it, and not the interval of "
+    "the other tables.",
+    "Within 2 %: our mean differs from the published value by no more than 2 % of it, and half its "
+    "95 % interval (Student’s t) is no wider. Within the paper’s ±: the same of the ± that the "
+    "paper prints, where it prints one.",
+    "Better, worse: the published value lies outside our interval widened by the greater of the "
+    "two. Undecided: none of these, because the folds are too few or too noisy.",
+    "One fold, or windows of one recording, have no interval: the verdict rests on the difference "
+    "alone. A run with fewer windows than the paper averages over another set.",
+    "Beside: another row or entrant answers the value, and only that one counts in the totals. It "
+    "is the first in the order of the tables that may be compared and has a score.",
 )
 
 
@@ -46,6 +50,7 @@ def verdict_table(results: TaskResults, metric: str) -> Table | None:
     pairs = comparisons(results, metric)
     if not pairs:
         return None
+    answering = answers(results)
     lettered = marks(pair.published.erratum for pair in pairs)
     places = decimals(value for pair in pairs for value in (pair.ours.mean, pair.published.value))
     return Table(
@@ -56,41 +61,50 @@ def verdict_table(results: TaskResults, metric: str) -> Table | None:
             *headings(["folds", "ours", "published", "difference"]),
             *headings(["verdict"], "text"),
         ),
-        rows=tuple(_row(pair, places, lettered[pair.published.erratum]) for pair in pairs),
-        data=pd.DataFrame([_tidy(pair, metric) for pair in pairs]),
-        notes=(*footnotes(lettered), *_rules(results.layout)),
+        rows=tuple(
+            _row(pair, places, lettered[pair.published.erratum], counts=_counts(pair, answering))
+            for pair in pairs
+        ),
+        data=pd.DataFrame([_tidy(pair, counts=_counts(pair, answering)) for pair in pairs]),
+        notes=(*footnotes(lettered), *RULES),
     )
 
 
-def _rules(layout: TaskLayout) -> tuple[str, ...]:
-    return RULES if layout.independent_folds else WINDOW_RULES
+def _counts(pair: Comparison, answering: Mapping[PublishedAddress, Comparison]) -> bool:
+    """Return whether the pair, or none that may be compared, answers the published value."""
+    answer = answering.get(pair.published.address)
+    return answer is None or (answer.case, answer.label) == (pair.case, pair.label)
 
 
-def _row(pair: Comparison, places: int, mark: str) -> tuple[Cell, ...]:
+def _row(pair: Comparison, places: int, mark: str, *, counts: bool) -> tuple[Cell, ...]:
     ours, published = pair.ours, pair.published
     note = "one fold" if pair.on_one_fold else pair.reason
+    beside = "" if counts else "beside"
     return (
         Cell(pair.case.name, note="synthetic" if pair.case.synthetic else ""),
         Cell(pair.label, kind="text"),
         Cell(published.model, kind="text"),
         Cell(f"n={ours.n}"),
-        Cell(number(ours.mean, places), spread=plus_minus(ours.spread, places)),
+        Cell(number(ours.mean, places), spread=plus_minus(ours.two_sd, places)),
         Cell(
             number(published.value, places), spread=plus_minus(published.two_sd, places), mark=mark
         ),
         Cell(number(ours.mean - published.value, places)),
-        Cell(pair.verdict.value, note=note, kind=slug(pair.verdict.value)),
+        Cell(
+            pair.verdict.value,
+            note=", ".join(filter(None, (beside, note))),
+            kind=KINDS[pair.verdict],
+        ),
     )
 
 
-def _tidy(pair: Comparison, metric: str) -> dict[str, object]:
+def _tidy(pair: Comparison, *, counts: bool) -> dict[str, object]:
     return {
         "task": pair.published.task,
         "case": pair.case.name,
         "label": pair.label,
-        "metric": metric,
+        "metric": pair.metric,
         **vars(pair.ours),
-        "half_width": pair.half_width,
         "source": pair.published.source,
         "published_case": pair.published.case,
         "published_metric": pair.published.metric,
@@ -101,6 +115,7 @@ def _tidy(pair: Comparison, metric: str) -> dict[str, object]:
         "difference": pair.ours.mean - pair.published.value,
         "relative_difference": _relative(pair.ours.mean - pair.published.value, pair.published),
         "verdict": pair.verdict.value,
+        "counts": counts,
         "reason": pair.reason,
         "erratum": pair.published.erratum,
     }

@@ -1,0 +1,139 @@
+"""The losses of a metric in some cases, cell by cell, and their means over units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.metrics.base import Direction
+from mocapbench.reports.analysis.grid import Array
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.units import unit_kind, unit_names, unit_weights
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.bundle.metric_info import MetricInfo
+
+__all__ = ["Cells", "cells"]
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """The scores of the ranked labels in cells, where a cell is one fold of one case.
+
+    Parameters
+    ----------
+    labels : tuple of str
+        Labels with a score, in table order.
+    values, losses : ndarray of shape (n_labels, n_cells)
+        NaN where a label has no score. Lower losses are better.
+    cases, units : tuple of str
+        The case and the unit of each cell.
+    unit : str
+        What a unit is: ``"subject"``, ``"fold"``, ``"case"``; ``"unit"`` where they are of several
+        kinds.
+    """
+
+    labels: tuple[str, ...]
+    values: Array
+    losses: Array
+    cases: tuple[str, ...]
+    units: tuple[str, ...]
+    unit: str
+
+    @cached_property
+    def scored(self) -> NDArray[np.bool_]:
+        """Whether a label has a score in a cell, of shape (n_labels, n_cells)."""
+        return np.isfinite(self.values)
+
+    def weights(self, kept: NDArray[np.bool_]) -> Array:
+        """Return the weights of the cells that are ``kept`` in units, of shape (n_units, kept)."""
+        address = kept.tobytes()
+        if address not in self._weights:
+            columns = np.flatnonzero(kept)
+            self._weights[address] = unit_weights(
+                [self.units[i] for i in columns], [self.cases[i] for i in columns]
+            )
+        return self._weights[address]
+
+    @cached_property
+    def _weights(self) -> dict[bytes, Array]:
+        return {}
+
+    def mean(self, row: int) -> float:
+        """Return the mean value of a label over its units, each weighing the same."""
+        return self._mean_over_units(self.values, row)
+
+    def mean_loss(self, row: int) -> float:
+        """Return the mean loss of a label over its units, each weighing the same."""
+        return self._mean_over_units(self.losses, row)
+
+    def _mean_over_units(self, array: Array, row: int) -> float:
+        kept = self.scored[row]
+        return float((self.weights(kept) @ array[row, kept]).mean())
+
+    def covers(self, label: str, other: str) -> bool:
+        """Return whether ``label`` has a score wherever ``other`` has one."""
+        one, two = (self.scored[self.labels.index(name)] for name in (label, other))
+        return bool(one[two].all())
+
+    def n_units(self, row: int) -> int:
+        """Return in how many units a label has scores."""
+        return len(self.weights(self.scored[row]))
+
+    def n_cases(self, row: int) -> int:
+        """Return in how many cases a label has scores."""
+        return len({self.cases[i] for i in np.flatnonzero(self.scored[row])})
+
+
+def cells(results: TaskResults, metric: str, cases: Sequence[CaseLayout] | None = None) -> Cells:
+    """Return the cells of ``cases``, by default of the representative ones, that have any score."""
+    shown = results.representative_cases(metric) if cases is None else cases
+    grid, independent = results.grid, results.layout.independent_folds
+    scored = [case for case in shown if case.name in grid.cases]
+    ranked = [label for label in results.layout.ranked if label in grid.labels]
+    values = grid.select(metric, ranked, [case.name for case in scored])
+    losses = _linear_losses(values, results.metrics[metric])
+    names = [
+        name for case in scored for name in unit_names(case, grid.folds, independent=independent)
+    ]
+    shape = (len(ranked), len(names))
+    kinds = {unit_kind(case, independent=independent).value for case in scored}
+    return _without_empty(
+        Cells(
+            tuple(ranked),
+            values.reshape(shape),
+            losses.reshape(shape),
+            tuple(case.name for case in scored for _ in grid.folds),
+            tuple(names),
+            kinds.pop() if len(kinds) == 1 else "unit",
+        )
+    )
+
+
+def _without_empty(whole: Cells) -> Cells:
+    rows = np.flatnonzero(whole.scored.any(axis=1))
+    columns = np.flatnonzero(whole.scored.any(axis=0))
+    return Cells(
+        tuple(whole.labels[i] for i in rows),
+        whole.values[np.ix_(rows, columns)],
+        whole.losses[np.ix_(rows, columns)],
+        tuple(whole.cases[i] for i in columns),
+        tuple(whole.units[i] for i in columns),
+        whole.unit,
+    )
+
+
+def _linear_losses(values: Array, info: MetricInfo) -> Array:
+    """Return losses whose mean over the folds of a case is the loss of the mean.
+
+    Where the metric has a target, the loss is the distance from it on the side where the mean of
+    the case lies: above it, what a fold has more; below it, what it has less.
+    """
+    if info.direction is not Direction.TARGET or info.target is None:
+        return np.asarray(info.loss(1.0) * values)
+    finite = np.isfinite(values)
+    distance = np.where(finite, values - info.target, 0.0).sum(axis=-1, keepdims=True)
+    return np.where(distance < 0.0, -1.0, 1.0) * (values - info.target)

@@ -1,0 +1,88 @@
+"""The means over folds of a whole task, by case, label and metric."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+
+import numpy as np
+
+from mocapbench.reports.analysis.fold_mean import FoldMean
+from mocapbench.reports.analysis.grid import Array, Grid
+from mocapbench.reports.analysis.interval import half_widths
+from mocapbench.reports.analysis.units import unit_names
+from mocapbench.reports.bundle.layout import CaseLayout
+
+__all__ = ["estimates"]
+
+
+def estimates(
+    grid: Grid, cases: Iterable[CaseLayout], *, independent: bool
+) -> Mapping[tuple[str, str, str], FoldMean]:
+    """Return every mean over the folds of a case, by (case, label, metric).
+
+    Parameters
+    ----------
+    grid : Grid
+    cases : iterable of CaseLayout
+        Those of the grid, and maybe others.
+    independent : bool
+        Whether folds are independent draws.
+    """
+    by_name = {case.name: case for case in cases}
+    return {
+        address: mean
+        for column, name in enumerate(grid.cases)
+        for address, mean in _of_case(
+            grid, column, unit_names(by_name[name], grid.folds, independent=independent)
+        )
+    }
+
+
+def _of_case(
+    grid: Grid, column: int, units: list[str]
+) -> Iterator[tuple[tuple[str, str, str], FoldMean]]:
+    folds = grid.values[:, :, column]
+    n = np.isfinite(folds).sum(axis=-1)
+    over_units = _unit_means(folds, units)
+    columns = (
+        n,
+        _mean(over_units),
+        2.0 * _deviation(folds),
+        _mean(grid.sample_two_sd[:, :, column]),
+        half_widths(over_units),
+    )
+    for m, label in np.argwhere(n > 0):
+        count, mean, two_sd, sample_two_sd, half_width = (float(c[m, label]) for c in columns)
+        address = (grid.cases[column], grid.labels[label], grid.metrics[m])
+        yield (
+            address,
+            FoldMean(mean, _known(two_sd), int(count), _known(sample_two_sd), _known(half_width)),
+        )
+
+
+def _unit_means(folds: Array, units: list[str]) -> Array:
+    """Return the means over the folds of each unit, of shape (..., n_units)."""
+    if len(set(units)) == len(units):
+        return folds
+    names = np.array(units)
+    return np.stack([_mean(folds[..., names == name]) for name in dict.fromkeys(units)], axis=-1)
+
+
+def _mean(values: Array) -> Array:
+    """Return the means over the last axis of what is finite, NaN where nothing is."""
+    finite = np.isfinite(values)
+    n = finite.sum(axis=-1)
+    return np.where(n > 0, np.where(finite, values, 0.0).sum(axis=-1) / np.maximum(n, 1), np.nan)
+
+
+def _deviation(values: Array) -> Array:
+    """Return the standard deviations (ddof 1) over the last axis, NaN for fewer than two."""
+    finite = np.isfinite(values)
+    n = finite.sum(axis=-1)
+    squares = np.where(finite, values - _mean(values)[..., None], 0.0) ** 2
+    return np.where(n > 1, np.sqrt(squares.sum(axis=-1) / np.maximum(n - 1, 1)), np.nan)
+
+
+def _known(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -1,0 +1,74 @@
+"""The scores of a task as one array."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+__all__ = ["Array", "Grid"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Scores by metric, label, case and fold.
+
+    Parameters
+    ----------
+    metrics, labels, cases : tuple of str
+    folds : tuple of int
+        The names along the axes, the last three in table order.
+    values, sample_two_sd : ndarray of shape (n_metrics, n_labels, n_cases, n_folds)
+        NaN where there is none.
+    """
+
+    metrics: tuple[str, ...]
+    labels: tuple[str, ...]
+    cases: tuple[str, ...]
+    folds: tuple[int, ...]
+    values: Array
+    sample_two_sd: Array
+
+    @classmethod
+    def of(cls, scores: pd.DataFrame, labels: Sequence[str], cases: Sequence[str]) -> Grid:
+        """Return the grid of a task's rows of the bundle's scores.
+
+        Parameters
+        ----------
+        scores : DataFrame
+            Columns ``metric``, ``label``, ``case``, ``fold``, ``value`` and ``sample_two_sd``.
+        labels, cases : sequence of str
+            All that the task has, in table order; those without a score have no place.
+        """
+        names = (
+            tuple(pd.unique(scores["metric"])),
+            _present(labels, scores["label"]),
+            _present(cases, scores["case"]),
+            tuple(sorted(pd.unique(scores["fold"]))),
+        )
+        axes = zip(("metric", "label", "case", "fold"), names, strict=True)
+        index = tuple(pd.Index(known).get_indexer(scores[axis]) for axis, known in axes)
+        arrays = []
+        for column in ("value", "sample_two_sd"):
+            array = np.full(tuple(map(len, names)), np.nan)
+            array[index] = scores[column].to_numpy(float)
+            arrays.append(array)
+        return cls(*names, *arrays)
+
+    def select(self, metric: str, labels: Iterable[str], cases: Iterable[str]) -> Array:
+        """Return the values of ``metric``, of shape (n_labels, n_cases, n_folds)."""
+        if metric not in self.metrics:
+            return np.full((len([*labels]), len([*cases]), len(self.folds)), np.nan)
+        rows = [self.labels.index(label) for label in labels]
+        columns = [self.cases.index(case) for case in cases]
+        return np.asarray(self.values[self.metrics.index(metric)][np.ix_(rows, columns)])
+
+
+def _present(known: Sequence[str], used: pd.Series[str]) -> tuple[str, ...]:
+    present = set(used)
+    return tuple(name for name in known if name in present)
