@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from mocapbench.metrics.base import Direction
@@ -51,6 +52,12 @@ class MetricInfo:
     def loss(self, value: float) -> float:
         """Return the loss of ``value``: lower is better for every direction."""
         return self.direction.loss(value, self.target)
+
+    @property
+    def short(self) -> str:
+        """The abbreviation that the title ends in, or its part before a comma or a bracket."""
+        abbreviation = re.search(r"\(([A-Z]+)\)", self.title)
+        return abbreviation[1] if abbreviation else re.split(r",| \(", self.title)[0]
 
     @property
     def better(self) -> str:

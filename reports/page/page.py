@@ -15,6 +15,7 @@ from mocapbench.reports.front.answers import answers
 from mocapbench.reports.front.board import SHADES
 from mocapbench.reports.front.scoreboard import scoreboard
 from mocapbench.reports.front.trust import trust
+from mocapbench.reports.page.facts import facts
 from mocapbench.reports.page.missing_data import missing_data
 from mocapbench.reports.page.resources import scripts, styles, template
 from mocapbench.reports.page.sections import TaskView, task_view
@@ -35,6 +36,7 @@ def render(bundle: Bundle) -> str:
     return template("page.html.j2").render(
         bundle=bundle,
         metrics=bundle.metrics,
+        facts=facts(bundle),
         provenance=bundle.provenance,
         trust=trust(bundle, results),
         answers=answers(results),

@@ -9,6 +9,8 @@ from mocapbench.reports.bundle.model_info import FAMILIES
 from mocapbench.reports.bundle.questions import question
 
 MOST_WORDS = 30
+MOST_WORDS_OF_A_DESCRIPTION = 60
+MOST_WORDS_OF_A_REMARK = 40
 UNITS = {"", "cm", "cm/s", "degrees", "nats", "that of the data", "that of the data, squared"}
 UNITS |= {"steps of frequency", "skeleton units (5.64 cm in the CMU database)"}
 
@@ -86,3 +88,10 @@ def test_a_class_without_references_or_docstring_has_no_source():
     assert source(model) == ""
     model.__doc__ = None
     assert source(model) == summary(model) == ""
+
+
+@pytest.mark.parametrize("name", TASKS.names())
+def test_the_texts_of_a_task_are_short(name):
+    page = TASKS.get(name).page
+    assert len(page.description.split()) <= MOST_WORDS_OF_A_DESCRIPTION
+    assert all(len(remark.split()) <= MOST_WORDS_OF_A_REMARK for remark in page.remarks)

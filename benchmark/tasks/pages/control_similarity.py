@@ -13,9 +13,9 @@ PAGE = TaskPage(
     title="Similarity of real recordings",
     reference="thesis §A.4.2, Tables 18–21",
     description=(
-        "Each walk that samples are compared with is itself compared with every such walk and "
-        "with every soccer kick: this is how similar real motions are. The recording is replayed "
-        "as it is; MCC of a recording with itself is what a sample could reach."
+        "Each walk that samples are compared with is itself compared with every such walk and with "
+        "every soccer kick: this is how similar real motions are. MCC of a recording with itself "
+        "is what a sample could reach."
     ),
     kind="synthesise",
     question="recover",

@@ -12,22 +12,20 @@ PAGE = TaskPage(
     short="Covariance recovery",
     reference="thesis §5.2.3, Figures 11–13",
     description=(
-        "Five complete children of one parent are drawn from a process whose outputs correlate "
-        "strongly: the factors of its coregionalisation matrices lie between 0 and 1. The "
-        "covariance of the children around their parent, K_f, without noise, and the parent's, "
-        "K_g, of the fitted models are compared with the true ones. Every fold draws a new process."
+        "Five complete children of one parent come from a process whose outputs correlate strongly "
+        "(coregionalisation factors between 0 and 1). The fitted covariance of the children around "
+        "their parent, K_f, and that of the parent, K_g, both without noise, are compared with the "
+        "true ones. Every fold draws a new process."
     ),
     kind="recover",
     question="recover",
     metrics=("frobenius_child", "frobenius_parent", "logdet_child", "logdet_parent"),
     remarks=(
         "The thesis shows these covariances as pictures of one dataset and gives no numbers.",
-        "A model with one kernel has no parent. Its kernel is set beside K_f, as in Figure 11 of "
-        "the thesis. For the pooled model, whose one function all children share, and for "
-        "independent draws, which carry the parent's variance too, K_g or K_f + K_g would be as "
-        "fair a match.",
-        "One parent was drawn, so that its covariance is known from a single draw: an estimate of "
-        "K_g is poor however well a model is trained.",
+        "A model with one kernel has no parent: its kernel is set beside K_f, as in Figure 11 of "
+        "the thesis. For pooled or independent recordings, K_g or K_f + K_g would be as fair a "
+        "match.",
+        "One parent was drawn, so that an estimate of K_g is poor however well a model is trained.",
     ),
     illustrated=("correlated outputs",),
     figures=(RecoveredCovariances(),),

@@ -18,20 +18,18 @@ _THREE_COMPONENTS = {
     **dict.fromkeys(("moa-3", "moa-3-rbf"), "MOA"),
 }
 _REMARKS = (
-    "The thesis does not disclose its 39 channels or its exact resampling. MCC and MLC scale "
-    "each recording's channels to [0, 1]; models see angles as recorded.",
-    "The thesis does not name the kernel here. Matérn-3/2 is that of its interpolation of "
-    "walks. The RBF was added after seeing the published values, to which its MLC is closer "
-    "from two walks and from short kicks, and not from a walk and a stride.",
-    "Real motions differ: judge a model by the reference that its samples match best "
-    "(thesis §A.4.2), which the table of best matches shows beside the mean.",
+    "The thesis does not disclose its 39 channels or its resampling. MCC and MLC scale each "
+    "channel of a recording to [0, 1]; models see angles as recorded.",
+    "The thesis does not name its kernel. Matérn-3/2 is that of its interpolation of walks. The "
+    "RBF was added after seeing the published values: its MLC is nearer from two walks and short "
+    "kicks, not from walk and stride.",
+    "Real motions differ: judge a model by the reference that its samples match best (thesis "
+    "§A.4.2), which the table of best matches shows.",
     "Folds vary the start of the search and the samples, not the recordings.",
-    "The variance ratio divides how samples vary by how the references differ among themselves, "
-    "which no model is told: here it says neither that a model is too sure nor that it is too "
-    "cautious.",
-    "NPSS compares the power spectra of channels, whatever their phase. For jerk and foot skate, "
-    "samples and references are placed on the body of the first training recording. Recorded walks "
-    "have a foot skate of 4 to 12 cm/s by this measure.",
+    "The variance ratio divides by how references differ among themselves, which no model is told: "
+    "1 is no goal here.",
+    "For jerk and foot skate, samples and references are placed on the body of the first training "
+    "recording.",
 )
 
 
@@ -108,10 +106,9 @@ SOCCER_PAGE = TaskPage(
     reference="thesis §5.2.2, Table 17, Figures 10 and 24",
     description=(
         "Models learn from two soccer kicks of one person; 25 samples of each are compared with "
-        "kicks of this and of another person. Two of the five references are excerpts of the kicks "
-        "that models learn from, and the very recordings where those are short kicks: like the "
-        "thesis, judge best matches by the three unseen. On generated gait, runs take the place of "
-        "kicks."
+        "five kicks of this and another person. Two of these are excerpts of the training kicks "
+        "(the same recordings where kicks are short): like the thesis, judge best matches by the "
+        "three unseen. On generated gait, runs take the place of kicks."
     ),
     kind="synthesise",
     question="invent-motion",
@@ -124,9 +121,9 @@ SOCCER_PAGE = TaskPage(
     published_metrics=_PUBLISHED_METRICS,
     remarks=(
         *_REMARKS,
-        "The thesis's footnotes cut the kicks to 436 frames for training and to 232 frames for the "
-        "comparison, so that frame by frame a sample is compared with another part of the kick. "
-        "Its MLC suggests that it trained on what it compared with; the rows of short kicks, "
-        "where recordings are cut for training as for the comparison, are that reading.",
+        "The thesis cuts kicks to 436 frames for training and to 232 for the comparison, so that "
+        "frame by frame a sample is compared with another part of the kick.",
+        "Its MLC suggests that it trained on what it compared with: rows of short kicks, cut alike "
+        "for both, are that reading.",
     ),
 )

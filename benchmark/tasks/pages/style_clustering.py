@@ -23,8 +23,6 @@ PAGE = TaskPage(
     question="find-styles",
     metrics=("purity", "adjusted_rand"),
     remarks=(
-        "Purity is the share of recordings that belong to the majority style of their cluster. It "
-        "grows with C by itself; the adjusted Rand index does not.",
         "Intervals are over restarts on the same recordings: they show how much a start matters, "
         "not how other recordings would be clustered.",
     ),

@@ -12,13 +12,10 @@ PAGE = TaskPage(
     short="Subject 35",
     reference="Taylor 2006 and Lawrence 2007",
     description=(
-        "Models are trained on 31 recordings of one subject, 2,613 frames at 30 Hz, mostly walks "
-        "and runs. In another recording of the same subject, which no model has seen, the seven "
-        "joint angles of the right leg or the 30 of the upper body are hidden from frame 63 of "
-        "124 on. Values are 50 joint angles and nine values of the root, each divided by its "
-        "standard deviation in training. Errors are in degrees: their root mean square over the "
-        "hidden angles, and the papers’ cumulative scaled error, in which each error is multiplied "
-        "by its angle’s scale and squared, summed over frames and averaged over angles."
+        "Models learn from 31 recordings of one subject, 2,613 frames at 30 Hz, mostly walks and "
+        "runs. In another recording, the seven joint angles of the right leg or the 30 of the "
+        "upper body are hidden from frame 63 of 124 on. Values are 50 joint angles and nine of the "
+        "root, each over its standard deviation in training."
     ),
     question="other-channels",
     metrics=("rms_angle", "cumulative_scaled_error"),
@@ -29,22 +26,21 @@ PAGE = TaskPage(
         "cumulative_scaled_error": "cumulative scaled error",
     },
     remarks=(
-        "Nearest neighbours are those of Lawrence 2007: in nn-scaled the distance is between "
-        "values divided by their standard deviation, in nn-radians between joint angles in "
-        "radians. In both the nearest training frame donates what is hidden.",
-        "Columns of published values without an entrant here: the GP-LVM with q latent dimensions "
-        "(Lawrence 2007); the binary latent variable model, and a nearest neighbour over two "
-        "frames and the root’s absolute path (Taylor 2006), of which no errors in degrees are "
-        "printed.",
-        "There is one recording to fill, so there is one fold and no interval: a difference "
-        "between two models says little about other recordings. Models that draw their start vary "
-        "with the root seed: cyclic-alignment, in full, had cumulative scaled errors of 7 to 12 "
-        "for the leg and of 10 to 30 for the upper body from five seeds.",
-        "The recordings 35_13, 14, 19 and 23 to 26 are in use as copies that hold every fourth "
-        "frame and interpolate the others. This task reads every fourth frame only, so any copy "
-        "does, and none has a registered digest.",
-        "An angle a stands as arcsin(sin a), which folds it back where a joint bends beyond a "
-        "right angle, as elbows and knees do in some recordings. The truth is folded too.",
+        "Nearest neighbours are those of Lawrence 2007: nn-scaled compares values divided by their "
+        "standard deviation, nn-radians joint angles in radians. The nearest training frame "
+        "donates what is hidden.",
+        "Published models without an entrant here: the GP-LVM with q latent dimensions (Lawrence "
+        "2007), the binary latent variable model and a nearest neighbour over two frames and the "
+        "root’s path (Taylor 2006, without errors in degrees).",
+        "One recording is filled, so there is one fold and no interval: a difference between two "
+        "models says little about other recordings.",
+        "From five root seeds, cyclic-alignment, in full, had cumulative scaled errors of 7 to 12 "
+        "for the leg and of 10 to 30 for the upper body.",
+        "Copies of 35_13, 14, 19 and 23 to 26 in use hold every fourth frame and interpolate the "
+        "others. Only every fourth frame is read here, so any copy does, and none has a registered "
+        "digest.",
+        "An angle a stands as arcsin(sin a), which folds it where a joint bends beyond a right "
+        "angle, as elbows and knees do in some recordings. The truth is folded too.",
     ),
     illustrated=("right leg", "synthetic right leg"),
     figures=(FilledChannels(("rfemur.rx", "rtibia.rx")),),

@@ -14,7 +14,6 @@ _FIGURES = (FilledChannels(("output-1",)), InferredTrend(("output-1",)))
 _REMARKS = (
     "The thesis used one dataset per test and does not disclose the variances of its layers. Here "
     "every fold draws a new dataset, so that ± describes the protocol and not one draw.",
-    "The thesis's SMSE is pooled: its ratios MSE/SMSE show one variance over all hidden entries.",
 )
 _ASSUMED = (
     "The thesis does not say how many outputs and children these tests had; three and ten are "

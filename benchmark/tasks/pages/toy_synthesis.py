@@ -37,9 +37,9 @@ PAGE = TaskPage(
     remarks=(
         "The thesis trained from ten starts (§5.2.3), the entrants here from one, which the data "
         "suggest.",
-        "The thesis used one dataset per test; here every fold draws a new one. The level of MCC "
-        "and MLC follows from how much children vary around their parent, which the thesis does "
-        "not disclose: the oracle’s scores show what can be reached here.",
+        "The thesis used one dataset per test; here every fold draws a new one. MCC and MLC depend "
+        "on how much children vary around their parent, which the thesis does not disclose: the "
+        "oracle shows what can be reached.",
         "The thesis does not say from what its coregionalisation matrices were drawn here, only "
         "that they correlate the outputs more; ours have W from U(0, 1).",
     ),

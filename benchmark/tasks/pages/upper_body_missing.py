@@ -14,11 +14,10 @@ PAGE = TaskPage(
     short="Upper body",
     reference="HLM §4.3, Figure 4",
     description=(
-        "Each of eleven walks of one subject is held out in turn, and models are trained on the "
-        "other recordings: walks, slow walks, strides and runs of this and other subjects, at "
-        "30 Hz. In the second half of the walk that is held out, 48 joint angles are hidden: the "
-        "trunk, the head, the arms and the hips. The root, the knees, the feet and the toes stay "
-        "visible. MSE is the mean squared error per joint angle, in squared degrees."
+        "Each of eleven walks of one subject is held out in turn; models learn from the other "
+        "recordings of this and other subjects, at 30 Hz. In its second half, 48 joint angles are "
+        "hidden: trunk, head, arms and hips. The root, knees, feet and toes stay visible. MSE is "
+        "per joint angle, in squared degrees."
     ),
     question="other-channels",
     metrics=("mse", "mpjpe", "msll"),
@@ -27,8 +26,8 @@ PAGE = TaskPage(
     published_metrics={"mse": "MSE per joint"},
     not_comparable=dict.fromkeys([("nn", "*"), ("cyclic-alignment", "*")], _ANOTHER_WALK),
     remarks=(
-        "A fold is a walk. Each is trained on the ten others of the same subject, so folds are not "
-        "wholly independent, and the intervals are a little too narrow.",
+        "A fold is a walk. Each is trained on the ten others of the subject, so folds are not "
+        "wholly independent and intervals a little too narrow.",
         "Joint angles are taken within half a turn of zero: in 08_01 the right thumb makes three "
         "whole turns in a tenth of a second. The paper’s angles have no discontinuities either.",
         "The paper gives the functional analysis of motion an error “greater than 200”, without a "

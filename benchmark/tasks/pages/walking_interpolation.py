@@ -27,12 +27,11 @@ PAGE = TaskPage(
     },
     published_metrics={"mse": "MSE", "smse_pooled": "SMSE", "msll": "MSLL"},
     remarks=(
-        "The thesis does not disclose its 39 channels, its exact resampling or how many "
-        "components its models had; the values are set beside each of ours with that caution.",
-        "MOA takes the three walks for one function, so that constant differences of posture "
-        "between walkers (root, trunk and neck angles) are error to it. Models here see angles as "
-        "recorded; where each walk is mapped to [0, 1] by its own range beforehand, as the thesis "
-        "must have done, MOA's errors come within 13 % of Table 11 (docs/moa.md).",
+        "The thesis does not disclose its 39 channels, its resampling or how many components its "
+        "models had: its values stand beside each of ours with that caution.",
+        "MOA takes the walks for one function, so that differences of posture between walkers are "
+        "error. With each walk mapped to [0, 1] by its own range, as in the thesis, it comes "
+        "within 13 % of Table 11 (docs/moa.md).",
     ),
     illustrated=("observed 40", "synthetic observed 40"),
     figures=(
