@@ -51,11 +51,9 @@ def score_table(results: TaskResults, metric: str, styles: Mapping[str, Style]) 
 
 def _mean_head(results: TaskResults, counting: Sequence[CaseLayout]) -> CaseHead:
     """Return the head of the means, which is that of the case where there is but one."""
-    return (
-        _head(cases[0])
-        if len(cases) == 1
-        else CaseHead(f"mean of {counted(len(counting), 'case')}")
-    )
+    if len(results.cases) == 1:
+        return _head(results, results.cases[0])
+    return CaseHead(f"mean of {counted(len(counting), 'case')}")
 
 
 def _head(results: TaskResults, case: CaseLayout) -> CaseHead:
