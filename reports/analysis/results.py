@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import pandas as pd
@@ -48,10 +49,10 @@ class TaskResults:
     troubles: Mapping[tuple[str, str], tuple[Trouble, ...]]
     published: PublishedTask
 
-    @property
+    @cached_property
     def cases(self) -> tuple[CaseLayout, ...]:
         """The cases that ran, in table order."""
-        ran = set(self.records["case"])
+        ran = set(pd.unique(self.records["case"]))
         return tuple(case for case in self.layout.cases if case.name in ran)
 
     def estimate(self, case: str, label: str, metric: str) -> FoldMean | None:
@@ -116,8 +117,7 @@ def task_results(bundle: Bundle, layout: TaskLayout) -> TaskResults:
 def _troubles_by_cell(bundle: Bundle, task: str) -> dict[tuple[str, str], tuple[Trouble, ...]]:
     """Return the troubles of ``task`` by (case, label)."""
     by_cell: dict[tuple[str, str], tuple[Trouble, ...]] = {}
-    for trouble in troubles(bundle):
-        if trouble.task == task:
-            cell = (trouble.case, trouble.label)
-            by_cell[cell] = (*by_cell.get(cell, ()), trouble)
+    for trouble in troubles(bundle, task):
+        cell = (trouble.case, trouble.label)
+        by_cell[cell] = (*by_cell.get(cell, ()), trouble)
     return by_cell
