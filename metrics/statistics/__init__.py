@@ -2,9 +2,9 @@
 
 A difference is an *advantage*: the loss of the second entrant minus that of the first, so that
 positive means that the first is better, whatever the metric's direction. `pairing` forms the units,
-`differences` and `posterior` test a sample of differences, `contrast` puts these together, and
-`shared_rank` and `ranking` order more than two entrants. docs/statistics.md explains which of these
-is used where, and why.
+`differences` and `posterior` test a sample of differences, `contrast` puts these together,
+`families` tests many at once, and `ranking` orders more than two entrants. docs/statistics.md
+explains which of these is used where, and why.
 """
 
 from mocapbench.metrics.statistics.contrast import ROPE, Contrast, contrast
@@ -24,7 +24,6 @@ from mocapbench.metrics.statistics.families import (
 from mocapbench.metrics.statistics.pairing import case_units, pair, pooled_units
 from mocapbench.metrics.statistics.posterior import Posterior, correlated_t_test
 from mocapbench.metrics.statistics.ranking import RankComparison, compare_ranks, nemenyi
-from mocapbench.metrics.statistics.shared_rank import SharedRank, shared_rank
 
 __all__ = [
     "ALPHA",
@@ -32,7 +31,6 @@ __all__ = [
     "Contrast",
     "Posterior",
     "RankComparison",
-    "SharedRank",
     "TestedMeans",
     "case_units",
     "compare_ranks",
@@ -44,7 +42,6 @@ __all__ = [
     "nemenyi",
     "pair",
     "pooled_units",
-    "shared_rank",
     "signed_rank_test",
     "t_test",
     "tested_differences",

@@ -87,7 +87,9 @@ def never_comparable(results: TaskResults) -> set[PublishedAddress]:
 
 
 def _comparisons(results: TaskResults, metric: str) -> Iterator[Comparison]:
-    for label in results.layout.labels:
+    page = results.layout.page
+    answering = [label for label in results.layout.labels if label in page.published_models]
+    for label in answering:
         for case in results.cases:
             published = results.published_value(case, label, metric)
             ours = results.estimate(case.name, label, metric)

@@ -70,5 +70,5 @@ class Grid:
 
 
 def _present(known: Sequence[str], used: pd.Series[str]) -> tuple[str, ...]:
-    present = set(used)
+    present = set(pd.unique(used))
     return tuple(name for name in known if name in present)

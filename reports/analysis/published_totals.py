@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from itertools import chain
 
 from mocapbench.reports.analysis.comparisons import answers, never_comparable
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.verdicts import PublishedVerdict
 from mocapbench.reports.paper.published import PublishedValue, every_value
+from mocapbench.reports.paper.remarks import PublishedAddress
 
-__all__ = ["Tally", "published_totals", "tally"]
+__all__ = ["Tally", "published_totals", "tallies_by_source", "tally"]
 
 
 @dataclass(frozen=True)
@@ -44,28 +44,52 @@ class Tally:
 
 def published_totals(tasks: Iterable[TaskResults]) -> Tally:
     """Count every value that the package has of the papers, those of other tasks included."""
-    return _tally(every_value(), list(tasks))
+    return _tally(every_value(), tasks)
 
 
-def tally(results: TaskResults, source: str | None = None) -> Tally:
-    """Count the published values of one task, or of one ``source`` (a paper's table) in it."""
-    values = results.published.values()
-    return _tally([v for v in values if source in (None, v.source)], [results])
+def tally(results: TaskResults) -> Tally:
+    """Count the published values of one task."""
+    return _tally(results.published.values(), [results])
 
 
-def _tally(values: Iterable[PublishedValue], tasks: Sequence[TaskResults]) -> Tally:
-    answered = dict(chain.from_iterable(answers(results).items() for results in tasks))
-    never = set(chain.from_iterable(map(never_comparable, tasks)))
-    pairs = [(value, answered.get(value.address)) for value in values]
-    counts = Counter(
-        PublishedVerdict.NOT_COMPARABLE
-        if value.not_comparable or value.address in never
-        else pair.verdict
-        if pair
-        else PublishedVerdict.NOT_RUN
-        for value, pair in pairs
-    )
+def tallies_by_source(results: TaskResults) -> Mapping[str, Tally]:
+    """Count the published values of one task, by the paper's table that they stand in."""
+    by_source: dict[str, list[PublishedValue]] = {}
+    for value in results.published.values():
+        by_source.setdefault(value.source, []).append(value)
+    counted = _counted([results])
+    return {source: _sum(values, counted) for source, values in by_source.items()}
+
+
+def _tally(values: Iterable[PublishedValue], tasks: Iterable[TaskResults]) -> Tally:
+    return _sum(values, _counted(tasks))
+
+
+Counted = Mapping[PublishedAddress, tuple[PublishedVerdict, bool]]
+"""By published value, the verdict that counts, and whether it rests on one fold."""
+
+
+def _counted(tasks: Iterable[TaskResults]) -> Counted:
+    """Return the verdicts that the tasks decide."""
+    verdicts: dict[PublishedAddress, tuple[PublishedVerdict, bool]] = {}
+    for results in tasks:
+        answered = answers(results).items()
+        verdicts |= {address: (pair.verdict, pair.on_one_fold) for address, pair in answered}
+        verdicts |= dict.fromkeys(
+            never_comparable(results), (PublishedVerdict.NOT_COMPARABLE, False)
+        )
+    return verdicts
+
+
+def _sum(values: Iterable[PublishedValue], counted: Counted) -> Tally:
+    decided = [
+        (PublishedVerdict.NOT_COMPARABLE, False)
+        if value.not_comparable
+        else counted.get(value.address, (PublishedVerdict.NOT_RUN, False))
+        for value in values
+    ]
+    counts = Counter(verdict for verdict, _ in decided)
     return Tally(
         {verdict.value: counts[verdict] for verdict in PublishedVerdict},
-        sum(pair is not None and pair.on_one_fold for _, pair in pairs),
+        sum(on_one_fold for _, on_one_fold in decided),
     )

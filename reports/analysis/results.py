@@ -52,7 +52,7 @@ class TaskResults:
     @cached_property
     def cases(self) -> tuple[CaseLayout, ...]:
         """The cases that ran, in table order."""
-        ran = set(self.records["case"])
+        ran = set(pd.unique(self.records["case"]))
         return tuple(case for case in self.layout.cases if case.name in ran)
 
     def lacks_data(self, case: CaseLayout) -> bool:
@@ -122,8 +122,7 @@ def task_results(bundle: Bundle, layout: TaskLayout) -> TaskResults:
 def _troubles_by_cell(bundle: Bundle, task: str) -> dict[tuple[str, str], tuple[Trouble, ...]]:
     """Return the troubles of ``task`` by (case, label)."""
     by_cell: dict[tuple[str, str], tuple[Trouble, ...]] = {}
-    for trouble in troubles(bundle):
-        if trouble.task == task:
-            cell = (trouble.case, trouble.label)
-            by_cell[cell] = (*by_cell.get(cell, ()), trouble)
+    for trouble in troubles(bundle, task):
+        cell = (trouble.case, trouble.label)
+        by_cell[cell] = (*by_cell.get(cell, ()), trouble)
     return by_cell

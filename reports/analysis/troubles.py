@@ -39,17 +39,20 @@ class Trouble:
     traceback: str
 
 
-def troubles(bundle: Bundle) -> tuple[Trouble, ...]:
-    """Return every job without a score, in the order of the records."""
-    rows = bundle.records[bundle.records["status"] != "ok"]
+FIELDS = ("task", "case", "label", "status", "message", "traceback")
+
+
+def troubles(bundle: Bundle, task: str | None = None) -> tuple[Trouble, ...]:
+    """Return the jobs without a score, of one task or of all, in the order of the records."""
+    rows = bundle.records.loc[bundle.records["status"] != "ok", ["fold", *FIELDS]]
+    rows = rows.assign(number=range(1, len(rows) + 1))
+    if task is not None:
+        rows = rows[rows["task"] == task]
     return tuple(
         Trouble(
-            id=f"job-{number}",
+            id=f"job-{row['number']}",
             fold=int(row["fold"]),
-            **{
-                field: "" if pd.isna(row[field]) else str(row[field])
-                for field in ("task", "case", "label", "status", "message", "traceback")
-            },
+            **{field: "" if pd.isna(row[field]) else str(row[field]) for field in FIELDS},
         )
-        for number, row in enumerate(rows.to_dict("records"), start=1)
+        for row in rows.to_dict("records")
     )

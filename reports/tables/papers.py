@@ -6,7 +6,11 @@ from collections.abc import Iterable
 
 import pandas as pd
 
-from mocapbench.reports.analysis.published_totals import Tally, published_totals, tally
+from mocapbench.reports.analysis.published_totals import (
+    Tally,
+    published_totals,
+    tallies_by_source,
+)
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.verdicts import PublishedVerdict
 from mocapbench.reports.paper.citations import CITATIONS
@@ -62,10 +66,9 @@ def papers_table(tasks: Iterable[TaskResults]) -> Table | None:
 
 def _rows(results: TaskResults) -> list[dict[str, object]]:
     """Return a row for each table that prints values of the task."""
-    sources = dict.fromkeys(value.source for value in results.published.values())
     return [
-        {"source": source, "task": results.layout.name, **_counts(tally(results, source))}
-        for source in sources
+        {"source": source, "task": results.layout.name, **_counts(counted)}
+        for source, counted in tallies_by_source(results).items()
     ]
 
 

@@ -10,7 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.filling.trials.scores import Scores
-from mocapbench.metrics.statistics import shared_rank
+from mocapbench.metrics.statistics import ALPHA, tested_differences
 
 __all__ = ["Ranking", "rank"]
 
@@ -53,7 +53,18 @@ def rank(scores: Mapping[str, Scores], weights: NDArray[np.float64]) -> Ranking:
     losses = pd.DataFrame({model: score.errors * weights for model, score in scores.items()})
     means = losses.mean()
     order = tuple(means.sort_values(kind="stable").index)
-    shared = shared_rank(losses, order)
-    return Ranking(
-        order, {model: float(means[model]) for model in order}, scores, len(losses), shared.labels
-    )
+    means_by_model = {model: float(means[model]) for model in order}
+    return Ranking(order, means_by_model, scores, len(losses), _sharing(losses[list(order)]))
+
+
+def _sharing(losses: pd.DataFrame) -> tuple[str, ...]:
+    """Return the first model, and those that the paired t-test does not separate from it.
+
+    P-values are corrected by Holm's method. A single trial is no test: only an equal error shares.
+    """
+    best, *others = losses.columns
+    if not others:
+        return (best,)
+    differences = (losses[others].to_numpy(float) - losses[[best]].to_numpy(float)).T
+    alike = (tested_differences(differences).p > ALPHA) | ~differences.any(axis=1)
+    return (best, *(model for model, shares in zip(others, alike, strict=True) if shares))
