@@ -1,6 +1,7 @@
 from .bundle.bundle import Bundle
 from .bundle.layout import CaseLayout, TaskLayout
 from .bundle.metric_info import MetricInfo
+from .bundle.origin import Origin
 from .bundle.pictures import (
     Band,
     Curve,
@@ -32,6 +33,7 @@ __all__ = [
     "HeatMaps",
     "Illustration",
     "MetricInfo",
+    "Origin",
     "Panel",
     "Path3D",
     "Picture",

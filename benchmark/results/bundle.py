@@ -8,6 +8,7 @@ from typing import Any
 from mocapbench.baselines import Interpolator
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.results.frames import job_table, score_table
+from mocapbench.benchmark.results.origins import origins
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import (
@@ -57,6 +58,7 @@ def bundle(
         provenance=provenance,
         illustrations=illustrations,
         check=RegressionCheck(**check) if check else None,
+        origins=origins(records),
     )
 
 

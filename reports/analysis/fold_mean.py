@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 __all__ = ["FoldMean"]
 
@@ -62,5 +62,5 @@ class FoldMean:
         """
         if self.two_sd is None:
             return None
-        quantile = float(stats.t.ppf(0.975, self.n - 1))
+        quantile = float(special.stdtrit(self.n - 1, 0.975))
         return quantile * 0.5 * self.two_sd / math.sqrt(self.n)

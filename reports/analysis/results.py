@@ -45,7 +45,7 @@ class TaskResults:
     troubles: Mapping[tuple[str, str], tuple[Trouble, ...]]
     published: PublishedTask
 
-    @property
+    @cached_property
     def cases(self) -> tuple[CaseLayout, ...]:
         """The cases that ran, in table order."""
         ran = set(self.records["case"])

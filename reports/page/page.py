@@ -12,6 +12,7 @@ from markupsafe import Markup
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.troubles import DATA_MISSING, troubles
 from mocapbench.reports.bundle.bundle import STATUSES, Bundle
+from mocapbench.reports.page.cells import cells_json
 from mocapbench.reports.page.downloads import to_csv, to_latex
 from mocapbench.reports.page.missing_data import missing_data
 from mocapbench.reports.page.sections import overall_ranks, task_view
@@ -49,8 +50,10 @@ def render(bundle: Bundle) -> str:
         papers_table=papers,
         citations=citations_of(layout.page.reference for layout in bundle.layouts),
         downloads=_downloads(table for table in tables if table is not None),
-        css=Markup(_resource("report.css")),
-        js=Markup(_resource("report.js")),
+        cells=cells_json(results, bundle.origins),
+        cell_dialog=Markup(_resource("parts/cell.html.j2")),
+        css=Markup(_resource("report.css") + _resource("styles/cell.css")),
+        js=Markup(_resource("report.js") + _resource("scripts/cell.js")),
     )
 
 

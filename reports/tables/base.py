@@ -33,6 +33,8 @@ class Cell:
         in the style sheet.
     link : str
         Id of the place on the page that explains the note, or the text where there is no note.
+    opens : str
+        Address of what is known of the score; see `mocapbench.reports.text.cell_anchor`.
     span : int
         Number of columns that it takes.
     """
@@ -43,6 +45,7 @@ class Cell:
     mark: str = ""
     kind: str = ""
     link: str = ""
+    opens: str = ""
     span: int = 1
 
 

@@ -9,7 +9,7 @@ from mocapbench.reports.analysis.fold_mean import FoldMean
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.troubles import DATA_MISSING, Trouble
 from mocapbench.reports.tables.base import ABSENT, Cell
-from mocapbench.reports.text import number, plus_minus
+from mocapbench.reports.text import cell_anchor, number, plus_minus
 
 __all__ = ["MISSING_ID", "folds_cell", "score_cells"]
 
@@ -38,6 +38,7 @@ def score_cells(results: TaskResults, case: str, metric: str, places: int) -> li
             "best" if label in best else "",
             expected,
             places,
+            opens=cell_anchor(results.layout.name, case, label),
         )
         for label in labels
     ]
@@ -49,7 +50,13 @@ def _n_folds(results: TaskResults, case: str, metric: str) -> int:
 
 
 def _score(
-    estimate: FoldMean | None, troubles: Sequence[Trouble], kind: str, expected: int, places: int
+    estimate: FoldMean | None,
+    troubles: Sequence[Trouble],
+    kind: str,
+    expected: int,
+    places: int,
+    *,
+    opens: str,
 ) -> Cell:
     counts = Counter(trouble.status.replace("-", " ") for trouble in troubles)
     link = _anchor(troubles[0]) if troubles else ""
@@ -63,6 +70,7 @@ def _score(
         note=", ".join(filter(None, [remaining, *lost])),
         kind=kind,
         link=link,
+        opens=opens,
     )
 
 
