@@ -2,6 +2,7 @@ from .bundle.bundle import Bundle
 from .bundle.layout import CaseLayout, TaskLayout
 from .bundle.metric_info import MetricInfo
 from .bundle.model_info import ModelInfo
+from .bundle.origin import Origin
 from .bundle.pictures import (
     Band,
     Curve,
@@ -34,6 +35,7 @@ __all__ = [
     "Illustration",
     "MetricInfo",
     "ModelInfo",
+    "Origin",
     "Panel",
     "Path3D",
     "Picture",

@@ -9,6 +9,7 @@ from mocapbench.baselines import Interpolator
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.results.frames import job_table, score_table
 from mocapbench.benchmark.results.model_infos import model_infos
+from mocapbench.benchmark.results.origins import origins
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import (
@@ -58,6 +59,7 @@ def bundle(
         provenance=provenance,
         illustrations=illustrations,
         check=RegressionCheck(**check) if check else None,
+        origins=origins(records),
     )
 
 
