@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from math import isfinite, nan
 
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.internals import Internals
-from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark.registry import METRICS, TASKS
+from mocapbench.benchmark.results.interpolations import interpolates
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.base import Case, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, FormatError, RecordingUnavailable
+from mocapbench.datasets import Archive, FormatError, Library, Recording, RecordingUnavailable
 from mocapbench.reports import Picture
 
 __all__ = ["illustrations"]
@@ -24,6 +26,7 @@ def illustrations(records: Sequence[Record], store: Store, archive: Archive) -> 
     The problem is posed again, which takes its recordings; a case that lacks them, or of which one
     has changed since, is not shown.
     """
+    archive = _ReadOnce(archive.libraries)
     tasks = [TASKS.get(name) for name in dict.fromkeys(r.address.task for r in records)]
     return tuple(
         picture
@@ -63,6 +66,8 @@ def _illustrate(
         {label: problem.answer_type.from_arrays(of_label) for label, of_label in arrays.items()},
         {label: Internals.from_arrays(of_label) for label, of_label in arrays.items()},
         task.page.published_models,
+        *_ranked(task, records),
+        archive,
     )
     suffix = " (synthetic)" if case.synthetic else ""
     return [
@@ -70,6 +75,31 @@ def _illustrate(
         for figure in task.page.figures
         for picture in figure.pictures(solved)
     ]
+
+
+def _ranked(task: Task, records: Sequence[Record]) -> tuple[tuple[str, ...], str, frozenset[str]]:
+    """Return the labels that have the first metric, best first; its title; the interpolations."""
+    name = task.page.metrics[0]
+    metric = METRICS.get(name)
+    scores = {record.address.label: record.scores.get(name, nan) for record in records}
+    scored = [label for label, value in scores.items() if isfinite(value)]
+    order = sorted(scored, key=lambda label: metric.direction.loss(scores[label], metric.target))
+    interpolations = frozenset(r.address.label for r in records if interpolates(r.model))
+    return tuple(order), metric.title, interpolations
+
+
+class _ReadOnce(Archive):
+    """An archive that reads a recording once: several tasks use the same."""
+
+    def __init__(self, libraries: Mapping[str, Library]) -> None:
+        super().__init__(libraries)
+        self._known: dict[str, Recording] = {}
+
+    def recording(self, uri: str) -> Recording:
+        """Return a recording; see `Archive.recording`."""
+        if uri not in self._known:
+            self._known[uri] = super().recording(uri)
+        return self._known[uri]
 
 
 def _as_they_were(case: Case, record: Record, archive: Archive) -> bool:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from importlib.resources import files
 
-from jinja2 import Environment, StrictUndefined, Template
+from jinja2 import Environment, FunctionLoader, StrictUndefined, Template
 from markupsafe import Markup
 
 from mocapbench.reports.analysis.results import task_results
@@ -49,18 +49,22 @@ def render(bundle: Bundle) -> str:
         papers_table=papers,
         citations=citations_of(layout.page.reference for layout in bundle.layouts),
         downloads=_downloads(table for table in tables if table is not None),
-        css=Markup(_resource("report.css")),
-        js=Markup(_resource("report.js")),
+        css=Markup(_resource("report.css") + _resource("styles/player.css")),
+        js=Markup(_resource("report.js") + _resource("scripts/player.js")),
     )
 
 
 def _template() -> Template:
     environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        autoescape=True,
+        loader=FunctionLoader(_resource),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
     environment.globals["slug"] = slug
     environment.filters["counted"] = counted
-    return environment.from_string(_resource("report.html.j2"))
+    return environment.get_template("report.html.j2")
 
 
 def _resource(name: str) -> str:

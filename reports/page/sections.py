@@ -15,6 +15,7 @@ from mocapbench.reports.figures.draw import draw
 from mocapbench.reports.figures.error_bars import error_bars
 from mocapbench.reports.figures.ranks import rank_figure
 from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.motions.player import PlayerFigure
 from mocapbench.reports.page.headline import Headline
 from mocapbench.reports.page.lead_headlines import lead_headlines
 from mocapbench.reports.page.published_headlines import published_headlines
@@ -69,7 +70,7 @@ class TaskView:
     verdicts : Tally
         Over all metrics.
     metrics : sequence of MetricView
-    figures : sequence of SvgFigure
+    figures : sequence of SvgFigure or PlayerFigure
         The pictures of the task.
     summaries : sequence of Table
         Tables over all cases.
@@ -83,7 +84,7 @@ class TaskView:
     wins: Sequence[Headline]
     verdicts: Tally
     metrics: Sequence[MetricView]
-    figures: Sequence[SvgFigure]
+    figures: Sequence[SvgFigure | PlayerFigure]
     summaries: Sequence[Table]
     cases: Sequence[str]
     not_run: Sequence[str]

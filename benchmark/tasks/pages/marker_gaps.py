@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mocapbench.benchmark.figures.motions.filled import FilledMotion
 from mocapbench.reports.bundle.task_page import TaskPage
 
 __all__ = ["ALONE", "OTHERS", "PAGE"]
@@ -22,6 +23,8 @@ PAGE = TaskPage(
     ),
     metrics=("mpjpe", "bone_length_error", "jerk_ratio", "coverage_90", "msll"),
     along="seconds",
+    illustrated=(f"a limb 1 s, {OTHERS}", f"synthetic a limb 0.5 s, {OTHERS}"),
+    figures=(FilledMotion(),),
     remarks=(
         "Gløersen and Federolf hide markers on the skin, of walking on a treadmill and of other "
         "gait, at random times and places, and score the mean distance from the measured markers. "
