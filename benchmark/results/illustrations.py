@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import isfinite, nan
 
-from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.benchmark.problems.internals import Internals
-from mocapbench.benchmark.registry import METRICS, TASKS
-from mocapbench.benchmark.results.interpolations import interpolates
+from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark.results.solved_problems import solved_problem
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
-from mocapbench.benchmark.tasks.base import Case, Task
-from mocapbench.benchmark.tasks.seeds import Seeds
+from mocapbench.benchmark.tasks.base import Task
 from mocapbench.datasets import Archive, FormatError, Library, Recording, RecordingUnavailable
 from mocapbench.reports import Picture
 
@@ -48,44 +44,19 @@ def _chosen(task: Task, records: Sequence[Record]) -> list[Record]:
 def _illustrate(
     task: Task, records: Sequence[Record], store: Store, archive: Archive
 ) -> Sequence[Picture]:
-    fits = {record.address.label: store.load_fit(record.fit_key) for record in records}
-    arrays = {label: fit.arrays for label, fit in fits.items() if fit is not None}
-    if not arrays:
-        return ()
-    case = task.case(records[0].address.case)
-    address = records[0].address._replace(case=case.problem_name)
     try:
-        if not _as_they_were(case, records[0], archive):
-            return ()
-        problem = case.problem(Seeds(records[0].seed, address), archive)
+        solved = solved_problem(task, records, store, archive)
     except (RecordingUnavailable, FormatError):
         return ()
-    solved = Solved(
-        task.name,
-        problem,
-        {label: problem.answer_type.from_arrays(of_label) for label, of_label in arrays.items()},
-        {label: Internals.from_arrays(of_label) for label, of_label in arrays.items()},
-        task.page.published_models,
-        *_ranked(task, records),
-        archive,
-    )
+    if solved is None:
+        return ()
+    case = task.case(records[0].address.case)
     suffix = " (synthetic)" if case.synthetic else ""
     return [
         replace(picture, title=f"{picture.title}: {case.problem_name}{suffix}")
         for figure in task.page.figures
         for picture in figure.pictures(solved)
     ]
-
-
-def _ranked(task: Task, records: Sequence[Record]) -> tuple[tuple[str, ...], str, frozenset[str]]:
-    """Return the labels that have the first metric, best first; its title; the interpolations."""
-    name = task.page.metrics[0]
-    metric = METRICS.get(name)
-    scores = {record.address.label: record.scores.get(name, nan) for record in records}
-    scored = [label for label, value in scores.items() if isfinite(value)]
-    order = sorted(scored, key=lambda label: metric.direction.loss(scores[label], metric.target))
-    interpolations = frozenset(r.address.label for r in records if interpolates(r.model))
-    return tuple(order), metric.title, interpolations
 
 
 class _ReadOnce(Archive):
@@ -100,10 +71,3 @@ class _ReadOnce(Archive):
         if uri not in self._known:
             self._known[uri] = super().recording(uri)
         return self._known[uri]
-
-
-def _as_they_were(case: Case, record: Record, archive: Archive) -> bool:
-    """Return whether the recordings of a case are those that the record is of."""
-    digests = {uri: archive.digest(uri) for uri in case.recordings}
-    kept = {uri: record.provenance.get(f"digest of {uri}", now) for uri, now in digests.items()}
-    return kept == digests
