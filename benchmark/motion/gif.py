@@ -50,7 +50,7 @@ def gif_bytes(picture: Motions, title: str) -> bytes:
 def _on_paper(positions: Points, scale: float) -> Points:
     """Return pixels to the right and down (T, J, 2) of joints around the middle."""
     flat = positions[..., :2] * [scale, -scale]
-    return np.asarray(flat + [WIDTH / 2, HEIGHT - 1.5 * _MARGIN])
+    return np.asarray(np.add(flat, [WIDTH / 2, HEIGHT - 1.5 * _MARGIN]))
 
 
 def _frame(picture: Motions, frame: int, bodies: list[Points], title: str) -> Image.Image:
@@ -66,7 +66,7 @@ def _frame(picture: Motions, frame: int, bodies: list[Points], title: str) -> Im
     words = ImageDraw.Draw(small)
     words.text((8, 6), title, fill="#1c2126")
     words.text((8, 20), f"grey: {picture.motions[0].against} · {label}", fill="#57606a")
-    return small.quantize(64)
+    return small.quantize(16)
 
 
 def _ground(pen: ImageDraw.ImageDraw) -> None:

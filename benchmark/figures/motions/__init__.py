@@ -1,1 +1,1 @@
-"""What the motion player shows: bodies placed in space, set on the ground and seen from the side."""
+"""What the motion player shows: bodies in space, on the ground and seen from the side."""

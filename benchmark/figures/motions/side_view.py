@@ -15,9 +15,9 @@ _UP = np.array([0.0, 1.0, 0.0])
 
 
 def side_view(
-    truth: FrameByJointBy3, motions: Sequence[FrameByJointBy3], joints: Sequence[str]
-) -> list[FrameByJointBy3]:
-    """Return the truth and the motions, all moved and turned alike.
+    truth: FrameByJointBy3, made: FrameByJointBy3, joints: Sequence[str]
+) -> tuple[FrameByJointBy3, FrameByJointBy3]:
+    """Return the truth and what was made of it, both moved and turned alike.
 
     The lowest point of the truth is at y = 0. The truth faces along x on average, and z is to its
     right. It faces at right angles to the line from its right joints to their left counterparts,
@@ -25,13 +25,12 @@ def side_view(
 
     Parameters
     ----------
-    truth : ndarray of shape (N, J, 3)
+    truth, made : ndarray of shape (N, J, 3)
         The y axis points up.
-    motions : sequence of ndarray (N, J, 3)
     joints : sequence of J str
     """
     ground, turn = truth[..., 1].min() * _UP, _turn(truth, joints)
-    return [(positions - ground) @ turn.T for positions in (truth, *motions)]
+    return (truth - ground) @ turn.T, (made - ground) @ turn.T
 
 
 def _turn(truth: FrameByJointBy3, joints: Sequence[str]) -> NDArray[np.float64]:

@@ -51,7 +51,7 @@ PAGE = TaskPage(
         FilledMotion(
             body=scaled_angles,
             remark=(
-                "The values do not say where the walker is and which way it faces, so it walks on "
+                " The values do not say where the walker is and which way it faces, so it walks on "
                 "the spot; angles beyond a right angle are folded back, in the truth too."
             ),
         ),
