@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.results.solved_problems import solved_problem
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.base import Task
-from mocapbench.datasets import Archive, FormatError, Library, Recording, RecordingUnavailable
+from mocapbench.datasets import Archive, FormatError, Recording, RecordingUnavailable
 from mocapbench.reports import Picture
 
 __all__ = ["illustrations"]
@@ -22,7 +23,7 @@ def illustrations(records: Sequence[Record], store: Store, archive: Archive) -> 
     The problem is posed again, which takes its recordings; a case that lacks them, or of which one
     has changed since, is not shown.
     """
-    archive = _ReadOnce(archive.libraries)
+    archive = _ReadOnce(archive)
     tasks = [TASKS.get(name) for name in dict.fromkeys(r.address.task for r in records)]
     return tuple(
         picture
@@ -62,12 +63,10 @@ def _illustrate(
 class _ReadOnce(Archive):
     """An archive that reads a recording once: several tasks use the same."""
 
-    def __init__(self, libraries: Mapping[str, Library]) -> None:
-        super().__init__(libraries)
-        self._known: dict[str, Recording] = {}
+    def __init__(self, archive: Archive) -> None:
+        super().__init__(archive.libraries)
+        self._read = cache(archive.recording)
 
     def recording(self, uri: str) -> Recording:
         """Return a recording; see `Archive.recording`."""
-        if uri not in self._known:
-            self._known[uri] = super().recording(uri)
-        return self._known[uri]
+        return self._read(uri)

@@ -71,4 +71,4 @@ def _side(joint: str, joints: tuple[str, ...]) -> str:
 def _runs(hidden: NDArray[np.bool_]) -> list[list[int]]:
     """Return where each run of True begins, and where it has ended."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], hidden, [False]]).astype(int)))
-    return np.asarray(edges.reshape(-1, 2)).tolist()
+    return [[start, stop] for start, stop in edges.reshape(-1, 2).tolist()]

@@ -52,6 +52,6 @@ class FilledMotion:
         filled = [np.where(given.visible, truth, mean) for mean in means]
         true, *made = placed(body, given, [truth, *filled])
         pairs = [Pair("truth", true, positions) for positions in made]
-        timing = Timing(given.times, (~given.visible).any(axis=1))
+        timing = Timing(given.times, np.asarray((~given.visible).any(axis=1)))
         caption = f"{given.name}, shaded where something is hidden.{self.remark}"
         return (played(solved, body, timing, entrants=entrants, pairs=pairs, caption=caption),)
