@@ -55,7 +55,7 @@ class Bundle:
         Shown in order. The summary quotes ``"profile"``, ``"CPU"``, ``"threads"``, ``"started"``,
         ``"wall time"`` and ``"command line"``, and the foot of the page ``"acknowledgement"``,
         where the mapping has them.
-    illustrations : tuple of Illustration, HeatMaps or Space
+    illustrations : tuple of Illustration, HeatMaps, Space or Motions
         Figures of the tasks, in page order.
     check : RegressionCheck or None
         The result of the last check against reference values, if there was one.
