@@ -15,6 +15,7 @@
   };
 
   const reveal = () => {
+    if (location.hash.startsWith("#cell=")) return; // scripts/cell.js opens these
     const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
     for (let node = target; node; node = node.parentElement) {
       if (node instanceof HTMLDetailsElement) node.open = true;
