@@ -10,6 +10,8 @@ from .figures.filled_channels import FilledChannels
 from .figures.gap_error import GapError
 from .figures.latent_space import LatentSpaces
 from .figures.longest_gaps import LongestGaps
+from .figures.motions.filled import FilledMotion
+from .figures.motions.sampled import SampledMotion
 from .figures.solved import Solved
 from .figures.trend import InferredTrend
 from .formats import format_for
@@ -36,6 +38,7 @@ from .results.bundle import bundle
 from .results.drawn import last_drawn, stamp
 from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
+from .results.solved_problems import solved_problem
 from .runs.directory.plan_file import plan_document, planned_task_files
 from .runs.execution.base import Site
 from .runs.execution.choice import open_site
@@ -75,6 +78,7 @@ __all__ = [
     "Entrant",
     "ExitCode",
     "FilledChannels",
+    "FilledMotion",
     "FilledRecordings",
     "GapError",
     "ImputeProblem",
@@ -94,6 +98,7 @@ __all__ = [
     "Request",
     "Run",
     "RunState",
+    "SampledMotion",
     "Samples",
     "Seeds",
     "Site",
@@ -150,6 +155,7 @@ __all__ = [
     "run",
     "run_state",
     "score_table",
+    "solved_problem",
     "stamp",
     "state_lines",
     "state_table",

@@ -2,12 +2,15 @@ from .bundle.bundle import Bundle
 from .bundle.layout import CaseLayout, TaskLayout
 from .bundle.metric_info import MetricInfo
 from .bundle.model_info import ModelInfo
+from .bundle.origin import Origin
 from .bundle.pictures import (
     Band,
     Curve,
     HeatMap,
     HeatMaps,
     Illustration,
+    Motion,
+    Motions,
     Panel,
     Path3D,
     Picture,
@@ -34,6 +37,9 @@ __all__ = [
     "Illustration",
     "MetricInfo",
     "ModelInfo",
+    "Motion",
+    "Motions",
+    "Origin",
     "Panel",
     "Path3D",
     "Picture",

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from urllib.parse import quote
 
 import numpy as np
 
-__all__ = ["MINUS", "counted", "decimals", "number", "plus_minus", "slug"]
+__all__ = ["MINUS", "cell_anchor", "counted", "decimals", "number", "plus_minus", "slug"]
 
 MINUS = "\N{MINUS SIGN}"
 
@@ -15,6 +16,11 @@ def slug(*names: str) -> str:
     """Return an id made of letters, digits and hyphens."""
     characters = "-".join(names).lower()
     return "".join(c if c.isascii() and c.isalnum() else "-" for c in characters)
+
+
+def cell_anchor(task: str, case: str, label: str) -> str:
+    """Return the address on the page of what is known of one cell, without the ``#``."""
+    return "cell=" + "/".join(quote(name, safe="") for name in (task, case, label))
 
 
 def decimals(values: Iterable[float]) -> int:

@@ -25,6 +25,7 @@ COMMANDS = {
     "status": "Show how far a run is, also one in another terminal.",
     "merge": "Merge run directories into one.",
     "report": "Write the HTML report of a run directory.",
+    "motion": "Write the motion that a model made as GIF, AMC, BVH or CSV.",
     "check": "Check that no metric of a run is worse than its reference value.",
     "compare": "Compare two runs, or two models of one run, fold by fold.",
     "data": "Look for, fetch and verify recordings.",

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 from mocapbench.benchmark.problems.base import Answer, Problem
 from mocapbench.benchmark.problems.internals import Internals
+from mocapbench.datasets import Archive
 
 __all__ = ["Solved"]
 
@@ -30,6 +31,14 @@ class Solved(Generic[P, A]):
         Fitted quantities, by label.
     papers : collection of str
         The labels that stand for models of the papers.
+    ranking : sequence of str
+        The labels, best first by the task's first metric on this problem.
+    metric : str
+        Title of that metric.
+    interpolations : collection of str
+        The labels that fill each channel from its own course alone.
+    archive : Archive or None
+        Where skeletons are, for bodies that the problem does not state.
     """
 
     task: str
@@ -37,3 +46,7 @@ class Solved(Generic[P, A]):
     answers: Mapping[str, A]
     internals: Mapping[str, Internals] = field(default_factory=dict)
     papers: Collection[str] = ()
+    ranking: Sequence[str] = ()
+    metric: str = ""
+    interpolations: Collection[str] = ()
+    archive: Archive | None = None

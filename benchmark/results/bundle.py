@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from mocapbench.baselines import Interpolator
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.results.frames import job_table, score_table
+from mocapbench.benchmark.results.interpolations import interpolates
 from mocapbench.benchmark.results.model_infos import model_infos
+from mocapbench.benchmark.results.origins import origins
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import (
@@ -58,6 +59,7 @@ def bundle(
         provenance=provenance,
         illustrations=illustrations,
         check=RegressionCheck(**check) if check else None,
+        origins=origins(records),
     )
 
 
@@ -87,14 +89,9 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
         labels=_unique(record.address.label for record in of_task),
         independent_folds=task.independent_folds,
         budget=budget,
-        interpolations=_unique(r.address.label for r in of_task if _interpolates(r.model)),
         models=model_infos(task, of_task),
+        interpolations=_unique(r.address.label for r in of_task if interpolates(r.model)),
     )
-
-
-def _interpolates(model: str) -> bool:
-    """Return whether a registered model interpolates; one that is gone does not tell."""
-    return model in MODELS.names() and issubclass(MODELS.get(model), Interpolator)
 
 
 def _metric_info(name: str) -> MetricInfo:

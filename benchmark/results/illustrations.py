@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 
-from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.benchmark.problems.internals import Internals
 from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark.results.solved_problems import solved_problem
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
-from mocapbench.benchmark.tasks.base import Case, Task
-from mocapbench.benchmark.tasks.seeds import Seeds
-from mocapbench.datasets import Archive, FormatError, RecordingUnavailable
+from mocapbench.benchmark.tasks.base import Task
+from mocapbench.datasets import Archive, FormatError, Recording, RecordingUnavailable
 from mocapbench.reports import Picture
 
 __all__ = ["illustrations"]
@@ -24,6 +23,7 @@ def illustrations(records: Sequence[Record], store: Store, archive: Archive) -> 
     The problem is posed again, which takes its recordings; a case that lacks them, or of which one
     has changed since, is not shown.
     """
+    archive = _ReadOnce(archive)
     tasks = [TASKS.get(name) for name in dict.fromkeys(r.address.task for r in records)]
     return tuple(
         picture
@@ -45,25 +45,13 @@ def _chosen(task: Task, records: Sequence[Record]) -> list[Record]:
 def _illustrate(
     task: Task, records: Sequence[Record], store: Store, archive: Archive
 ) -> Sequence[Picture]:
-    fits = {record.address.label: store.load_fit(record.fit_key) for record in records}
-    arrays = {label: fit.arrays for label, fit in fits.items() if fit is not None}
-    if not arrays:
-        return ()
-    case = task.case(records[0].address.case)
-    address = records[0].address._replace(case=case.problem_name)
     try:
-        if not _as_they_were(case, records[0], archive):
-            return ()
-        problem = case.problem(Seeds(records[0].seed, address), archive)
+        solved = solved_problem(task, records, store, archive)
     except (RecordingUnavailable, FormatError):
         return ()
-    solved = Solved(
-        task.name,
-        problem,
-        {label: problem.answer_type.from_arrays(of_label) for label, of_label in arrays.items()},
-        {label: Internals.from_arrays(of_label) for label, of_label in arrays.items()},
-        task.page.published_models,
-    )
+    if solved is None:
+        return ()
+    case = task.case(records[0].address.case)
     suffix = " (synthetic)" if case.synthetic else ""
     return [
         replace(picture, title=f"{picture.title}: {case.problem_name}{suffix}")
@@ -72,8 +60,13 @@ def _illustrate(
     ]
 
 
-def _as_they_were(case: Case, record: Record, archive: Archive) -> bool:
-    """Return whether the recordings of a case are those that the record is of."""
-    digests = {uri: archive.digest(uri) for uri in case.recordings}
-    kept = {uri: record.provenance.get(f"digest of {uri}", now) for uri, now in digests.items()}
-    return kept == digests
+class _ReadOnce(Archive):
+    """An archive that reads a recording once: several tasks use the same."""
+
+    def __init__(self, archive: Archive) -> None:
+        super().__init__(archive.libraries)
+        self._read = cache(archive.recording)
+
+    def recording(self, uri: str) -> Recording:
+        """Return a recording; see `Archive.recording`."""
+        return self._read(uri)

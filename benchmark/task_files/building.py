@@ -11,6 +11,7 @@ from pathlib import PurePosixPath
 from mocapbench.baselines import FrameImputer, Imputer
 from mocapbench.benchmark.figures.gap_error import GapError
 from mocapbench.benchmark.figures.longest_gaps import LongestGaps
+from mocapbench.benchmark.figures.motions.filled import FilledMotion
 from mocapbench.benchmark.registry import MODELS, TASKS
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.hidden_settings import Hidden, read_hidden
@@ -144,7 +145,7 @@ def _page(settings: Settings, cases: tuple[Case, ...], hidden: Hidden) -> TaskPa
         metrics=settings.metrics,
         along=columns[0] if columns else None,
         illustrated=tuple(case.name for case in cases if case.columns.items() >= most.items()),
-        figures=(LongestGaps(), *((GapError(),) if hidden.whole_frames else ())),
+        figures=(FilledMotion(), LongestGaps(), *((GapError(),) if hidden.whole_frames else ())),
     )
 
 

@@ -7,12 +7,13 @@ each task's tables (rows, columns, the names that the paper uses) is data too: a
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import pandas as pd
 
 from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
+from mocapbench.reports.bundle.origin import Origin
 from mocapbench.reports.bundle.pictures import Picture
 from mocapbench.reports.bundle.regression_check import RegressionCheck
 
@@ -54,10 +55,12 @@ class Bundle:
         Shown in order. The summary quotes ``"profile"``, ``"CPU"``, ``"threads"``, ``"started"``,
         ``"wall time"`` and ``"command line"``, and the foot of the page ``"acknowledgement"``,
         where the mapping has them.
-    illustrations : tuple of Illustration, HeatMaps or Space
+    illustrations : tuple of Illustration, HeatMaps, Space or Motions
         Figures of the tasks, in page order.
     check : RegressionCheck or None
         The result of the last check against reference values, if there was one.
+    origins : mapping of (task, case, label) to Origin
+        Where the scores of each cell come from, as far as it is known.
 
     Raises
     ------
@@ -73,6 +76,7 @@ class Bundle:
     provenance: Mapping[str, str]
     illustrations: tuple[Picture, ...] = ()
     check: RegressionCheck | None = None
+    origins: Mapping[tuple[str, str, str], Origin] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         _require_columns("scores", self.scores, SCORE_COLUMNS)

@@ -6,6 +6,7 @@ The harness decides which pictures to show; `mocapbench.reports.figures` draws t
 from __future__ import annotations
 
 from mocapbench.reports.bundle.heat_maps import HeatMap, HeatMaps
+from mocapbench.reports.bundle.motions import Motion, Motions
 from mocapbench.reports.bundle.panels import Band, Curve, Illustration, Panel
 from mocapbench.reports.bundle.spaces import Path3D, Space
 
@@ -15,11 +16,13 @@ __all__ = [
     "HeatMap",
     "HeatMaps",
     "Illustration",
+    "Motion",
+    "Motions",
     "Panel",
     "Path3D",
     "Picture",
     "Space",
 ]
 
-Picture = Illustration | HeatMaps | Space
+Picture = Illustration | HeatMaps | Space | Motions
 """A figure of one task, of any kind."""

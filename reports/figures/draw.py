@@ -4,25 +4,30 @@ from __future__ import annotations
 
 from functools import singledispatch
 
-from mocapbench.reports.bundle.pictures import HeatMaps, Illustration, Picture, Space
+from mocapbench.reports.bundle.pictures import HeatMaps, Illustration, Motions, Picture, Space
 from mocapbench.reports.figures import heat_maps, panels, spaces
 from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.motions import player
+from mocapbench.reports.motions.player import PlayerFigure
 
 __all__ = ["draw"]
 
 
 @singledispatch
-def draw(picture: Picture) -> SvgFigure:
+def draw(picture: Picture) -> SvgFigure | PlayerFigure:
     """Return ``picture`` as a figure of the page.
 
     Raises
     ------
     TypeError
-        If it is none of the three kinds of picture.
+        If it is none of the kinds of picture.
     """
-    raise TypeError(f"expected an Illustration, HeatMaps or a Space, got {type(picture).__name__}")
+    raise TypeError(
+        f"expected an Illustration, HeatMaps, a Space or Motions, got {type(picture).__name__}"
+    )
 
 
 draw.register(Illustration, panels.draw)
 draw.register(HeatMaps, heat_maps.draw)
 draw.register(Space, spaces.draw)
+draw.register(Motions, player.draw)

@@ -17,6 +17,7 @@ from mocapbench.reports.front.answers import answers
 from mocapbench.reports.front.board import SHADES
 from mocapbench.reports.front.scoreboard import scoreboard
 from mocapbench.reports.front.trust import trust
+from mocapbench.reports.page.cells import cells_json
 from mocapbench.reports.page.facts import facts
 from mocapbench.reports.page.missing_data import missing_data
 from mocapbench.reports.page.notes import shared_notes
@@ -59,6 +60,7 @@ def render(bundle: Bundle) -> str:
         check_table=check_table(bundle.check) if bundle.check else None,
         papers_table=papers_table(results),
         citations=citations_of(layout.page.reference for layout in bundle.layouts),
+        cells=cells_json(results, bundle.origins),
         css=styles(),
         js=scripts(),
     )

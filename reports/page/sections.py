@@ -14,6 +14,7 @@ from mocapbench.reports.figures.draw import draw
 from mocapbench.reports.figures.ranks import rank_figure
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.motions.player import PlayerFigure
 from mocapbench.reports.page.headline import Headline
 from mocapbench.reports.page.lead_headlines import lead_headlines
 from mocapbench.reports.page.notes import task_notes
@@ -67,8 +68,10 @@ class TaskView:
         The first is shown open.
     figures : sequence of SvgFigure
         Of the first metric.
+    players : sequence of PlayerFigure
+        Of motions of one solved problem.
     pictures : sequence of SvgFigure
-        Of one solved problem.
+        Other pictures of one solved problem, folded.
     summaries : sequence of Table
         What else there is to know, folded.
     not_run : sequence of str
@@ -83,6 +86,7 @@ class TaskView:
     wins: Sequence[Headline]
     metrics: Sequence[MetricView]
     figures: Sequence[SvgFigure]
+    players: Sequence[PlayerFigure]
     pictures: Sequence[SvgFigure]
     summaries: Sequence[Table]
     not_run: Sequence[str]
@@ -111,6 +115,7 @@ def task_view(
     """
     layout, first = results.layout, results.layout.page.metrics[0]
     ran = {case.name for case in results.cases}
+    pictures = [draw(picture) for picture in illustrations if picture.task == layout.name]
     return TaskView(
         id=slug("task", layout.name),
         layout=layout,
@@ -118,7 +123,8 @@ def task_view(
         wins=win_headlines(results, first),
         metrics=[_metric_view(results, metric, styles) for metric in layout.page.metrics],
         figures=_figures(results, first),
-        pictures=[draw(picture) for picture in illustrations if picture.task == layout.name],
+        players=[drawn for drawn in pictures if isinstance(drawn, PlayerFigure)],
+        pictures=[drawn for drawn in pictures if isinstance(drawn, SvgFigure)],
         summaries=_summaries(results, first),
         not_run=[case.heading for case in layout.cases if case.name not in ran],
         notes=task_notes(results, shared),

@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-from urllib.parse import quote
-
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.troubles import DATA_MISSING, Trouble
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.scores.table import NO_SCORE, ScoreCell
-from mocapbench.reports.text import counted, number
+from mocapbench.reports.text import cell_anchor, counted, number
 
-__all__ = ["cell_address", "score_cell"]
-
-
-def cell_address(task: str, case: str, label: str) -> str:
-    """Return the address on the page of what is behind the score of ``label`` in ``case``."""
-    return "cell=" + "/".join(quote(name, safe="") for name in (task, case, label))
+__all__ = ["score_cell"]
 
 
 def score_cell(
@@ -24,7 +17,7 @@ def score_cell(
     """Return the mean over folds, bold where it is the ``best``, or why there is none."""
     estimate = results.estimate(case.name, label, metric)
     troubles = results.troubles.get((case.name, label), ())
-    link = cell_address(results.layout.name, case.name, label)
+    link = cell_anchor(results.layout.name, case.name, label)
     if estimate is None:
         reasons = _reasons(troubles)
         return ScoreCell(reasons, kind="trouble", link=link) if reasons else NO_SCORE

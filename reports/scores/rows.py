@@ -12,9 +12,10 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.scores.behind import behind_cell, mean_cell
-from mocapbench.reports.scores.cells import cell_address, score_cell
+from mocapbench.reports.scores.cells import score_cell
 from mocapbench.reports.scores.drawing import Drawing
 from mocapbench.reports.scores.table import NO_SCORE, ScoreCell, ScoreRow
+from mocapbench.reports.text import cell_anchor
 
 __all__ = ["Rows"]
 
@@ -87,6 +88,6 @@ class Rows:
         if not means:
             return NO_SCORE
         mean = float(np.mean(means)) if standing is None else standing.mean
-        link = cell_address(self.results.layout.name, "", label)
+        link = cell_anchor(self.results.layout.name, "", label)
         lacking = "" if len(means) == len(found) else f"{len(means)} of {len(found)} cases"
         return mean_cell(mean, standing, self.places, lacking, link)

@@ -6,10 +6,9 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.scores.build import metric_places
-from mocapbench.reports.scores.cells import cell_address
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.tables.letters import letters
-from mocapbench.reports.text import number, slug
+from mocapbench.reports.text import cell_anchor, number, slug
 
 __all__ = ["cross_table"]
 
@@ -60,7 +59,7 @@ def _cell(results: TaskResults, case: CaseLayout | None, metric: str, lettered: 
         return Cell("missing", kind="trouble")
     places = metric_places(results, metric)
     note = _note(results.published_value(case, label, metric), places, lettered)
-    link = "" if note else cell_address(results.layout.name, case.name, label)
+    link = "" if note else cell_anchor(results.layout.name, case.name, label)
     return Cell(number(estimate.mean, places), note=note, link=link)
 
 

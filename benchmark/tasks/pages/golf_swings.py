@@ -5,6 +5,7 @@ from __future__ import annotations
 from mocapbench.benchmark.figures.filled_channels import FilledChannels
 from mocapbench.benchmark.figures.gap_error import GapError
 from mocapbench.benchmark.figures.latent_space import LatentSpaces
+from mocapbench.benchmark.figures.motions.filled import FilledMotion
 from mocapbench.benchmark.tasks.gpdm_entrants import WITH_BEST_START
 from mocapbench.benchmark.tasks.pages.missing_frames import NOTHING_OVER_TIME
 from mocapbench.reports.bundle.task_page import TaskPage
@@ -29,6 +30,7 @@ PAGE = TaskPage(
     ),
     illustrated=("64-01", "synthetic"),
     figures=(
+        FilledMotion(),
         FilledChannels(("rhumerus.rx", "thorax.ry")),
         GapError(),
         LatentSpaces(tuple(entrant.label for entrant in WITH_BEST_START)),

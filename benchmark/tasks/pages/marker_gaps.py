@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mocapbench.benchmark.figures.motions.filled import FilledMotion
 from mocapbench.reports.bundle.task_page import TaskPage
 
 __all__ = ["ALONE", "OTHERS", "PAGE"]
@@ -21,6 +22,8 @@ PAGE = TaskPage(
     question="other-channels",
     metrics=("mpjpe", "bone_length_error", "jerk_ratio", "coverage_90", "msll"),
     along="seconds",
+    illustrated=(f"a limb 1 s, {OTHERS}", f"synthetic a limb 0.5 s, {OTHERS}"),
+    figures=(FilledMotion(),),
     remarks=(
         "Gløersen and Federolf hide skin markers at random times and places, in longer recordings "
         "of treadmill walking and other gait. Here joints stand for markers: they follow from "

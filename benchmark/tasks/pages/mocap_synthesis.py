@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from mocapbench.benchmark.figures.coregionalisation import Coregionalisation
+from mocapbench.benchmark.figures.motions.sampled import SampledMotion
 from mocapbench.benchmark.tasks.pages.joints import JOINT_GROUPS
 from mocapbench.benchmark.tasks.thesis_recordings import KICKS, WALKS
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
@@ -80,7 +81,7 @@ WALKING_PAGE = TaskPage(
     published_metrics=_PUBLISHED_METRICS,
     remarks=_REMARKS,
     illustrated=("35(1)", "12(1)", "synthetic"),
-    figures=(Coregionalisation("mohgp-3", JOINT_GROUPS),),
+    figures=(SampledMotion(), Coregionalisation("mohgp-3", JOINT_GROUPS)),
 )
 
 EXAGGERATED_PAGE = TaskPage(
@@ -98,7 +99,10 @@ EXAGGERATED_PAGE = TaskPage(
     published_models=_THREE_COMPONENTS,
     published_metrics=_PUBLISHED_METRICS,
     remarks=_REMARKS,
+    illustrated=("without 38(2)", "all five", "synthetic"),
+    figures=(SampledMotion(),),
 )
+
 
 SOCCER_PAGE = TaskPage(
     title="Soccer synthesis",
@@ -126,4 +130,6 @@ SOCCER_PAGE = TaskPage(
         "Its MLC suggests that it trained on what it compared with: rows of short kicks, cut alike "
         "for both, are that reading.",
     ),
+    illustrated=("all five", "synthetic"),
+    figures=(SampledMotion(),),
 )

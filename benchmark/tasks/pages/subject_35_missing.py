@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from mocapbench.benchmark.figures.filled_channels import FilledChannels
+from mocapbench.benchmark.figures.motions.filled import FilledMotion
+from mocapbench.benchmark.figures.motions.scaled_values import scaled_angles
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
 __all__ = ["PAGE"]
@@ -43,5 +45,14 @@ PAGE = TaskPage(
         "angle, as elbows and knees do in some recordings. The truth is folded too.",
     ),
     illustrated=("right leg", "synthetic right leg"),
-    figures=(FilledChannels(("rfemur.rx", "rtibia.rx")),),
+    figures=(
+        FilledMotion(
+            body=scaled_angles,
+            remark=(
+                " The values do not say where the walker is and which way it faces, so it walks on "
+                "the spot; angles beyond a right angle are folded back, in the truth too."
+            ),
+        ),
+        FilledChannels(("rfemur.rx", "rtibia.rx")),
+    ),
 )

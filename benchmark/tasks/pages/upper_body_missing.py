@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mocapbench.benchmark.figures.filled_channels import FilledChannels
+from mocapbench.benchmark.figures.motions.filled import FilledMotion
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
 __all__ = ["PAGE"]
@@ -34,5 +35,5 @@ PAGE = TaskPage(
         "number. Here it is fam, with three components; with five, the worst walk exceeds 200.",
     ),
     illustrated=("subject 07 walks", "synthetic walks"),
-    figures=(FilledChannels(("rhumerus.rx", "thorax.ry")),),
+    figures=(FilledMotion(), FilledChannels(("rhumerus.rx", "thorax.ry"))),
 )

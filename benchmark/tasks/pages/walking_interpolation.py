@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mocapbench.benchmark.figures.coregionalisation import Coregionalisation
 from mocapbench.benchmark.figures.filled_channels import FilledChannels
+from mocapbench.benchmark.figures.motions.filled import FilledMotion
 from mocapbench.benchmark.tasks.pages.joints import JOINT_GROUPS
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
@@ -35,6 +36,7 @@ PAGE = TaskPage(
     ),
     illustrated=("observed 40", "synthetic observed 40"),
     figures=(
+        FilledMotion(),
         FilledChannels(("lfemur.rx", "ltibia.rx")),
         Coregionalisation("mohgp-3", JOINT_GROUPS),
     ),

@@ -43,6 +43,7 @@ def _run(*arguments, **environment):
         (("status", "--help"), "in another terminal"),
         (("merge", "--help"), "Everything is checked first"),
         (("report", "--help"), "The HTML file to write"),
+        (("motion", "--help"), "Folds are counted from 1"),
         (("check", "--help"), "--reference"),
         (("compare", "--help"), "--rope"),
         (("data", "--help"), "verify"),

@@ -5,7 +5,10 @@ import pytest
 
 from mocapbench.benchmark import MODELS, TASKS, Internals, Request, Solved, archive_at, plan
 from mocapbench.benchmark.runs.solve import solve
+from mocapbench.reports import Motions
 from mocapbench.reports.figures.draw import draw
+from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.motions.player import PlayerFigure
 
 BUDGET = {"max_iter": 1, "n_restarts": 1, "fill_iter": 1, "refine_iter": 1}
 ENTRANTS = {
@@ -16,6 +19,9 @@ ENTRANTS = {
     "covariance-recovery": ("mohgp-3-starts-10", "moa-3"),
     "walking-interpolation": ("mohgp-3", "cubic-spline"),
     "walking-synthesis": ("mohgp-3", "replay"),
+    "exaggerated-synthesis": ("hgp", "replay"),
+    "soccer-synthesis": ("hgp", "replay"),
+    "marker-gaps": ("linear", "trivial"),
     "missing-frames": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
     "golf-swings": ("gplvm-window", "gpdm-map-viterbi", "cubic-spline"),
     "upper-body-missing": ("nn", "trivial"),
@@ -63,10 +69,15 @@ def test_every_figure_of_a_page_draws(stored):
     task, problem, fits = stored
     answers = {label: problem.answer_type.from_arrays(a) for label, a in fits.items()}
     internals = {label: Internals.from_arrays(a) for label, a in fits.items()}
-    solved = Solved(task.name, problem, answers, internals, task.page.published_models)
+    published = task.page.published_models
+    solved = Solved(task.name, problem, answers, internals, published, archive=archive_at(None))
     pictures = [list(figure.pictures(solved)) for figure in task.page.figures]
     assert all(pictures)
     shown = [picture for of_figure in pictures for picture in of_figure]
     assert {picture.task for picture in shown} == {task.name}
     assert len({picture.title for picture in shown}) == len(shown)
-    assert all("<svg" in draw(picture).svg for picture in shown)
+    drawn = [draw(picture) for picture in shown]
+    assert all("<svg" in figure.svg for figure in drawn if isinstance(figure, SvgFigure))
+    assert [figure.labels for figure in drawn if isinstance(figure, PlayerFigure)] == [
+        tuple(answers) for picture in shown if isinstance(picture, Motions)
+    ]

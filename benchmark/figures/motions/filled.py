@@ -1,0 +1,57 @@
+"""Filled recordings beside the truth, to be played."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mocapbench.benchmark.figures.motions.chosen import chosen
+from mocapbench.benchmark.figures.motions.placing import PlacesJoints, placed
+from mocapbench.benchmark.figures.motions.played import Pair, Timing, played
+from mocapbench.benchmark.figures.solved import Solved
+from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.reports import Motions
+
+__all__ = ["FilledMotion", "body_of_problem"]
+
+FilledProblem = Solved[ImputeProblem, FilledRecordings]
+
+
+def body_of_problem(solved: FilledProblem) -> PlacesJoints | None:
+    """Return the body that the problem states."""
+    return solved.problem.body
+
+
+@dataclass(frozen=True)
+class FilledMotion:
+    """The first recording of a problem, and what entrants made of its hidden entries.
+
+    Parameters
+    ----------
+    n_most : int
+        How many entrants to show, best first by the task's first metric.
+    body : callable
+        ``body(solved)`` is the body that moves, or None.
+    remark : str
+        A sentence to add to the caption, with a blank before it.
+    """
+
+    n_most: int = 8
+    body: Callable[[FilledProblem], PlacesJoints | None] = body_of_problem
+    remark: str = ""
+
+    def pictures(self, solved: FilledProblem, /) -> Sequence[Motions]:
+        """Return one player; none if no body is known, or part of the truth is not."""
+        body, given, truth = self.body(solved), solved.problem.given[0], solved.problem.truth[0]
+        if body is None or not np.isfinite(truth).all():
+            return ()
+        entrants = chosen(solved, self.n_most)
+        means = [solved.answers[label].predictions[0].mean for label in entrants.labels]
+        filled = [np.where(given.visible, truth, mean) for mean in means]
+        true, *made = placed(body, given, [truth, *filled])
+        pairs = [Pair("truth", true, positions) for positions in made]
+        timing = Timing(given.times, np.asarray((~given.visible).any(axis=1)))
+        caption = f"{given.name}, shaded where something is hidden.{self.remark}"
+        return (played(solved, body, timing, entrants=entrants, pairs=pairs, caption=caption),)

@@ -1,0 +1,88 @@
+"""Pairs of a truth and what an entrant made of it, as a player shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.benchmark.figures.motions.chosen import Chosen
+from mocapbench.benchmark.figures.motions.placing import PlacesJoints
+from mocapbench.benchmark.figures.motions.side_view import side_view
+from mocapbench.benchmark.figures.motions.window import shown_frames
+from mocapbench.benchmark.figures.solved import Solved
+from mocapbench.datasets import FrameByJointBy3, Frames
+from mocapbench.reports import Motion, Motions
+
+__all__ = ["Pair", "Timing", "played"]
+
+
+class Pair(NamedTuple):
+    """What an entrant made, and what it is compared with.
+
+    Parameters
+    ----------
+    against : str
+        Name of the truth.
+    truth, made : ndarray of shape (N, J, 3)
+        Positions of joints, in centimetres.
+    """
+
+    against: str
+    truth: FrameByJointBy3
+    made: FrameByJointBy3
+
+
+class Timing(NamedTuple):
+    """The times (N,) of frames in seconds, and of which something is hidden (N,)."""
+
+    times: Frames
+    hidden: NDArray[np.bool_]
+
+
+def played(
+    solved: Solved[Any, Any],
+    body: PlacesJoints,
+    timing: Timing,
+    *,
+    entrants: Chosen,
+    pairs: Sequence[Pair],
+    caption: str,
+) -> Motions:
+    """Return a player of one pair for each entrant, cut to the frames to show.
+
+    Parameters
+    ----------
+    solved : Solved
+    body : PlacesJoints
+    timing : Timing
+    entrants : Chosen
+    pairs : sequence of Pair
+        In the order of the entrants.
+    caption : str
+        What the figure shows; how it was cut and who takes part is added.
+    """
+    joints = tuple(segment.name for segment in body.skeleton.segments)
+    rows = shown_frames(*timing)
+    shown = timing.times[rows]
+    seen = [side_view(pair.truth[rows], pair.made[rows], joints) for pair in pairs]
+    cut = f"{shown[-1] - shown[0]:.1f} s at {(len(rows) - 1) / (shown[-1] - shown[0]):.0f} Hz"
+    of = timing.times[-1] - timing.times[0]
+    whole = "" if shown[-1] - shown[0] > 0.99 * of else f" of {of:.1f} s, around the first gap"
+    return Motions(
+        task=solved.task,
+        title="Motion",
+        caption=f"{caption} {cut}{whole}. {entrants.phrase}.",
+        interval=float(np.diff(shown).mean()),
+        joints=joints,
+        parents=body.skeleton.parents,
+        hidden=timing.hidden[rows],
+        truths={pair.against: truth for pair, (truth, _) in zip(pairs, seen, strict=True)},
+        motions=tuple(
+            Motion(label, made, pair.against)
+            for label, pair, (_, made) in zip(entrants.labels, pairs, seen, strict=True)
+        ),
+        beside=entrants.beside,
+    )

@@ -1,0 +1,80 @@
+"""A problem posed again, with its stored answers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite, nan
+from typing import Any
+
+from mocapbench.benchmark.figures.solved import Solved
+from mocapbench.benchmark.problems.internals import Internals
+from mocapbench.benchmark.registry import METRICS
+from mocapbench.benchmark.results.interpolations import interpolates
+from mocapbench.benchmark.runs.record import Record
+from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.tasks.base import Case, Task
+from mocapbench.benchmark.tasks.seeds import Seeds
+from mocapbench.datasets import Archive
+from mocapbench.reports import TaskLayout
+
+__all__ = ["solved_problem"]
+
+_UNRANKED = (TaskLayout.oracle, TaskLayout.control, TaskLayout.replay)
+
+
+def solved_problem(
+    task: Task, records: Sequence[Record], store: Store, archive: Archive
+) -> Solved[Any, Any] | None:
+    """Return the problem of one case and fold with the stored answers of some entrants.
+
+    None if no answer is stored, or a recording has changed since.
+
+    Parameters
+    ----------
+    task : Task
+    records : sequence of Record
+        Of one case and fold of the task.
+    store : Store
+    archive : Archive
+
+    Raises
+    ------
+    RecordingUnavailable, FormatError
+        If a recording of the case is not at hand or cannot be read.
+    """
+    fits = {record.address.label: store.load_fit(record.fit_key) for record in records}
+    arrays = {label: fit.arrays for label, fit in fits.items() if fit is not None}
+    if not arrays:
+        return None
+    case = task.case(records[0].address.case)
+    address = records[0].address._replace(case=case.problem_name)
+    if not _as_they_were(case, records[0], archive):
+        return None
+    problem = case.problem(Seeds(records[0].seed, address), archive)
+    return Solved(
+        task.name,
+        problem,
+        {label: problem.answer_type.from_arrays(of_label) for label, of_label in arrays.items()},
+        {label: Internals.from_arrays(of_label) for label, of_label in arrays.items()},
+        task.page.published_models,
+        ranking=_ranking(task, records),
+        metric=METRICS.get(task.page.metrics[0]).title,
+        interpolations=[r.address.label for r in records if interpolates(r.model)],
+        archive=archive,
+    )
+
+
+def _ranking(task: Task, records: Sequence[Record]) -> tuple[str, ...]:
+    """Return the labels that compete and have the task's first metric, best first."""
+    name = task.page.metrics[0]
+    metric = METRICS.get(name)
+    scores = {record.address.label: record.scores.get(name, nan) for record in records}
+    competing = [k for k, score in scores.items() if isfinite(score) and k not in _UNRANKED]
+    return tuple(sorted(competing, key=lambda k: metric.direction.loss(scores[k], metric.target)))
+
+
+def _as_they_were(case: Case, record: Record, archive: Archive) -> bool:
+    """Return whether the recordings of a case are those that the record is of."""
+    digests = {uri: archive.digest(uri) for uri in case.recordings}
+    kept = {uri: record.provenance.get(f"digest of {uri}", now) for uri, now in digests.items()}
+    return kept == digests

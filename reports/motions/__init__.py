@@ -1,0 +1,1 @@
+"""Motions as the page keeps them: positions in few bytes, and a player that shows them."""

@@ -1,0 +1,120 @@
+"""One cell as a row of values, which `COLUMNS` names."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from mocapbench.reports.analysis.comparisons import Comparison
+from mocapbench.reports.analysis.fold_mean import FoldMean
+from mocapbench.reports.analysis.troubles import Trouble
+from mocapbench.reports.bundle.origin import Origin
+
+__all__ = ["COLUMNS", "CellScore", "Job", "Shared", "cell_row"]
+
+COLUMNS = (
+    *("case", "label", "model", "parameters", "seed", "command", "recordings", "folds", "keys"),
+    *("fit_seconds", "predict_seconds", "peak_memory_mb", "troubles", "scores"),
+)
+"""``folds`` to ``peak_memory_mb`` have one value a fold; ``keys`` are their bytes in base 64.
+``scores`` has for each metric of the task its values by fold, their mean, half the 95 % interval
+of the mean where the folds give one, and the published value beside it where there is one."""
+
+Job = tuple[Any, ...]
+"""Fold, model, parameters, seconds to fit and to predict, megabytes."""
+
+
+class Shared:
+    """Values that stand once, each known by its place."""
+
+    def __init__(self) -> None:
+        self._places: dict[Hashable, int] = {}
+
+    def place(self, value: Hashable) -> int:
+        """Return the place of ``value``, the next one if it is new."""
+        return self._places.setdefault(value, len(self._places))
+
+    @property
+    def values(self) -> list[Hashable]:
+        """Every value, in its place."""
+        return list(self._places)
+
+
+@dataclass(frozen=True)
+class CellScore:
+    """One metric of a cell.
+
+    Parameters
+    ----------
+    estimate : FoldMean
+    half_width : float or None
+        Half the 95 % interval of the mean; None where the folds give none.
+    published : Comparison or None
+    values : mapping of int to float
+        The finite values by fold.
+    """
+
+    estimate: FoldMean
+    half_width: float | None
+    published: Comparison | None
+    values: Mapping[int, float] = field(default_factory=dict)
+
+
+def cell_row(
+    cell: tuple[str, str],
+    jobs: Sequence[Job],
+    origin: Origin,
+    troubles: Sequence[Trouble],
+    scores: Sequence[CellScore | None],
+    *,
+    shared: Shared,
+) -> list[Any]:
+    """Return the values of one cell, a case and a label.
+
+    Parameters
+    ----------
+    cell : tuple of str
+    jobs : sequence of Job
+        One a fold, one or more.
+    origin : Origin
+    troubles : sequence of Trouble
+    scores : sequence of CellScore or None
+        One for each metric of the task, None where the cell has no value of it.
+    shared : Shared
+        Takes what other cells may have too.
+    """
+    folds, models, parameters, *costs = zip(*jobs, strict=True)
+    keys = b"".join(bytes.fromhex(origin.keys[fold]) for fold in folds if fold in origin.keys)
+    return [
+        *(shared.place(text) for text in (*cell, models[0], parameters[0])),
+        origin.seed,
+        [shared.place(piece) for piece in origin.command],
+        shared.place(tuple(origin.recordings.items())),
+        folds,
+        b64encode(keys).decode(),
+        *([_rounded(value, 2) for value in of_folds] for of_folds in costs),
+        [[t.fold, shared.place(t.status), shared.place(t.message), t.id] for t in troubles],
+        [score and _score(score, folds, shared) for score in scores],
+    ]
+
+
+def _score(score: CellScore, folds: Sequence[int], shared: Shared) -> list[Any]:
+    values = [_rounded(score.values.get(fold)) for fold in folds]
+    published = [_published(score.published, shared)] if score.published else []
+    return [values, _rounded(score.estimate.mean), _rounded(score.half_width), *published]
+
+
+def _published(pair: Comparison, shared: Shared) -> list[Any]:
+    paper = pair.published
+    texts = (paper.source, pair.verdict.value, pair.reason, paper.erratum)
+    return [paper.value, paper.two_sd, *map(shared.place, texts)]
+
+
+def _rounded(value: float | None, digits: int = 6) -> float | None:
+    """Return ``value`` with so many significant digits, None where there is no finite value."""
+    if value is None or not abs(value) < float("inf"):
+        return None
+    rounded = float(f"{value:.{digits}g}")
+    return int(rounded) if rounded.is_integer() else rounded  # shorter by ".0"

@@ -1,0 +1,81 @@
+"""The players of filled and of invented motion, from solved problems on generated gait."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mocapbench.baselines import Prediction
+from mocapbench.benchmark import FilledMotion, FilledRecordings, SampledMotion, Samples, Solved
+from mocapbench.benchmark import archive_at as archive
+from mocapbench.benchmark.figures.motions.scaled_values import scaled_angles
+
+
+def filled(problem, offsets):
+    """Return answers that are off by a constant each, also where entries are visible."""
+    truth = problem.truth[0]
+    return {label: FilledRecordings((Prediction(truth + off),)) for label, off in offsets.items()}
+
+
+@pytest.fixture
+def gap(posed):
+    problem = posed("missing-frames", "synthetic 1")
+    answers = filled(problem, {"right": 0.0, "wrong": 5.0})
+    return Solved("missing-frames", problem, answers, ranking=("right", "wrong"), metric="RMS")
+
+
+def test_a_filled_gap_is_beside_the_truth(gap):
+    (picture,) = FilledMotion().pictures(gap)
+    right, wrong = picture.motions
+    assert (right.label, wrong.label) == ("right", "wrong")
+    assert picture.hidden.sum() == 31
+    assert picture.interval == pytest.approx(1 / 30)
+    np.testing.assert_allclose(right.positions, picture.truths["truth"], atol=1e-9)
+    error = np.linalg.norm(wrong.positions - picture.truths["truth"], axis=-1).mean(axis=1)
+    assert (error[picture.hidden] > 1.0).all()
+    np.testing.assert_allclose(error[: np.argmax(picture.hidden)], 0.0, atol=1e-9)
+
+
+def test_the_ground_is_below_the_lowest_foot(gap):
+    (picture,) = FilledMotion().pictures(gap)
+    assert picture.truths["truth"][..., 1].min() == pytest.approx(0.0)
+
+
+def test_there_is_no_player_without_a_body_or_without_a_truth(gap):
+    bodiless = replace(gap, problem=replace(gap.problem, body=None))
+    unknown = gap.problem.truth[0].copy()
+    unknown[3, 3] = np.nan
+    unsure = replace(gap, problem=replace(gap.problem, truth=(unknown,)))
+    assert FilledMotion().pictures(bodiless) == FilledMotion().pictures(unsure) == ()
+
+
+def test_scaled_values_are_placed_on_the_spot(posed):
+    problem = posed("subject-35-missing", "synthetic right leg")
+    answers = filled(problem, {"right": 0.0, "wrong": 0.5})
+    solved = Solved("subject-35-missing", problem, answers, archive=archive(None))
+    (picture,) = FilledMotion(body=scaled_angles).pictures(solved)
+    truth = picture.truths["truth"]
+    heights = truth[..., 1].max(axis=1) - truth[..., 1].min(axis=1)
+    assert (heights > 120.0).all()  # upright
+    np.testing.assert_allclose(truth[:, 0, [0, 2]], 0.0, atol=1e-9)
+    leg = [picture.joints.index(name) for name in ("rfemur", "rtibia", "rfoot", "rtoes")]
+    moved = np.abs(picture.motions[1].positions - truth).max(axis=(0, 2)) > 1.0
+    assert {*np.flatnonzero(moved)} == {*leg}
+    assert FilledMotion(body=scaled_angles).pictures(replace(solved, archive=None)) == ()
+
+
+def test_a_sample_is_beside_the_reference_that_it_is_nearest_to(posed):
+    problem = posed("walking-synthesis", "synthetic")
+    answers = {
+        f"like-{k + 1}": Samples(np.stack([reference, problem.references[0]]))
+        for k, reference in enumerate(problem.references)
+    }
+    (picture,) = SampledMotion().pictures(Solved("walking-synthesis", problem, answers))
+    assert [motion.against for motion in picture.motions] == [
+        f"reference {k + 1}" for k in range(len(problem.references))
+    ]
+    for motion in picture.motions:
+        np.testing.assert_allclose(motion.positions, picture.truths[motion.against], atol=1e-9)
+    assert not picture.hidden.any()
+    bodiless = Solved("walking-synthesis", replace(problem, body=None), answers)
+    assert SampledMotion().pictures(bodiless) == ()
