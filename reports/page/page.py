@@ -7,6 +7,8 @@ from itertools import groupby
 
 from mocapbench.reports.analysis.results import TaskResults, task_results
 from mocapbench.reports.analysis.troubles import DATA_MISSING, troubles
+from mocapbench.reports.analysis.units import FEWEST_UNITS
+from mocapbench.reports.analysis.verdicts import RELATIVE_TOLERANCE
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.model_info import ModelInfo, in_families
 from mocapbench.reports.bundle.questions import QUESTIONS, question
@@ -18,6 +20,7 @@ from mocapbench.reports.front.trust import trust
 from mocapbench.reports.page.cells import cells_json
 from mocapbench.reports.page.facts import facts
 from mocapbench.reports.page.missing_data import missing_data
+from mocapbench.reports.page.notes import shared_notes
 from mocapbench.reports.page.resources import scripts, styles, template
 from mocapbench.reports.page.sections import TaskView, task_view
 from mocapbench.reports.paper.citations import citations_of
@@ -31,7 +34,9 @@ def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
     results = sorted((task_results(bundle, layout) for layout in bundle.layouts), key=_place)
     looks = model_styles(bundle.layouts)
-    views = [task_view(of_task, looks, bundle.illustrations) for of_task in results]
+    shared = shared_notes([of_task.layout for of_task in results])
+    elsewhere = {remark for notes in shared for remark in notes.remarks}
+    views = [task_view(of_task, looks, bundle.illustrations, elsewhere) for of_task in results]
     no_score = troubles(bundle)
     families = in_families(_models(results))
     return template("page.html.j2").render(
@@ -45,6 +50,9 @@ def render(bundle: Bundle) -> str:
         shades=[name for _, name in SHADES],
         tasks=views,
         by_question=_by_question(views),
+        shared_notes=shared,
+        fewest_units=FEWEST_UNITS,
+        tolerance=f"{100 * RELATIVE_TOLERANCE:g} %",
         families=list(families),
         labels=[label for labels in families.values() for label in labels],
         failures=[trouble for trouble in no_score if trouble.status != DATA_MISSING],

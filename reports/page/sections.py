@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.analysis.ranks import ranks_over_units
@@ -17,6 +17,7 @@ from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.motions.player import PlayerFigure
 from mocapbench.reports.page.headline import Headline
 from mocapbench.reports.page.lead_headlines import lead_headlines
+from mocapbench.reports.page.notes import task_notes
 from mocapbench.reports.page.published_headlines import published_headlines
 from mocapbench.reports.page.win_headlines import win_headlines
 from mocapbench.reports.scores.build import score_table
@@ -75,6 +76,8 @@ class TaskView:
         What else there is to know, folded.
     not_run : sequence of str
         Headings of the cases that did not run.
+    notes : sequence of str
+        Remarks, errata and reasons against comparisons, each once for all tables of the task.
     """
 
     id: str
@@ -87,6 +90,7 @@ class TaskView:
     pictures: Sequence[SvgFigure]
     summaries: Sequence[Table]
     not_run: Sequence[str]
+    notes: Sequence[str]
 
     @property
     def first(self) -> MetricView:
@@ -100,9 +104,15 @@ class TaskView:
 
 
 def task_view(
-    results: TaskResults, styles: Mapping[str, Style], illustrations: Iterable[Picture] = ()
+    results: TaskResults,
+    styles: Mapping[str, Style],
+    illustrations: Iterable[Picture] = (),
+    shared: Container[str] = (),
 ) -> TaskView:
-    """Return the section of one task, with the ``illustrations`` that belong to it."""
+    """Return the section of one task, with the ``illustrations`` that belong to it.
+
+    Remarks that are ``shared`` with other tasks stand elsewhere.
+    """
     layout, first = results.layout, results.layout.page.metrics[0]
     ran = {case.name for case in results.cases}
     pictures = [draw(picture) for picture in illustrations if picture.task == layout.name]
@@ -117,6 +127,7 @@ def task_view(
         pictures=[drawn for drawn in pictures if isinstance(drawn, SvgFigure)],
         summaries=_summaries(results, first),
         not_run=[case.heading for case in layout.cases if case.name not in ran],
+        notes=task_notes(results, shared),
     )
 
 

@@ -21,10 +21,6 @@ __all__ = ["best_reference_table"]
 
 BEST = "_best"
 """Suffix of a metric that looks at the best-matched reference alone."""
-NOTE = (
-    "Real motions differ, so no sample can resemble every reference. The thesis (§A.4.2) therefore "
-    "compares models by the best-matched reference. The best mean of a row is in bold."
-)
 
 
 def best_reference_table(results: TaskResults) -> Table | None:
@@ -54,7 +50,6 @@ def best_reference_table(results: TaskResults) -> Table | None:
         ),
         rows=tuple(_row(results, case, label, metrics) for case, label in rows),
         data=_tidy(results, [(case.name, label) for case, label in rows], metrics),
-        notes=(NOTE,),
     )
 
 

@@ -50,7 +50,6 @@ def calibration_table(results: TaskResults) -> Table | None:
             ),
         ),
         data=pd.DataFrame([{"label": label, **by_metric} for label, by_metric in scored.items()]),
-        notes=("Below nominal: predicted variances are too small. Above: too large.",),
     )
 
 

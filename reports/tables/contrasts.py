@@ -33,14 +33,14 @@ def contrast_table(results: TaskResults, metric: str) -> Table | None:
     title = results.metrics[metric].title
     return Table(
         id=slug(results.layout.name, metric, "contrasts"),
-        caption=f"{title}, model against model: by how much the row is better than the column",
+        caption=f"{title}, model against model: by how much the row is better than the column, "
+        f"over {counted(most, scored.unit)}",
         columns=headings(["entrant", *(f"than {label}" for label in scored.labels)], "contrast"),
         rows=tuple(
             (Cell(row), *(_cell(by_pair, row, column, places) for column in scored.labels))
             for row in scored.labels
         ),
         data=_tidy(results, metric, by_pair),
-        notes=_notes(counted(most, scored.unit)),
     )
 
 
@@ -69,16 +69,6 @@ def _contrast_cell(contrast: PairContrast, sign: float, places: int) -> Cell:
 
 def _unbroken(text: str) -> str:
     return text.replace(" ", "\N{NO-BREAK SPACE}")
-
-
-def _notes(units: str) -> tuple[str, ...]:
-    return (
-        f"Below each difference: its interval over {units} (Student’s t, at the level at which "
-        "Holm’s method decides the pair among all pairs), and the probabilities that the row is "
-        "better, equivalent within 2 %, or worse than the column (Bayesian correlated t-test).",
-        "▲ ahead, ▼ behind: the interval excludes 0, more than chance at 5 %. No mark: it may be "
-        "chance. That does not make the two alike.",
-    )
 
 
 def _tidy(results: TaskResults, metric: str, by_pair: Contrasts) -> pd.DataFrame:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.paper.published import PublishedValue
-from mocapbench.reports.paper.remarks import footnotes, marks
 from mocapbench.reports.scores.build import metric_places
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
+from mocapbench.reports.tables.letters import letters
 from mocapbench.reports.text import cell_anchor, number, slug
 
 __all__ = ["cross_table"]
@@ -37,7 +37,7 @@ def cross_table(results: TaskResults, metric: str, crossed: tuple[str, str]) -> 
         for case in results.cases
     }
     rows, columns = (list(dict.fromkeys(names)) for names in zip(*pairs, strict=True))
-    lettered = marks(_erratum(results, case, metric) for case in results.cases)
+    lettered = letters(results)
     return Table(
         id=slug(results.layout.name, metric),
         caption=f"{results.metrics[metric].title} of each {along_rows} with each {along_columns}, "
@@ -47,13 +47,7 @@ def cross_table(results: TaskResults, metric: str, crossed: tuple[str, str]) -> 
             (Cell(row), *(_cell(results, pairs.get((row, at)), metric, lettered) for at in columns))
             for row in rows
         ),
-        notes=tuple(footnotes(lettered)),
     )
-
-
-def _erratum(results: TaskResults, case: CaseLayout, metric: str) -> str:
-    published = results.published_value(case, results.layout.labels[0], metric)
-    return published.erratum if published else ""
 
 
 def _cell(results: TaskResults, case: CaseLayout | None, metric: str, lettered: Lettered) -> Cell:

@@ -29,15 +29,12 @@ def oracle_table(results: TaskResults) -> Table | None:
     rows = [(label, means[label], len(ratios[label])) for label in order]
     return Table(
         id=slug(results.layout.name, "oracle"),
-        caption="Ratio to the oracle: pooled SMSE over that of the generating process itself",
+        caption="Ratio to the oracle: pooled SMSE over that of the true process, the limit",
         columns=headings(["entrant", "ratio", "cases"]),
         rows=tuple(
             (Cell(label), Cell(f"{number(ratio, 2)}×"), Cell(str(n))) for label, ratio, n in rows
         ),
         data=pd.DataFrame(rows, columns=["label", "ratio", "cases"]),
-        notes=(
-            "Mean over cases. At 1.00× a model is as good as the generating process: the limit.",
-        ),
     )
 
 

@@ -23,14 +23,6 @@ PAPERS = {name.lower(): name for name in CITATIONS}
 VERDICTS = tuple(verdict.value for verdict in PublishedVerdict)
 COUNTS = ("values", *VERDICTS)
 ALL = "all published values"
-NOTES = (
-    "Every value of the papers counts once, and the columns add up to the values. Where several "
-    "of our rows or entrants correspond to a value, the first that may be compared and has a "
-    "score answers it, in the order of the tables; no score enters the choice. The others are "
-    "shown beside it in the task’s own table.",
-    "Not comparable: there is a reason against comparing the value. Not run: no score of this run "
-    "corresponds to it.",
-)
 
 
 def papers_table(tasks: Iterable[TaskResults]) -> Table | None:
@@ -49,7 +41,7 @@ def papers_table(tasks: Iterable[TaskResults]) -> Table | None:
     rows.append({"source": ALL, "task": "", **_counts(totals)})
     return Table(
         id="scorecard",
-        caption="The papers’ tables, and the verdicts on our numbers beside theirs",
+        caption="The papers’ tables, with the verdicts on our numbers: every value counts once",
         columns=(*headings(["published in"]), *headings(["task"], "text"), *headings(COUNTS)),
         rows=tuple(
             (
@@ -60,7 +52,6 @@ def papers_table(tasks: Iterable[TaskResults]) -> Table | None:
             for row in rows
         ),
         data=pd.DataFrame(rows),
-        notes=NOTES,
     )
 
 

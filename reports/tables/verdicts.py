@@ -1,4 +1,4 @@
-"""The table of our numbers beside the published ones, with the rule of the verdicts below it."""
+"""The table of our numbers beside the published ones, and the verdicts on them."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from mocapbench.reports.analysis.comparisons import Comparison, answers, compari
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.verdicts import PublishedVerdict, allowance
 from mocapbench.reports.paper.published import PublishedValue
-from mocapbench.reports.paper.remarks import PublishedAddress, footnotes, marks
+from mocapbench.reports.paper.remarks import PublishedAddress
 from mocapbench.reports.tables.base import Cell, Table, headings
+from mocapbench.reports.tables.letters import letters
 from mocapbench.reports.text import decimals, number, plus_minus, slug
 
 __all__ = ["verdict_table"]
@@ -24,19 +25,6 @@ KINDS = {
     for verdict in PublishedVerdict
 }
 """The class of a verdict's cell in the style sheet."""
-RULES = (
-    "The ± is two standard deviations over folds, as the papers print it, and not the interval of "
-    "the other tables.",
-    "Within 2 %: our mean differs from the published value by no more than 2 % of it, and half its "
-    "95 % interval (Student’s t) is no wider. Within the paper’s ±: the same of the ± that the "
-    "paper prints, where it prints one.",
-    "Better, worse: the published value lies outside our interval widened by the greater of the "
-    "two. Undecided: none of these, because the folds are too few or too noisy.",
-    "One fold, or windows of one recording, have no interval: the verdict rests on the difference "
-    "alone. A run with fewer windows than the paper averages over another set.",
-    "Beside: another row or entrant answers the value, and only that one counts in the totals. It "
-    "is the first in the order of the tables that may be compared and has a score.",
-)
 
 
 def verdict_table(results: TaskResults, metric: str) -> Table | None:
@@ -51,7 +39,7 @@ def verdict_table(results: TaskResults, metric: str) -> Table | None:
     if not pairs:
         return None
     answering = answers(results)
-    lettered = marks(pair.published.erratum for pair in pairs)
+    lettered = letters(results)
     places = decimals(value for pair in pairs for value in (pair.ours.mean, pair.published.value))
     return Table(
         id=slug(results.layout.name, metric, "published"),
@@ -61,12 +49,8 @@ def verdict_table(results: TaskResults, metric: str) -> Table | None:
             *headings(["folds", "ours", "published", "difference"]),
             *headings(["verdict"], "text"),
         ),
-        rows=tuple(
-            _row(pair, places, lettered[pair.published.erratum], counts=_counts(pair, answering))
-            for pair in pairs
-        ),
+        rows=tuple(_row(pair, places, lettered, counts=_counts(pair, answering)) for pair in pairs),
         data=pd.DataFrame([_tidy(pair, counts=_counts(pair, answering)) for pair in pairs]),
-        notes=(*footnotes(lettered), *RULES),
     )
 
 
@@ -76,9 +60,11 @@ def _counts(pair: Comparison, answering: Mapping[PublishedAddress, Comparison]) 
     return answer is None or (answer.case, answer.label) == (pair.case, pair.label)
 
 
-def _row(pair: Comparison, places: int, mark: str, *, counts: bool) -> tuple[Cell, ...]:
+def _row(
+    pair: Comparison, places: int, lettered: Mapping[str, str], *, counts: bool
+) -> tuple[Cell, ...]:
     ours, published = pair.ours, pair.published
-    note = "one fold" if pair.on_one_fold else pair.reason
+    note = "one fold" if pair.on_one_fold else ""
     beside = "" if counts else "beside"
     return (
         Cell(pair.case.name, note="synthetic" if pair.case.synthetic else ""),
@@ -87,12 +73,15 @@ def _row(pair: Comparison, places: int, mark: str, *, counts: bool) -> tuple[Cel
         Cell(f"n={ours.n}"),
         Cell(number(ours.mean, places), spread=plus_minus(ours.two_sd, places)),
         Cell(
-            number(published.value, places), spread=plus_minus(published.two_sd, places), mark=mark
+            number(published.value, places),
+            spread=plus_minus(published.two_sd, places),
+            mark=lettered[published.erratum],
         ),
         Cell(number(ours.mean - published.value, places)),
         Cell(
             pair.verdict.value,
             note=", ".join(filter(None, (beside, note))),
+            mark=lettered[pair.reason],
             kind=KINDS[pair.verdict],
         ),
     )
