@@ -11,6 +11,7 @@ from jinja2 import Environment, StrictUndefined, Template
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.troubles import DATA_MISSING, troubles
 from mocapbench.reports.bundle.bundle import STATUSES, Bundle
+from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.page.assets import scripts, stylesheet
 from mocapbench.reports.page.downloads import to_csv, to_latex
 from mocapbench.reports.page.missing_data import missing_data
@@ -28,7 +29,8 @@ __all__ = ["render"]
 def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
     results = [task_results(bundle, layout) for layout in bundle.layouts]
-    tasks = [task_view(of_task, bundle.illustrations) for of_task in results]
+    styles = model_styles(bundle.layouts)
+    tasks = [task_view(of_task, styles, bundle.illustrations) for of_task in results]
     no_score = troubles(bundle)
     check = check_table(bundle.check) if bundle.check else None
     papers = papers_table(results)
@@ -37,7 +39,7 @@ def render(bundle: Bundle) -> str:
         bundle=bundle,
         provenance=bundle.provenance,
         tasks=tasks,
-        overall=overall_ranks(results),
+        overall=overall_ranks(results, styles),
         statuses=_statuses(bundle),
         entrants=bundle.records["label"].nunique(),
         folds=bundle.records["fold"].nunique(),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.analysis.comparisons import Tally, comparisons, every_comparison, tally
@@ -10,10 +10,11 @@ from mocapbench.reports.analysis.ranks import ranks_over_cases, ranks_over_tasks
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.pictures import Picture
-from mocapbench.reports.figures.along import curves_along
-from mocapbench.reports.figures.draw import draw
-from mocapbench.reports.figures.error_bars import error_bars
-from mocapbench.reports.figures.ranks import rank_figure
+from mocapbench.reports.figures.pictures.draw import draw
+from mocapbench.reports.figures.scores.along import curves_along
+from mocapbench.reports.figures.scores.dots import dot_plot
+from mocapbench.reports.figures.scores.ranks import rank_figure
+from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.page.headline import Headline
 from mocapbench.reports.page.lead_headlines import lead_headlines
@@ -32,6 +33,8 @@ from mocapbench.reports.tables.verdicts import verdict_table
 from mocapbench.reports.text import slug
 
 __all__ = ["MetricView", "TaskView", "overall_ranks", "task_view"]
+
+Styles = Mapping[str, Style]
 
 SUMMARIES = (
     best_reference_table,
@@ -97,8 +100,18 @@ class TaskView:
         return [table for table in [*of_metrics, *self.summaries] if table is not None]
 
 
-def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> TaskView:
-    """Return the section of one task, with the ``illustrations`` that belong to it."""
+def task_view(
+    results: TaskResults, styles: Styles, illustrations: Iterable[Picture] = ()
+) -> TaskView:
+    """Return the section of one task, with the ``illustrations`` that belong to it.
+
+    Parameters
+    ----------
+    results : TaskResults
+    styles : mapping of str to Style
+        Of all labels of the page, as `mocapbench.reports.figures.styles.model_styles` returns them.
+    illustrations : iterable of Picture
+    """
     layout, first = results.layout, results.layout.page.metrics[0]
     summaries = [build(results) for build in SUMMARIES]
     ran = {case.name for case in results.cases}
@@ -108,46 +121,46 @@ def task_view(results: TaskResults, illustrations: Iterable[Picture] = ()) -> Ta
         leads=[*lead_headlines(results, first), *published_headlines(results, first)],
         wins=win_headlines(results, first),
         verdicts=tally(every_comparison(results)),
-        metrics=[_metric_view(results, metric) for metric in layout.page.metrics],
-        figures=[draw(picture) for picture in illustrations if picture.task == layout.name],
+        metrics=[_metric_view(results, metric, styles) for metric in layout.page.metrics],
+        figures=[draw(picture, styles) for picture in illustrations if picture.task == layout.name],
         summaries=[table for table in summaries if table is not None],
         cases=[case.heading for case in results.cases],
         not_run=[case.heading for case in layout.cases if case.name not in ran],
     )
 
 
-def _metric_view(results: TaskResults, metric: str) -> MetricView:
+def _metric_view(results: TaskResults, metric: str, styles: Styles) -> MetricView:
     crossed = results.layout.page.crossed
     return MetricView(
         title=results.metrics[metric].title,
         table=cross_table(results, metric, crossed) if crossed else score_table(results, metric),
-        figure=None if crossed else _figure(results, metric),
+        figure=None if crossed else _figure(results, metric, styles),
         published=verdict_table(results, metric),
         verdicts=tally(comparisons(results, metric)),
-        ranks=_rank_figure(results, metric),
+        ranks=_rank_figure(results, metric, styles),
         contrasts=contrast_table(results, metric),
     )
 
 
-def _figure(results: TaskResults, metric: str) -> SvgFigure | None:
-    """Return curves along a column where the page names one and enough of it ran, else points."""
-    along = results.layout.page.along
-    curves = curves_along(results, metric, along) if along else None
-    return curves or error_bars(results, metric)
+def _figure(results: TaskResults, metric: str, styles: Styles) -> SvgFigure | None:
+    """Return curves along a column where the page names one; else the first metric by case."""
+    along, metrics = results.layout.page.along, results.layout.page.metrics
+    if along:
+        return curves_along(results, metric, along, styles)
+    return dot_plot(results, metric, styles) if metric == metrics[0] else None
 
 
-def _rank_figure(results: TaskResults, metric: str) -> SvgFigure | None:
+def _rank_figure(results: TaskResults, metric: str, styles: Styles) -> SvgFigure | None:
     ranks, title = ranks_over_cases(results, metric), results.metrics[metric].title
-    name = slug(results.layout.name, metric)
-    return rank_figure(ranks, f"{title}, ranks over cases", name) if ranks else None
+    return rank_figure(ranks, f"{title}, ranks over cases", styles) if ranks else None
 
 
-def overall_ranks(tasks: Sequence[TaskResults]) -> list[SvgFigure]:
+def overall_ranks(tasks: Sequence[TaskResults], styles: Styles) -> list[SvgFigure]:
     """Return a diagram of the ranks over tasks, for each kind of task that has enough of them."""
     kinds = dict.fromkeys(task.layout.page.kind for task in tasks)
     by_kind = {k: ranks_over_tasks(t for t in tasks if t.layout.page.kind == k) for k in kinds}
     return [
-        rank_figure(ranks, f"Tasks that {kind}, ranks over tasks", slug("overall", kind))
+        rank_figure(ranks, f"Tasks that {kind}, ranks over tasks", styles)
         for kind, ranks in by_kind.items()
         if ranks
     ]

@@ -4,12 +4,15 @@ import pytest
 
 from mocapbench.reports.analysis.ranks import ranks_over_cases, ranks_over_tasks
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.figures.ranks import rank_figure
+from mocapbench.reports.figures.scores.ranks import rank_figure
+from mocapbench.reports.figures.styles import Style
 
 ORDERED = {
     f"row {number}": {"a": [1.0 * number], "b": [2.0 * number], "c": [3.0 * number]}
     for number in range(1, 9)
 }
+
+STYLES = {label: Style("h0", 0, label) for label in "abcd"}
 
 
 def results_of(bundle):
@@ -33,7 +36,7 @@ def test_an_entrant_without_a_score_in_every_case_is_left_out_and_named(small):
     values = {**ORDERED, "row 1": {**ORDERED["row 1"], "d": [0.5]}}
     ranks = ranks_over_cases(results_of(small(values)), "mse")
     assert (ranks.labels, ranks.left_out) == (("a", "b", "c"), ("d",))
-    assert "Left out, without a score in every case: d." in rank_figure(ranks, "t", "n").caption
+    assert "Left out, without a score in every case: d." in rank_figure(ranks, "t", STYLES).caption
 
 
 @pytest.mark.parametrize(
@@ -69,7 +72,7 @@ def test_only_common_entrants_are_ranked_over_tasks(small):
 
 
 def test_the_diagram_names_its_groups_in_words(small):
-    drawing = rank_figure(ranks_over_cases(results_of(small(ORDERED)), "mse"), "MSE", "small mse")
+    drawing = rank_figure(ranks_over_cases(results_of(small(ORDERED)), "mse"), "MSE", STYLES)
     assert "Not separable, joined by a bar: a, b; b, c." in drawing.caption
     assert 'aria-label="MSE: mean ranks of 3 entrants over 8 cases"' in drawing.svg
     names = re.findall(r">([abc])</text>", drawing.svg)
@@ -78,4 +81,4 @@ def test_the_diagram_names_its_groups_in_words(small):
 
 def test_the_same_ranks_give_the_same_bytes(small):
     ranks = ranks_over_cases(results_of(small(ORDERED)), "mse")
-    assert rank_figure(ranks, "MSE", "n") == rank_figure(ranks, "MSE", "n")
+    assert rank_figure(ranks, "MSE", STYLES) == rank_figure(ranks, "MSE", STYLES)

@@ -5,7 +5,7 @@ import pytest
 
 from mocapbench.benchmark import MODELS, TASKS, Internals, Request, Solved, archive_at, plan
 from mocapbench.benchmark.runs.solve import solve
-from mocapbench.reports.figures.draw import draw
+from mocapbench.reports.figures.pictures.draw import draw
 
 BUDGET = {"max_iter": 1, "n_restarts": 1, "fill_iter": 1, "refine_iter": 1}
 ENTRANTS = {
@@ -69,4 +69,4 @@ def test_every_figure_of_a_page_draws(stored):
     shown = [picture for of_figure in pictures for picture in of_figure]
     assert {picture.task for picture in shown} == {task.name}
     assert len({picture.title for picture in shown}) == len(shown)
-    assert all("<svg" in draw(picture).svg for picture in shown)
+    assert all("<svg" in draw(picture, {}).svg for picture in shown)

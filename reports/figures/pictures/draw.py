@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import singledispatch
 
 from mocapbench.reports.bundle.pictures import HeatMaps, Illustration, Picture, Space
-from mocapbench.reports.figures import heat_maps, panels, spaces
+from mocapbench.reports.figures.pictures import heat_maps, panels, spaces
+from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
 
 __all__ = ["draw"]
 
 
 @singledispatch
-def draw(picture: Picture) -> SvgFigure:
-    """Return ``picture`` as a figure of the page.
+def draw(picture: Picture, models: Mapping[str, Style]) -> SvgFigure:
+    """Return ``picture`` as a figure of the page, models in their styles.
 
     Raises
     ------
     TypeError
         If it is none of the three kinds of picture.
     """
+    del models
     raise TypeError(f"expected an Illustration, HeatMaps or a Space, got {type(picture).__name__}")
 
 
