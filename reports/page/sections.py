@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from mocapbench.reports.analysis.published_totals import Tally, tally
+from mocapbench.reports.analysis.published.totals import Tally, tally
 from mocapbench.reports.analysis.ranks import ranks_over_tasks, ranks_over_units
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import TaskLayout
