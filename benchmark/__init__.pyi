@@ -34,6 +34,7 @@ from .problems.unit import Unit
 from .registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
 from .results.bundle import bundle
 from .results.drawn import last_drawn, stamp
+from .results.error_parts import error_parts
 from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
 from .runs.directory.plan_file import plan_document, planned_task_files
@@ -115,6 +116,7 @@ __all__ = [
     "compare",
     "data_totals",
     "draft",
+    "error_parts",
     "explain",
     "explanation_table",
     "fetch_command",

@@ -1,4 +1,5 @@
 from .bundle.bundle import Bundle
+from .bundle.error_parts import ErrorParts, RestPose
 from .bundle.layout import CaseLayout, TaskLayout
 from .bundle.metric_info import MetricInfo
 from .bundle.pictures import (
@@ -25,6 +26,7 @@ __all__ = [
     "Bundle",
     "CaseLayout",
     "Curve",
+    "ErrorParts",
     "Figure",
     "FilledCurve",
     "FilledPage",
@@ -37,6 +39,7 @@ __all__ = [
     "Picture",
     "RankedModel",
     "RegressionCheck",
+    "RestPose",
     "RowNotes",
     "Space",
     "TaskLayout",

@@ -13,6 +13,7 @@ from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import (
     Bundle,
     CaseLayout,
+    ErrorParts,
     MetricInfo,
     Picture,
     RegressionCheck,
@@ -27,6 +28,7 @@ def bundle(
     provenance: Mapping[str, str],
     illustrations: tuple[Picture, ...] = (),
     check: Mapping[str, Any] | None = None,
+    parts: ErrorParts | None = None,
 ) -> Bundle:
     """Return what the report shows of ``records``, which are in table order.
 
@@ -38,6 +40,8 @@ def bundle(
     illustrations : tuple of Illustration or HeatMaps
     check : mapping or None
         The last regression check, as the store keeps it.
+    parts : ErrorParts or None
+        Errors along gaps and by joint, where they are to be drawn.
 
     Raises
     ------
@@ -57,6 +61,7 @@ def bundle(
         provenance=provenance,
         illustrations=illustrations,
         check=RegressionCheck(**check) if check else None,
+        parts=parts or ErrorParts(),
     )
 
 

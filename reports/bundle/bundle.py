@@ -7,10 +7,11 @@ each task's tables (rows, columns, the names that the paper uses) is data too: a
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import pandas as pd
 
+from mocapbench.reports.bundle.error_parts import ErrorParts
 from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.pictures import Picture
@@ -58,6 +59,8 @@ class Bundle:
         Figures of the tasks, in page order.
     check : RegressionCheck or None
         The result of the last check against reference values, if there was one.
+    parts : ErrorParts
+        Errors along gaps and by joint.
 
     Raises
     ------
@@ -73,6 +76,7 @@ class Bundle:
     provenance: Mapping[str, str]
     illustrations: tuple[Picture, ...] = ()
     check: RegressionCheck | None = None
+    parts: ErrorParts = field(default_factory=ErrorParts)
 
     def __post_init__(self) -> None:
         _require_columns("scores", self.scores, SCORE_COLUMNS)

@@ -18,6 +18,7 @@ __all__ = [
     "SHAPES",
     "band",
     "coordinate",
+    "disc",
     "dot",
     "group",
     "horizontal",
@@ -50,6 +51,13 @@ def coordinate(value: float) -> str:
 def dot(x: float, y: float, shape: int = 0, kind: str = "dot") -> str:
     """Return a marker."""
     return f'<path class="{kind}" d="M{coordinate(x)} {coordinate(y)}{SHAPES[shape]}"/>'
+
+
+def disc(x: float, y: float, radius: float, title: str = "") -> str:
+    """Return a disc; the page shows ``title`` beside the pointer."""
+    at = f'cx="{coordinate(x)}" cy="{coordinate(y)}" r="{coordinate(radius)}"'
+    told = f"<title>{escape(title)}</title>" if title else ""
+    return f'<circle class="disc" {at}>{told}</circle>'
 
 
 def horizontal(x: float, end: float, y: float, kind: str = "interval") -> str:

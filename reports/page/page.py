@@ -30,7 +30,7 @@ def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
     results = [task_results(bundle, layout) for layout in bundle.layouts]
     styles = model_styles(bundle.layouts)
-    tasks = [task_view(of_task, styles, bundle.illustrations) for of_task in results]
+    tasks = [task_view(of_task, bundle, styles) for of_task in results]
     no_score = troubles(bundle)
     check = check_table(bundle.check) if bundle.check else None
     papers = papers_table(results)

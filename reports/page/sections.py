@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.analysis.comparisons import Tally, comparisons, every_comparison, tally
 from mocapbench.reports.analysis.ranks import ranks_over_cases, ranks_over_tasks
 from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import TaskLayout
-from mocapbench.reports.bundle.pictures import Picture
-from mocapbench.reports.figures.pictures.draw import draw
 from mocapbench.reports.figures.scores.along import curves_along
 from mocapbench.reports.figures.scores.dots import dot_plot
 from mocapbench.reports.figures.scores.ranks import rank_figure
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.figures.task_figures import task_figures
 from mocapbench.reports.page.headline import Headline
 from mocapbench.reports.page.lead_headlines import lead_headlines
 from mocapbench.reports.page.published_headlines import published_headlines
@@ -73,7 +73,7 @@ class TaskView:
         Over all metrics.
     metrics : sequence of MetricView
     figures : sequence of SvgFigure
-        The pictures of the task.
+        Of the task as a whole, and its pictures.
     summaries : sequence of Table
         Tables over all cases.
     cases, not_run : sequence of str
@@ -100,17 +100,15 @@ class TaskView:
         return [table for table in [*of_metrics, *self.summaries] if table is not None]
 
 
-def task_view(
-    results: TaskResults, styles: Styles, illustrations: Iterable[Picture] = ()
-) -> TaskView:
-    """Return the section of one task, with the ``illustrations`` that belong to it.
+def task_view(results: TaskResults, bundle: Bundle, styles: Styles) -> TaskView:
+    """Return the section of one task.
 
     Parameters
     ----------
     results : TaskResults
+    bundle : Bundle
     styles : mapping of str to Style
         Of all labels of the page, as `mocapbench.reports.figures.styles.model_styles` returns them.
-    illustrations : iterable of Picture
     """
     layout, first = results.layout, results.layout.page.metrics[0]
     summaries = [build(results) for build in SUMMARIES]
@@ -122,7 +120,7 @@ def task_view(
         wins=win_headlines(results, first),
         verdicts=tally(every_comparison(results)),
         metrics=[_metric_view(results, metric, styles) for metric in layout.page.metrics],
-        figures=[draw(picture, styles) for picture in illustrations if picture.task == layout.name],
+        figures=task_figures(results, bundle, styles),
         summaries=[table for table in summaries if table is not None],
         cases=[case.heading for case in results.cases],
         not_run=[case.heading for case in layout.cases if case.name not in ran],
