@@ -9,9 +9,10 @@ from markupsafe import Markup
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
+from mocapbench.reports.figures.fitting import fitted, remark
 from mocapbench.reports.figures.legend import dot_keys
 from mocapbench.reports.figures.marks import dot, group, polyline, text
-from mocapbench.reports.figures.scale import Scale, fitted, remark
+from mocapbench.reports.figures.scale import Scale
 from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.figures.styles import TRUTH, Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
@@ -19,6 +20,8 @@ from mocapbench.reports.figures.svg_figure import SvgFigure
 __all__ = ["cost_against_error", "front"]
 
 HEIGHT, FEWEST = 240.0, 3
+LETTER = 12.0
+"""Height of a name, in pixels."""
 SHORTEST = 0.001
 """Seconds; what takes less is drawn there."""
 
@@ -77,13 +80,14 @@ def _panel(
     x = fitted((error for error, _ in points.values()), LEFT, WIDTH)
     y = fitted((seconds for _, seconds in points.values()), TOP + HEIGHT, TOP)
     line = np.array([points[label] for label in best])
+    named = _apart(best, [y.place(points[label][1]) for label in best])
     marks = [
         group(TRUTH, polyline(x.places(line[:, 0]), y.places(line[:, 1]), "front")),
         *(
             group(
                 styles[label],
                 dot(x.place(error), y.place(seconds), styles[label].shape),
-                _name(label, x, x.place(error), y.place(seconds)) if label in best else "",
+                _name(label, x, x.place(error), y.place(seconds)) if label in named else "",
                 title=f"{label}: {error:.4g}, {seconds:.3g} s",
             )
             for label, (error, seconds) in points.items()
@@ -91,6 +95,17 @@ def _panel(
     ]
     label = f"Median seconds against {title}; on the front: {', '.join(best)}"
     return Axes(x, y, "", title, "median seconds a fold").draw(marks, label), remark(x)
+
+
+def _apart(labels: Sequence[str], heights: Sequence[float]) -> list[str]:
+    """Return the labels whose names do not touch the one before; heights fall along the front."""
+    chosen: list[str] = []
+    last = -np.inf
+    for label, height in zip(labels, heights, strict=True):
+        if height - last >= LETTER:
+            chosen.append(label)
+            last = height
+    return chosen
 
 
 def _name(label: str, x: Scale, at: float, height: float) -> str:

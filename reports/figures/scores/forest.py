@@ -10,9 +10,10 @@ from markupsafe import Markup
 from mocapbench.reports.analysis.comparisons import Comparison
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
+from mocapbench.reports.figures.fitting import fitted
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
-from mocapbench.reports.figures.scale import LogScale, Scale, fitted
+from mocapbench.reports.figures.scale import LogScale, Scale
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.error_parts import ErrorParts
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
+from mocapbench.reports.figures.fitting import linear
 from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, group, polyline
-from mocapbench.reports.figures.scale import linear
 from mocapbench.reports.figures.scores.best import best_labels
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure

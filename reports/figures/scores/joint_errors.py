@@ -19,7 +19,7 @@ from mocapbench.reports.figures.svg_figure import Key, SvgFigure
 
 __all__ = ["joint_errors"]
 
-WIDTH, HEIGHT, TOP, EDGE = 210.0, 300.0, 36.0, 26.0
+WIDTH, HEIGHT, TOP, EDGE = 230.0, 240.0, 36.0, 16.0
 N_BEST, LARGEST = 3, 13.0
 """How many models, and the radius of the largest error, in pixels."""
 METRIC = "mpjpe"
@@ -99,8 +99,8 @@ def _placed(pose: RestPose) -> Array:
 
 
 def _legend(largest: float) -> tuple[Key, ...]:
-    """Return discs of the largest error and of a quarter of it, in area."""
-    shares = {f"{largest:.2g} cm": 1.0, f"{largest / 4.0:.2g} cm": 0.25}
+    """Return discs of a quarter of the largest error and of a sixteenth, in area."""
+    shares = {f"{largest * share:.2g} cm": share for share in (1 / 4, 1 / 16)}
     return tuple(
         key(name, TRUTH, disc(14.0, 7.0, LARGEST * np.sqrt(share)))
         for name, share in shares.items()
