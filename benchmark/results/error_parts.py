@@ -23,6 +23,7 @@ SHORTEST = 8
 OF_JOINTS = "mpjpe"
 
 Array = NDArray[np.float32]
+Cell = tuple[str, str, str]
 
 
 def error_parts(records: Sequence[Record], archive: Archive) -> ErrorParts:
@@ -35,7 +36,8 @@ def error_parts(records: Sequence[Record], archive: Archive) -> ErrorParts:
         For the bodies; a task whose skeleton is not here has none.
     """
     metrics = _metrics(records)
-    gaps, joints = defaultdict(list), defaultdict(list)
+    gaps: dict[Cell, list[Array]] = defaultdict(list)
+    joints: dict[Cell, list[Array]] = defaultdict(list)
     for record in records:
         cell = (record.address.task, record.address.case, record.address.label)
         frames = record.parts.get(metrics.get(record.address.task, ""), {}).get("frame", [])
@@ -76,7 +78,7 @@ def along_gap(errors: NDArray[np.float64]) -> list[Array]:
 
 def _metrics(records: Sequence[Record]) -> dict[str, str]:
     """Return, by task, the first metric of its page whose scores have parts by frame."""
-    with_frames = defaultdict(set)
+    with_frames: dict[str, set[str]] = defaultdict(set)
     for record in records:
         with_frames[record.address.task] |= {m for m, p in record.parts.items() if "frame" in p}
     pages = {task: TASKS.get(task).page.metrics for task in with_frames}

@@ -35,5 +35,10 @@ def outline(points: Array) -> str:
 
 def _joined(tenths: Sequence[int]) -> str:
     """Return numbers side by side, separated only where they would run into each other."""
-    first, *others = [f"{value / 10:g}" for value in tenths] or [""]
+    first, *others = [_tenths(value) for value in tenths] or [""]
     return first + "".join(n if n.startswith("-") else f" {n}" for n in others)
+
+
+def _tenths(value: int) -> str:
+    """Return a number of tenths, without the zero before its point."""
+    return f"{value / 10:g}".replace("0.", ".") if abs(value) < 10 else f"{value / 10:g}"

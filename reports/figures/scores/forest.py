@@ -85,5 +85,5 @@ def _line(middle: float, half: float | None, scale: Scale, y: float) -> str:
     """Return an interval, cut where the axis ends."""
     if half is None:
         return ""
-    ends = (min(max(end, scale.low), scale.high) for end in (middle - half, middle + half))
-    return horizontal(*map(scale.place, ends), y)
+    low, high = max(middle - half, scale.low), min(middle + half, scale.high)
+    return horizontal(scale.place(low), scale.place(high), y)

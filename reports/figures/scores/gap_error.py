@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from markupsafe import Markup
 from numpy.typing import NDArray
 
 from mocapbench.reports.analysis.results import TaskResults
@@ -59,7 +60,7 @@ def _windows(results: TaskResults, parts: ErrorParts, metric: str) -> dict[str, 
 
 def _axes(
     windows: Mapping[str, Array], title: str, banded: set[str], styles: Mapping[str, Style]
-) -> str:
+) -> Markup:
     n_places = next(iter(windows.values())).shape[1]
     places = (np.arange(n_places) + 0.5) / n_places
     means = {label: errors.mean(axis=0) for label, errors in windows.items()}

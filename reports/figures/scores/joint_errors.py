@@ -73,8 +73,8 @@ def _body(pose: RestPose, errors: Array, largest: float, style: Style) -> Markup
     gap = np.full(2, np.nan)
     line = np.array([row for j, p in bones for row in (places[j], places[p], gap)])
     discs = [
-        disc(*places[joint], LARGEST * np.sqrt(error / largest), f"{name}: {error:.1f} cm")
-        for joint, (name, error) in enumerate(zip(pose.joints, errors, strict=True))
+        disc(x, y, LARGEST * np.sqrt(error / largest), f"{name}: {error:.1f} cm")
+        for (x, y), name, error in zip(places, pose.joints, errors, strict=True)
         if np.isfinite(error)
     ]
     worst = int(np.nanargmax(errors))
@@ -82,7 +82,7 @@ def _body(pose: RestPose, errors: Array, largest: float, style: Style) -> Markup
     marks = [
         text(0.0, 13.0, style.label, "title"),
         text(0.0, 27.0, told),
-        polyline(*line.T, kind="bone"),
+        polyline(line[:, 0], line[:, 1], "bone"),
         group(style, *discs),
     ]
     return svg(WIDTH, HEIGHT, f"{style.label}: position error by joint, {told}", marks)

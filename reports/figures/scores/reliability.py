@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from markupsafe import Markup
 
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
@@ -57,7 +58,7 @@ def _levels(results: TaskResults) -> dict[float, str]:
     }
 
 
-def _panel(curves: Mapping[str, Curve], styles: Mapping[str, Style]) -> str:
+def _panel(curves: Mapping[str, Curve], styles: Mapping[str, Style]) -> Markup:
     lowest = min(min(*curve, *curve.values()) for curve in curves.values())
     low = np.floor(10.0 * lowest) / 10.0
     x = LinearScale(low, 1.0, LEFT, WIDTH)
