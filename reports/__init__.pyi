@@ -1,4 +1,5 @@
 from .bundle.bundle import Bundle
+from .bundle.error_parts import ErrorParts, RestPose
 from .bundle.layout import CaseLayout, TaskLayout
 from .bundle.metric_info import MetricInfo
 from .bundle.model_info import ModelInfo
@@ -29,6 +30,7 @@ __all__ = [
     "Bundle",
     "CaseLayout",
     "Curve",
+    "ErrorParts",
     "Figure",
     "FilledCurve",
     "FilledPage",
@@ -45,6 +47,7 @@ __all__ = [
     "Picture",
     "RankedModel",
     "RegressionCheck",
+    "RestPose",
     "RowNotes",
     "Space",
     "TaskLayout",

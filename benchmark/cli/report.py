@@ -62,7 +62,8 @@ def write_report(
 ) -> None:
     """Write the page of ``records`` to ``path``, and name what of the store is damaged."""
     figures = bench.illustrations(records, store, archive)
-    page = reports.render(bench.bundle(records, about, figures, store.load_check()))
+    parts = bench.error_parts(records, archive)
+    page = reports.render(bench.bundle(records, about, figures, store.load_check(), parts))
     with atomic_write(path) as file:
         file.write(page.encode())
     console.print(f"report: {path.resolve()}", soft_wrap=True, highlight=False)

@@ -15,6 +15,7 @@ from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import (
     Bundle,
     CaseLayout,
+    ErrorParts,
     MetricInfo,
     Picture,
     RegressionCheck,
@@ -29,6 +30,7 @@ def bundle(
     provenance: Mapping[str, str],
     illustrations: tuple[Picture, ...] = (),
     check: Mapping[str, Any] | None = None,
+    parts: ErrorParts | None = None,
 ) -> Bundle:
     """Return what the report shows of ``records``, which are in table order.
 
@@ -40,6 +42,8 @@ def bundle(
     illustrations : tuple of Illustration or HeatMaps
     check : mapping or None
         The last regression check, as the store keeps it.
+    parts : ErrorParts or None
+        Errors along gaps and by joint, where they are to be drawn.
 
     Raises
     ------
@@ -60,6 +64,7 @@ def bundle(
         illustrations=illustrations,
         check=RegressionCheck(**check) if check else None,
         origins=origins(records),
+        parts=parts or ErrorParts(),
     )
 
 

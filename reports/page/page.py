@@ -36,7 +36,7 @@ def render(bundle: Bundle) -> str:
     looks = model_styles(bundle.layouts)
     shared = shared_notes([of_task.layout for of_task in results])
     elsewhere = {remark for notes in shared for remark in notes.remarks}
-    views = [task_view(of_task, looks, bundle.illustrations, elsewhere) for of_task in results]
+    views = [task_view(of_task, bundle, looks, elsewhere) for of_task in results]
     no_score = troubles(bundle)
     families = in_families(_models(results))
     return template("page.html.j2").render(
