@@ -33,7 +33,8 @@ class Request:
     profile : str
         ``smoke``, ``quick`` or ``paper``.
     tasks, models, cases, metrics : tuple of str
-        Names; a model may be named by its label too, a case as `matching_cases` finds it.
+        Names. A model is an entrant's label or, where a task has no such label, the model of all
+        entrants that have it; a case is what `matching_cases` finds.
     folds : int or None
         How many folds of each case.
     seed : int
@@ -139,9 +140,10 @@ def _case_names(request: Request) -> tuple[str, ...]:
 
 
 def _chosen_entrants(request: Request, task: Task) -> list[Entrant]:
-    wanted = set(request.models)
-    if wanted:
-        return [e for e in entrants(task) if wanted & {e.label, e.model}]
+    if request.models:
+        labels = {entrant.label for entrant in entrants(task)} & set(request.models)
+        models = set(request.models) - labels
+        return [e for e in entrants(task) if e.label in labels or e.model in models]
     left_out = task.profile(request.profile).opt_in
     return [e for e in entrants(task) if e.label not in left_out]
 

@@ -17,9 +17,9 @@ from mocapbench.metrics.statistics.differences import (
     t_test,
 )
 from mocapbench.metrics.statistics.families import (
-    TestedMeans,
-    tested_differences,
-    tested_means,
+    HolmTests,
+    holm_tests,
+    holm_tests_of_means,
 )
 from mocapbench.metrics.statistics.pairing import case_units, pair, pooled_units
 from mocapbench.metrics.statistics.posterior import Posterior, correlated_t_test
@@ -29,14 +29,16 @@ __all__ = [
     "ALPHA",
     "ROPE",
     "Contrast",
+    "HolmTests",
     "Posterior",
     "RankComparison",
-    "TestedMeans",
     "case_units",
     "compare_ranks",
     "contrast",
     "correlated_t_test",
     "holm",
+    "holm_tests",
+    "holm_tests_of_means",
     "least_signed_rank_p",
     "mean_interval",
     "nemenyi",
@@ -44,6 +46,4 @@ __all__ = [
     "pooled_units",
     "signed_rank_test",
     "t_test",
-    "tested_differences",
-    "tested_means",
 ]

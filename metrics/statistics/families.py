@@ -18,11 +18,11 @@ from scipy import special
 
 from mocapbench.metrics.statistics.differences import ALPHA, Array, holm
 
-__all__ = ["TestedMeans", "tested_differences", "tested_means"]
+__all__ = ["HolmTests", "holm_tests", "holm_tests_of_means"]
 
 
 @dataclass(frozen=True, eq=False)
-class TestedMeans:
+class HolmTests:
     """Means of a family with their intervals and corrected p-values, NaN where none is possible.
 
     Parameters
@@ -34,8 +34,6 @@ class TestedMeans:
         Two-sided, of Student's t-test, after Holm's correction.
     uncorrected_p : ndarray of shape (m,)
     """
-
-    __test__ = False  # not a test case
 
     mean: Array
     low: Array
@@ -49,7 +47,7 @@ class TestedMeans:
         return np.asarray(self.p <= ALPHA)
 
 
-def tested_differences(differences: ArrayLike) -> TestedMeans:
+def holm_tests(differences: ArrayLike) -> HolmTests:
     """Test each row of paired differences, all of one family.
 
     Parameters
@@ -65,10 +63,10 @@ def tested_differences(differences: ArrayLike) -> TestedMeans:
     equal = np.ptp(rows, axis=1) == 0.0
     errors = np.where(equal & (n > 1), 0.0, errors)
     means = np.where(equal, rows[:, 0], rows.mean(axis=1))
-    return tested_means(means, errors, np.full(len(rows), n))
+    return holm_tests_of_means(means, errors, np.full(len(rows), n))
 
 
-def tested_means(means: ArrayLike, errors: ArrayLike, n: ArrayLike) -> TestedMeans:
+def holm_tests_of_means(means: ArrayLike, errors: ArrayLike, n: ArrayLike) -> HolmTests:
     """Test the means of a family.
 
     Parameters
@@ -88,7 +86,7 @@ def tested_means(means: ArrayLike, errors: ArrayLike, n: ArrayLike) -> TestedMea
     corrected = holm(p)
     half = error * special.stdtrit(freedom, 1.0 - _levels(p, corrected) / 2.0)
     half = np.where(exact, 0.0, half)
-    return TestedMeans(mean, mean - half, mean + half, corrected, p)
+    return HolmTests(mean, mean - half, mean + half, corrected, p)
 
 
 def _levels(p: Array, corrected: Array) -> Array:

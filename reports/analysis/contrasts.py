@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from mocapbench.metrics.statistics import ALPHA, ROPE, tested_means
+from mocapbench.metrics.statistics import ALPHA, ROPE, holm_tests_of_means
 from mocapbench.reports.analysis.cells import Cells
 from mocapbench.reports.analysis.grid import Array
 from mocapbench.reports.analysis.units import FEWEST_UNITS
@@ -69,7 +69,7 @@ def contrasts(scored: Cells, pairs: Sequence[tuple[str, str]]) -> list[PairContr
     n, first, second, mean, deviation, size = _samples(scored, rows)
     enough = n >= FEWEST_UNITS
     errors = np.where(enough, deviation / np.sqrt(np.maximum(n, 1)), np.nan)
-    tested = tested_means(mean, errors, n)
+    tested = holm_tests_of_means(mean, errors, n)
     better, worse = _posterior(mean, deviation, np.where(enough, n, np.nan), ROPE * size)
     columns = (
         *(first, second, mean, tested.low, tested.high, tested.uncorrected_p, tested.p),

@@ -15,7 +15,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.statistics import tested_differences
+from mocapbench.metrics.statistics import holm_tests
 from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.grid import Array
 from mocapbench.reports.analysis.results import TaskResults
@@ -143,7 +143,7 @@ def _tested(
     low, high = np.full((2, len(rivals)), np.nan)
     separable = np.zeros(len(rivals), dtype=bool)
     if differences.shape[1] >= FEWEST_UNITS and rivals.any():
-        tested = tested_differences(differences[rivals])
+        tested = holm_tests(differences[rivals])
         low[rivals], high[rivals], separable[rivals] = tested.low, tested.high, tested.separable
     return low, high, separable
 

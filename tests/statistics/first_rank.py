@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mocapbench.metrics.statistics import tested_differences
+from mocapbench.metrics.statistics import holm_tests
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "speed"))
 from page import place, table
@@ -35,7 +35,7 @@ def left_out(n_folds: int, n_entrants: int) -> tuple[float, float]:
     for losses in rng.standard_normal((N_ROWS, n_folds, n_entrants)):
         best, *others = np.argsort(losses.mean(axis=0))
         differences = (losses[:, others] - losses[:, [best]]).T
-        missing.append(int(tested_differences(differences).separable.sum()))
+        missing.append(int(holm_tests(differences).separable.sum()))
     return float(np.mean(np.array(missing) > 0)), float(np.mean(missing)) / (n_entrants - 1)
 
 

@@ -10,7 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.filling.trials.scores import Scores
-from mocapbench.metrics.statistics import ALPHA, tested_differences
+from mocapbench.metrics.statistics import ALPHA, holm_tests
 
 __all__ = ["Ranking", "rank"]
 
@@ -66,5 +66,5 @@ def _sharing(losses: pd.DataFrame) -> tuple[str, ...]:
     if not others:
         return (best,)
     differences = (losses[others].to_numpy(float) - losses[[best]].to_numpy(float)).T
-    alike = (tested_differences(differences).p > ALPHA) | ~differences.any(axis=1)
+    alike = (holm_tests(differences).p > ALPHA) | ~differences.any(axis=1)
     return (best, *(model for model, shares in zip(others, alike, strict=True) if shares))

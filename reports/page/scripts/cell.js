@@ -34,11 +34,11 @@
     const marks = [...values, mean - half, mean + half, ...published].filter((value) => value !== null);
     const [low, high] = [Math.min(...marks), Math.max(...marks)];
     const x = (value) => (high > low ? 6 + 128 * (value - low) / (high - low) : 70).toFixed(1);
-    const dots = values.filter((value) => value !== null).map((value) => `<circle cx="${x(value)}" cy="9" r="2.5"/>`);
-    const ink = half ? `M${x(mean - half)} 9H${x(mean + half)}` : "";
-    const diamond = published.map((value) => `<path fill="var(--quiet)" d="M${x(value)} 4l5 5-5 5-5-5z"/>`);
+    const dots = values.filter((value) => value !== null).map((value) => `<circle cx="${x(value)}" cy="9" r="3"/>`);
+    const interval = half ? `<path class="interval" d="M${x(mean - half)} 9H${x(mean + half)}"/>` : "";
+    const diamonds = published.map((value) => `<path class="published" d="M${x(value)} 4l5 5-5 5-5-5z"/>`);
     const drawn = element("span");
-    drawn.innerHTML = `<svg width="140" height="18" aria-hidden="true"><path stroke="currentColor" stroke-width="2" d="${ink}M${x(mean)} 2v14"/>${diamond.join("")}<g fill="currentColor" fill-opacity=".6">${dots.join("")}</g></svg>`;
+    drawn.innerHTML = `<svg width="140" height="18" aria-hidden="true">${interval}${diamonds.join("")}${dots.join("")}<path class="mean" d="M${x(mean)} 2v14"/></svg>`;
     return drawn;
   };
 
@@ -59,7 +59,7 @@
       element("td", { class: "text" }, ...(published ? besides(published) : ["–"])));
   };
 
-  const foldRow = (cell, place, key) => {
+  const foldRow = (cell, place) => {
     const fold = cell.folds[place];
     const trouble = cell.troubles.find(([failed]) => failed === fold);
     const [, status, message, id] = trouble ?? [];
@@ -70,12 +70,12 @@
     const note = trouble ? [element("small", {}, shared[message])] : [];
     return element("tr", {}, element("th", { scope: "row" }, String(fold + 1)),
       element("td", { class: "text" }, state, ...note),
-      ...numbers.map((value) => element("td", {}, digits(value))),
-      element("td", { class: "text" }, element("code", {}, key)));
+      ...numbers.map((value) => element("td", {}, digits(value))));
   };
 
   const origin = (cell) => [
     ["model", cell.model], ["parameters", cell.parameters || "none"], ["seed", String(cell.seed)],
+    ...keysOf(cell).map((key, place) => [`key, fold ${cell.folds[place] + 1}`, element("code", {}, key)]),
     ...cell.recordings.map(([uri, digest]) => [uri, element("code", {}, digest)]),
   ].flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]);
 
@@ -94,10 +94,11 @@
     neighbour("next", task, row[place + 1], (label) => `${label} →`);
     part("scores").replaceChildren(...metrics.map((metric, index) => scoreRow(metric, cell.scores[index])));
     const names = [...metrics.map(([name]) => name), "fit, s", "predict, s", "memory, MB"];
-    part("fold-columns").replaceChildren(element("tr", {}, ...["fold", "status", ...names, "key"].map(
-      (name) => element("th", { scope: "col", class: ["status", "key"].includes(name) ? "text" : "" }, name))));
-    part("folds").replaceChildren(...keysOf(cell).map((key, index) => foldRow(cell, index, key)));
-    part("command").textContent = cell.command.map((piece) => shared[piece]).join(" ");
+    part("fold-columns").replaceChildren(element("tr", {}, ...["fold", "status", ...names].map(
+      (name) => element("th", { scope: "col", class: name === "status" ? "text" : "" }, name))));
+    part("folds").replaceChildren(...cell.folds.map((_, place) => foldRow(cell, place)));
+    part("command").replaceChildren(...cell.command.flatMap(
+      (piece, index) => [index ? " " : "", element("span", {}, shared[piece])]));
     part("origin").replaceChildren(...origin(cell));
     part("copied").textContent = "";
   };

@@ -72,3 +72,9 @@ def test_a_recording_as_the_database_writes_it_finds_the_cases_on_it():
     chosen = Request(tasks=("missing-frames",), models=("trivial",), cases=("35_03",), folds=1)
     cases = {job.address.case for job in plan(chosen, archive_at(None))}
     assert cases == {"35-03 four-walkers", "35-03 three-walkers"}
+
+
+def test_a_label_names_its_entrant_alone_though_others_have_a_model_of_that_name():
+    request = Request("smoke", tasks=("missing-frames",), models=("cyclic-alignment",))
+    labels = {job.address.label for job in plan(request, archive_at(None))}
+    assert labels == {"cyclic-alignment"}

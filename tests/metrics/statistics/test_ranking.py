@@ -1,13 +1,12 @@
 import math
 
 import numpy as np
-import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from mocapbench.metrics.statistics import RankComparison, compare_ranks, nemenyi, shared_rank
+from mocapbench.metrics.statistics import RankComparison, compare_ranks, nemenyi
 
 NAN = math.nan
 tables = st.integers(0, 10_000).map(lambda seed: np.random.default_rng(seed).normal(size=(6, 4)))
@@ -77,42 +76,3 @@ def test_too_little_to_rank_is_refused(shape):
 def test_missing_values_are_refused():
     with pytest.raises(ValueError, match="got NaN"):
         compare_ranks([[1.0, 2.0, NAN]] * 2)
-
-
-LOSSES = pd.DataFrame(
-    {
-        "good": [1.0, 1.2, 0.9, 1.1, 1.0],
-        "as good": [1.1, 1.1, 1.0, 1.0, 1.05],
-        "bad": [2.0, 2.1, 2.2, 1.9, 2.0],
-        "broken": [1.5, NAN, NAN, NAN, NAN],
-    }
-)
-
-
-def test_entrants_not_significantly_worse_than_the_best_share_its_rank():
-    found = shared_rank(LOSSES, ("good", "as good", "bad", "broken"))
-    assert (found.labels, found.n, found.tested) == (("good", "as good"), 5, True)
-
-
-def test_a_constant_lead_separates_and_a_tie_does_not():
-    losses = pd.DataFrame({"a": [1.0, 2.0], "b": [1.5, 2.5], "c": [1.0, 2.0]})
-    assert shared_rank(losses, ("a", "c", "b")).labels == ("a", "c")
-
-
-def test_one_unit_is_not_tested_and_only_ties_share():
-    found = shared_rank(LOSSES.head(1).assign(tie=1.0), ("good", "tie", "as good", "bad"))
-    assert (found.labels, found.tested) == (("good", "tie"), False)
-
-
-def test_a_lone_entrant_has_the_rank_to_itself():
-    assert shared_rank(LOSSES, ("bad",)).labels == ("bad",)
-
-
-@settings(max_examples=30)
-@given(st.integers(0, 1000), st.integers(0, 4))
-def test_neither_the_order_nor_the_unit_of_losses_matters(seed, fold):
-    rng = np.random.default_rng(seed)
-    losses = pd.DataFrame(rng.normal((0.0, 0.5, 2.0), size=(5, 3)), columns=list("abc"))
-    order = tuple(losses.mean().sort_values().index)
-    moved = 3.0 * losses.iloc[np.roll(range(5), fold)]
-    assert shared_rank(moved, order).labels == shared_rank(losses, order).labels

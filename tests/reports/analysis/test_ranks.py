@@ -2,8 +2,11 @@ import re
 
 import pytest
 
-from mocapbench.reports.analysis.ranks import ranks_over_cases, ranks_over_tasks
+from mocapbench.metrics.statistics import nemenyi
+from mocapbench.reports.analysis.ranks import ranks_over_tasks, ranks_over_units
 from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.units import FEWEST_UNITS
+from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.ranks import rank_figure
 
 ORDERED = {
@@ -16,24 +19,24 @@ def results_of(bundle):
     return task_results(bundle, bundle.layouts[0])
 
 
-def test_ranks_run_over_the_means_of_cases(small):
-    ranks = ranks_over_cases(results_of(small(ORDERED)), "mse")
-    assert (ranks.labels, ranks.blocks) == (("a", "b", "c"), "cases")
+def test_ranks_run_over_units(small):
+    ranks = ranks_over_units(results_of(small(ORDERED)), "mse")
+    assert (ranks.labels, ranks.unit) == (("a", "b", "c"), "fold")
     assert ranks.comparison.mean_ranks == (1.0, 2.0, 3.0)
     assert ranks.comparison.n == 8
 
 
 def test_ranks_follow_the_direction(small):
-    values = {case: {"a": [0.1], "b": [0.5], "c": [0.8]} for case in ("x", "y")}
-    ranks = ranks_over_cases(results_of(small(values, metric="coverage_50")), "coverage_50")
+    values = {case: {"a": [0.1], "b": [0.5], "c": [0.8]} for case in "stuvwxyz"}
+    ranks = ranks_over_units(results_of(small(values, metric="coverage_50")), "coverage_50")
     assert ranks.comparison.mean_ranks == (3.0, 1.0, 2.0)
 
 
 def test_an_entrant_without_a_score_in_every_case_is_left_out_and_named(small):
     values = {**ORDERED, "row 1": {**ORDERED["row 1"], "d": [0.5]}}
-    ranks = ranks_over_cases(results_of(small(values)), "mse")
+    ranks = ranks_over_units(results_of(small(values)), "mse")
     assert (ranks.labels, ranks.left_out) == (("a", "b", "c"), ("d",))
-    assert "Left out, without a score in every case: d." in rank_figure(ranks, "t", "n").caption
+    assert "Left out, without every score: d." in rank_figure(ranks, "t", "n").caption
 
 
 @pytest.mark.parametrize(
@@ -46,36 +49,57 @@ def test_an_entrant_without_a_score_in_every_case_is_left_out_and_named(small):
     ],
 )
 def test_too_little_to_rank_gives_no_diagram(small, values):
-    assert ranks_over_cases(results_of(small(values)), "mse") is None
+    assert ranks_over_units(results_of(small(values)), "mse") is None
+
+
+def test_ranks_run_over_subjects_where_cases_have_one(small):
+    cases = tuple(CaseLayout(name, {}, subjects=(name[-1:],)) for name in (*ORDERED, "again 1"))
+    results = results_of(small({**ORDERED, "again 1": ORDERED["row 1"]}, cases=cases))
+    ranks = ranks_over_units(results, "mse")
+    assert (ranks.comparison.n, ranks.unit) == (8, "subject")
+
+
+@pytest.mark.parametrize(("n_cases", "n_labels"), [(4, 3), (5, 9), (5, 12)])
+def test_ranks_that_cannot_separate_are_not_drawn(small, n_cases, n_labels):
+    """Either too few units, or the critical difference is as wide as the ranks reach."""
+    labels = {f"label {n}": [float(n)] for n in range(n_labels)}
+    ranks = ranks_over_units(results_of(small(dict.fromkeys("abcde"[:n_cases], labels))), "mse")
+    reach = n_labels - 1
+    assert (ranks is None) == (n_cases < FEWEST_UNITS or nemenyi(n_cases, n_labels) >= reach)
+
+
+def tasks_of(small, n, values=ORDERED):
+    return [results_of(small(values)) for _ in range(n)]
 
 
 def test_a_task_counts_once_however_many_cases_it_has(small):
-    many, few = (
-        results_of(small(ORDERED)),
-        results_of(small({"row": {"c": [1.0], "b": [2.0], "a": [3.0]}})),
-    )
-    ranks = ranks_over_tasks([many, few])
-    assert (ranks.blocks, ranks.comparison.n) == ("tasks", 2)
+    reverse = {"row": {"c": [1.0], "b": [2.0], "a": [3.0]}}
+    ranks = ranks_over_tasks([*tasks_of(small, 4), *tasks_of(small, 4, reverse)])
+    assert (ranks.unit, ranks.comparison.n) == ("task", 8)
     assert ranks.comparison.mean_ranks == (2.0, 2.0, 2.0)
 
 
 def test_only_common_entrants_are_ranked_over_tasks(small):
     other = small({"row": {"a": [1.0], "b": [2.0], "c": [3.0], "d": [0.1]}})
-    ranks = ranks_over_tasks([results_of(small(ORDERED)), results_of(other)])
+    ranks = ranks_over_tasks([*tasks_of(small, 7), results_of(other)])
     assert (ranks.labels, ranks.left_out) == (("a", "b", "c"), ("d",))
     strangers = small({"row": {"x": [1.0], "y": [2.0], "z": [3.0]}})
-    assert ranks_over_tasks([results_of(small(ORDERED)), results_of(strangers)]) is None
-    assert ranks_over_tasks([results_of(small(ORDERED))]) is None
+    assert ranks_over_tasks([*tasks_of(small, 7), results_of(strangers)]) is None
+
+
+def test_few_tasks_are_not_ranked(small):
+    assert ranks_over_tasks(tasks_of(small, FEWEST_UNITS - 1)) is None
+    assert ranks_over_tasks(tasks_of(small, FEWEST_UNITS)) is not None
 
 
 def test_the_diagram_names_its_groups_in_words(small):
-    drawing = rank_figure(ranks_over_cases(results_of(small(ORDERED)), "mse"), "MSE", "small mse")
+    drawing = rank_figure(ranks_over_units(results_of(small(ORDERED)), "mse"), "MSE", "small mse")
     assert "Not separable, joined by a bar: a, b; b, c." in drawing.caption
-    assert 'aria-label="MSE: mean ranks of 3 entrants over 8 cases"' in drawing.svg
+    assert 'aria-label="MSE: mean ranks of 3 entrants over 8 folds"' in drawing.svg
     names = re.findall(r">([abc])</text>", drawing.svg)
     assert names == ["a", "b", "c"]
 
 
 def test_the_same_ranks_give_the_same_bytes(small):
-    ranks = ranks_over_cases(results_of(small(ORDERED)), "mse")
+    ranks = ranks_over_units(results_of(small(ORDERED)), "mse")
     assert rank_figure(ranks, "MSE", "n") == rank_figure(ranks, "MSE", "n")

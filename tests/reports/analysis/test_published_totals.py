@@ -1,0 +1,97 @@
+from collections import Counter
+
+import pytest
+
+from mocapbench.reports.analysis.comparisons import answers, every_comparison
+from mocapbench.reports.analysis.published_totals import (
+    published_totals,
+    tallies_by_source,
+    tally,
+)
+from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.verdicts import PublishedVerdict
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.bundle.task_page import RowNotes
+from mocapbench.reports.paper.published import every_value, published_values
+
+NAN = float("nan")
+
+
+@pytest.fixture
+def tasks(bundle):
+    return [task_results(bundle, layout) for layout in bundle.layouts]
+
+
+@pytest.mark.parametrize("n_tasks", [0, 1, 3])
+def test_totals_add_up_to_the_published_values_whatever_ran(tasks, n_tasks):
+    totals = published_totals(tasks[:n_tasks])
+    assert totals.total == sum(totals.counts.values()) == len(every_value())
+    assert list(totals.counts) == [verdict.value for verdict in PublishedVerdict]
+    assert (totals.compared > 0) == (n_tasks > 0)
+
+
+def test_totals_are_those_of_the_papers_tables(tasks):
+    for results in tasks:
+        by_source = tallies_by_source(results)
+        values = published_values(results.layout.name).values()
+        expected = Counter(value.source for value in values)
+        assert {source: found.total for source, found in by_source.items()} == expected
+        summed = Counter()
+        for found in by_source.values():
+            summed.update(found.counts)
+        assert summed == Counter(tally(results).counts)
+
+
+def test_each_value_is_answered_once_and_by_a_comparison_of_its_own(tasks):
+    for results in tasks:
+        answered, pairs = answers(results), every_comparison(results)
+        for address, pair in answered.items():
+            assert pair.published.address == address
+            assert not pair.reason
+        comparable = {pair.published.address for pair in pairs if not pair.reason}
+        assert set(answered) == comparable
+
+
+MODELS = {"mohgp-1": "MOHGP", "mohgp-3": "MOHGP"}
+
+
+def walking(small, scores, *, labels=("mohgp-1", "mohgp-3"), reasons=None):
+    """Return results of one row that is the paper's, whose two entrants stand for one model."""
+    notes = RowNotes(published="observed 40", not_comparable=reasons or {})
+    bundle = small(
+        {"row": {label: [scores[label]] for label in labels}},
+        metric="smse_pooled",
+        task="walking-interpolation",
+        cases=(CaseLayout("row", {}, notes=notes),),
+        published_models=MODELS,
+        published_metrics={"smse_pooled": "SMSE"},
+    )
+    return task_results(bundle, bundle.layouts[0])
+
+
+def answering(results):
+    return {pair.label for pair in answers(results).values()}
+
+
+@pytest.mark.parametrize(
+    "scores", [{"mohgp-1": 0.1, "mohgp-3": 9.0}, {"mohgp-1": 9.0, "mohgp-3": 0.1}]
+)
+@pytest.mark.parametrize("labels", [("mohgp-1", "mohgp-3"), ("mohgp-3", "mohgp-1")])
+def test_which_entrant_answers_depends_on_the_page_and_on_no_score(small, scores, labels):
+    results = walking(small, scores, labels=labels)
+    assert answering(results) == {"mohgp-1"}
+    assert tally(results).compared == 1
+
+
+def test_the_next_answers_where_the_first_has_no_score_or_may_not_be_compared(small):
+    assert answering(walking(small, {"mohgp-1": NAN, "mohgp-3": 0.1})) == {"mohgp-3"}
+    scores = {"mohgp-1": 0.1, "mohgp-3": 0.1}
+    assert answering(walking(small, scores, reasons={"mohgp-1": "other walks"})) == {"mohgp-3"}
+
+
+def test_a_value_is_not_comparable_only_where_every_reading_has_a_reason(small):
+    scores = {"mohgp-1": 0.1, "mohgp-3": NAN}
+    counts = tally(walking(small, scores, reasons={"mohgp-1": "other walks"})).counts
+    assert (counts["not comparable"], counts["not run"]) == (0, 24)
+    counts = tally(walking(small, scores, reasons=dict.fromkeys(MODELS, "other walks"))).counts
+    assert (counts["not comparable"], counts["not run"]) == (1, 23)

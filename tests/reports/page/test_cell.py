@@ -1,0 +1,120 @@
+"""The dialog of a cell in a real browser."""
+
+from dataclasses import replace
+
+import pytest
+
+from mocapbench.reports import Origin, render
+from mocapbench.reports.text import cell_anchor
+
+TASK, CASE, LABEL = "toy-interpolation-1", "test 1", "mohgp-3"
+ANCHOR = f"#{cell_anchor(TASK, CASE, LABEL)}"
+COMMAND = ("mocapbench run --seed 0", "--cases 'it'\"'\"'s <b>'", "--folds 5")
+
+
+@pytest.fixture(scope="module")
+def page(bundle):
+    origin = Origin(COMMAND, 0, {fold: f"{fold:064x}" for fold in range(5)}, {"cmu:07_01": "abc"})
+    return render(replace(bundle, origins={(TASK, CASE, LABEL): origin}))
+
+
+def title(tab):
+    return tab.locator("#cell-title").inner_text()
+
+
+def is_open(tab):
+    return tab.evaluate("document.getElementById('cell').open")
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_an_address_opens_its_cell(visit, bundle, width):
+    tab = visit(width=width, fragment=ANCHOR)
+    assert title(tab) == f"{LABEL} · {CASE}"
+    scores = bundle.scores
+    here = scores[(scores["task"] == TASK) & (scores["case"] == CASE) & (scores["label"] == LABEL)]
+    shown = tab.locator("[data-cell=folds] tr td:nth-child(4)").all_inner_texts()
+    wanted = here[here["metric"] == "smse_pooled"]["value"].tolist()
+    assert [float(text.replace("−", "-")) for text in shown] == pytest.approx(wanted, rel=1e-3)
+    assert tab.locator("[data-cell=command]").inner_text() == " ".join(COMMAND)
+    assert tab.locator("[data-cell=scores] circle").count() == 3 * 5
+    assert tab.evaluate("document.documentElement.scrollWidth") == width
+    assert tab.complaints == []
+
+
+def test_every_score_opens_its_own_cell(visit, bundle):
+    tab = visit()
+    links = tab.eval_on_selector_all("a[href^='#cell=']", "all => all.map(a => a.hash)")
+    known = bundle.records[["task", "case", "label"]].drop_duplicates()
+    assert set(links) <= {f"#{cell_anchor(*names)}" for names in known.itertuples(index=False)}
+    assert len(set(links)) > 100
+    tab.locator("#toy-interpolation-1-mse a[href^='#cell=']").nth(1).click()
+    assert title(tab) == "moa-3 · test 1"
+
+
+@pytest.mark.parametrize("key", ["Escape", "back", "Close"])
+def test_closing_brings_back_place_address_and_focus(visit, key):
+    tab = visit(fragment="#provenance")
+    link = tab.locator("#toy-interpolation-1-mse a[href^='#cell=']").first
+    link.scroll_into_view_if_needed()
+    link.focus()
+    before = tab.evaluate("scrollY")
+    tab.keyboard.press("Enter")
+    tab.locator("[data-cell=next]").click()
+    tab.locator("[data-cell=next]").click()
+    assert title(tab) == "lmc-independent · test 1"
+    if key == "Escape":
+        tab.keyboard.press("Escape")
+    elif key == "back":
+        tab.go_back()
+    else:
+        tab.get_by_role("button", name="Close").click()
+    tab.wait_for_function("!document.getElementById('cell').open")
+    assert tab.evaluate("location.hash") == "#provenance"
+    assert tab.evaluate("scrollY") == before
+    assert tab.evaluate("document.activeElement.hash") == ANCHOR
+
+
+def test_closing_a_page_that_began_with_a_cell_leaves_no_address(visit):
+    tab = visit(fragment=ANCHOR)
+    tab.keyboard.press("Escape")
+    assert not is_open(tab)
+    assert tab.evaluate("location.hash") == ""
+
+
+@pytest.mark.parametrize(
+    "fragment", ["#cell=a/b/c", "#cell=", "#cell=%", f"{ANCHOR}x", "#cell=__proto__/a/b"]
+)
+def test_an_unknown_cell_is_told(visit, fragment):
+    tab = visit(fragment=fragment)
+    assert title(tab) == "No such cell"
+    assert not tab.locator("[data-cell=command]").is_visible()
+    assert tab.complaints == []
+
+
+def test_a_failed_fold_says_why_and_leads_to_the_failure(visit):
+    tab = visit(fragment=f"#{cell_anchor('walking-interpolation', 'observed 10', 'mohgp-3')}")
+    row = tab.locator("[data-cell=folds] tr").nth(2)
+    assert "LinAlgError" in row.inner_text()
+    row.get_by_role("link", name="failed").click()
+    tab.wait_for_function("!document.getElementById('cell').open")
+    assert tab.locator(tab.evaluate("location.hash")).get_attribute("open") is not None
+
+
+def test_the_command_is_copied_or_else_selected(visit):
+    tab = visit(fragment=ANCHOR)
+    tab.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject() }")
+    tab.locator("[data-cell=copy]").click()
+    tab.wait_for_function("document.querySelector('[data-cell=copied]').textContent")
+    assert tab.evaluate("getSelection().toString()") == " ".join(COMMAND)
+    copied = []
+    tab.expose_function("keep", lambda text: copied.append(text))  # noqa: PLW0108
+    tab.evaluate("() => { navigator.clipboard.writeText = (text) => keep(text) }")
+    tab.locator("[data-cell=copy]").click()
+    tab.wait_for_function("document.querySelector('[data-cell=copied]').textContent === 'Copied.'")
+    assert copied == [" ".join(COMMAND)]
+
+
+def test_without_scripts_a_score_is_a_score(visit):
+    tab = visit(java_script_enabled=False, fragment=ANCHOR)
+    assert tab.locator("#toy-interpolation-1-mse").is_visible()
+    assert not tab.locator("#cell").is_visible()
