@@ -231,7 +231,7 @@ def test_an_exempt_entrant_is_never_undecided(check):
 )
 def test_limits_and_controls_are_not_ranked_and_a_note_says_so(check, label, reason):
     results = check({"good": GOOD, label: {**CONTROL, "mlc": [0.99] * 4}})
-    assert results.best("one", "mlc") == {"good"}
+    assert results.best_label("one", "mlc") == "good"
     assert f"{label} ({reason}) is not ranked." in score_table(results, "mlc").notes
 
 

@@ -26,9 +26,9 @@ def test_every_row_is_as_wide_as_the_heading(bundle):
             assert {sum(cell.span for cell in row) for row in table.rows} == {len(table.columns)}
 
 
-def test_a_cell_is_the_mean_and_two_standard_deviations(small):
+def test_a_cell_is_the_mean_and_half_its_interval(small):
     found = cell(table_of(small({"row": {"a": [1.0, 3.0], "b": [9.0, 9.0]}}), "mse"), "row", "a")
-    assert (found.text, found.spread, found.kind) == ("2.00", "2.83", "best")
+    assert (found.text, found.spread, found.kind) == ("2.00", "12.71", "best")
 
 
 def test_one_fold_shows_no_spread_and_says_so(small):
@@ -37,44 +37,27 @@ def test_one_fold_shows_no_spread_and_says_so(small):
     assert cell(table, "row", "folds").text == "n=1"
 
 
-def test_best_cells_are_the_least_mean_and_what_no_test_tells_from_it(bundle):
-    results = task_results(bundle, bundle.layouts[0])
-    table = score_table(results, "mse")
+def test_one_cell_of_a_row_is_best_and_it_is_the_least_mean(bundle):
+    table = score_table(task_results(bundle, bundle.layouts[0]), "mse")
     for case, rows in table.data[table.data["label"] != "oracle"].groupby("case"):
-        best = {label for label in rows["label"] if cell(table, case, label).kind == "best"}
-        assert rows.loc[rows["mean"].idxmin(), "label"] in best
-        assert best == set(results.first_rank(case, "mse").labels)
-        assert best == set(rows.loc[rows["first_rank"], "label"])
+        (best,) = (label for label in rows["label"] if cell(table, case, label).kind == "best")
+        assert best == rows.loc[rows["mean"].idxmin(), "label"]
+        assert [best] == rows.loc[rows["best"], "label"].to_list()
 
 
-CLOSE = {"a": [1.0, 1.2, 0.9], "b": [1.1, 1.1, 1.0], "c": [5.0, 5.1, 4.8]}
-
-
-def bold(table):
-    return {c.text for c, v in zip(table.columns, table.rows[0], strict=True) if v.kind == "best"}
-
-
-def test_entrants_not_separable_share_the_rank_and_a_note_names_the_test(small):
-    table = table_of(small({"row": CLOSE}), "mse")
-    assert bold(table) == {"a", "b"}
-    assert table.notes == (
-        "Bold: the best mean of a row, and every mean that the paired t-test with Holm’s "
-        "correction does not separate from it (5 %, n = 3 folds).",
-    )
+CLOSE = {"a": [1.0, 1.2, 0.9, 1.0, 1.1], "b": [1.1, 1.1, 1.0, 1.0, 1.1]}
 
 
 @pytest.mark.parametrize(
-    ("values", "independent", "reason"),
-    [
-        (CLOSE, False, "overlapping windows of one recording count as one unit"),
-        ({label: folds[:1] for label, folds in CLOSE.items()}, True, "one fold"),
-    ],
+    ("n", "independent", "few"), [(5, True, ""), (3, True, "3 folds"), (5, False, "1 case")]
 )
-def test_a_row_of_one_unit_is_not_tested_and_says_so(small, values, independent, reason):
-    table = table_of(small({"row": values}, independent_folds=independent), "mse")
-    assert bold(table) == {"a"}
-    assert cell(table, "row", "folds").note == "no test"
-    assert table.notes == (f"No test: {reason}. Only the best mean of such a row is in bold.",)
+def test_a_note_says_where_units_are_too_few_to_test(small, n, independent, few):
+    values = {label: folds[:n] for label, folds in CLOSE.items()}
+    notes = table_of(small({"row": values}, independent_folds=independent), "mse").notes
+    assert notes[0] == "Bold: the best mean of a row."
+    assert [note.partition(".")[0] for note in notes[1:]] == (
+        [f"Too few to test: rows over {few}"] if few else []
+    )
 
 
 def test_a_failed_cell_leads_to_its_failure(bundle):
@@ -150,8 +133,7 @@ def test_the_tidy_data_hold_full_precision(bundle):
 
 
 @pytest.mark.parametrize(
-    ("independent", "words"),
-    [(True, "mean ± 2 sd over folds"), (False, "mean ± spread over overlapping windows (2 sd)")],
+    ("independent", "words"), [(True, "MSE: mean ± half its 95 % interval,"), (False, "MSE: mean,")]
 )
 def test_the_caption_names_the_spread(small, independent, words):
     bundle = small({"row": {"a": [1.0, 2.0]}}, independent_folds=independent)
@@ -164,12 +146,12 @@ def test_the_caption_says_which_way_is_better(small, metric):
     assert words[metric] in table_of(small({"row": {"a": [1.0]}}, metric=metric), metric).caption
 
 
-def test_scores_of_samples_spread_over_samples(small):
+def test_the_spread_over_samples_is_not_the_interval(small):
     bundle = small({"row": {"a": [1.0, 3.0]}})
     bundle.scores["sample_two_sd"] = [0.4, 0.6]
     table = table_of(bundle, "mse")
-    assert cell(table, "row", "a").spread == "0.50"
-    assert "2 sd over the samples of a fold, averaged over folds" in table.caption
+    assert cell(table, "row", "a").spread == "12.71"
+    assert table.data["sample_two_sd"].to_list() == [0.5]
 
 
 def test_errata_of_columns_that_only_the_paper_has_are_footnotes(small):
