@@ -7,9 +7,19 @@ from urllib.parse import quote
 
 import numpy as np
 
-__all__ = ["MINUS", "cell_anchor", "counted", "decimals", "number", "plus_minus", "slug"]
+__all__ = [
+    "FEWEST_DECIMALS",
+    "MINUS",
+    "cell_anchor",
+    "counted",
+    "decimals",
+    "number",
+    "plus_minus",
+    "slug",
+]
 
 MINUS = "\N{MINUS SIGN}"
+FEWEST_DECIMALS = 2
 
 
 def slug(*names: str) -> str:
@@ -30,8 +40,8 @@ def decimals(values: Iterable[float]) -> int:
     """
     sizes = np.abs(np.array([value for value in values if value != 0.0]))
     if not sizes.size:
-        return 2
-    return int(np.clip(1 - np.floor(np.log10(np.quantile(sizes, 0.1))), 2, 4))
+        return FEWEST_DECIMALS
+    return int(np.clip(1 - np.floor(np.log10(np.quantile(sizes, 0.1))), FEWEST_DECIMALS, 4))
 
 
 def number(value: float, places: int) -> str:

@@ -17,6 +17,7 @@ from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout, TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.paper.published import PublishedTask, PublishedValue, published_values
+from mocapbench.reports.text import decimals
 
 __all__ = ["TaskResults", "task_results"]
 
@@ -55,10 +56,22 @@ class TaskResults:
         ran = set(pd.unique(self.records["case"]))
         return tuple(case for case in self.layout.cases if case.name in ran)
 
-    def lacks_data(self, case: CaseLayout) -> bool:
-        """Return whether no job of ``case`` could run for lack of its recordings."""
-        of_case = self.records.loc[self.records["case"] == case.name, "status"]
-        return bool((of_case == DATA_MISSING).all())
+    @cached_property
+    def without_data(self) -> frozenset[str]:
+        """The names of the cases of which no job could run for lack of its recordings."""
+        statuses: dict[str, set[str]] = {}
+        columns = (self.records[name].tolist() for name in ("case", "status"))
+        for case, status in zip(*columns, strict=True):
+            statuses.setdefault(case, set()).add(status)
+        return frozenset(case for case, found in statuses.items() if found == {DATA_MISSING})
+
+    @cached_property
+    def decimals(self) -> Mapping[str, int]:
+        """With how many decimals the means of each metric are shown."""
+        means: dict[str, list[float]] = {}
+        for (_, _, metric), estimate in self.estimates.items():
+            means.setdefault(metric, []).append(estimate.mean)
+        return {metric: decimals(values) for metric, values in means.items()}
 
     def estimate(self, case: str, label: str, metric: str) -> FoldMean | None:
         """Return the mean over folds, or None where the label has no score."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from markupsafe import Markup
 
@@ -15,9 +15,9 @@ __all__ = ["dot_keys", "key", "line_keys"]
 _WIDTH, _MIDDLE = 28.0, 7.0
 
 
-def line_keys(styles: Iterable[Style]) -> tuple[Key, ...]:
-    """Return a key with a line for each style, named by its label."""
-    return tuple(key(style.label, style, _line()) for style in styles)
+def line_keys(styles: Mapping[str, Style]) -> tuple[Key, ...]:
+    """Return a key with a line for each style, by its name."""
+    return tuple(key(name, style, _line()) for name, style in styles.items())
 
 
 def dot_keys(styles: Iterable[Style]) -> tuple[Key, ...]:

@@ -15,8 +15,18 @@ from numpy.typing import NDArray
 from mocapbench.reports.figures.styles import Style
 
 __all__ = [
-    *("SHAPES", "band", "coordinate", "dot", "group", "horizontal", "polygon", "polyline"),
-    *("rectangle", "segments", "svg", "text", "vertical"),
+    "SHAPES",
+    "band",
+    "coordinate",
+    "dot",
+    "group",
+    "horizontal",
+    "polyline",
+    "rectangle",
+    "segments",
+    "svg",
+    "text",
+    "vertical",
 ]
 
 Array = NDArray[np.float64]
@@ -85,11 +95,6 @@ def band(xs: Array, low: Array, high: Array) -> str:
     return f'<path class="band" d="{"".join(outlines)}"/>'
 
 
-def polygon(points: Sequence[tuple[float, float]], kind: str) -> str:
-    """Return a closed outline."""
-    return f'<path class="{kind}" d="{_run(np.array(points))}z"/>'
-
-
 def rectangle(x: float, y: float, width: float, height: float, kind: str) -> str:
     """Return a rectangle."""
     sides = f"h{coordinate(width)}v{coordinate(height)}h{coordinate(-width)}z"
@@ -108,13 +113,11 @@ def group(style: Style, *marks: str, title: str = "") -> str:
     return f'<g class="{style.classes}"{style.model}>{told}{"".join(marks)}</g>'
 
 
-def svg(
-    width: float, height: float, label: str, marks: Iterable[str], kind: str = "plot"
-) -> Markup:
+def svg(width: float, height: float, label: str, marks: Iterable[str]) -> Markup:
     """Return a drawing with an accessible name."""
     size = f'viewBox="0 0 {coordinate(width)} {coordinate(height)}" width="{coordinate(width)}"'
     return Markup(  # the marks escape what they are given
-        f'<svg class="{kind}" {size} height="{coordinate(height)}" role="img" '
+        f'<svg class="plot" {size} height="{coordinate(height)}" role="img" '
         f'aria-label="{escape(label)}">{"".join(marks)}</svg>'
     )
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["LinearScale", "LogScale", "Scale", "fitted", "remark"]
+__all__ = ["LinearScale", "LogScale", "Scale", "fitted", "linear", "remark"]
 
 Array = NDArray[np.float64]
 
@@ -118,9 +118,22 @@ def fitted(values: Iterable[float], start: float, stop: float) -> Scale:
     start, stop : float
         Where the ends are, in pixels.
     """
-    finite = [value for value in values if math.isfinite(value)] or [0.0, 1.0]
-    low, high = min(finite), max(finite)
+    low, high = _range(values)
     kind = LogScale if low > 0.0 and high > LOG_RANGE * low else LinearScale
+    return _around(kind, low, high, start, stop)
+
+
+def linear(values: Iterable[float], start: float, stop: float) -> Scale:
+    """Return the linear scale that shows ``values``; see `fitted`."""
+    return _around(LinearScale, *_range(values), start, stop)
+
+
+def _range(values: Iterable[float]) -> tuple[float, float]:
+    finite = [value for value in values if math.isfinite(value)] or [0.0, 1.0]
+    return min(finite), max(finite)
+
+
+def _around(kind: type[Scale], low: float, high: float, start: float, stop: float) -> Scale:
     ends = kind.forward(np.array([low, high]))
     margin = MARGIN * float(ends[1] - ends[0]) or 0.05 * abs(low) or 1.0
     low, high = map(float, kind.backward(ends + np.array([-margin, margin])))

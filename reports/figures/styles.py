@@ -10,7 +10,7 @@ from markupsafe import escape
 
 from mocapbench.reports.bundle.layout import TaskLayout
 
-__all__ = ["N_HUES", "N_SHAPES", "TRUTH", "Style", "model_styles"]
+__all__ = ["N_HUES", "N_SHAPES", "TRUTH", "Style", "group_styles", "model_styles"]
 
 N_HUES, N_SHAPES = 10, 6
 REFERENCES = ("trivial",)
@@ -24,7 +24,7 @@ class Style:
     Parameters
     ----------
     hue : str
-        The class of its colour: ``"h0"`` to ``"h9"``, ``"hr"`` (references) or ``"ht"`` (the truth).
+        The class of its colour: ``"h0"`` to ``"h9"``, ``"hr"`` or ``"ht"``.
     shape : int
         Its marker, which also sets the dashes of its lines.
     label : str
@@ -47,6 +47,26 @@ class Style:
 
 
 TRUTH = Style("ht")
+_TRUTHS = ("truth", "true parent", "in the file")
+
+
+def group_styles(groups: Sequence[str], models: Mapping[str, Style]) -> Mapping[str, Style]:
+    """Return the style of each group of curves: that of its model, ink for the truth, else any.
+
+    Parameters
+    ----------
+    groups : sequence of str
+        In order of appearance.
+    models : mapping of str to Style
+        As `model_styles` returns them.
+    """
+    others = [group for group in groups if group not in models and group not in _TRUTHS]
+    places = {group: place for place, group in enumerate(others)}
+    truths = dict.fromkeys(_TRUTHS, TRUTH)
+    anonymous = {
+        group: Style(f"h{place % N_HUES}", place % N_SHAPES) for group, place in places.items()
+    }
+    return {group: {**models, **truths, **anonymous}[group] for group in groups}
 
 
 def model_styles(layouts: Sequence[TaskLayout]) -> Mapping[str, Style]:

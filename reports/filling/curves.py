@@ -2,43 +2,48 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from markupsafe import Markup
-from matplotlib import rc_context
-from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
-from mocapbench.reports.figures.line_styles import SMALLEST_SCALE, line_swatch
-from mocapbench.reports.figures.svg import LEVELS, PALETTE, STYLE, svg_element
+from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes
+from mocapbench.reports.figures.legend import key
+from mocapbench.reports.figures.marks import band, group, horizontal, polyline, rectangle
+from mocapbench.reports.figures.pictures.thinning import thinned
+from mocapbench.reports.figures.scale import linear
+from mocapbench.reports.figures.styles import TRUTH, Style
 from mocapbench.reports.figures.svg_figure import Key
 from mocapbench.reports.filling.values import FilledCurve
 from mocapbench.reports.printable import printable
 from mocapbench.reports.text import counted
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 __all__ = ["draw_curve", "legend"]
 
-WIDTH, HEIGHT = 5.2, 1.9
-VISIBLE, FILLED = PALETTE[0], PALETTE[1]
-SHADE = LEVELS[3]
+HEIGHT = 120.0
+FILLED = Style("h0", 1)
 _WITHIN_95 = 1.96
 
+Array = NDArray[np.float64]
 
-def draw_curve(curve: FilledCurve, prefix: str) -> Markup:
-    """Return a channel as an SVG element; the ids of its parts start with ``prefix``."""
-    with rc_context(STYLE):
-        figure = Figure(figsize=(WIDTH, HEIGHT), layout="constrained")
-        _draw(figure.subplots(), curve)
-        return svg_element(
-            figure,
-            prefix,
-            role="img",
-            aria_label=_described(curve),
-            style=f"min-width: {SMALLEST_SCALE * WIDTH:.2f}in",
-        )
+
+def draw_curve(curve: FilledCurve) -> Markup:
+    """Return a channel as an SVG element."""
+    half = _WITHIN_95 * curve.deviation
+    low, high = curve.filled - half, curve.filled + half
+    x = linear(curve.times, LEFT, WIDTH)
+    values = np.concatenate([curve.visible, curve.filled, low, high])
+    y = linear(values, TOP + HEIGHT, TOP)
+    axes = Axes(x, y, printable(curve.channel), "time, s", printable(curve.unit))
+    marks = [
+        *(_gap(axes, *gap) for gap in curve.gaps),
+        group(
+            FILLED,
+            band(x.places(curve.times), y.places(low), y.places(high)),
+            _line(axes, curve.times, _joined(curve)),
+        ),
+        group(TRUTH, _line(axes, curve.times, curve.visible)),
+    ]
+    return axes.draw(marks, _described(curve))
 
 
 def _described(curve: FilledCurve) -> str:
@@ -48,31 +53,25 @@ def _described(curve: FilledCurve) -> str:
 
 def legend() -> tuple[Key, ...]:
     """Return the keys that all curves share."""
+    line = horizontal(0.0, 28.0, 7.0, "line")
     return (
-        Key("in the file", line_swatch("key-visible", color=VISIBLE, linestyle="-")),
-        Key(
-            "filled, with its 95 % band if there is one",
-            line_swatch("key-filled", color=FILLED, linestyle="--"),
-        ),
-        Key("gap", line_swatch("key-gap", color=SHADE, linewidth=8.0)),
+        key("in the file", TRUTH, line),
+        key("filled, with its 95 % band if there is one", FILLED, line),
+        key("gap", TRUTH, rectangle(0.0, 0.0, 28.0, 14.0, "shade")),
     )
 
 
-def _draw(axes: Axes, curve: FilledCurve) -> None:
-    for first, last in curve.gaps:
-        axes.axvspan(first, last, color=SHADE, alpha=0.5, linewidth=0.0)
-    half = _WITHIN_95 * curve.deviation
-    low, high = curve.filled - half, curve.filled + half
-    axes.fill_between(curve.times, low, high, color=FILLED, alpha=0.25, linewidth=0.0)
-    axes.plot(curve.times, curve.visible, color=VISIBLE, linewidth=1.1)
-    axes.plot(curve.times, _joined(curve), color=FILLED, linewidth=1.3, linestyle="--")
-    axes.set(xlabel="time, s", ylabel=printable(curve.unit))
-    axes.set_title(printable(curve.channel), fontsize=10, loc="left")
-    axes.grid(axis="y", linewidth=0.6)
-    axes.margins(x=0.01)
+def _gap(axes: Axes, first: float, last: float) -> str:
+    """Return the shade of a gap, cut where the axis ends."""
+    start, stop = (axes.x.place(min(max(t, axes.x.low), axes.x.high)) for t in (first, last))
+    return rectangle(start, TOP, stop - start, HEIGHT, "shade")
 
 
-def _joined(curve: FilledCurve) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def _line(axes: Axes, times: Array, values: Array) -> str:
+    return polyline(*thinned(np.stack([axes.x.places(times), axes.y.places(values)], axis=1)).T)
+
+
+def _joined(curve: FilledCurve) -> Array:
     """Return the filled values, joined to the visible ones beside them."""
     filled = ~np.isnan(curve.filled)
     beside = np.zeros_like(filled)

@@ -8,7 +8,7 @@ from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from mocapbench.reports.bundle.panels import Illustration
-from mocapbench.reports.figures.panels import draw
+from mocapbench.reports.figures.pictures.panels import draw
 from mocapbench.reports.filling.curves import draw_curve, legend
 from mocapbench.reports.filling.values import FilledPage
 from mocapbench.reports.page.resources import styles
@@ -28,7 +28,7 @@ def render_filled(page: FilledPage) -> str:
     template = environment.from_string(_resource("mocapbench.reports.filling", "page.html.j2"))
     return template.render(
         page=page,
-        curves=[draw_curve(curve, f"curve-{place}") for place, curve in enumerate(page.curves)],
+        curves=[draw_curve(curve) for curve in page.curves],
         legend=legend(),
         motion=_motion(page),
         rows=_rows(page),
@@ -43,7 +43,7 @@ def _resource(package: str, name: str) -> str:
 def _motion(page: FilledPage) -> Markup | None:
     if page.motion is None:
         return None
-    return draw(Illustration("filled", "Motion", "", (page.motion,))).svg
+    return draw(Illustration("filled", "Motion", "", (page.motion,)), {}).svg
 
 
 def _rows(page: FilledPage) -> list[tuple[str, ...]]:

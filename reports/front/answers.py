@@ -11,7 +11,6 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.bundle.questions import QUESTIONS, Question
 from mocapbench.reports.front.board_cells import board_cells, first_metric, reference_of
-from mocapbench.reports.scores.build import metric_places
 from mocapbench.reports.text import number, slug
 
 __all__ = ["Answer", "Finding", "answers"]
@@ -104,13 +103,13 @@ def _next(ranked: Ranked) -> Standing | None:
 
 
 def _mean(results: TaskResults, standing: Standing) -> str:
-    return number(standing.mean, metric_places(results, first_metric(results)))
+    return number(standing.mean, results.decimals[first_metric(results)])
 
 
 def _margin(results: TaskResults, second: Standing) -> str:
     if math.isnan(second.low):
         return ""
-    places = metric_places(results, first_metric(results))
+    places = results.decimals[first_metric(results)]
     low, high = number(second.low, places), number(second.high, places)
     return f" (behind by {low} to {high})"
 

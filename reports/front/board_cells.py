@@ -12,7 +12,6 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.front.board import SHADES, BoardCell
-from mocapbench.reports.scores.build import metric_places
 from mocapbench.reports.text import cell_anchor, number
 
 __all__ = ["board_cells", "first_metric", "reference_of"]
@@ -60,7 +59,7 @@ def _cell(
 ) -> BoardCell:
     total = len(results.representative_cases(metric))
     link = cell_anchor(results.layout.name, "", label)
-    text = number(mean, metric_places(results, metric))
+    text = number(mean, results.decimals[metric])
     if label not in ranked:
         return BoardCell(text, mean, link=link)
     info, own = results.metrics[metric], ranked[label]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.reports.bundle.motions import Motions
+from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.motions.encoding import encode, resolution
 from mocapbench.reports.text import slug
 
@@ -40,8 +42,9 @@ class PlayerFigure:
     data: dict[str, Any]
 
 
-def draw(picture: Motions) -> PlayerFigure:
-    """Return ``picture`` as a figure of the page."""
+def draw(picture: Motions, models: Mapping[str, Style]) -> PlayerFigure:
+    """Return ``picture`` as a figure of the page; hues tell the two motions shown apart."""
+    del models
     names = list(picture.truths)
     data = {
         "frames": len(picture.hidden),

@@ -9,9 +9,10 @@ from mocapbench.reports.analysis.ranks import ranks_over_units
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.pictures import Picture
-from mocapbench.reports.figures.along import curves_along
-from mocapbench.reports.figures.draw import draw
-from mocapbench.reports.figures.ranks import rank_figure
+from mocapbench.reports.figures.pictures.draw import draw
+from mocapbench.reports.figures.scores.along import curves_along
+from mocapbench.reports.figures.scores.dots import dot_plot
+from mocapbench.reports.figures.scores.ranks import rank_figure
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.motions.player import PlayerFigure
@@ -115,16 +116,19 @@ def task_view(
     """
     layout, first = results.layout, results.layout.page.metrics[0]
     ran = {case.name for case in results.cases}
-    pictures = [draw(picture) for picture in illustrations if picture.task == layout.name]
+    pictures = [draw(picture, styles) for picture in illustrations if picture.task == layout.name]
     return TaskView(
         id=slug("task", layout.name),
         layout=layout,
         leads=[*lead_headlines(results, first), *published_headlines(results, first)],
         wins=win_headlines(results, first),
         metrics=[_metric_view(results, metric, styles) for metric in layout.page.metrics],
-        figures=_figures(results, first),
+        figures=_figures(results, first, styles),
         players=[drawn for drawn in pictures if isinstance(drawn, PlayerFigure)],
-        pictures=[drawn for drawn in pictures if isinstance(drawn, SvgFigure)],
+        pictures=[
+            *_folded(results, first, styles),
+            *(drawn for drawn in pictures if isinstance(drawn, SvgFigure)),
+        ],
         summaries=_summaries(results, first),
         not_run=[case.heading for case in layout.cases if case.name not in ran],
         notes=task_notes(results, shared),
@@ -138,14 +142,20 @@ def _metric_view(results: TaskResults, metric: str, styles: Mapping[str, Style])
     return MetricView(title, score_table(results, metric, styles), None)
 
 
-def _figures(results: TaskResults, metric: str) -> list[SvgFigure]:
+def _figures(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> list[SvgFigure]:
     """Return curves along a column where the page names one, and ranks where these separate."""
     along = results.layout.page.along
-    curves = curves_along(results, metric, along) if along else None
+    curves = curves_along(results, metric, along, styles) if along else None
     ranks, title = ranks_over_units(results, metric), results.metrics[metric].title
-    name = slug(results.layout.name, metric)
-    diagram = rank_figure(ranks, f"{title}, ranks over {ranks.unit}s", name) if ranks else None
+    diagram = rank_figure(ranks, f"{title}, ranks over {ranks.unit}s", styles) if ranks else None
     return [figure for figure in (curves, diagram) if figure is not None]
+
+
+def _folded(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> list[SvgFigure]:
+    """Return the scores case by case, unless they stand along a column or are of pairs."""
+    page = results.layout.page
+    plot = None if page.along or page.crossed else dot_plot(results, metric, styles)
+    return [] if plot is None else [plot]
 
 
 def _summaries(results: TaskResults, first: str) -> list[Table]:

@@ -12,14 +12,9 @@ from mocapbench.reports.scores.drawing import Drawing
 from mocapbench.reports.scores.published import published_rows
 from mocapbench.reports.scores.rows import Rows
 from mocapbench.reports.scores.table import CaseHead, ScoreRow, ScoreTable
-from mocapbench.reports.text import counted, decimals, slug
+from mocapbench.reports.text import FEWEST_DECIMALS, counted, slug
 
-__all__ = ["metric_places", "score_table"]
-
-
-def metric_places(results: TaskResults, metric: str) -> int:
-    """Return how many decimals the means of ``metric`` are shown with."""
-    return decimals(e.mean for (_, _, name), e in results.estimates.items() if name == metric)
+__all__ = ["score_table"]
 
 
 def score_table(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> ScoreTable:
@@ -61,7 +56,7 @@ def _head(results: TaskResults, case: CaseLayout) -> CaseHead:
     facts = [
         f"{name} {value}" for name, value in case.columns.items() if str(value) not in case.name
     ]
-    lacking = "recording missing" if results.lacks_data(case) else ""
+    lacking = "recording missing" if case.name in results.without_data else ""
     generated = "generated" if case.synthetic and "synthetic" not in case.name else ""
     return CaseHead(case.name, tuple(filter(None, (*facts, generated, lacking))))
 
@@ -73,6 +68,6 @@ def _rows(
     shown: Sequence[CaseLayout],
     drawing: Drawing,
 ) -> Iterator[ScoreRow]:
-    places = metric_places(results, metric)
+    places = results.decimals.get(metric, FEWEST_DECIMALS)
     yield from Rows(results, metric, tuple(counting), tuple(shown), places, drawing)
     yield from published_rows(results, metric, counting, shown, places)

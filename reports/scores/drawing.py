@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Self
 
+import numpy as np
 from markupsafe import Markup
 
 from mocapbench.reports.analysis.results import TaskResults
@@ -48,14 +50,14 @@ class Drawing:
         styles: Mapping[str, Style],
     ) -> Self:
         """Return the drawing of the scores of ``metric`` in ``cases``."""
-        names = {case.name for case in cases}
-        scores = results.scores[results.scores["metric"] == metric]
-        scores = scores[scores["case"].isin(names)]
-        values = {
-            str(label): group.to_list()
-            for label, group in scores.groupby("label", sort=False)["value"]
+        grid, names = results.grid, [case.name for case in cases]
+        chosen = grid.select(metric, grid.labels, [name for name in names if name in grid.cases])
+        flat = {
+            label: row[np.isfinite(row)].tolist()
+            for label, row in zip(grid.labels, chosen.reshape(len(grid.labels), -1), strict=True)
         }
-        scale = strip_scale(scores["value"]) if values else None
+        values = {label: row for label, row in flat.items() if row}
+        scale = strip_scale(chain.from_iterable(values.values())) if values else None
         return cls(values, scale, styles, results.layout.independent_folds)
 
     @property

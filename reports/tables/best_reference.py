@@ -13,7 +13,6 @@ import pandas as pd
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.scores.build import metric_places
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.text import number, plus_minus, slug
 
@@ -69,7 +68,7 @@ def _cell(results: TaskResults, case: str, label: str, metric: str) -> Cell:
     estimate = results.estimate(case, label, metric)
     if estimate is None:
         return ABSENT
-    places = metric_places(results, metric)
+    places = results.decimals[metric]
     spread = plus_minus(estimate.sample_two_sd, places)
     kind = "best" if label == results.best_label(case, metric) else ""
     return Cell(number(estimate.mean, places), spread=spread, kind=kind)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable, Mapping
+from statistics import fmean, median
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -26,12 +29,9 @@ def cost_table(results: TaskResults) -> Table | None:
     done = results.records[results.records["status"] == "ok"]
     if done.empty:
         return None
+    by_label = dict(iter(done.astype(object).groupby("label", sort=False)))
     data = pd.DataFrame(
-        [
-            _cost(label, done[done["label"] == label])
-            for label in results.layout.labels
-            if label in set(done["label"])
-        ]
+        [_cost(label, by_label[label]) for label in results.layout.labels if label in by_label]
     )
     shown = _columns(data)
     return Table(
@@ -54,17 +54,28 @@ def _columns(data: pd.DataFrame) -> dict[str, tuple[Cell, ...]]:
 
 
 def _cost(label: str, jobs: pd.DataFrame) -> dict[str, object]:
-    converged = jobs["converged"].dropna()
+    converged = _known(jobs["converged"])
     return {
         "label": label,
         "jobs": len(jobs),
-        "fit_seconds": jobs["fit_seconds"].dropna().astype(float).median(),
-        "predict_seconds": jobs["predict_seconds"].dropna().astype(float).median(),
-        "peak_memory_mb": jobs["peak_memory_mb"].astype(float).max(),
-        "iterations": jobs["iterations"].dropna().astype(float).median(),
-        "converged": float(converged.astype(float).mean()) if len(converged) else np.nan,
+        "fit_seconds": _median(jobs["fit_seconds"]),
+        "predict_seconds": _median(jobs["predict_seconds"]),
+        "peak_memory_mb": max(_known(jobs["peak_memory_mb"]), default=math.nan),
+        "iterations": _median(jobs["iterations"]),
+        "converged": fmean(converged) if converged else math.nan,
         "engine": "; ".join(dict.fromkeys(filter(None, jobs["engine"]))),
     }
+
+
+def _median(values: pd.Series[Any]) -> float:
+    """Return the median of what is known, NaN where nothing is."""
+    known = _known(values)
+    return median(known) if known else math.nan
+
+
+def _known(values: pd.Series[Any]) -> list[float]:
+    numbers = (math.nan if value is None else float(value) for value in values.tolist())
+    return [number for number in numbers if math.isfinite(number)]
 
 
 def _cost_row(row: Mapping[Hashable, float]) -> tuple[Cell, ...]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.paper.published import PublishedValue
-from mocapbench.reports.scores.build import metric_places
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.tables.letters import letters
 from mocapbench.reports.text import cell_anchor, number, slug
@@ -57,7 +56,7 @@ def _cell(results: TaskResults, case: CaseLayout | None, metric: str, lettered: 
     estimate = results.estimate(case.name, label, metric)
     if estimate is None:
         return Cell("missing", kind="trouble")
-    places = metric_places(results, metric)
+    places = results.decimals[metric]
     note = _note(results.published_value(case, label, metric), places, lettered)
     link = "" if note else cell_anchor(results.layout.name, case.name, label)
     return Cell(number(estimate.mean, places), note=note, link=link)

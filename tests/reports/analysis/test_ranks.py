@@ -7,8 +7,10 @@ from mocapbench.reports.analysis.ranks import ranks_over_tasks, ranks_over_units
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.units import FEWEST_UNITS
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.figures.ranks import rank_figure
+from mocapbench.reports.figures.scores.ranks import rank_figure
+from mocapbench.reports.figures.styles import Style
 
+STYLES = {label: Style("h0", 0, label) for label in "abcd"}
 ORDERED = {
     f"row {number}": {"a": [1.0 * number], "b": [2.0 * number], "c": [3.0 * number]}
     for number in range(1, 9)
@@ -36,7 +38,7 @@ def test_an_entrant_without_a_score_in_every_case_is_left_out_and_named(small):
     values = {**ORDERED, "row 1": {**ORDERED["row 1"], "d": [0.5]}}
     ranks = ranks_over_units(results_of(small(values)), "mse")
     assert (ranks.labels, ranks.left_out) == (("a", "b", "c"), ("d",))
-    assert "Left out, without every score: d." in rank_figure(ranks, "t", "n").caption
+    assert "Left out, without every score: d." in rank_figure(ranks, "t", STYLES).caption
 
 
 @pytest.mark.parametrize(
@@ -93,7 +95,7 @@ def test_few_tasks_are_not_ranked(small):
 
 
 def test_the_diagram_names_its_groups_in_words(small):
-    drawing = rank_figure(ranks_over_units(results_of(small(ORDERED)), "mse"), "MSE", "small mse")
+    drawing = rank_figure(ranks_over_units(results_of(small(ORDERED)), "mse"), "MSE", STYLES)
     assert "Not separable, joined by a bar: a, b; b, c." in drawing.caption
     assert 'aria-label="MSE: mean ranks of 3 entrants over 8 folds"' in drawing.svg
     names = re.findall(r">([abc])</text>", drawing.svg)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from scipy import stats
 
 from mocapbench.reports.figures.axes import written
 from mocapbench.reports.figures.intervals import centre, interval
@@ -61,8 +62,6 @@ def test_an_axis_that_spans_little_says_so():
 
 @given(values=st.lists(st.floats(0.01, 100.0), min_size=2, max_size=12))
 def test_the_interval_of_the_logarithm_has_its_closed_form(values):
-    from scipy import stats
-
     assume(np.ptp(np.log(values)) > 1e-6)
     expected = stats.ttest_1samp(np.log(values), 0.0).confidence_interval(0.95)
     scale = LogScale(0.001, 1000.0, 0.0, 1.0)

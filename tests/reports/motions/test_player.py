@@ -1,7 +1,7 @@
 import numpy as np
 
 from mocapbench.reports import Motion, Motions
-from mocapbench.reports.figures.draw import draw
+from mocapbench.reports.figures.pictures.draw import draw
 
 PARENTS = (-1, 0, 0, 0, 3)
 JOINTS = ("root", "lfemur", "rfemur", "lowerback", "head")

@@ -6,7 +6,7 @@ import pytest
 from mocapbench.benchmark import MODELS, TASKS, Internals, Request, Solved, archive_at, plan
 from mocapbench.benchmark.runs.solve import solve
 from mocapbench.reports import Motions
-from mocapbench.reports.figures.draw import draw
+from mocapbench.reports.figures.pictures.draw import draw
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.motions.player import PlayerFigure
 
@@ -76,7 +76,7 @@ def test_every_figure_of_a_page_draws(stored):
     shown = [picture for of_figure in pictures for picture in of_figure]
     assert {picture.task for picture in shown} == {task.name}
     assert len({picture.title for picture in shown}) == len(shown)
-    drawn = [draw(picture) for picture in shown]
+    drawn = [draw(picture, {}) for picture in shown]
     assert all("<svg" in figure.svg for figure in drawn if isinstance(figure, SvgFigure))
     assert [figure.labels for figure in drawn if isinstance(figure, PlayerFigure)] == [
         tuple(answers) for picture in shown if isinstance(picture, Motions)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import singledispatch
 
 from mocapbench.reports.bundle.pictures import HeatMaps, Illustration, Motions, Picture, Space
-from mocapbench.reports.figures import heat_maps, panels, spaces
+from mocapbench.reports.figures.pictures import heat_maps, panels, spaces
+from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.motions import player
 from mocapbench.reports.motions.player import PlayerFigure
@@ -14,14 +16,15 @@ __all__ = ["draw"]
 
 
 @singledispatch
-def draw(picture: Picture) -> SvgFigure | PlayerFigure:
-    """Return ``picture`` as a figure of the page.
+def draw(picture: Picture, models: Mapping[str, Style]) -> SvgFigure | PlayerFigure:
+    """Return ``picture`` as a figure of the page, models in their styles.
 
     Raises
     ------
     TypeError
         If it is none of the kinds of picture.
     """
+    del models
     raise TypeError(
         f"expected an Illustration, HeatMaps, a Space or Motions, got {type(picture).__name__}"
     )

@@ -1,0 +1,1 @@
+"""Pictures of tasks: curves, matrices and paths through space."""

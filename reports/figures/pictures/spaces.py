@@ -1,0 +1,138 @@
+"""Draw paths through a cloud of points: two views as marks, and a canvas that turns.
+
+Without a script the two views are all there is.
+"""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from markupsafe import Markup
+from numpy.typing import NDArray
+
+from mocapbench.reports.bundle.spaces import Path3D, Space
+from mocapbench.reports.figures.axes import WIDTH, panels
+from mocapbench.reports.figures.legend import key, line_keys
+from mocapbench.reports.figures.marks import dot, group, polyline, svg
+from mocapbench.reports.figures.pictures.thinning import thinned
+from mocapbench.reports.figures.styles import Style, group_styles
+from mocapbench.reports.figures.svg_figure import Key, SvgFigure
+from mocapbench.reports.text import counted
+
+__all__ = ["draw", "projection"]
+
+SIDE = 300.0
+VIEWS = ((22.0, -60.0), (22.0, 30.0))
+"""Elevation and azimuth of each view, in degrees."""
+SHOWN = 0.9
+"""Points of the cloud whose values are below this quantile are left out."""
+CLOUD = range(5, 9)
+"""The levels of the cloud."""
+_REACH = 32767
+
+Array = NDArray[np.float64]
+Styles = Mapping[str, Style]
+
+
+def draw(space: Space, models: Styles) -> SvgFigure:
+    """Return ``space`` as a figure: its paths, and the highest tenth of its cloud."""
+    styles = group_styles(tuple(dict.fromkeys(path.group for path in space.paths)), models)
+    cloud, levels = _shown(space)
+    scaled = _scaled(space, cloud)
+    paths = [Path3D(scaled(path.points), path.group) for path in space.paths]
+    views = [
+        svg(SIDE, SIDE, _described(space, view), _seen(paths, scaled(cloud), levels, styles, view))
+        for view in VIEWS
+    ]
+    turning = _canvas(space, paths, scaled(cloud), levels, styles)
+    legend = (*line_keys(styles), *_level_keys(space))
+    return SvgFigure(space.title, panels([turning, *views]), legend, space.caption)
+
+
+def _described(space: Space, view: tuple[float, float]) -> str:
+    sides = f"elevation {view[0]:g}°, azimuth {view[1]:g}°"
+    return f"{space.title}: {counted(len(space.paths), 'path')}, {sides}"
+
+
+def projection(elevation: float, azimuth: float) -> Array:
+    """Return the map (3, 2) from space to right and up, seen from two angles in degrees."""
+    up, around = np.deg2rad([elevation, azimuth])
+    right = [-np.sin(around), np.cos(around), 0.0]
+    above = [-np.sin(up) * np.cos(around), -np.sin(up) * np.sin(around), np.cos(up)]
+    return np.array([right, above]).T
+
+
+def _edges(space: Space) -> Array:
+    """Return the lower ends of the levels, of equal width over the highest tenth of values."""
+    low, high = np.quantile(space.values, SHOWN), space.values.max()
+    return np.linspace(low, high, len(CLOUD) + 1)[:-1]
+
+
+def _shown(space: Space) -> tuple[Array, NDArray[np.intp]]:
+    """Return the points of the cloud that are shown, and their levels."""
+    places = np.searchsorted(_edges(space), space.values, side="right") - 1
+    return space.cloud[places >= 0], places[places >= 0] + CLOUD.start
+
+
+def _scaled(space: Space, cloud: Array) -> Callable[[Array], Array]:
+    """Return the map of each axis onto [−1, 1]."""
+    points = np.concatenate([cloud, *(path.points for path in space.paths)])
+    low, high = np.nanmin(points, axis=0), np.nanmax(points, axis=0)
+    reach = np.where(high > low, high - low, 1.0) / 2.0
+    return lambda of: np.asarray((of - (low + high) / 2.0) / reach)
+
+
+def _seen(
+    paths: list[Path3D],
+    cloud: Array,
+    levels: NDArray[np.intp],
+    styles: Styles,
+    view: tuple[float, float],
+) -> list[str]:
+    """Return the marks of one view."""
+    onto = projection(*view) * [1.0, -1.0]
+    places = SIDE / 2.0 + cloud @ onto * SIDE / 3.6
+    return [
+        *(_points(places[levels == level], level) for level in CLOUD),
+        *(
+            group(styles[p.group], polyline(*thinned(SIDE / 2.0 + p.points @ onto * SIDE / 3.6).T))
+            for p in paths
+        ),
+    ]
+
+
+def _points(places: Array, level: int) -> str:
+    commands = "".join(f"M{x:.0f} {y:.0f}h0" for x, y in places)
+    return f'<path class="cloud c{level}" d="{commands}"/>'
+
+
+def _canvas(
+    space: Space, paths: list[Path3D], cloud: Array, levels: NDArray[np.intp], styles: Styles
+) -> Markup:
+    """Return a canvas that a script draws and turns, hidden without one."""
+    data = {
+        "cloud": _packed(cloud),
+        "levels": levels.tolist(),
+        "paths": [[styles[p.group].hue, styles[p.group].label, _packed(p.points)] for p in paths],
+        "view": VIEWS[0],
+    }
+    return Markup(
+        '<canvas class="space" hidden tabindex="0" role="img" width="{0}" height="{0}" '
+        'aria-label="{1}: drag, or press arrows, to turn" data-space="{2}"></canvas>'
+    ).format(int(WIDTH), space.title, json.dumps(data, separators=(",", ":")))
+
+
+def _packed(points: Array) -> str:
+    """Return points of [−1, 1] as 16-bit numbers; NaN as the least of them."""
+    whole = np.nan_to_num(np.rint(points * _REACH), nan=-_REACH - 1.0)
+    return b64encode(whole.astype("<i2").tobytes()).decode()
+
+
+def _level_keys(space: Space) -> list[Key]:
+    return [
+        key(f"{space.value_name} ≥ {edge:.2g}", Style(f"c{level}"), dot(14.0, 7.0))
+        for level, edge in zip(CLOUD, _edges(space), strict=True)
+    ]

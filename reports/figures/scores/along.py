@@ -1,0 +1,130 @@
+"""Scores as curves along a column of numbers, such as the length of a gap."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from markupsafe import Markup
+
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
+from mocapbench.reports.figures.intervals import centre, interval
+from mocapbench.reports.figures.legend import line_keys
+from mocapbench.reports.figures.marks import band, dot, group, polyline
+from mocapbench.reports.figures.scale import Scale, fitted, remark
+from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_values
+from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.svg_figure import SvgFigure
+
+__all__ = ["curves_along"]
+
+HEIGHT, N_BANDS = 220.0, 3
+CAPTION = (
+    "means over folds along {column}. Bands are 95 % intervals of the mean over folds (Student’s "
+    "t), of the {n} models with the least mean; on a logarithmic axis mean and interval are of the "
+    "logarithm. The table has the others’."
+)
+WITHOUT_BANDS = "means over folds along {column}. The folds are not independent: no intervals."
+
+
+def curves_along(
+    results: TaskResults, metric: str, column: str, styles: Mapping[str, Style]
+) -> SvgFigure | None:
+    """Return the means over folds of each entrant as a curve along a column of the cases.
+
+    Parameters
+    ----------
+    results : TaskResults
+    metric : str
+    column : str
+        A column of the cases that holds numbers. Cases that are alike in all other columns share
+        a panel.
+    styles : mapping of str to Style
+
+    Returns
+    -------
+    SvgFigure or None
+        None where no panel has two numbers with scores.
+    """
+    values, alike = fold_values(results, metric), defaultdict(list)
+    scored = {case for case, _ in values}
+    for case in results.cases:
+        if case.name in scored:
+            alike[_heading(case, column)].append(case)
+    groups = {heading: cases for heading, cases in alike.items() if len(cases) > 1}
+    if not groups:
+        return None
+    labels = [label for label in results.layout.labels if any(label == of for _, of in values)]
+    drawn = [
+        _Panel(results, metric, column, values).draw(heading, cases, styles)
+        for heading, cases in groups.items()
+    ]
+    text = CAPTION if results.layout.independent_folds else WITHOUT_BANDS
+    notes = dict.fromkeys(note for _, note in drawn if note)
+    caption = " ".join([text.format(column=column, n=N_BANDS), *notes])
+    legend = line_keys({label: styles[label] for label in labels})
+    title = f"{results.metrics[metric].title} along {column}"
+    return SvgFigure(title, panels(panel for panel, _ in drawn), legend, caption)
+
+
+class _Panel:
+    """One set of axes: the cases that are alike in all columns but one."""
+
+    def __init__(self, results: TaskResults, metric: str, column: str, values: FoldValues) -> None:
+        self.results, self.metric, self.column, self.values = results, metric, column, values
+
+    def draw(
+        self, heading: str, cases: Sequence[CaseLayout], styles: Mapping[str, Style]
+    ) -> tuple[Markup, str]:
+        """Return the panel, and a remark on its axis."""
+        curves = self._curves(cases)
+        y = fitted((v for folds in curves.values() for of in folds.values() for v in of), 0, 1)
+        y = type(y)(y.low, y.high, TOP + HEIGHT, TOP)
+        x = fitted((float(case.columns[self.column]) for case in cases), LEFT, WIDTH)
+        title = self.results.metrics[self.metric].title
+        axes = Axes(x, y, heading, self.column, title)
+        order = sorted(curves, key=lambda label: self._mean_loss(curves[label]))
+        sure = order[:N_BANDS] if self.results.layout.independent_folds else []
+        marks = [
+            *(group(styles[label], _band(curves[label], x, y)) for label in sure),
+            *(group(styles[n], _curve(curves[n], x, y, styles[n]), title=n) for n in curves),
+        ]
+        return axes.draw(marks, f"{title} along {self.column}: {heading}"), remark(y)
+
+    def _curves(self, cases: Sequence[CaseLayout]) -> dict[str, dict[float, list[float]]]:
+        """Return the values by label and place along the column, in ascending order."""
+        ordered = sorted(cases, key=lambda case: float(case.columns[self.column]))
+        curves: dict[str, dict[float, list[float]]] = defaultdict(dict)
+        for label in self.results.layout.labels:
+            for case in ordered:
+                if (case.name, label) in self.values:
+                    place = float(case.columns[self.column])
+                    curves[label][place] = self.values[case.name, label]
+        return curves
+
+    def _mean_loss(self, curve: Mapping[float, Sequence[float]]) -> float:
+        loss = self.results.metrics[self.metric].loss
+        return float(np.mean([loss(float(np.mean(folds))) for folds in curve.values()]))
+
+
+def _curve(curve: Mapping[float, Sequence[float]], x: Scale, y: Scale, style: Style) -> str:
+    places = x.places(np.array(list(curve)))
+    heights = y.places(np.array([centre(folds, y) for folds in curve.values()]))
+    dots = (dot(*point, style.shape) for point in zip(places, heights, strict=True))
+    return "".join([polyline(places, heights), *dots])
+
+
+def _band(curve: Mapping[float, Sequence[float]], x: Scale, y: Scale) -> str:
+    """Return the intervals, cut where the axis ends; a single fold has none."""
+    ends = [interval(folds, y) or (np.nan, np.nan) for folds in curve.values()]
+    low, high = (y.places(np.clip(side, y.low, y.high)) for side in np.array(ends).T)
+    return band(x.places(np.array(list(curve))), low, high)
+
+
+def _heading(case: CaseLayout, column: str) -> str:
+    """Return what the case says in all columns but one."""
+    others = [str(value) for name, value in case.columns.items() if name != column]
+    return ", ".join([*others, "synthetic"] if case.synthetic else others)

@@ -1,0 +1,103 @@
+"""Dot plots: a panel a case, a row a model, the best on top, every fold a tick."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from markupsafe import Markup
+
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
+from mocapbench.reports.figures.intervals import centre, interval
+from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
+from mocapbench.reports.figures.scale import LogScale, Scale, fitted, remark
+from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_values
+from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
+from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.text import counted
+
+__all__ = ["dot_plot", "fold_marks"]
+
+MOST_PANELS = 6
+"""More cases are for the strips of the table, which show them on one scale."""
+INTERVALS = (
+    "ticks are folds, dots means, lines 95 % intervals of the mean (Student’s t) over folds; on a "
+    "logarithmic axis mean and interval are of the logarithm. A single fold has no interval."
+)
+POINTS = (
+    "ticks are folds, dots their means. The folds are overlapping windows of one recording and not "
+    "independent, so there is no interval."
+)
+
+
+def dot_plot(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> SvgFigure | None:
+    """Return a panel for each case; None unless there are two to six, which differ in scale."""
+    values = fold_values(results, metric)
+    scored = {case for case, _ in values}
+    cases = [case for case in results.cases if case.name in scored]
+    if not 1 < len(cases) <= MOST_PANELS:
+        return None
+    drawn = [_panel(results, metric, case, values, styles) for case in cases]
+    caption = INTERVALS if results.layout.independent_folds else POINTS
+    remarks = dict.fromkeys(remark for _, remark in drawn if remark)
+    return SvgFigure(
+        f"{results.metrics[metric].title} by case",
+        panels(panel for panel, _ in drawn),
+        (),
+        " ".join([caption, *remarks]),
+    )
+
+
+def fold_marks(values: Sequence[float], scale: Scale, row: int, shape: int, sure: bool) -> str:
+    """Return ticks, interval and dot of one row; ``sure`` says whether folds give an interval."""
+    y = place_of(row)
+    ends = interval(values, scale) if sure else None
+    low, high = (min(max(end, scale.low), scale.high) for end in ends or (scale.low, scale.low))
+    marks = [
+        horizontal(scale.place(low), scale.place(high), y) if ends else "",
+        vertical(map(scale.place, values), y - 4.0, y + 4.0) if len(values) > 1 else "",
+        dot(scale.place(centre(values, scale)), y, shape),
+    ]
+    return "".join(marks)
+
+
+def _panel(
+    results: TaskResults,
+    metric: str,
+    case: CaseLayout,
+    values: FoldValues,
+    styles: Mapping[str, Style],
+) -> tuple[Markup, str]:
+    """Return the panel of one case, and a remark on its axis."""
+    of_case = {label: folds for (name, label), folds in values.items() if name == case.name}
+    scale = fitted((value for folds in of_case.values() for value in folds), NAMES, WIDTH - 8.0)
+    loss = results.metrics[metric].loss
+    order = sorted(of_case, key=lambda label: loss(centre(of_case[label], scale)))
+    sure, bottom = results.layout.independent_folds, TOP + ROW * len(order)
+    marks = [
+        text(0.0, 13.0, case.heading, "title"),
+        vertical(map(scale.place, scale.ticks(4)), TOP, bottom, "grid"),
+        bottom_axis(scale, bottom, _axis_name(results, metric, scale)),
+        *(
+            row(
+                styles[label],
+                place,
+                fold_marks(of_case[label], scale, place, styles[label].shape, sure),
+                title=_told(label, of_case[label], scale),
+            )
+            for place, label in enumerate(order)
+        ),
+    ]
+    name = f"{results.metrics[metric].title} of {counted(len(order), 'model')}, {case.heading}"
+    return svg(WIDTH, bottom + BOTTOM, name, marks), remark(scale)
+
+
+def _axis_name(results: TaskResults, metric: str, scale: Scale) -> str:
+    kind = ", logarithmic" if isinstance(scale, LogScale) else ""
+    return f"{results.metrics[metric].title}{kind}"
+
+
+def _told(label: str, values: Sequence[float], scale: Scale) -> str:
+    return f"{label}: {centre(values, scale):.4g}, {counted(len(values), 'fold')}"
