@@ -32,7 +32,8 @@ def find_cell(records: Sequence[Record], cell: str) -> Record:
         by_name.setdefault(f"{task}/{case}/{label}", record)
         by_name[f"{task}/{case}/{label}/{(fold or 0) + 1}"] = record
     if cell not in by_name:
-        near = difflib.get_close_matches(cell, by_name, n=3, cutoff=0.4) or list(by_name)[:1]
+        known = [name for name in by_name if name.count("/") == 2] or [*by_name]
+        near = difflib.get_close_matches(cell, known, n=3, cutoff=0.4) or known[:1]
         raise UsageError(
             f"unknown cell {cell!r}: expected TASK/CASE/MODEL or TASK/CASE/MODEL/FOLD of the run, "
             f"such as {' or '.join(map(repr, near))}"

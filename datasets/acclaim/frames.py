@@ -3,16 +3,63 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from io import StringIO
-from itertools import islice
+from itertools import accumulate, islice
 
 from mocapbench.datasets.acclaim.text import Line, finite_floats
 
 __all__ = ["Frame", "Layout", "frames"]
 
-Layout = Sequence[tuple[str, int]]
-"""Segments in the order of the file, each with the number of its degrees of freedom."""
+
+@dataclass(frozen=True)
+class Layout:
+    """What every frame holds.
+
+    Parameters
+    ----------
+    counts : sequence of (str, int)
+        Segments in the order of the file, each with the number of its degrees of freedom.
+    """
+
+    counts: Sequence[tuple[str, int]]
+
+    @cached_property
+    def n_words(self) -> int:
+        """How many words the lines of the segments have."""
+        return sum(1 + count for _, count in self.counts)
+
+    def fits(self, texts: Sequence[str], words: Sequence[str]) -> bool:
+        """Return whether each line of a frame begins with its segment and has as many words.
+
+        Parameters
+        ----------
+        texts, words : sequence of str
+            The lines of the frame, its number first; the words of the others.
+        """
+        if len(words) != self.n_words or not all(map(str.startswith, texts[1:], self._names)):
+            return False
+        return [words[place] for place in self._starts] == self._names
+
+    def numbers(self, words: Sequence[str]) -> list[str]:
+        """Return the words that are not names of segments."""
+        return [words[place] for place in self._places]
+
+    @cached_property
+    def _names(self) -> list[str]:
+        return [name for name, _ in self.counts]
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        sizes = [1 + count for _, count in self.counts]
+        return [0, *accumulate(sizes[:-1])]
+
+    @cached_property
+    def _places(self) -> list[int]:
+        starts = set(self._starts)
+        return [place for place in range(self.n_words) if place not in starts]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +92,7 @@ class Frame:
         ----------
         number : int
             The number that the frame must have.
-        layout : sequence of (str, int)
+        layout : Layout
             The segments that it must have.
 
         Raises
@@ -55,18 +102,25 @@ class Frame:
         """
         if self.texts[0].split() != [str(number)]:
             raise self.line(0).error(f"the frame number {number}")
+        if len(self.texts) > len(layout.counts):
+            words = "".join(self.texts[1:]).split(maxsplit=layout.n_words)
+            with suppress(ValueError):
+                # All numbers of a frame at once: several times as fast as line by line.
+                if layout.fits(self.texts, words):
+                    return finite_floats(layout.numbers(words))
+        return self._line_by_line(layout.counts)
+
+    def _line_by_line(self, layout: Sequence[tuple[str, int]]) -> list[float]:
+        """Return the values of the segments whose lines are there, or name the one that is wrong."""
         shape = layout[: len(self.texts) - 1]
         # No more words than would show that there are too many.
         block = [
             text.split(maxsplit=1 + count)
             for text, (_, count) in zip(self.texts[1:], shape, strict=True)
         ]
-        try:
-            # All numbers of a frame at once: twice as fast as line by line.
+        with suppress(ValueError):
             if all(map(_has_shape, block, shape)):
                 return finite_floats([word for words in block for word in words[1:]])
-        except ValueError:
-            pass
         wrong = next(k for k, words in enumerate(block) if not _is_segment(words, shape[k]))
         name, count = shape[wrong]
         raise self.line(1 + wrong).error(f"segment {name!r} with {count} finite numbers")

@@ -115,7 +115,7 @@ def parse_motion(text: str, skeleton: Skeleton, file: str) -> Motion:
     opening = next(split(), Frame(file, start, ()))
     first = _first(opening)
     segments = _segments(opening, moving)
-    layout = [(name, len(moving[name])) for name in segments]
+    layout = Layout([(name, len(moving[name])) for name in segments])
     rows = _rows(split(), first, layout)
     dof = [name for segment in segments for name in moving[segment]]
     # Numbers go into the array at once: in lists, they would take four times the memory.
@@ -172,10 +172,10 @@ def _rows(split: Iterable[Frame], first: int, layout: Layout) -> Iterator[list[f
     """Yield the values of each whole frame."""
     for number, frame in enumerate(split, first):
         row = frame.values(number, layout)
-        lacking = 1 + len(layout) - len(frame.texts)
+        lacking = 1 + len(layout.counts) - len(frame.texts)
         if lacking:
             warnings.warn(
-                f"{frame.file}: the last frame lacks {lacking} of its {len(layout)} segments "
+                f"{frame.file}: the last frame lacks {lacking} of its {len(layout.counts)} segments "
                 "and was dropped",
                 TruncatedFrameWarning,
                 stacklevel=4,

@@ -6,10 +6,10 @@ memory of the text, as every short string has a header of its own.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
 from io import StringIO
 from math import isfinite
 from pathlib import Path
@@ -22,6 +22,8 @@ __all__ = ["MAX_LINE", "Line", "content_lines", "finite_floats", "name_list", "r
 MAX_LINE = 4096
 """Longest line in bytes that is accepted; the CMU database has lines of about a hundred."""
 
+_LONG_LINE = re.compile(rb"^[^\n]{%d}" % MAX_LINE, re.MULTILINE)
+_CHUNK = 2**16
 _SHOWN = 60
 _SHOWN_NAMES = 400  # all segments of the CMU database's skeletons
 _HUGE = 1e100  # far from where arithmetic on the values could overflow
@@ -115,32 +117,36 @@ def read_text(path: str | Path, max_bytes: int) -> str:
         If the file cannot be opened, is too large, has an over-long line, is empty or is not UTF-8.
     """
     file = str(path)
-    data = bytearray()
     try:
         with Path(path).open("rb") as stream:
-            for line in _bounded_lines(stream, file, max_bytes):
-                data += line
+            data = b"".join(_chunks(stream, max_bytes))
     except OSError as problem:
         raise AcclaimError(file, None, "a readable file", str(problem)) from problem
+    _require_bounded(data, file, max_bytes)
     if not data or data.isspace():
         raise AcclaimError(file, None, "an Acclaim file", "an empty file")
     return _decoded(data, file)
 
 
-def _bounded_lines(stream: BinaryIO, file: str, max_bytes: int) -> Iterator[bytes]:
+def _chunks(stream: BinaryIO, max_bytes: int) -> Iterator[bytes]:
+    """Yield the content of a stream, not much more of it than is accepted."""
     size = 0
-    for number, line in enumerate(iter(partial(stream.readline, MAX_LINE + 1), b""), 1):
-        if len(line) > MAX_LINE:
-            expected = f"a line of at most {MAX_LINE} bytes"
-            raise AcclaimError(file, number, expected, "a longer one")
-        size += len(line)
-        if size > max_bytes:
-            expected = f"a file of at most {max_bytes / 2**20:g} MiB"
-            raise AcclaimError(file, None, expected, "a larger one")
-        yield line
+    while size <= max_bytes and (chunk := stream.read(_CHUNK)):
+        size += len(chunk)
+        yield chunk
 
 
-def _decoded(data: bytearray, file: str) -> str:
+def _require_bounded(data: bytes, file: str, max_bytes: int) -> None:
+    long = _LONG_LINE.search(data)
+    if long:
+        number = data.count(b"\n", 0, long.start()) + 1
+        raise AcclaimError(file, number, f"a line of at most {MAX_LINE} bytes", "a longer one")
+    if len(data) > max_bytes:
+        expected = f"a file of at most {max_bytes / 2**20:g} MiB"
+        raise AcclaimError(file, None, expected, "a larger one")
+
+
+def _decoded(data: bytes, file: str) -> str:
     try:
         return data.decode("utf-8")
     except UnicodeDecodeError as problem:

@@ -7,8 +7,8 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from mocapbench.reports.analysis.comparisons import Comparison
 from mocapbench.reports.analysis.fold_mean import FoldMean
+from mocapbench.reports.analysis.published.comparisons import Comparison
 from mocapbench.reports.analysis.troubles import Trouble
 from mocapbench.reports.bundle.origin import Origin
 

@@ -6,13 +6,13 @@ from collections.abc import Iterable
 
 import pandas as pd
 
-from mocapbench.reports.analysis.published_totals import (
+from mocapbench.reports.analysis.published.totals import (
     Tally,
     published_totals,
     tallies_by_source,
 )
+from mocapbench.reports.analysis.published.verdicts import PublishedVerdict
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.verdicts import PublishedVerdict
 from mocapbench.reports.paper.citations import CITATIONS
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.text import slug

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from mocapbench.reports.analysis.comparisons import Comparison, answers, comparisons
+from mocapbench.reports.analysis.published.comparisons import Comparison, answers, comparisons
+from mocapbench.reports.analysis.published.verdicts import PublishedVerdict, allowance
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.verdicts import PublishedVerdict, allowance
 from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.paper.remarks import PublishedAddress
 from mocapbench.reports.tables.base import Cell, Table, headings

@@ -9,11 +9,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from mocapbench.datasets import GaitLibrary, joint_positions
 from mocapbench.metrics.base import Direction
 from mocapbench.reports import render
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout, TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
+from mocapbench.reports.bundle.motions import Motion, Motions
 from mocapbench.reports.bundle.pictures import Curve, Illustration, Panel
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
@@ -213,6 +215,28 @@ def _values(rng: np.random.Generator, task: TaskLayout, case: int, label: str) -
     return {**values, "msll": 0.5 * np.log(smse), **coverage}
 
 
+def played() -> Motions:
+    """Return a walk whose middle third two models fill, one of them 10 cm too high."""
+    motion = GaitLibrary().motion("01_01")
+    truth = joint_positions(motion.skeleton, motion.recording("walk").frames(range(0, 240, 4)))
+    hidden = (np.arange(60) >= 20) & (np.arange(60) < 40)
+    above, noisy = truth.copy(), truth.copy()
+    above[hidden] += [0.0, 10.0, 0.0]
+    noisy[hidden] += np.random.default_rng(3).normal(size=noisy[hidden].shape)
+    return Motions(
+        task=FRAMES.name,
+        title="Motion",
+        caption="A generated walk.",
+        interval=1 / 30,
+        joints=tuple(segment.name for segment in motion.skeleton.segments),
+        parents=motion.skeleton.parents,
+        hidden=hidden,
+        truths={"truth": truth},
+        motions=(Motion("noisy", noisy), Motion("above", above)),
+        beside="above",
+    )
+
+
 @pytest.fixture(scope="session")
 def bundle() -> Bundle:
     rng = np.random.default_rng(7)
@@ -251,7 +275,7 @@ def bundle() -> Bundle:
                 "The database was created with funding from NSF EIA-0196217."
             ),
         },
-        illustrations=(FILLED,),
+        illustrations=(FILLED, played()),
     )
 
 

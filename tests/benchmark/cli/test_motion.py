@@ -121,7 +121,7 @@ def test_markers_have_no_joint_angles(cli, samples, tmp_path):
         (f"{FILL}/synthetic walk/nn", f"such as '{CELL}'"),
         (f"{CELL}/2", "unknown cell"),
         ("", "expected TASK/CASE/MODEL"),
-        ("style-clustering/synthetic C = 4/k-means", "fills or invents motion"),
+        ("style-clustering/synthetic C = 2/k-means", "fills or invents motion"),
     ],
 )
 def test_a_cell_that_has_no_motion_is_named(cli, fills, tmp_path, cell, told):

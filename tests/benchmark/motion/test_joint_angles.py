@@ -32,7 +32,7 @@ def motion(request):
 
 def test_an_amc_file_has_the_values(motion):
     skeleton, recording = motion
-    read = parse_motion(amc_text(skeleton, recording), skeleton).recording("walk")
+    read = parse_motion(amc_text(skeleton, recording), skeleton, "walk.amc").recording("walk")
     again = root_differences(read) if "root.dtx" in recording.channels else read
     values = again.select(recording.channels).values
     # The last difference of a path repeats the one before, as it does in what is written.

@@ -27,6 +27,7 @@ def test_a_layout_has_the_page_of_its_task_and_a_row_per_case(made):
     assert [(c.name, c.columns, c.synthetic) for c in layout.cases] == [
         (case.name, case.columns, case.synthetic) for case in TASK.cases
     ]
+    assert [case.subjects for case in layout.cases] == [("07",), ()]
     assert [case.notes.published for case in layout.cases] == ["subject 07 walk", None]
 
 

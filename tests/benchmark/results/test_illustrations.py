@@ -38,7 +38,9 @@ def _change_page(**changes):
 
 
 def test_a_report_shows_what_was_filled(finished, store):
-    (illustration,) = illustrations(store.records(), store, archive_at(None))
+    motion, illustration = illustrations(store.records(), store, archive_at(None))
+    assert {made.label for made in motion.motions} == {"nn", "trivial"}
+    assert motion.beside != motion.motions[0].label
     assert illustration.task == "upper-body-missing"
     assert set(illustration.groups) == {"truth", "nn", "trivial"}
     assert illustration.title == "Filled channels: synthetic walks (synthetic)"

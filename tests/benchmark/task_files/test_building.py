@@ -112,6 +112,21 @@ def test_recordings_of_one_name_keep_their_suffixes(folder, check):
     assert [case.name for case in task.cases] == ["b.csv", "b.CSV"]
 
 
+def test_files_named_like_cmus_tell_their_subject_and_others_count_for_themselves(folder, check):
+    for name in ("35_01", "35_02"):
+        write_csv(folder / f"{name}.csv")
+    task = build_task(check(TEXT.format("none")))
+    assert {case.name: case.subjects for case in task.cases} == {
+        **{"35_01": ("35",), "35_02": ("35",)},
+        **{"a": ("a.csv",), "b": ("b.csv",)},
+    }
+
+
+def test_draws_on_one_recording_have_no_subject(check):
+    (case,) = build_task(check(TEXT.format("none").replace("*.csv", "a.csv"))).cases
+    assert case.subjects == ()
+
+
 def keys(check, text):
     task = build_task(check(text))
     case = task.cases[0]

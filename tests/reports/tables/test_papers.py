@@ -1,6 +1,6 @@
 import pytest
 
-from mocapbench.reports.analysis.published_totals import published_totals
+from mocapbench.reports.analysis.published.totals import published_totals
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.paper.published import every_value
 from mocapbench.reports.tables.base import ABSENT

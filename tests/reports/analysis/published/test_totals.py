@@ -2,14 +2,14 @@ from collections import Counter
 
 import pytest
 
-from mocapbench.reports.analysis.comparisons import answers, every_comparison
-from mocapbench.reports.analysis.published_totals import (
+from mocapbench.reports.analysis.published.comparisons import answers, every_comparison
+from mocapbench.reports.analysis.published.totals import (
     published_totals,
     tallies_by_source,
     tally,
 )
+from mocapbench.reports.analysis.published.verdicts import PublishedVerdict
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.analysis.verdicts import PublishedVerdict
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.bundle.task_page import RowNotes
 from mocapbench.reports.paper.published import every_value, published_values

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from itertools import product
 
 from mocapbench.reports.analysis.fold_mean import FoldMean
+from mocapbench.reports.analysis.published.verdicts import PublishedVerdict, verdict
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.verdicts import PublishedVerdict, verdict
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.paper.remarks import PublishedAddress

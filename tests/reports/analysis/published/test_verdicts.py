@@ -5,10 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.metrics.base import Direction
-from mocapbench.reports.analysis.comparisons import comparisons
-from mocapbench.reports.analysis.published_totals import tally
+from mocapbench.reports.analysis.published.comparisons import comparisons
+from mocapbench.reports.analysis.published.totals import tally
+from mocapbench.reports.analysis.published.verdicts import PublishedVerdict, allowance, verdict
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.analysis.verdicts import PublishedVerdict, allowance, verdict
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.task_page import RowNotes

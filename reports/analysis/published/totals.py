@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from mocapbench.reports.analysis.comparisons import answers, never_comparable
+from mocapbench.reports.analysis.published.comparisons import answers, never_comparable
+from mocapbench.reports.analysis.published.verdicts import PublishedVerdict
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.verdicts import PublishedVerdict
 from mocapbench.reports.paper.published import PublishedValue, every_value
 from mocapbench.reports.paper.remarks import PublishedAddress
 
