@@ -206,7 +206,7 @@ smse = Metric(
 )
 smse_pooled = Metric(
     "smse_pooled",
-    "Standardised MSE, pooled (SMSE)",
+    "Standardised MSE of all channels together (pooled SMSE)",
     Direction.LOWER,
     Imputation,
     pooled_standardised_error,

@@ -56,7 +56,7 @@ class MetricInfo:
     @property
     def short(self) -> str:
         """The abbreviation that the title ends in, or its part before a comma or a bracket."""
-        abbreviation = re.search(r"\(([A-Z]+)\)", self.title)
+        abbreviation = re.search(r"\(((?:\w+ )?[A-Z]{2,})\)", self.title)
         return abbreviation[1] if abbreviation else re.split(r",| \(", self.title)[0]
 
     @property

@@ -22,7 +22,7 @@ def lead_headlines(results: TaskResults, metric: str) -> list[Headline]:
 
 
 def _lead(results: TaskResults, metric: str, best: Standing, *others: Standing) -> str:
-    title = results.metrics[metric].title
+    title = results.metrics[metric].short
     where = cases_phrase(results.representative_cases(metric))
     if not others:
         return f"is the only entrant with a score in {where} ({title})."

@@ -42,7 +42,7 @@ def best_reference_table(results: TaskResults) -> Table | None:
         return None
     return Table(
         id=slug(results.layout.name, "matches"),
-        caption="Best-matched reference beside the mean over references: mean ± 2 sd over samples",
+        caption="Best-matched reference beside all references, ± over samples",
         columns=(
             *headings(["case", "entrant"], "text"),
             *headings([results.metrics[name].title for name in metrics]),

@@ -40,7 +40,7 @@ def calibration_table(results: TaskResults) -> Table | None:
         return None
     return Table(
         id=slug(results.layout.name, "calibration"),
-        caption="Calibration: mean over cases and folds, beside the nominal value",
+        caption="Calibration: means beside the nominal value",
         columns=headings(["entrant", *(results.metrics[metric].title for metric in metrics)]),
         rows=(
             (Cell("nominal"), *(_nominal(results, metric) for metric in metrics)),

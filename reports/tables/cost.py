@@ -12,7 +12,7 @@ import pandas as pd
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
-from mocapbench.reports.text import counted, slug
+from mocapbench.reports.text import slug
 
 __all__ = ["cost_table"]
 
@@ -92,11 +92,9 @@ def _cost_row(row: Mapping[Hashable, float]) -> tuple[Cell, ...]:
 
 
 def _engine(engine: str) -> Cell:
-    """Return the first engine by name, with the reason for its choice and the number of others."""
-    first, *others = engine.split("; ")
-    name, _, reason = first.partition(": ")
-    more = f" and {counted(len(others), 'other')} by case" if others else ""
-    return Cell(f"{name}{more}", note=reason) if name else ABSENT
+    """Return the names of the engines; the reasons for their choice are in the data."""
+    names = dict.fromkeys(each.partition(":")[0] for each in engine.split("; "))
+    return Cell(", ".join(names)) if engine else ABSENT
 
 
 def _seconds(value: float) -> Cell:

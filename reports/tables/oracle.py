@@ -29,7 +29,7 @@ def oracle_table(results: TaskResults) -> Table | None:
     rows = [(label, means[label], len(ratios[label])) for label in order]
     return Table(
         id=slug(results.layout.name, "oracle"),
-        caption="Ratio to the oracle: pooled SMSE over that of the true process, the limit",
+        caption="Ratio to the oracle, pooled SMSE",
         columns=headings(["entrant", "ratio", "cases"]),
         rows=tuple(
             (Cell(label), Cell(f"{number(ratio, 2)}×"), Cell(str(n))) for label, ratio, n in rows

@@ -43,7 +43,7 @@ def verdict_table(results: TaskResults, metric: str) -> Table | None:
     places = decimals(value for pair in pairs for value in (pair.ours.mean, pair.published.value))
     return Table(
         id=slug(results.layout.name, metric, "published"),
-        caption=f"{results.metrics[metric].title}: ours beside the published value",
+        caption=f"{results.metrics[metric].short}: ours beside the published value",
         columns=(
             *headings(["case", "entrant", "paper’s model"], "text"),
             *headings(["folds", "ours", "published", "difference"]),

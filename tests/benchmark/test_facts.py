@@ -5,6 +5,8 @@ import pytest
 from mocapbench.baselines import Imputer
 from mocapbench.benchmark.docstrings import source, summary
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.metrics import Direction
+from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.model_info import FAMILIES
 from mocapbench.reports.bundle.questions import question
 
@@ -95,3 +97,19 @@ def test_the_texts_of_a_task_are_short(name):
     page = TASKS.get(name).page
     assert len(page.description.split()) <= MOST_WORDS_OF_A_DESCRIPTION
     assert all(len(remark.split()) <= MOST_WORDS_OF_A_REMARK for remark in page.remarks)
+
+
+@pytest.mark.parametrize(
+    ("name", "short"),
+    [
+        ("mpjpe", "MPJPE"),
+        ("mpjpe_global", "global MPJPE"),
+        ("smse_pooled", "pooled SMSE"),
+        ("rms_per_frame", "Mean error norm per frame"),
+        ("foot_skate", "Foot skate"),
+        ("purity", "Purity"),
+    ],
+)
+def test_a_title_has_a_short_form(name, short):
+    metric = METRICS.get(name)
+    assert MetricInfo(name, metric.title, Direction.LOWER).short == short

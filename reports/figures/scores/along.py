@@ -23,12 +23,8 @@ from mocapbench.reports.figures.svg_figure import SvgFigure
 __all__ = ["curves_along"]
 
 HEIGHT, N_BANDS = 220.0, 3
-CAPTION = (
-    "means over folds along {column}. Bands are 95 % intervals of the mean over folds (Student’s "
-    "t), of the {n} models with the least mean; on a logarithmic axis mean and interval are of the "
-    "logarithm. The table has the others’."
-)
-WITHOUT_BANDS = "means over folds along {column}. The folds are not independent: no intervals."
+CAPTION = "bands are of the {n} models with the least mean."
+WITHOUT_BANDS = "folds are not independent, so there are no bands."
 
 
 def curves_along(
@@ -65,7 +61,7 @@ def curves_along(
     ]
     text = CAPTION if results.layout.independent_folds else WITHOUT_BANDS
     notes = dict.fromkeys(note for _, note in drawn if note)
-    caption = " ".join([text.format(column=column, n=N_BANDS), *notes])
+    caption = " ".join([text.format(n=N_BANDS), *notes])
     legend = line_keys({label: styles[label] for label in labels})
     title = f"{results.metrics[metric].title} along {column}"
     return SvgFigure(title, panels(panel for panel, _ in drawn), legend, caption)

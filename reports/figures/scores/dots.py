@@ -23,14 +23,7 @@ __all__ = ["dot_plot", "fold_marks"]
 
 MOST_PANELS = 6
 """More cases are for the strips of the table, which show them on one scale."""
-INTERVALS = (
-    "ticks are folds, dots means, lines 95 % intervals of the mean (Student’s t) over folds; on a "
-    "logarithmic axis mean and interval are of the logarithm. A single fold has no interval."
-)
-POINTS = (
-    "ticks are folds, dots their means. The folds are overlapping windows of one recording and not "
-    "independent, so there is no interval."
-)
+WINDOWS = "windows overlap, so there is no interval."
 
 
 def dot_plot(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> SvgFigure | None:
@@ -41,13 +34,13 @@ def dot_plot(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> 
     if not 1 < len(cases) <= MOST_PANELS:
         return None
     drawn = [_panel(results, metric, case, values, styles) for case in cases]
-    caption = INTERVALS if results.layout.independent_folds else POINTS
+    overlap = () if results.layout.independent_folds else (WINDOWS,)
     remarks = dict.fromkeys(remark for _, remark in drawn if remark)
     return SvgFigure(
         f"{results.metrics[metric].title} by case",
         panels(panel for panel, _ in drawn),
         (),
-        " ".join([caption, *remarks]),
+        " ".join([*overlap, *remarks]),
     )
 
 

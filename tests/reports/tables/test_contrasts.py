@@ -84,11 +84,11 @@ def test_the_data_hold_every_pair_once_at_full_precision(small):
     assert (data["t_p_holm"] >= data["t_p"]).all()
 
 
-def test_the_note_names_the_units(small):
-    assert "over 6 folds" in contrast_table(results_of(small(VALUES)), "mse").notes[0]
+def test_the_caption_names_the_units(small):
+    assert "over 6 folds" in contrast_table(results_of(small(VALUES)), "mse").caption
     cases = tuple(CaseLayout(name, {}, subjects=(name,)) for name in VALUES)
     table = contrast_table(results_of(small(VALUES, cases=cases)), "mse")
-    assert "over 6 subjects" in table.notes[0]
+    assert "over 6 subjects" in table.caption
 
 
 @pytest.mark.parametrize("n", [1, 4])

@@ -9,7 +9,7 @@ PAIRS = ("12(1) vs 12(1)", "12(1) vs 16(15)", "16(15) vs 16(15)", "16(15) vs 10(
 
 
 @pytest.fixture
-def table(small):
+def view(small):
     values = {pair: {"replay": [26.0 + place]} for place, pair in enumerate(PAIRS)}
     values[PAIRS[3]] = {"replay": [float("nan")]}
     bundle = small(
@@ -27,12 +27,12 @@ def table(small):
         published_models={"replay": "real"},
         published_metrics={"mse": "MCC"},
     )
-    (view,) = task_view(task_results(bundle, bundle.layouts[0])).metrics
-    assert view.figure is None
-    return view.table
+    return task_view(task_results(bundle, bundle.layouts[0]), {})
 
 
-def test_pairs_are_cells_of_rows_and_columns(table):
+def test_pairs_are_cells_of_rows_and_columns(view):
+    table = view.first.crossed
+    assert view.first.scores is None
     assert [cell.text for cell in table.columns] == ["a", "12(1)", "16(15)", "10(5)"]
     assert [[cell.text for cell in row] for row in table.rows] == [
         ["12(1)", "26.00", "27.00", "–"],
@@ -40,7 +40,8 @@ def test_pairs_are_cells_of_rows_and_columns(table):
     ]
 
 
-def test_the_published_value_stands_below_and_its_erratum_under_the_table(table):
+def test_the_published_value_stands_below_and_its_erratum_among_the_notes(view):
+    table = view.first.crossed
     assert table.rows[0][1].note == "26.43 (a)"
     assert table.rows[0][2].note == "20.55"
-    assert any(note.startswith("a: ") and "26.249" in note for note in table.notes)
+    assert any(note.startswith("a: ") and "26.249" in note for note in view.notes)
