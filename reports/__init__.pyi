@@ -18,6 +18,17 @@ from .bundle.task_page import Figure, RowNotes, TaskPage
 from .filling.page import render_filled
 from .filling.values import FilledCurve, FilledPage, RankedModel
 from .page.page import render
+from .slopes.page import render_changes
+from .slopes.values import (
+    ChangedFact,
+    ChangedParameter,
+    ChangeVerdict,
+    ComparedTask,
+    Ending,
+    RunChanges,
+    ScoreChange,
+    Unpaired,
+)
 from .spreadsheet import csv_text
 from .text import counted
 
@@ -25,7 +36,12 @@ __all__ = [
     "Band",
     "Bundle",
     "CaseLayout",
+    "ChangeVerdict",
+    "ChangedFact",
+    "ChangedParameter",
+    "ComparedTask",
     "Curve",
+    "Ending",
     "Figure",
     "FilledCurve",
     "FilledPage",
@@ -40,11 +56,15 @@ __all__ = [
     "RankedModel",
     "RegressionCheck",
     "RowNotes",
+    "RunChanges",
+    "ScoreChange",
     "Space",
     "TaskLayout",
     "TaskPage",
+    "Unpaired",
     "counted",
     "csv_text",
     "render",
+    "render_changes",
     "render_filled",
 ]
