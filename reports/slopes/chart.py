@@ -38,10 +38,7 @@ def slope_chart(title: str, names: tuple[str, str], scores: Sequence[ScoreChange
     marks = [
         _text(0, 14, _short(names[0]), "start"),
         _text(RIGHT, 14, _short(names[1]), "middle"),
-        *(
-            _text(LEFT - 6, height(at) + 4, _digits(at), "end")
-            for at in sorted({min(values), max(values)})
-        ),
+        *(_text(LEFT - 6, height(at) + 4, _digits(at), "end") for at in ends),
         *(_line(score, height) for score in ordered),
         *labels,
     ]
