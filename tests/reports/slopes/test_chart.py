@@ -42,9 +42,7 @@ def test_greater_is_higher_and_all_lines_are_within_the_chart(pairs):
 def test_no_name_lies_on_another(pairs):
     svg = slope_chart("Title", ("a", "b"), [score(f"c{n}", *pair) for n, pair in enumerate(pairs)])
     heights = sorted(float(y) for y in re.findall(r'x="258" y="([-\d.]+)"', svg))
-    assert all(
-        after - before > GAP - 0.11 for before, after in zip(heights, heights[1:], strict=False)
-    )
+    assert all(after - before > GAP - 0.11 for before, after in pairwise(heights))
 
 
 def test_a_scale_is_logarithmic_where_scores_span_a_factor_of_ten():
