@@ -22,6 +22,17 @@ from .bundle.task_page import Figure, RowNotes, TaskPage
 from .filling.page import render_filled
 from .filling.values import FilledCurve, FilledPage, RankedModel
 from .page.page import render
+from .slopes.page import render_changes
+from .slopes.values import (
+    ChangedFact,
+    ChangedParameter,
+    ChangeVerdict,
+    ComparedTask,
+    Ending,
+    RunChanges,
+    ScoreChange,
+    Unpaired,
+)
 from .spreadsheet import csv_text
 from .text import counted
 
@@ -29,7 +40,12 @@ __all__ = [
     "Band",
     "Bundle",
     "CaseLayout",
+    "ChangeVerdict",
+    "ChangedFact",
+    "ChangedParameter",
+    "ComparedTask",
     "Curve",
+    "Ending",
     "ErrorParts",
     "Figure",
     "FilledCurve",
@@ -49,11 +65,15 @@ __all__ = [
     "RegressionCheck",
     "RestPose",
     "RowNotes",
+    "RunChanges",
+    "ScoreChange",
     "Space",
     "TaskLayout",
     "TaskPage",
+    "Unpaired",
     "counted",
     "csv_text",
     "render",
+    "render_changes",
     "render_filled",
 ]

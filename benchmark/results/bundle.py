@@ -22,7 +22,7 @@ from mocapbench.reports import (
     TaskLayout,
 )
 
-__all__ = ["bundle"]
+__all__ = ["bundle", "metric_info"]
 
 
 def bundle(
@@ -59,7 +59,7 @@ def bundle(
         layouts=tuple(
             _layout(task, records, _budget(task, provenance.get("profile", ""))) for task in tasks
         ),
-        metrics={name: _metric_info(name) for name in sorted(used)},
+        metrics={name: metric_info(name) for name in sorted(used)},
         provenance=provenance,
         illustrations=illustrations,
         check=RegressionCheck(**check) if check else None,
@@ -99,7 +99,8 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
     )
 
 
-def _metric_info(name: str) -> MetricInfo:
+def metric_info(name: str) -> MetricInfo:
+    """Return what a page says of the metric called ``name``."""
     metric = METRICS.get(name)
     return MetricInfo(
         name,
