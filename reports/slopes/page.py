@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from importlib.resources import files
 
-from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from mocapbench.reports.bundle.metric_info import MetricInfo
-from mocapbench.reports.printable import printable
+from mocapbench.reports.resources import styles, template
 from mocapbench.reports.slopes.chart import slope_chart
 from mocapbench.reports.slopes.values import ChangeVerdict, ComparedTask, RunChanges, ScoreChange
 from mocapbench.reports.text import MINUS, counted
@@ -30,28 +28,17 @@ class Slopes:
 
 def render_changes(changes: RunChanges) -> str:
     """Return what changed between two runs as one self-contained HTML page."""
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    environment.filters |= {"counted": counted, "printable": printable, "digits": _digits}
-    template = environment.from_string(_resource("mocapbench.reports.slopes", "page.html.j2"))
     slopes, identical = _slopes(changes)
-    return template.render(
+    return template("page.html.j2", "mocapbench.reports.slopes").render(
         changes=changes,
         summary=_summary(changes),
         slopes=slopes,
         identical=identical,
         metrics=_metrics(changes),
         only=list(zip(changes.names, changes.only, strict=True)),
-        css=Markup(
-            _resource("mocapbench.reports.page", "report.css")
-            + _resource("mocapbench.reports.slopes", "page.css")
-        ),
+        digits=_digits,
+        css=styles(),
     )
-
-
-def _resource(package: str, name: str) -> str:
-    return (files(package) / name).read_text(encoding="utf-8")
 
 
 def _metrics(changes: RunChanges) -> Mapping[str, str]:
