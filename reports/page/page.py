@@ -24,6 +24,9 @@ from mocapbench.reports.text import counted, slug
 
 __all__ = ["render"]
 
+STYLES = ("report.css", "styles/player.css")
+SCRIPTS = ("report.js", "scripts/bodies.js", "scripts/player.js")
+
 
 def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
@@ -49,8 +52,8 @@ def render(bundle: Bundle) -> str:
         papers_table=papers,
         citations=citations_of(layout.page.reference for layout in bundle.layouts),
         downloads=_downloads(table for table in tables if table is not None),
-        css=Markup(_resource("report.css") + _resource("styles/player.css")),
-        js=Markup(_resource("report.js") + _resource("scripts/player.js")),
+        css=Markup("".join(map(_resource, STYLES))),
+        js=Markup("".join(map(_resource, SCRIPTS))),
     )
 
 
