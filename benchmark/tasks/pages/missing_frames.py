@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from mocapbench.benchmark.figures.filled_channels import FilledChannels
-from mocapbench.benchmark.figures.gap_error import GapError
 from mocapbench.benchmark.figures.latent_space import LatentSpaces
 from mocapbench.benchmark.tasks.gpdm_entrants import WITH_BEST_START
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
@@ -72,7 +71,6 @@ PAGE = TaskPage(
     illustrated=("07-01 three-walkers", "synthetic 1"),
     figures=(
         FilledChannels(("lfemur.rx", "rhumerus.rx")),
-        GapError(),
         LatentSpaces(tuple(entrant.label for entrant in WITH_BEST_START)),
     ),
 )
