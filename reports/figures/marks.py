@@ -32,6 +32,8 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
+PHONE = 400.0
+"""Wider drawings, in pixels, do not shrink to the width of a phone; they scroll."""
 SHAPES = (
     "m-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0z",  # circle
     "m-3.6-3.6h7.2v7.2h-7.2z",  # square
@@ -118,7 +120,8 @@ def group(style: Style, *marks: str, title: str = "") -> str:
 def svg(width: float, height: float, label: str, marks: Iterable[str]) -> Markup:
     """Return a drawing with an accessible name."""
     size = f'viewBox="0 0 {coordinate(width)} {coordinate(height)}" width="{coordinate(width)}"'
+    kind = "plot wide" if width > PHONE else "plot"
     return Markup(  # the marks escape what they are given
-        f'<svg class="plot" {size} height="{coordinate(height)}" role="img" '
+        f'<svg class="{kind}" {size} height="{coordinate(height)}" role="img" '
         f'aria-label="{escape(label)}">{"".join(marks)}</svg>'
     )

@@ -54,7 +54,7 @@ class Scale(ABC):
         """Return the place of each value, in pixels; NaN stays NaN."""
         low, high = self.forward(np.array([self.low, self.high]))
         share = (self.forward(values) - low) / (high - low)
-        return self.start + share * (self.stop - self.start)
+        return np.asarray(self.start + share * (self.stop - self.start))
 
     def place(self, value: float) -> float:
         """Return the place of one value, in pixels."""
