@@ -72,8 +72,8 @@ def _report_two(first: Path, second: Path, to: Path | None) -> None:
     stores, console = [bench.Store.open(path) for path in (first, second)], LiteralConsole()
     for store in stores:
         load_tasks(store)
-    sides = [store.planned() for store in stores]
-    changes = comparison.run_changes(*sides, comparison.side_names(first, second))
+    one, other = (store.planned() for store in stores)
+    changes = comparison.run_changes(one, other, comparison.side_names(first, second))
     path = to or second / f"report-against-{first.resolve().name}.html"
     _write(path, reports.render_changes(changes), console)
     show_left_out([message for store in stores for message in store.damaged], console)

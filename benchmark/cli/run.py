@@ -87,6 +87,9 @@ def run(
     explain: Annotated[
         bool, typer.Option("--explain", help="Show first why each job runs or is skipped.")
     ] = False,
+    no_report: Annotated[
+        bool, typer.Option("--no-report", help="Write no report; `mocapbench report` does later.")
+    ] = False,
     log_json: Annotated[
         Path | None, typer.Option(help="A file to which events are added, one JSON object a line.")
     ] = None,
@@ -134,7 +137,9 @@ def run(
     _interrupt_at_the_end_of_the_session()
     with run_log(log_json) as log, site, store.locked():
         store.sweep()
-        raise typer.Exit(_run(planned, store, config, site, console, log))
+        raise typer.Exit(
+            _run(planned, store, config, site, console, log, with_report=not no_report)
+        )
 
 
 def _about(planned: Sequence[Job], request: Request, threads: int) -> dict[str, str]:
@@ -166,6 +171,8 @@ def _run(
     site: Site,
     console: LiteralConsole,
     log: EventLog,
+    *,
+    with_report: bool,
 ) -> ExitCode:
     about, started = dict(config.provenance), time.monotonic()
     document = partial(
@@ -184,13 +191,17 @@ def _run(
             console.print("interrupted; everything finished is kept, and the same command resumes")
         return ExitCode.INTERRUPTED
     code, report = _ending(planned, records, config, console), store.path / "report.html"
-    found = bench.stamp(records, about, config.task_files)
+    found = bench.stamp(records, [*config.plugins], config.task_files)
     if found == drawn:
         console.print(f"nothing new; report: {report.resolve()}", soft_wrap=True)
         show_left_out(store.damaged, console)
         return code
     about["wall time"] = f"{time.monotonic() - started:.0f} s"
     store.save_plan(document(provenance=about))
+    if not with_report:
+        line = f"no report was written; `mocapbench report --out {store.path}` writes one"
+        console.print(line, soft_wrap=True, highlight=False)
+        return code
     write_report(records, about, store, bench.archive_at(config.data_dir), report, console)
     store.save_plan(document(provenance=about, drawn=found))
     return code

@@ -77,15 +77,11 @@ def _both_ok(pair: Pair) -> bool:
 
 def _endings(common: Iterable[Pair], *, without_score: int) -> list[Ending]:
     """Return the jobs that only one run has a score of: not run 0, or not run 1."""
+    scored = (without_score == 1, without_score == 0)
     return [
-        Ending(
-            str(pair[0].address),
-            *(record.status.value for record in pair),
-            pair[without_score].message,
-        )
-        for pair in common
-        if pair[1 - without_score].status is Status.OK is not pair[without_score].status
-        and pair[0].address == pair[1].address
+        Ending(str(a.address), a.status.value, b.status.value, (a, b)[without_score].message)
+        for a, b in common
+        if (a.status is Status.OK, b.status is Status.OK) == scored and a.address == b.address
     ]
 
 

@@ -61,8 +61,9 @@ def _changes(task: Task, metric: str, cells: Mapping[Cell, Sequence[Pair]]) -> l
 def _values(pairs: Sequence[Pair], metric: str) -> Folds:
     """Return the finite values that both runs have, a row a fold."""
     both = [[record.scores.get(metric, np.nan) for record in pair] for pair in pairs]
-    values = np.array(both, dtype=float).reshape(-1, 2)
-    return values[np.isfinite(values).all(axis=1)]
+    values: Folds = np.array(both, dtype=float).reshape(-1, 2)
+    finite: Folds = values[np.isfinite(values).all(axis=1)]
+    return finite
 
 
 def _p_value(task: Task, metric: str, folds: Folds) -> float:
@@ -80,7 +81,7 @@ def _advantages(task: Task, metric: str, folds: Folds) -> NDArray[np.float64]:
     Folds are units where they are independent draws; else their mean is the only unit.
     """
     loss = np.vectorize(METRICS.get(metric).loss, otypes=[float])
-    advantages = loss(folds[:, 0]) - loss(folds[:, 1])
+    advantages: Folds = loss(folds[:, 0]) - loss(folds[:, 1])
     return advantages if task.independent_folds else advantages.mean(keepdims=True)
 
 

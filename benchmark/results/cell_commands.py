@@ -14,7 +14,7 @@ __all__ = ["FLAGS", "LEFT_OUT", "cell_command"]
 FOLDER = "mocapbench-cell"
 """Another folder than that of the run, where the cell would be skipped."""
 
-FLAGS = {"--offline", "--dry-run", "--explain"}
+FLAGS = {"--offline", "--dry-run", "--explain", "--no-report"}
 LEFT_OUT = {
     *FLAGS,
     *("--profile", "--seed", "--tasks", "--cases", "--models", "--folds", "--out"),

@@ -76,7 +76,8 @@ def _labels(scores: Sequence[ScoreChange], height: Callable[[float], float]) -> 
     beyond = [score for score in scores if score.verdict.beyond_noise]
     largest = sorted(beyond, key=lambda score: score.relative)[-MOST_NAMED:]
     named = sorted(largest, key=lambda score: height(score.second))
-    labels, last = [], TOP - GAP
+    labels: list[Markup] = []
+    last = float(TOP - GAP)
     for place, score in enumerate(named):
         room = BOTTOM - GAP * (len(named) - 1 - place)
         last = min(max(height(score.second), last + GAP), room)

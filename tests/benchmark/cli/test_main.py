@@ -121,6 +121,23 @@ def test_a_finished_run_is_drawn_again_only_if_something_is_new(cli, tmp_path):
         page.write_text("drawn")
 
 
+def test_a_run_without_a_report_leaves_it_to_a_later_one(cli, tmp_path):
+    run, page = (*FAST, "--out", tmp_path / "run"), tmp_path / "run" / "report.html"
+    assert cli(*run, "--no-report") == 0
+    assert not page.exists()
+    assert "`mocapbench report --out" in cli.printed
+    assert cli(*run) == 0
+    assert page.exists()
+    page.write_text("drawn")
+    assert cli(*run, "--no-report") == 0
+    assert "nothing new; report:" in cli.printed
+    assert cli(*run) == 0
+    assert page.read_text() == "drawn"
+    assert cli(*run, "--folds", 1, "--no-report") == 0
+    assert cli(*run) == 0
+    assert page.read_text() != "drawn"
+
+
 def test_new_metrics_are_scored_without_refitting(cli, tmp_path):
     assert cli(*FAST, "--metrics", "mse", "--out", tmp_path / "run") == 0
     before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run/predictions").glob("*/*")}
