@@ -36,6 +36,7 @@ from .problems.unit import Unit
 from .registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
 from .results.bundle import bundle
 from .results.drawn import last_drawn, stamp
+from .results.error_parts import error_parts
 from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
 from .results.solved_problems import solved_problem
@@ -120,6 +121,7 @@ __all__ = [
     "compare",
     "data_totals",
     "draft",
+    "error_parts",
     "explain",
     "explanation_table",
     "fetch_command",

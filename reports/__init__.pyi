@@ -1,4 +1,5 @@
 from .bundle.bundle import Bundle
+from .bundle.error_parts import ErrorParts, RestPose
 from .bundle.layout import CaseLayout, TaskLayout
 from .bundle.metric_info import MetricInfo
 from .bundle.model_info import ModelInfo
@@ -21,6 +22,17 @@ from .bundle.task_page import Figure, RowNotes, TaskPage
 from .filling.page import render_filled
 from .filling.values import FilledCurve, FilledPage, RankedModel
 from .page.page import render
+from .slopes.page import render_changes
+from .slopes.values import (
+    ChangedFact,
+    ChangedParameter,
+    ChangeVerdict,
+    ComparedTask,
+    Ending,
+    RunChanges,
+    ScoreChange,
+    Unpaired,
+)
 from .spreadsheet import csv_text
 from .text import counted
 
@@ -28,7 +40,13 @@ __all__ = [
     "Band",
     "Bundle",
     "CaseLayout",
+    "ChangeVerdict",
+    "ChangedFact",
+    "ChangedParameter",
+    "ComparedTask",
     "Curve",
+    "Ending",
+    "ErrorParts",
     "Figure",
     "FilledCurve",
     "FilledPage",
@@ -45,12 +63,17 @@ __all__ = [
     "Picture",
     "RankedModel",
     "RegressionCheck",
+    "RestPose",
     "RowNotes",
+    "RunChanges",
+    "ScoreChange",
     "Space",
     "TaskLayout",
     "TaskPage",
+    "Unpaired",
     "counted",
     "csv_text",
     "render",
+    "render_changes",
     "render_filled",
 ]

@@ -77,15 +77,9 @@ def _sides(
             first, second = comparison.between_runs(
                 _records(one, console), _records(other, console), models
             )
-            return first, second, _names(one, other)
+            return first, second, comparison.side_names(one, other)
         case _:
             raise UsageError(f"compare: expected one or two run directories, got {len(runs)}")
-
-
-def _names(one: Path, other: Path) -> tuple[str, str]:
-    """Return the folders' names, which tables have room for, or their paths where these agree."""
-    names = one.resolve().name, other.resolve().name
-    return names if names[0] != names[1] else (str(one), str(other))
 
 
 def _records(run: Path, console: LiteralConsole) -> Side:

@@ -1,4 +1,4 @@
-"""``mocapbench report``: write the HTML report of a run directory."""
+"""``mocapbench report``: write the HTML report of a run, or of what changed between two."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import typer
 
 from mocapbench import benchmark as bench
 from mocapbench import reports
+from mocapbench.benchmark import comparison
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
     DEFAULT_OUT,
@@ -36,20 +37,46 @@ app = typer.Typer(add_completion=False)
 
 @app.command()
 def report(
+    runs: Annotated[
+        list[Path] | None, typer.Argument(help="Two run directories, to show what changed.")
+    ] = None,
     out: Out = DEFAULT_OUT,
     to: Annotated[Path | None, typer.Option(help="The HTML file to write.")] = None,
     data_dir: DataDir = None,
     plugin: Plugins = None,
 ) -> None:
-    """Write the HTML report of a run directory."""
+    """Write the HTML report of a run directory, or of what changed from one run to another."""
     load_plugins(plugin)
     require_writable(to)
+    match runs or []:
+        case []:
+            _report_one(out, to, data_dir)
+        case [first, second]:
+            _report_two(first, second, to)
+        case others:
+            raise UsageError(
+                f"report: expected two run directories, got {len(others)}; --out names a single one"
+            )
+
+
+def _report_one(out: Path, to: Path | None, data_dir: Path | None) -> None:
     store, console = bench.Store.open(out), LiteralConsole()
     plan, records, task_files = store.load_plan(), store.planned(), load_tasks(store)
     if not records:
         raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
     archive, path = open_archive(data_dir, task_files), to or out / "report.html"
     write_report(records, plan["provenance"], store, archive, path, console)
+
+
+def _report_two(first: Path, second: Path, to: Path | None) -> None:
+    stores, console = [bench.Store.open(path) for path in (first, second)], LiteralConsole()
+    for store in stores:
+        load_tasks(store)
+    sides = [store.planned() for store in stores]
+    changes = comparison.run_changes(*sides, comparison.side_names(first, second))
+    path = to or second / f"report-against-{first.resolve().name}.html"
+    _write(path, reports.render_changes(changes), console)
+    show_left_out([message for store in stores for message in store.damaged], console)
 
 
 def write_report(
@@ -62,8 +89,13 @@ def write_report(
 ) -> None:
     """Write the page of ``records`` to ``path``, and name what of the store is damaged."""
     figures = bench.illustrations(records, store, archive)
-    page = reports.render(bench.bundle(records, about, figures, store.load_check()))
+    parts = bench.error_parts(records, archive)
+    page = reports.render(bench.bundle(records, about, figures, store.load_check(), parts))
+    _write(path, page, console)
+    show_left_out(store.damaged, console)
+
+
+def _write(path: Path, page: str, console: LiteralConsole) -> None:
     with atomic_write(path) as file:
         file.write(page.encode())
     console.print(f"report: {path.resolve()}", soft_wrap=True, highlight=False)
-    show_left_out(store.damaged, console)

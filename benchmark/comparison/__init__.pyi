@@ -1,6 +1,7 @@
 from .contrasts import compare, tidy
 from .output import markdown, notes, terminal
-from .sides import between_models, between_runs
+from .run_changes import run_changes
+from .sides import between_models, between_runs, side_names
 
 __all__ = [
     "between_models",
@@ -8,6 +9,8 @@ __all__ = [
     "compare",
     "markdown",
     "notes",
+    "run_changes",
+    "side_names",
     "terminal",
     "tidy",
 ]

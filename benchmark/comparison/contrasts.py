@@ -8,12 +8,12 @@ would pass for one between the sides.
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 
 import pandas as pd
 
+from mocapbench.benchmark.comparison.problems import require_same_problems
 from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import METRICS, TASKS
@@ -78,7 +78,7 @@ def compare(
     common = [address for address in one if address in other]
     if not common:
         raise UsageError("compare: the two have no scored (task, case, fold, entrant) in common")
-    _require_same_problems([(one[address], other[address]) for address in common])
+    require_same_problems([(one[address], other[address]) for address in common])
     names = list(dict.fromkeys(address.task for address in common))
     chosen = list(dict.fromkeys(map(METRICS.current_name, metrics)))
     rows = [
@@ -93,37 +93,12 @@ def compare(
 
 
 def _scored(side: Side, tasks: Sequence[str]) -> dict[Address, Record]:
-    """Return the records with scores by address, whose version `_differences` compares."""
+    """Return the records with scores by address, whose version `differences` compares."""
     return {
         record.address._replace(version=0): record
         for record in side
         if record.status is Status.OK and (not tasks or record.address.task in tasks)
     }
-
-
-def _require_same_problems(pairs: Sequence[tuple[Record, Record]]) -> None:
-    reasons = Counter(reason for pair in pairs for reason in _differences(*pair))
-    if reasons:
-        listed = "; ".join(f"{reason} ({count} jobs)" for reason, count in reasons.most_common(3))
-        raise UsageError(
-            f"compare: the two do not solve the same problems, so nothing is paired: {listed}; "
-            "compare runs of one seed, one version of the tasks and the same recordings"
-        )
-
-
-def _differences(one: Record, other: Record) -> list[str]:
-    ours, theirs = (_problem(record) for record in (one, other))
-    return [
-        f"{name} {ours.get(name, 'absent')} against {theirs.get(name, 'absent')}"
-        for name in dict.fromkeys([*ours, *theirs])
-        if ours.get(name) != theirs.get(name)
-    ]
-
-
-def _problem(record: Record) -> Mapping[str, str]:
-    digests = {k: v for k, v in record.provenance.items() if k.startswith("digest of ")}
-    task, version = record.address.task, str(record.address.version)
-    return {"seed": str(record.seed), f"version of {task}": version, **digests}
 
 
 def _pairs(

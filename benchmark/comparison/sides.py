@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
 from mocapbench.benchmark.runs.record import Record
 
-__all__ = ["Side", "between_models", "between_runs"]
+__all__ = ["Side", "between_models", "between_runs", "side_names"]
 
 Side = Sequence[Record]
 
@@ -45,6 +46,12 @@ def between_models(run: Side, models: Sequence[str]) -> tuple[Side, Side]:
         for name in models
     )
     return one, other
+
+
+def side_names(one: Path, other: Path) -> tuple[str, str]:
+    """Return the folders' names, which tables have room for, or their paths where these agree."""
+    names = one.resolve().name, other.resolve().name
+    return names if names[0] != names[1] else (str(one), str(other))
 
 
 def _labels(side: Side) -> set[str]:

@@ -15,13 +15,14 @@ from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import (
     Bundle,
     CaseLayout,
+    ErrorParts,
     MetricInfo,
     Picture,
     RegressionCheck,
     TaskLayout,
 )
 
-__all__ = ["bundle"]
+__all__ = ["bundle", "metric_info"]
 
 
 def bundle(
@@ -29,6 +30,7 @@ def bundle(
     provenance: Mapping[str, str],
     illustrations: tuple[Picture, ...] = (),
     check: Mapping[str, Any] | None = None,
+    parts: ErrorParts | None = None,
 ) -> Bundle:
     """Return what the report shows of ``records``, which are in table order.
 
@@ -40,6 +42,8 @@ def bundle(
     illustrations : tuple of Illustration or HeatMaps
     check : mapping or None
         The last regression check, as the store keeps it.
+    parts : ErrorParts or None
+        Errors along gaps and by joint, where they are to be drawn.
 
     Raises
     ------
@@ -55,11 +59,12 @@ def bundle(
         layouts=tuple(
             _layout(task, records, _budget(task, provenance.get("profile", ""))) for task in tasks
         ),
-        metrics={name: _metric_info(name) for name in sorted(used)},
+        metrics={name: metric_info(name) for name in sorted(used)},
         provenance=provenance,
         illustrations=illustrations,
         check=RegressionCheck(**check) if check else None,
         origins=origins(records),
+        parts=parts or ErrorParts(),
     )
 
 
@@ -94,7 +99,8 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
     )
 
 
-def _metric_info(name: str) -> MetricInfo:
+def metric_info(name: str) -> MetricInfo:
+    """Return what a page says of the metric called ``name``."""
     metric = METRICS.get(name)
     return MetricInfo(
         name,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from mocapbench.benchmark.results.cell_commands import cell_command
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.reports import Origin
 
-__all__ = ["DIGEST_OF", "origins"]
+__all__ = ["DIGEST_OF", "origins", "recordings"]
 
 DIGEST_OF = "digest of "
 """Begins the names under which provenance has the digests of recordings."""
@@ -28,13 +28,14 @@ def _origin(of_cell: Sequence[Record]) -> Origin:
         command=cell_command(of_cell),
         seed=of_cell[0].seed,
         keys={record.address.fold or 0: record.key for record in of_cell},
-        recordings=_recordings(of_cell[0].provenance),
+        recordings=recordings(of_cell[0]),
     )
 
 
-def _recordings(provenance: Mapping[str, str]) -> dict[str, str]:
+def recordings(record: Record) -> dict[str, str]:
+    """Return the digest of each recording that a record stands on, by address."""
     return {
         name.removeprefix(DIGEST_OF): digest
-        for name, digest in provenance.items()
+        for name, digest in record.provenance.items()
         if name.startswith(DIGEST_OF)
     }

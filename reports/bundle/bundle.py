@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import pandas as pd
 
+from mocapbench.reports.bundle.error_parts import ErrorParts
 from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.origin import Origin
@@ -61,6 +62,8 @@ class Bundle:
         The result of the last check against reference values, if there was one.
     origins : mapping of (task, case, label) to Origin
         Where the scores of each cell come from, as far as it is known.
+    parts : ErrorParts
+        Errors along gaps and by joint.
 
     Raises
     ------
@@ -77,6 +80,7 @@ class Bundle:
     illustrations: tuple[Picture, ...] = ()
     check: RegressionCheck | None = None
     origins: Mapping[tuple[str, str, str], Origin] = field(default_factory=dict)
+    parts: ErrorParts = field(default_factory=ErrorParts)
 
     def __post_init__(self) -> None:
         _require_columns("scores", self.scores, SCORE_COLUMNS)

@@ -14,7 +14,8 @@ __all__ = ["centre", "interval"]
 
 def centre(values: Sequence[float], scale: Scale) -> float:
     """Return the mean; on a logarithmic scale that of the logarithms, transformed back."""
-    return float(scale.backward(np.mean(scale.forward(np.array(values, dtype=float)))))
+    seen = scale.forward(np.array(values, dtype=float))
+    return float(scale.backward(np.asarray(seen.mean())))
 
 
 def interval(values: Sequence[float], scale: Scale) -> tuple[float, float] | None:

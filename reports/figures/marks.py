@@ -6,24 +6,25 @@ is that of a model. Coordinates are pixels with at most one decimal.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 import numpy as np
 from markupsafe import Markup, escape
 from numpy.typing import NDArray
 
+from mocapbench.reports.figures.paths import coordinate, outline, segments
 from mocapbench.reports.figures.styles import Style
 
 __all__ = [
     "SHAPES",
     "band",
-    "coordinate",
+    "disc",
     "dot",
     "group",
     "horizontal",
     "polyline",
     "rectangle",
-    "segments",
+    "squares",
     "svg",
     "text",
     "vertical",
@@ -31,6 +32,8 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
+PHONE = 400.0
+"""Wider drawings, in pixels, do not shrink to the width of a phone; they scroll."""
 SHAPES = (
     "m-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0z",  # circle
     "m-3.6-3.6h7.2v7.2h-7.2z",  # square
@@ -42,14 +45,16 @@ SHAPES = (
 """Outlines of the markers around their place."""
 
 
-def coordinate(value: float) -> str:
-    """Return a coordinate with at most one decimal."""
-    return f"{value:z.1f}".removesuffix(".0")
-
-
 def dot(x: float, y: float, shape: int = 0, kind: str = "dot") -> str:
     """Return a marker."""
     return f'<path class="{kind}" d="M{coordinate(x)} {coordinate(y)}{SHAPES[shape]}"/>'
+
+
+def disc(x: float, y: float, radius: float, title: str = "") -> str:
+    """Return a disc; the page shows ``title`` beside the pointer."""
+    at = f'cx="{coordinate(x)}" cy="{coordinate(y)}" r="{coordinate(radius)}"'
+    told = f"<title>{escape(title)}</title>" if title else ""
+    return f'<circle class="disc" {at}>{told}</circle>'
 
 
 def horizontal(x: float, end: float, y: float, kind: str = "interval") -> str:
@@ -75,21 +80,13 @@ def polyline(xs: Array, ys: Array, kind: str = "line") -> str:
     return f'<path class="{kind}" d="{segments(xs, ys)}"/>'
 
 
-def segments(xs: Array, ys: Array) -> str:
-    """Return the commands of a line through points, each relative to the last one."""
-    gaps = np.flatnonzero(np.isnan(xs) | np.isnan(ys))
-    runs = np.split(np.stack([xs, ys], axis=1), gaps)
-    whole = (run[~np.isnan(run).any(axis=1)] for run in runs)
-    return "".join(_run(run) for run in whole if len(run))
-
-
 def band(xs: Array, low: Array, high: Array) -> str:
     """Return the area between two lines; NaN ends it."""
     known = ~(np.isnan(xs) | np.isnan(low) | np.isnan(high))
     steps = np.flatnonzero(np.diff(known.astype(int))) + 1
     runs = (run for run in np.split(np.arange(len(xs)), steps) if len(run) and known[run[0]])
     outlines = (
-        _run(np.stack([np.r_[xs[r], xs[r][::-1]], np.r_[low[r], high[r][::-1]]], axis=1)) + "z"
+        outline(np.stack([np.r_[xs[r], xs[r][::-1]], np.r_[low[r], high[r][::-1]]], axis=1)) + "z"
         for r in runs
     )
     return f'<path class="band" d="{"".join(outlines)}"/>'
@@ -99,6 +96,13 @@ def rectangle(x: float, y: float, width: float, height: float, kind: str) -> str
     """Return a rectangle."""
     sides = f"h{coordinate(width)}v{coordinate(height)}h{coordinate(-width)}z"
     return f'<path class="{kind}" d="M{coordinate(x)} {coordinate(y)}{sides}"/>'
+
+
+def squares(corners: Iterable[tuple[float, float]], side: float, kind: str) -> str:
+    """Return squares of one size, by their upper left corners, as one mark."""
+    sides = f"h{coordinate(side)}v{coordinate(side)}h{coordinate(-side)}z"
+    commands = (f"M{coordinate(x)} {coordinate(y)}{sides}" for x, y in corners)
+    return f'<path class="{kind}" d="{"".join(commands)}"/>'
 
 
 def text(x: float, y: float, content: str, kind: str = "") -> str:
@@ -116,21 +120,8 @@ def group(style: Style, *marks: str, title: str = "") -> str:
 def svg(width: float, height: float, label: str, marks: Iterable[str]) -> Markup:
     """Return a drawing with an accessible name."""
     size = f'viewBox="0 0 {coordinate(width)} {coordinate(height)}" width="{coordinate(width)}"'
+    kind = "plot wide" if width > PHONE else "plot"
     return Markup(  # the marks escape what they are given
-        f'<svg class="plot" {size} height="{coordinate(height)}" role="img" '
+        f'<svg class="{kind}" {size} height="{coordinate(height)}" role="img" '
         f'aria-label="{escape(label)}">{"".join(marks)}</svg>'
     )
-
-
-def _run(points: Array) -> str:
-    """Return a line through points in tenths of a pixel, which add up without rounding error."""
-    tenths = np.rint(points * 10.0).astype(int)
-    steps = np.diff(tenths, axis=0)
-    first = " ".join(coordinate(value / 10) for value in tenths[0])
-    return f"M{first}" + ("l" if len(steps) else "") + _joined(steps.ravel().tolist())
-
-
-def _joined(tenths: Sequence[int]) -> str:
-    """Return numbers side by side, separated only where they would run into each other."""
-    first, *others = [f"{value / 10:g}" for value in tenths] or [""]
-    return first + "".join(n if n.startswith("-") else f" {n}" for n in others)

@@ -4,22 +4,16 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["LinearScale", "LogScale", "Scale", "fitted", "linear", "remark"]
+__all__ = ["LinearScale", "LogScale", "Scale"]
 
 Array = NDArray[np.float64]
 
-LOG_RANGE = 10.0
-"""Ratio of the largest to the smallest value above which an axis is logarithmic."""
-NARROW = 0.05
-"""Share of its values below which the span of an axis deserves a remark."""
-MARGIN = 0.04
-"""Share of an axis that stays free beyond the outermost values."""
 _ROUND = (1.0, 2.0, 5.0, 10.0)
 _LOG_TICKS = (((1, 2, 5), 1), ((1, 3), 1), *(((1,), every) for every in (1, 2, 3, 5, 10, 20, 50)))
 """Leading digits of logarithmic ticks, and at every how many powers of ten, the finest first."""
@@ -60,7 +54,7 @@ class Scale(ABC):
         """Return the place of each value, in pixels; NaN stays NaN."""
         low, high = self.forward(np.array([self.low, self.high]))
         share = (self.forward(values) - low) / (high - low)
-        return self.start + share * (self.stop - self.start)
+        return np.asarray(self.start + share * (self.stop - self.start))
 
     def place(self, value: float) -> float:
         """Return the place of one value, in pixels."""
@@ -89,7 +83,7 @@ class LogScale(Scale):
 
     @staticmethod
     def forward(values: Array) -> Array:  # noqa: D102
-        return np.log10(values)
+        return np.asarray(np.log10(values))
 
     @staticmethod
     def backward(values: Array) -> Array:  # noqa: D102
@@ -106,45 +100,6 @@ class LogScale(Scale):
         powers = (power for power in range(first, last + 1) if power % every == 0)
         ticks = (float(f"{digit}e{power}") for power in powers for digit in digits)
         return [tick for tick in ticks if self.low <= tick <= self.high]
-
-
-def fitted(values: Iterable[float], start: float, stop: float) -> Scale:
-    """Return the scale that shows ``values``, logarithmic where they span more than a factor 10.
-
-    Parameters
-    ----------
-    values : iterable of float
-        Those that are not finite are passed over.
-    start, stop : float
-        Where the ends are, in pixels.
-    """
-    low, high = _range(values)
-    kind = LogScale if low > 0.0 and high > LOG_RANGE * low else LinearScale
-    return _around(kind, low, high, start, stop)
-
-
-def linear(values: Iterable[float], start: float, stop: float) -> Scale:
-    """Return the linear scale that shows ``values``; see `fitted`."""
-    return _around(LinearScale, *_range(values), start, stop)
-
-
-def _range(values: Iterable[float]) -> tuple[float, float]:
-    finite = [value for value in values if math.isfinite(value)] or [0.0, 1.0]
-    return min(finite), max(finite)
-
-
-def _around(kind: type[Scale], low: float, high: float, start: float, stop: float) -> Scale:
-    ends = kind.forward(np.array([low, high]))
-    margin = MARGIN * float(ends[1] - ends[0]) or 0.05 * abs(low) or 1.0
-    low, high = map(float, kind.backward(ends + np.array([-margin, margin])))
-    return kind(low, high, start, stop)
-
-
-def remark(scale: Scale) -> str:
-    """Return a sentence on an axis that spans little of its values; empty on any other."""
-    largest = max(abs(scale.low), abs(scale.high))
-    share = (scale.high - scale.low) / largest
-    return f"The axis spans {100.0 * share:.1g} % of the values." if share < NARROW else ""
 
 
 def _round_step(least: float) -> float:

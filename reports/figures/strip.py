@@ -11,9 +11,10 @@ import numpy as np
 from markupsafe import Markup, escape
 
 from mocapbench.reports.figures.axes import written
+from mocapbench.reports.figures.fitting import fitted
 from mocapbench.reports.figures.intervals import centre
 from mocapbench.reports.figures.marks import dot, horizontal, text, vertical
-from mocapbench.reports.figures.scale import Scale, fitted
+from mocapbench.reports.figures.scale import Scale
 from mocapbench.reports.figures.styles import Style
 
 __all__ = ["STRIP_HEIGHT", "STRIP_WIDTH", "strip", "strip_axis", "strip_scale"]

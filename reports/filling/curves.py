@@ -7,10 +7,10 @@ from markupsafe import Markup
 from numpy.typing import NDArray
 
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes
+from mocapbench.reports.figures.fitting import linear
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import band, group, horizontal, polyline, rectangle
 from mocapbench.reports.figures.pictures.thinning import thinned
-from mocapbench.reports.figures.scale import linear
 from mocapbench.reports.figures.styles import TRUTH, Style
 from mocapbench.reports.figures.svg_figure import Key
 from mocapbench.reports.filling.values import FilledCurve

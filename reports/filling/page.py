@@ -2,31 +2,21 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
-
-from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from mocapbench.reports.bundle.panels import Illustration
 from mocapbench.reports.figures.pictures.panels import draw
 from mocapbench.reports.filling.curves import draw_curve, legend
 from mocapbench.reports.filling.values import FilledPage
-from mocapbench.reports.page.resources import styles
-from mocapbench.reports.printable import printable
-from mocapbench.reports.text import counted, decimals, number
+from mocapbench.reports.resources import styles, template
+from mocapbench.reports.text import decimals, number
 
 __all__ = ["render_filled"]
 
 
 def render_filled(page: FilledPage) -> str:
     """Return the page of a filled file as one self-contained HTML page."""
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    environment.filters["counted"] = counted
-    environment.filters["printable"] = printable
-    template = environment.from_string(_resource("mocapbench.reports.filling", "page.html.j2"))
-    return template.render(
+    return template("page.html.j2", "mocapbench.reports.filling").render(
         page=page,
         curves=[draw_curve(curve) for curve in page.curves],
         legend=legend(),
@@ -34,10 +24,6 @@ def render_filled(page: FilledPage) -> str:
         rows=_rows(page),
         css=styles(),
     )
-
-
-def _resource(package: str, name: str) -> str:
-    return (files(package) / name).read_text(encoding="utf-8")
 
 
 def _motion(page: FilledPage) -> Markup | None:

@@ -21,10 +21,10 @@ from mocapbench.reports.page.cells import cells_json
 from mocapbench.reports.page.facts import facts
 from mocapbench.reports.page.missing_data import missing_data
 from mocapbench.reports.page.notes import shared_notes
-from mocapbench.reports.page.resources import scripts, styles, template
 from mocapbench.reports.page.sections import TaskView, task_view
 from mocapbench.reports.paper.citations import citations_of
 from mocapbench.reports.tables.check import check_table
+from mocapbench.reports.resources import scripts, styles, template
 from mocapbench.reports.tables.papers import papers_table
 
 __all__ = ["render"]
@@ -36,10 +36,10 @@ def render(bundle: Bundle) -> str:
     looks = model_styles(bundle.layouts)
     shared = shared_notes([of_task.layout for of_task in results])
     elsewhere = {remark for notes in shared for remark in notes.remarks}
-    views = [task_view(of_task, looks, bundle.illustrations, elsewhere) for of_task in results]
+    views = [task_view(of_task, bundle, looks, elsewhere) for of_task in results]
     no_score = troubles(bundle)
     families = in_families(_models(results))
-    return template("page.html.j2").render(
+    return template("parts/page.html.j2").render(
         bundle=bundle,
         metrics=bundle.metrics,
         facts=facts(bundle),

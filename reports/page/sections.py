@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 
-from mocapbench.reports.analysis.ranks import ranks_over_units
 from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import TaskLayout
-from mocapbench.reports.bundle.pictures import Picture
 from mocapbench.reports.figures.pictures.draw import draw
-from mocapbench.reports.figures.scores.along import curves_along
-from mocapbench.reports.figures.scores.dots import dot_plot
-from mocapbench.reports.figures.scores.ranks import rank_figure
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.figures.task_figures import folded_figures, open_figures
 from mocapbench.reports.motions.player import PlayerFigure
 from mocapbench.reports.page.headline import Headline
 from mocapbench.reports.page.lead_headlines import lead_headlines
@@ -35,6 +32,8 @@ from mocapbench.reports.tables.verdicts import verdict_table
 from mocapbench.reports.text import slug
 
 __all__ = ["MetricView", "TaskView", "task_view"]
+
+Styles = Mapping[str, Style]
 
 SUMMARIES = (
     best_reference_table,
@@ -68,11 +67,11 @@ class TaskView:
     metrics : sequence of MetricView
         The first is shown open.
     figures : sequence of SvgFigure
-        Of the first metric.
+        Shown open.
     players : sequence of PlayerFigure
         Of motions of one solved problem.
     pictures : sequence of SvgFigure
-        Other pictures of one solved problem, folded.
+        Figures that are folded.
     summaries : sequence of Table
         What else there is to know, folded.
     not_run : sequence of str
@@ -105,28 +104,33 @@ class TaskView:
 
 
 def task_view(
-    results: TaskResults,
-    styles: Mapping[str, Style],
-    illustrations: Iterable[Picture] = (),
-    shared: Container[str] = (),
+    results: TaskResults, bundle: Bundle, styles: Styles, shared: Container[str] = ()
 ) -> TaskView:
-    """Return the section of one task, with the ``illustrations`` that belong to it.
+    """Return the section of one task.
 
-    Remarks that are ``shared`` with other tasks stand elsewhere.
+    Parameters
+    ----------
+    results : TaskResults
+    bundle : Bundle
+    styles : mapping of str to Style
+        Of all labels of the page, as `mocapbench.reports.figures.styles.model_styles` returns them.
+    shared : container of str
+        Remarks that stand elsewhere, as they are on other tasks too.
     """
     layout, first = results.layout, results.layout.page.metrics[0]
     ran = {case.name for case in results.cases}
-    pictures = [draw(picture, styles) for picture in illustrations if picture.task == layout.name]
+    own = (picture for picture in bundle.illustrations if picture.task == layout.name)
+    pictures = [draw(picture, styles) for picture in own]
     return TaskView(
         id=slug("task", layout.name),
         layout=layout,
         leads=[*lead_headlines(results, first), *published_headlines(results, first)],
         wins=win_headlines(results, first),
         metrics=[_metric_view(results, metric, styles) for metric in layout.page.metrics],
-        figures=_figures(results, first, styles),
+        figures=open_figures(results, bundle.parts, styles),
         players=[drawn for drawn in pictures if isinstance(drawn, PlayerFigure)],
         pictures=[
-            *_folded(results, first, styles),
+            *folded_figures(results, bundle.parts, styles),
             *(drawn for drawn in pictures if isinstance(drawn, SvgFigure)),
         ],
         summaries=_summaries(results, first),
@@ -135,27 +139,11 @@ def task_view(
     )
 
 
-def _metric_view(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> MetricView:
+def _metric_view(results: TaskResults, metric: str, styles: Styles) -> MetricView:
     crossed, title = results.layout.page.crossed, results.metrics[metric].title
     if crossed:
         return MetricView(title, None, cross_table(results, metric, crossed))
     return MetricView(title, score_table(results, metric, styles), None)
-
-
-def _figures(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> list[SvgFigure]:
-    """Return curves along a column where the page names one, and ranks where these separate."""
-    along = results.layout.page.along
-    curves = curves_along(results, metric, along, styles) if along else None
-    ranks, title = ranks_over_units(results, metric), results.metrics[metric].title
-    diagram = rank_figure(ranks, f"{title}, ranks over {ranks.unit}s", styles) if ranks else None
-    return [figure for figure in (curves, diagram) if figure is not None]
-
-
-def _folded(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> list[SvgFigure]:
-    """Return the scores case by case, unless they stand along a column or are of pairs."""
-    page = results.layout.page
-    plot = None if page.along or page.crossed else dot_plot(results, metric, styles)
-    return [] if plot is None else [plot]
 
 
 def _summaries(results: TaskResults, first: str) -> list[Table]:

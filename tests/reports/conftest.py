@@ -26,6 +26,7 @@ METRICS = {
         MetricInfo("smse_pooled", "SMSE (pooled)", Direction.LOWER),
         MetricInfo("msll", "MSLL", Direction.LOWER),
         MetricInfo("rms_per_frame", "RMS per frame", Direction.LOWER),
+        MetricInfo("mpjpe", "MPJPE, cm", Direction.LOWER),
         MetricInfo("mcc", "MCC", Direction.HIGHER),
         MetricInfo("mlc", "MLC", Direction.HIGHER),
         MetricInfo("variance_ratio", "Variance ratio", Direction.TARGET, 1.0),

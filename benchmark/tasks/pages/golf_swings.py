@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from mocapbench.benchmark.figures.filled_channels import FilledChannels
-from mocapbench.benchmark.figures.gap_error import GapError
 from mocapbench.benchmark.figures.latent_space import LatentSpaces
 from mocapbench.benchmark.figures.motions.filled import FilledMotion
 from mocapbench.benchmark.tasks.gpdm_entrants import WITH_BEST_START
@@ -32,7 +31,6 @@ PAGE = TaskPage(
     figures=(
         FilledMotion(),
         FilledChannels(("rhumerus.rx", "thorax.ry")),
-        GapError(),
         LatentSpaces(tuple(entrant.label for entrant in WITH_BEST_START)),
     ),
 )

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mocapbench.reports.bundle.heat_maps import HeatMap, HeatMaps
 from mocapbench.reports.figures.axes import panels
 from mocapbench.reports.figures.legend import key
-from mocapbench.reports.figures.marks import horizontal, rectangle, svg, text, vertical
+from mocapbench.reports.figures.marks import horizontal, rectangle, squares, svg, text, vertical
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
 from mocapbench.reports.text import MINUS, counted, number
@@ -83,16 +83,24 @@ def _canvas(values: NDArray[np.float64], limit: float) -> Markup:
 
 
 def _cells(values: NDArray[np.float64], limit: float) -> list[str]:
-    side = SIDE / len(values)
+    """Return the cells, those of a level as one mark, and the value in each."""
+    levels, side = levels_of(values, limit), SIDE / len(values)
+    corners = {level: np.argwhere(levels == level)[:, ::-1] * side for level in range(N_LEVELS)}
     return [
-        rectangle(LEFT + column * side, TOP + row * side, side, side, f"cell l{level}")
-        + text(
-            LEFT + (column + 0.5) * side,
-            TOP + (row + 0.5) * side + 4.0,
-            number(values[row, column], 2),
-            "middle name",
-        )
-        for (row, column), level in np.ndenumerate(levels_of(values, limit))
+        *(
+            squares([(LEFT + x, TOP + y) for x, y in places], side, f"cell l{level}")
+            for level, places in corners.items()
+            if len(places)
+        ),
+        *(
+            text(
+                LEFT + (column + 0.5) * side,
+                TOP + (row + 0.5) * side + 4.0,
+                number(float(value), 2),
+                "middle name",
+            )
+            for (row, column), value in np.ndenumerate(values)
+        ),
     ]
 
 

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from mocapbench.reports.bundle.panels import Band, Curve, Illustration, Panel
 from mocapbench.reports.figures.axes import BOTTOM, LEFT, TOP, WIDTH, Axes, panels
+from mocapbench.reports.figures.fitting import linear
 from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, group, polyline
 from mocapbench.reports.figures.pictures.thinning import thinned
-from mocapbench.reports.figures.scale import LinearScale, linear
+from mocapbench.reports.figures.scale import LinearScale
 from mocapbench.reports.figures.styles import Style, group_styles
 from mocapbench.reports.figures.svg_figure import SvgFigure
 
@@ -45,11 +46,11 @@ def _panel(panel: Panel, styles: Styles, title: str) -> Markup:
 
 
 def _axes(panel: Panel) -> Axes:
-    parts = [*panel.curves, *panel.bands]
+    along = [*(curve.x for curve in panel.curves), *(each.x for each in panel.bands)]
     heights = np.concatenate(
         [*(curve.y for curve in panel.curves), *(np.r_[b.low, b.high] for b in panel.bands)]
     )
-    x = linear(np.concatenate([part.x for part in parts]), LEFT, WIDTH)
+    x = linear(np.concatenate(along), LEFT, WIDTH)
     y = linear(heights, TOP + HEIGHT, TOP)
     return Axes(x, y, panel.title, panel.x_label, panel.y_label)
 

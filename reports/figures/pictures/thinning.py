@@ -25,7 +25,7 @@ def thinned(points: Array, tolerance: float = TOLERANCE) -> Array:
     tolerance : float
         The largest distance of a point from the line, in pixels.
     """
-    kept = np.isnan(points).any(axis=1)
+    kept = np.asarray(np.isnan(points).any(axis=1))
     ends = [-1, *np.flatnonzero(kept), len(points)]
     for before, after in pairwise(ends):
         if after - before > 1:

@@ -11,10 +11,11 @@ from markupsafe import Markup
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
+from mocapbench.reports.figures.fitting import fitted, remark
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, dot, group, polyline
-from mocapbench.reports.figures.scale import Scale, fitted, remark
+from mocapbench.reports.figures.scale import Scale
 from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_values
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure

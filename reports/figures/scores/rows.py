@@ -7,9 +7,9 @@ from mocapbench.reports.figures.styles import Style
 
 __all__ = ["NAMES", "ROW", "TOP", "place_of", "row"]
 
-NAMES, ROW, TOP = 132.0, 17.0, 24.0
+NAMES, ROW, TOP = 152.0, 17.0, 24.0
 """Width of the names, height of a row, and of the heading, in pixels."""
-_LONGEST = 24
+_LONGEST = 26
 
 
 def place_of(number: int) -> float:

@@ -31,6 +31,7 @@
     context.putImageData(image, 0, 0);
   };
 
+  const names = { ht: "ink", hr: "series-reference" };
   const points = (text) => new Int16Array(bytes(text).buffer);
   const place = (at, list, view, side) => {
     const [up, around] = view.map((angle) => (angle * Math.PI) / 180);
@@ -50,8 +51,8 @@
       context.fillRect(...place(at, space.points, space.view, side).map((x) => x - 1.5), 3, 3);
     });
     context.globalAlpha = 1;
-    for (const [hue, , list] of space.lines) {
-      context.strokeStyle = hue === "ht" ? colour("ink") : colour(`series-${hue.slice(1).replace("r", "reference")}`);
+    for (const { hue, list } of space.lines) {
+      context.strokeStyle = colour(names[hue] ?? `series-${hue.slice(1)}`);
       context.lineWidth = 1.5;
       context.beginPath();
       let broken = true;
@@ -69,13 +70,12 @@
   const turnable = (canvas) => {
     const space = JSON.parse(canvas.dataset.space);
     space.points = points(space.cloud);
-    space.lines = space.paths.map(([hue, label, list]) => [hue, label, points(list)]);
+    space.lines = space.paths.map(([hue, , list]) => ({ hue, list: points(list) }));
     const turn = (up, around) => {
       space.view = [Math.max(-90, Math.min(90, space.view[0] + up)), space.view[1] + around];
       drawSpace(canvas, space);
     };
     const keys = { ArrowLeft: [0, -5], ArrowRight: [0, 5], ArrowUp: [5, 0], ArrowDown: [-5, 0] };
-    canvas.hidden = false;
     canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
     canvas.addEventListener("pointermove", (event) => {
       if (event.buttons) turn(event.movementY / 2, -event.movementX / 2);
@@ -101,7 +101,10 @@
     { rootMargin: "50%" },
   );
   const canvases = document.querySelectorAll("canvas[data-rows], canvas[data-space]");
-  for (const canvas of canvases) near.observe(canvas);
+  for (const canvas of canvases) {
+    canvas.hidden = false; // what is hidden never comes near
+    near.observe(canvas);
+  }
 
   const again = () => drawn.forEach((draw) => draw());
   const all = () => {

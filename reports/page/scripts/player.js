@@ -1,231 +1,16 @@
 "use strict";
 
-// Motion players: the truth and two models as bodies that move. Each is decoded and drawn when it
-// comes near the part of the page that is seen. `reports/motions/encoding.py` says how positions
-// are kept; the x axis points ahead, y up and z to the right of the body, in centimetres.
+// Motion players: the truth and two models as bodies that move, and their controls. Each is decoded
+// and drawn when it comes near the part of the page that is seen.
 (() => {
+  const { colours, errors, extent, limbs, paint, reader, unpack } = bodies;
   const VIEWS = { side: [0, 0.09], front: [-Math.PI / 2, 0.09], free: [-0.7, 0.22] };
   const KEYS = { 1: "side", 2: "front", 3: "free" };
-  const N_STILLS = 8;
-  const [GRID, REACH, HEAD] = [50, 150, 17]; // centimetres
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   const dark = matchMedia("(prefers-color-scheme: dark)");
 
-  // ---- positions
-
-  const unpack = async (data) => {
-    const packed = Uint8Array.from(atob(data.positions), (letter) => letter.charCodeAt(0));
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-    const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-    const n = bytes.length / 2;
-    const steps = new Int16Array(n); // sums wrap around, as they did when differences were taken
-    for (let i = 0; i < n; i++) {
-      const code = bytes[i] | (bytes[n + i] << 8);
-      steps[i] = (code >>> 1) ^ -(code & 1);
-    }
-    const row = data.frames, motion = data.parents.length * 3 * row;
-    for (let i = 0; i < n; i++) if (i % row) steps[i] += steps[i - 1];
-    for (let i = 0; i < n; i++) {
-      const joint = Math.floor((i % motion) / (3 * row)), parent = data.parents[joint];
-      if (parent >= 0) steps[i] += steps[i - (joint - parent) * 3 * row];
-    }
-    data.motions.forEach(([, against], k) => {
-      const start = (data.truths.length + k) * motion;
-      for (let i = 0; i < motion; i++) steps[start + i] += steps[against * motion + i];
-    });
-    return steps;
-  };
-
-  /** Return a function (motion, frame) → [[x, y, z], …] of all joints. */
-  const reader = (data, steps) => (motion, frame) =>
-    data.parents.map((_, joint) =>
-      [0, 1, 2].map((axis) => {
-        const row = (motion * data.parents.length + joint) * 3 + axis;
-        return steps[row * data.frames + frame] * data.resolution;
-      }));
-
-  const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-  const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
-
-  /** Return the width of each bone: the more hangs on it, the thicker a limb is. */
-  const limbs = (data, joints) => {
-    const lengths = data.parents.map((p, j) => (p < 0 ? 0 : distance(joints[j], joints[p])));
-    const carried = [...lengths], leaf = data.parents.map(() => true);
-    for (let j = data.parents.length - 1; j > 0; j--) {
-      if (data.parents[j] < 0) continue;
-      carried[data.parents[j]] += carried[j];
-      leaf[data.parents[j]] = false;
-    }
-    const widths = carried.map((sum) => Math.min(1.5 + Math.sqrt(sum), 14));
-    const head = leaf.findIndex((end, j) => end && !data.sides[j] && data.parents[j] >= 0);
-    return { widths, head };
-  };
-
-  // ---- drawing
-
-  /** Return a function [x, y, z] → [right, up, towards the viewer], in centimetres. */
-  const camera = ([yaw, pitch], [cx, cz]) => {
-    const [c, s, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
-    return ([x, y, z]) => {
-      const near = -(x - cx) * s + (z - cz) * c;
-      return [(x - cx) * c + (z - cz) * s, y * cp - near * sp, near * cp + y * sp];
-    };
-  };
-
-  const mixed = (one, share, other) => `color-mix(in oklab, ${one} ${Math.round(share * 100)}%, ${other})`;
-
-  const line = (context, from, to, width, style) => {
-    context.lineWidth = width;
-    context.strokeStyle = style;
-    context.beginPath();
-    context.moveTo(from[0], from[1]);
-    context.lineTo(to[0], to[1]);
-    context.stroke();
-  };
-
-  /** Draw a body; `paint(joint)` is the colour of the bone that ends there, `thin` is for sticks. */
-  const body = (context, place, joints, player, paint, thin) => {
-    const seen = joints.map((joint) => place(joint)), scale = thin ? 0 : place.scale;
-    const { widths, head } = player.limbs;
-    const bones = player.data.parents.map((parent, joint) => {
-      const start = parent < 0 ? seen[joint] : seen[parent];
-      return { joint, start, end: seen[joint], depth: start[2] + seen[joint][2] };
-    }).sort((one, other) => one.depth - other.depth);
-    context.lineCap = "round";
-    for (const { joint, start, end } of bones) {
-      const width = Math.max((joint === head ? HEAD : widths[joint]) * scale, 2);
-      const from = joint === head && !thin ? end : start;
-      line(context, from, end, width + 1.6, player.colours.paper);
-      line(context, from, end, width, paint(joint));
-    }
-  };
-
-  const ground = (context, place, [cx, cz], colours) => {
-    const first = (centre) => Math.ceil((centre - REACH) / GRID) * GRID;
-    for (let x = first(cx); x <= cx + REACH; x += GRID) {
-      line(context, place([x, 0, cz - REACH]), place([x, 0, cz + REACH]), 1, colours.rule);
-    }
-    for (let z = first(cz); z <= cz + REACH; z += GRID) {
-      line(context, place([cx - REACH, 0, z]), place([cx + REACH, 0, z]), 1, colours.rule);
-    }
-  };
-
-  /** Return a function from centimetres to pixels within a box, whose body stands at `centre`. */
-  const placer = (player, box, centre) => {
-    const turn = camera(player.angles, centre), { height, reach } = player.extent;
-    const scale = Math.min((box.h * 0.8) / height, (box.w * 0.94) / (2 * reach));
-    const place = (point) => {
-      const [right, up, near] = turn(point);
-      return [box.x + box.w / 2 + right * scale, box.y + box.h * 0.9 - up * scale, near];
-    };
-    place.scale = scale;
-    return place;
-  };
-
-  /** Return the colour of a motion: ink for a truth, a hue for each of the two models. */
-  const own = ({ data, chosen, colours }, motion) => {
-    if (motion < data.truths.length) return colours.ink;
-    return motion === chosen.a ? colours.a : colours.b;
-  };
-
-  /** Return how to colour the bones of a motion at a frame. */
-  const painter = (player, motion, frame) => {
-    const { data, colours, at } = player, n = data.truths.length;
-    const side = (joint, style) => (data.sides[joint] === "l" ? mixed(style, 0.55, colours.paper) : style);
-    if (motion < n || !player.errors) return (joint) => side(joint, own(player, motion));
-    const [truth, made] = [at(player.against(motion), frame), at(motion, frame)];
-    return (joint) => mixed(colours.bad, Math.min(distance(truth[joint], made[joint]) / player.most, 1), colours.good);
-  };
-
-  /** Draw some motions in one box that is centred on the truth, which is thin over others. */
-  const draw = (context, box, motions, frame, player) => {
-    const { colours } = player, root = player.at(player.against(motions[0]), frame)[0];
-    const centre = [root[0], root[2]], place = placer(player, box, centre);
-    context.save();
-    context.beginPath();
-    context.rect(box.x, box.y, box.w, box.h);
-    context.clip();
-    context.fillStyle = player.hidden[frame] ? colours.shade : colours.paper;
-    context.fillRect(box.x, box.y, box.w, box.h);
-    ground(context, place, centre, colours);
-    for (const motion of motions) {
-      const thin = motions.length > 1 && motion < player.data.truths.length;
-      body(context, place, player.at(motion, frame), player, painter(player, motion, frame), thin);
-    }
-    context.restore();
-  };
-
-  const labels = (context, player, motions, left, top) => {
-    motions.forEach((motion, k) => {
-      context.font = "600 13px system-ui, sans-serif";
-      context.fillStyle = own(player, motion);
-      context.fillText(player.name(motion), left + 6, top + 15 + 17 * k);
-    });
-  };
-
-  /** Return the motions of each panel: truths and models apart, or one over the other. */
-  const panels = (player) => {
-    const { a, b } = player.chosen, [one, other] = [player.against(a), player.against(b)];
-    const all = [one, a, other, b].filter((motion, k, list) => list.indexOf(motion) === k);
-    if (player.layout === "beside") return all.map((motion) => [motion]);
-    return one === other ? [[...all.slice(1).reverse(), one]] : [[a, one], [b, other]];
-  };
-
-  const fit = (canvas, height) => {
-    const ratio = devicePixelRatio || 1, context = canvas.getContext("2d");
-    canvas.style.height = `${height}px`;
-    [canvas.width, canvas.height] = [Math.round(canvas.clientWidth * ratio), Math.round(height * ratio)];
-    context.scale(ratio, ratio);
-    return context;
-  };
-
-  const paint = (player) => {
-    const shown = panels(player), n = player.still ? N_STILLS : shown.length;
-    const w = player.canvas.clientWidth / n;
-    const h = player.still ? Math.max(w * 1.7, 100) : Math.min(Math.max(w * 1.1, 240), 400);
-    const context = fit(player.canvas, player.still ? h * shown.length : h);
-    shown.forEach((motions, k) => {
-      if (!player.still) draw(context, { x: k * w, y: 0, w, h }, motions, player.frame, player);
-      for (let still = 0; player.still && still < N_STILLS; still++) {
-        const frame = Math.round((still * (player.data.frames - 1)) / (N_STILLS - 1));
-        draw(context, { x: still * w, y: k * h, w, h }, motions, frame, player);
-      }
-      labels(context, player, motions, player.still ? 0 : k * w, player.still ? k * h : 0);
-    });
-  };
-
-  // ---- a player and its controls
-
-  const colours = (root) => {
-    const styles = getComputedStyle(root), get = (name) => styles.getPropertyValue(name).trim();
-    const [paper, ink, rule] = [get("--paper"), get("--ink"), get("--rule")];
-    const shade = mixed(get("--series-4"), 0.1, paper);
-    return { paper, ink, rule, shade, a: get("--model-a"), b: get("--model-b"), good: get("--series-2"), bad: get("--bad") };
-  };
-
-  const nice = (value) => [1, 2, 5, 10, 15, 20, 30, 40, 50, 75, 100].find((step) => value <= step) ?? 150;
-
-  /** Return the mean error over joints at each frame, and what 5 % of all errors surpass. */
-  const errors = (player, motion) => {
-    const all = player.hidden.map((_, frame) => {
-      const truth = player.at(player.against(motion), frame);
-      return player.at(motion, frame).map((joint, j) => distance(joint, truth[j]));
-    });
-    const sorted = all.flat().sort((one, other) => one - other);
-    return { means: all.map(mean), most: sorted[Math.floor(0.95 * sorted.length)] };
-  };
-
-  const extent = (player) => {
-    let [height, reach] = [1, 1];
-    for (let truth = 0; truth < player.data.truths.length; truth++) {
-      for (let frame = 0; frame < player.data.frames; frame++) {
-        const joints = player.at(truth, frame);
-        height = Math.max(height, ...joints.map((joint) => joint[1]));
-        reach = Math.max(reach, ...joints.map(([x, , z]) => Math.hypot(x - joints[0][0], z - joints[0][2])));
-      }
-    }
-    return { height, reach: reach + 10 };
-  };
+  const ENDS = [1, 2, 5, 10, 15, 20, 30, 40, 50, 75, 100];
+  const nice = (value) => ENDS.find((end) => value <= end) ?? 150;
 
   const hiddenFrames = (data) => {
     const hidden = new Array(data.frames).fill(false);
@@ -233,119 +18,185 @@
     return hidden;
   };
 
+  /** Return the background of the scrubber, where a frame's place is that of the thumb. */
+  const bands = (data) => {
+    const colour = "color-mix(in oklab, var(--series-4) 45%, var(--paper))";
+    const percent = (frame) => `${((100 * frame) / (data.frames - 1)).toFixed(2)}%`;
+    const stops = data.hidden.map(([first, stop]) => {
+      const [from, to] = [percent(first), percent(stop - 1)];
+      return `transparent ${from}, ${colour} ${from}, ${colour} ${to}, transparent ${to}`;
+    });
+    return stops.length ? `linear-gradient(90deg, ${stops.join(", ")})` : "none";
+  };
+
+  class Player {
+    constructor(root, data, steps) {
+      Object.assign(this, { root, data, frame: 0, playing: false });
+      Object.assign(this, { errors: false, layout: "beside" });
+      this.at = reader(data, steps);
+      this.hidden = hiddenFrames(data);
+      this.limbs = limbs(data, this.at(0, 0));
+      this.extent = extent(this);
+      this.still = calm.matches;
+      this.colours = colours(root);
+      this.angles = [...VIEWS.side];
+      this.canvas = this.find("canvas");
+      this.slider = this.find("input[type=range]");
+      this.view = this.find("[data-view]");
+      this.slider.max = data.frames - 1;
+      this.find(".player-shade").style.backgroundImage = bands(data);
+      this.listen();
+      this.choose();
+    }
+
+    find(selector) { return this.root.querySelector(selector); }
+
+    against(motion) {
+      const n = this.data.truths.length;
+      return motion < n ? motion : this.data.motions[motion - n][1];
+    }
+
+    name(motion) {
+      const n = this.data.truths.length;
+      return motion < n ? this.data.truths[motion] : this.data.motions[motion - n][0];
+    }
+
+    show() {
+      const find = (selector) => this.find(selector), still = this.still;
+      this.slider.value = this.frame;
+      this.slider.setAttribute("aria-valuetext", `${this.seconds()} seconds`);
+      find("[data-play]").textContent = this.playing ? "Pause" : "Play";
+      find(".player-playback").hidden = still;
+      find(".player-strip-note").hidden = !still || !calm.matches;
+      find(".player-scale").hidden = !this.errors;
+      find("[data-most]").textContent = `${this.most} cm or more`;
+      find("output").textContent = still ? "" : this.sentence();
+      this.root.classList.toggle("is-free", this.view.value === "free");
+      paint(this);
+    }
+
+    seconds() { return (this.frame * this.data.interval).toFixed(2); }
+
+    sentence() {
+      const where = `${this.seconds()} s, frame ${this.frame + 1} of ${this.data.frames}`;
+      const gap = this.hidden[this.frame] ? ", hidden" : "";
+      const [a, b] = ["a", "b"].map((side) =>
+        `${this.name(this.chosen[side])} ${this.means[side][this.frame].toFixed(1)} cm`);
+      return `${where}${gap}. Mean distance of joints from the truth: A ${a}, B ${b}.`;
+    }
+
+    choose() {
+      const number = (side) => Number(this.find(`[data-choice=${side}]`).value);
+      const [a, b] = ["a", "b"].map((side) => this.data.truths.length + number(side));
+      const [one, other] = [errors(this, a), errors(this, b)];
+      this.chosen = { a, b };
+      this.means = { a: one.means, b: other.means };
+      this.most = nice(Math.max(one.most, other.most));
+      this.show();
+    }
+
+    look(view) {
+      this.view.value = view;
+      this.angles = [...VIEWS[view]];
+      this.show();
+    }
+
+    run(playing) {
+      this.playing = playing;
+      this.clock = this.frame * this.data.interval;
+      this.last = performance.now();
+      cancelAnimationFrame(this.next);
+      if (playing) this.next = requestAnimationFrame((now) => this.step(now));
+      this.show();
+    }
+
+    step(now) {
+      const { frames, interval } = this.data, speed = Number(this.find("[data-speed]").value);
+      const passed = Math.max(now - this.last, 0) / 1000; // the first frame may have begun before
+      this.clock = (this.clock + passed * speed) % (frames * interval);
+      this.last = now;
+      this.frame = Math.min(Math.floor(this.clock / interval), frames - 1);
+      this.next = requestAnimationFrame((later) => this.step(later));
+      this.show();
+    }
+
+    jump(frame) {
+      this.frame = Math.min(Math.max(frame, 0), this.data.frames - 1);
+      this.run(false);
+    }
+
+    animate(moving) {
+      this.still = !moving;
+      this.run(false);
+    }
+
+    press(event) {
+      const { key, target, altKey, ctrlKey, metaKey } = event;
+      if (this.still || altKey || ctrlKey || metaKey || target.matches("select")) return;
+      if (key === " " && target.matches("button, [type=checkbox]")) return;
+      const [left, right] = [this.frame - 1, this.frame + 1];
+      const moves = { ArrowLeft: left, ArrowRight: right, Home: 0, End: Infinity };
+      if (key === " ") this.run(!this.playing);
+      else if (key in KEYS) this.look(KEYS[key]);
+      else if (key in moves && target !== this.slider) this.jump(moves[key]);
+      else return;
+      event.preventDefault();
+    }
+
+    grab(event) {
+      this.held = [event.clientX, event.clientY];
+      this.canvas.setPointerCapture(event.pointerId);
+    }
+
+    drag({ clientX, clientY, buttons }) {
+      if (this.view.value !== "free" || !buttons || !this.held) return;
+      const [x, y] = this.held, pitch = this.angles[1] + (clientY - y) * 0.01;
+      this.angles = [this.angles[0] - (clientX - x) * 0.01, Math.min(Math.max(pitch, -0.2), 1.5)];
+      this.held = [clientX, clientY];
+      this.show();
+    }
+
+    listen() {
+      const on = (target, name, act) => target.addEventListener(name, (event) => act(event));
+      const set = (change) => Object.assign(this, change) && this.show();
+      on(this.root, "keydown", (event) => this.press(event));
+      on(this.slider, "input", () => this.jump(Number(this.slider.value)));
+      on(this.find("[data-play]"), "click", () => this.run(!this.playing));
+      on(this.find("[data-layout]"), "change", ({ target }) => set({ layout: target.value }));
+      on(this.find("[data-errors]"), "change", ({ target }) => set({ errors: target.checked }));
+      on(this.view, "change", () => this.look(this.view.value));
+      on(this.find("[data-choice=a]"), "change", () => this.choose());
+      on(this.find("[data-choice=b]"), "change", () => this.choose());
+      on(this.canvas, "pointerdown", (event) => this.grab(event));
+      on(this.canvas, "pointermove", (event) => this.drag(event));
+      on(this.find("[data-animate]"), "click", () => {
+        this.animate(true);
+        this.run(true);
+        this.root.focus();
+      });
+      on(dark, "change", () => set({ colours: colours(this.root) }));
+      on(calm, "change", () => this.animate(!calm.matches));
+      on(window, "beforeprint", () => this.animate(false));
+      on(window, "afterprint", () => this.animate(!calm.matches));
+      this.watch();
+    }
+
+    /** Draw again when the width changes, and rest while out of sight. */
+    watch() {
+      new ResizeObserver(() => {
+        if (this.width === this.canvas.clientWidth) return;
+        this.width = this.canvas.clientWidth;
+        this.show();
+      }).observe(this.canvas);
+      new IntersectionObserver(([{ isIntersecting }]) => {
+        if (!isIntersecting && this.playing) this.run(false);
+      }).observe(this.root);
+    }
+  }
+
   const start = async (root) => {
     const data = JSON.parse(document.querySelector(`script[data-player="${root.id}"]`).textContent);
-    const find = (selector) => root.querySelector(selector), n = data.truths.length;
-    const player = {
-      data, canvas: find("canvas"), at: reader(data, await unpack(data)), hidden: hiddenFrames(data),
-      frame: 0, since: 0, playing: false, layout: "beside", angles: [...VIEWS.side], errors: false,
-      still: calm.matches, colours: colours(root),
-      against: (motion) => (motion < n ? motion : data.motions[motion - n][1]),
-      name: (motion) => (motion < n ? data.truths[motion] : data.motions[motion - n][0]),
-    };
-    const [slider, view, play] = [find("input[type=range]"), find("[data-view]"), find("[data-play]")];
-    player.limbs = limbs(data, player.at(0, 0));
-    player.extent = extent(player);
-    slider.max = data.frames - 1;
-
-    const say = () => {
-      const { a, b } = player.chosen, error = ({ means }) => `${means[player.frame].toFixed(1)} cm`;
-      const where = `${(player.frame * data.interval).toFixed(2)} s, frame ${player.frame + 1} of ${data.frames}`;
-      const gap = player.hidden[player.frame] ? ", hidden" : "";
-      find("output").textContent = `${where}${gap}. Mean distance of joints from the truth: ` +
-        `A ${player.name(a)} ${error(player.of.a)}, B ${player.name(b)} ${error(player.of.b)}.`;
-    };
-    const show = () => {
-      slider.value = player.frame;
-      slider.setAttribute("aria-valuetext", `${(player.frame * data.interval).toFixed(2)} seconds`);
-      play.textContent = player.playing ? "Pause" : "Play";
-      find(".player-playback").hidden = player.still;
-      find(".player-strip-note").hidden = !player.still || !calm.matches;
-      find(".player-scale").hidden = !player.errors;
-      find("[data-most]").textContent = `${player.most} cm or more`;
-      root.classList.toggle("is-free", view.value === "free");
-      paint(player);
-      if (!player.still) say();
-    };
-    const choose = () => {
-      const [a, b] = ["a", "b"].map((side) => n + Number(find(`[data-choice=${side}]`).value));
-      player.chosen = { a, b };
-      player.of = { a: errors(player, a), b: errors(player, b) };
-      player.most = nice(Math.max(player.of.a.most, player.of.b.most));
-      show();
-    };
-    const look = (name) => {
-      view.value = name;
-      player.angles = [...VIEWS[name]];
-      show();
-    };
-    const step = (now) => {
-      if (!player.playing) return;
-      const length = data.frames * data.interval * 1000, speed = Number(find("[data-speed]").value);
-      player.clock = (player.clock + (now - player.last) * speed) % length;
-      player.last = now;
-      player.frame = Math.min(Math.floor(player.clock / (data.interval * 1000)), data.frames - 1);
-      show();
-      requestAnimationFrame(step);
-    };
-    const run = (playing) => {
-      player.playing = playing;
-      player.clock = player.frame * data.interval * 1000;
-      player.last = performance.now();
-      if (playing) requestAnimationFrame(step);
-      show();
-    };
-    const jump = (frame) => {
-      player.frame = Math.min(Math.max(frame, 0), data.frames - 1);
-      run(false);
-    };
-    const animate = (still) => {
-      player.still = still;
-      run(false);
-    };
-
-    const onKey = (event) => {
-      const target = event.target, range = target === slider;
-      if (event.altKey || event.ctrlKey || event.metaKey || target.matches("select")) return;
-      const keys = {
-        " ": () => run(!player.playing), 1: () => look(KEYS[1]), 2: () => look(KEYS[2]), 3: () => look(KEYS[3]),
-        ...(range ? {} : {
-          ArrowLeft: () => jump(player.frame - 1), ArrowRight: () => jump(player.frame + 1),
-          Home: () => jump(0), End: () => jump(data.frames - 1),
-        }),
-      };
-      if (!keys[event.key] || player.still || (event.key === " " && target.matches("button, [type=checkbox]"))) return;
-      event.preventDefault();
-      keys[event.key]();
-    };
-    const onDrag = (event) => {
-      if (view.value !== "free" || !event.buttons) return;
-      player.angles[0] -= event.movementX * 0.01;
-      player.angles[1] = Math.min(Math.max(player.angles[1] + event.movementY * 0.01, -0.2), 1.5);
-      show();
-    };
-
-    root.addEventListener("keydown", onKey);
-    slider.addEventListener("input", () => jump(Number(slider.value)));
-    play.addEventListener("click", () => run(!player.playing));
-    find("[data-animate]").addEventListener("click", () => { animate(false); run(true); root.focus(); });
-    view.addEventListener("change", () => look(view.value));
-    find("[data-layout]").addEventListener("change", (event) => { player.layout = event.target.value; show(); });
-    find("[data-errors]").addEventListener("change", (event) => { player.errors = event.target.checked; show(); });
-    for (const select of root.querySelectorAll("[data-choice]")) select.addEventListener("change", choose);
-    player.canvas.addEventListener("pointerdown", (event) => player.canvas.setPointerCapture(event.pointerId));
-    player.canvas.addEventListener("pointermove", onDrag);
-    dark.addEventListener("change", () => { player.colours = colours(root); show(); });
-    calm.addEventListener("change", () => animate(calm.matches));
-    addEventListener("beforeprint", () => animate(true));
-    addEventListener("afterprint", () => animate(calm.matches));
-    new ResizeObserver(() => { if (player.width !== player.canvas.clientWidth) { player.width = player.canvas.clientWidth; show(); } }).observe(player.canvas);
-    new IntersectionObserver(([entry]) => { if (!entry.isIntersecting && player.playing) run(false); }).observe(root);
-    const shades = data.hidden.map(([first, stop]) => [first, stop - 1].map((frame) => `${((100 * frame) / (data.frames - 1)).toFixed(2)}%`));
-    const shade = "color-mix(in oklab, var(--series-4) 45%, var(--paper))";
-    const bands = shades.map(([from, to]) => `transparent ${from}, ${shade} ${from}, ${shade} ${to}, transparent ${to}`);
-    if (bands.length) find(".player-shade").style.backgroundImage = `linear-gradient(90deg, ${bands.join(", ")})`;
-    choose();
+    new Player(root, data, await unpack(data));
     root.dataset.ready = "";
   };
 

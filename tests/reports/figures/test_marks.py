@@ -11,18 +11,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from mocapbench.reports.figures.axes import Axes, panels
-from mocapbench.reports.figures.marks import (
-    SHAPES,
-    band,
-    coordinate,
-    dot,
-    group,
-    polyline,
-    segments,
-    svg,
-    text,
-)
-from mocapbench.reports.figures.scale import fitted
+from mocapbench.reports.figures.fitting import fitted
+from mocapbench.reports.figures.marks import SHAPES, band, dot, group, polyline, svg, text
+from mocapbench.reports.figures.paths import coordinate, segments
 from mocapbench.reports.figures.styles import Style
 
 PLACES = st.floats(-2000.0, 2000.0)

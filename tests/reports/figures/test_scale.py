@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from mocapbench.reports.figures.axes import written
+from mocapbench.reports.figures.fitting import fitted, remark
 from mocapbench.reports.figures.intervals import centre, interval
-from mocapbench.reports.figures.scale import LinearScale, LogScale, fitted, remark
+from mocapbench.reports.figures.scale import LinearScale, LogScale
 
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False).map(lambda x: round(x, 6))
 POSITIVE = st.floats(1e-6, 1e6)

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.page.downloads import to_csv, to_latex
 from mocapbench.reports.page.sections import task_view
 from mocapbench.reports.printable import printable
@@ -32,7 +33,8 @@ def shown(latex):
 
 @pytest.fixture(scope="module")
 def tables(bundle):
-    views = [task_view(task_results(bundle, layout)) for layout in bundle.layouts]
+    styles = model_styles(bundle.layouts)
+    views = [task_view(task_results(bundle, each), bundle, styles) for each in bundle.layouts]
     return [table for view in views for table in view.tables]
 
 

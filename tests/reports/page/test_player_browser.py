@@ -133,7 +133,7 @@ def test_views_layouts_and_colours_change_the_drawing(player):
         lambda: tab.keyboard.press("3"),
         lambda: tab.locator("[data-layout]").select_option("over"),
         lambda: tab.locator("[data-errors]").check(),
-        lambda: tab.locator("[data-model=a]").select_option(label="above"),
+        lambda: tab.locator("[data-choice=a]").select_option(label="above"),
     ):
         tab.locator("input[type=range]").focus()
         drawing.evaluate(MOVES)

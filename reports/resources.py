@@ -1,4 +1,4 @@
-"""The parts, style sheets and scripts of a page, which is one file that needs no other."""
+"""The templates, style sheets and scripts of the pages, each of which needs no other file."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ from mocapbench.reports.text import counted, slug
 
 __all__ = ["scripts", "styles", "template"]
 
+PAGE = "mocapbench.reports.page"
 
-def template(name: str) -> Template:
-    """Return the template ``parts/name``, which may use the other parts."""
+
+def template(name: str, package: str = PAGE) -> Template:
+    """Return a template of ``package``, which may use the others there."""
     environment = Environment(
         autoescape=True,
-        loader=FunctionLoader(lambda part: _read("parts", part)),
+        loader=FunctionLoader(lambda part: _read(package, part)),
         lstrip_blocks=True,
         trim_blocks=True,
         undefined=StrictUndefined,
@@ -29,7 +31,7 @@ def template(name: str) -> Template:
 
 
 def styles() -> Markup:
-    """Return every style sheet, in the order of their names."""
+    """Return every style sheet that the pages share, in the order of their names."""
     return Markup("\n").join(map(Markup, _every("styles")))
 
 
@@ -39,9 +41,9 @@ def scripts() -> Markup:
 
 
 def _every(folder: str) -> Iterator[str]:
-    names = sorted(file.name for file in (files(__package__) / folder).iterdir() if file.is_file())
-    return (_read(folder, name) for name in names)
+    names = sorted(file.name for file in (files(PAGE) / folder).iterdir() if file.is_file())
+    return (_read(PAGE, f"{folder}/{name}") for name in names)
 
 
-def _read(folder: str, name: str) -> str:
-    return (files(__package__) / folder / name).read_text(encoding="utf-8")
+def _read(package: str, name: str) -> str:
+    return (files(package) / name).read_text(encoding="utf-8")

@@ -1,0 +1,105 @@
+"""Everything that changed from one run to another, for the page of two runs."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+
+from mocapbench.benchmark.comparison.fact_changes import (
+    changed_parameters,
+    changed_provenance,
+    changed_recordings,
+)
+from mocapbench.benchmark.comparison.problems import differences, require_same_problems
+from mocapbench.benchmark.comparison.score_changes import Pair, score_changes
+from mocapbench.benchmark.comparison.sides import Side
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark.results.bundle import metric_info
+from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.tasks.address import Address
+from mocapbench.reports import ComparedTask, Ending, RunChanges, Unpaired, counted
+
+__all__ = ["run_changes"]
+
+ByAddress = Mapping[Address, Record]
+
+
+def run_changes(first: Side, second: Side, names: tuple[str, str]) -> RunChanges:
+    """Return what changed from ``first`` to ``second``.
+
+    Parameters
+    ----------
+    first, second : sequence of Record
+    names : tuple of two str
+        What to call the runs.
+
+    Raises
+    ------
+    UsageError
+        If they have no job in common, or no two jobs of one address solve the same problem.
+    """
+    one, other = (_by_address(side) for side in (first, second))
+    common = [(record, other[address]) for address, record in one.items() if address in other]
+    if not common:
+        raise UsageError("report: the two runs have no (task, case, fold, entrant) in common")
+    scored = [pair for pair in common if _both_ok(pair)]
+    pairs = [pair for pair in scored if not differences(*pair)]
+    if not pairs:
+        require_same_problems(scored)
+    return RunChanges(
+        names=names,
+        tasks=[_task(name) for name in dict.fromkeys(a.address.task for a, _ in pairs)],
+        scores=score_changes(pairs),
+        newly_failing=_endings(common, without_score=1),
+        newly_passing=_endings(common, without_score=0),
+        parameters=changed_parameters(common),
+        provenance=changed_provenance(first, second),
+        recordings=changed_recordings(scored),
+        unpaired=_unpaired(scored),
+        only=(_only(one, other), _only(other, one)),
+    )
+
+
+def _by_address(side: Side) -> dict[Address, Record]:
+    """Return the records by address, without the version, which `differences` compares."""
+    return {record.address._replace(version=0): record for record in side}
+
+
+def _task(name: str) -> ComparedTask:
+    page = TASKS.get(name).page
+    return ComparedTask(name, page.title, {metric: metric_info(metric) for metric in page.metrics})
+
+
+def _both_ok(pair: Pair) -> bool:
+    return all(record.status is Status.OK for record in pair)
+
+
+def _endings(common: Iterable[Pair], *, without_score: int) -> list[Ending]:
+    """Return the jobs that only one run has a score of: not run 0, or not run 1."""
+    return [
+        Ending(
+            str(pair[0].address),
+            *(record.status.value for record in pair),
+            pair[without_score].message,
+        )
+        for pair in common
+        if pair[1 - without_score].status is Status.OK is not pair[without_score].status
+        and pair[0].address == pair[1].address
+    ]
+
+
+def _unpaired(scored: Iterable[Pair]) -> list[Unpaired]:
+    """Return why jobs are not compared, by reason; a job may have several."""
+    reasons = Counter(reason for pair in scored for reason in differences(*pair))
+    return [Unpaired(reason, jobs) for reason, jobs in reasons.most_common()]
+
+
+def _only(these: ByAddress, those: ByAddress) -> list[str]:
+    """Return the entrants with cells that only one run has, and how many."""
+    theirs = {address.all_folds for address in those}
+    cells = dict.fromkeys(a.all_folds for a in these if a.all_folds not in theirs)
+    counts = Counter((address.task, address.label) for address in cells)
+    return [
+        f"{task}: {label} ({counted(cases, 'case')})" for (task, label), cases in counts.items()
+    ]

@@ -1,0 +1,34 @@
+"""Which models a figure has room for: the best by a metric, and the best interpolation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from mocapbench.reports.analysis.results import TaskResults
+
+__all__ = ["best_labels", "mean_values"]
+
+
+def mean_values(results: TaskResults, metric: str) -> dict[str, float]:
+    """Return the mean over representative cases of each label that has a score in all of them."""
+    cases = [case.name for case in results.representative_cases(metric)]
+    found = {
+        label: [results.estimate(case, label, metric) for case in cases]
+        for label in results.layout.labels
+    }
+    return {
+        label: float(np.mean([estimate.mean for estimate in estimates if estimate]))
+        for label, estimates in found.items()
+        if all(estimates) and estimates
+    }
+
+
+def best_labels(results: TaskResults, metric: str, among: Iterable[str], most: int) -> list[str]:
+    """Return ``most`` ranked labels of the least loss, and the best interpolation, best first."""
+    loss, means, known = results.metrics[metric].loss, mean_values(results, metric), set(among)
+    order = sorted((name for name in means if name in known), key=lambda n: loss(means[n]))
+    ranked = [label for label in order if label in results.layout.ranked][:most]
+    filling = [label for label in order if label in results.layout.interpolations][:1]
+    return list(dict.fromkeys([*ranked, *filling]))

@@ -1,0 +1,77 @@
+"""The error along the gap, over the gaps of all windows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from markupsafe import Markup
+from numpy.typing import NDArray
+
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.bundle.error_parts import ErrorParts
+from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
+from mocapbench.reports.figures.fitting import linear
+from mocapbench.reports.figures.legend import line_keys
+from mocapbench.reports.figures.marks import band, group, polyline
+from mocapbench.reports.figures.scores.best import best_labels
+from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.svg_figure import SvgFigure
+from mocapbench.reports.text import counted
+
+__all__ = ["gap_error"]
+
+HEIGHT, N_BEST = 220.0, 5
+
+Array = NDArray[np.float64]
+
+
+def gap_error(
+    results: TaskResults, parts: ErrorParts, styles: Mapping[str, Style]
+) -> SvgFigure | None:
+    """Return the mean error along gaps of the best models; None where no gap is long enough."""
+    metric = parts.metrics.get(results.layout.name, "")
+    windows = _windows(results, parts, metric) if metric else {}
+    labels = best_labels(results, metric, windows, N_BEST) if windows else []
+    if not labels:
+        return None
+    title = results.metrics[metric].title
+    n = counted(max(len(windows[label]) for label in labels), "gap")
+    banded = {labels[0], labels[-1]}
+    caption = (
+        f"mean over {n} of all windows and cases with recordings, each stretched to one length, of "
+        f"the {len(labels)} models with the least mean, the best interpolation among them. Bands "
+        f"hold the middle half of the gaps, of {' and '.join(sorted(banded, key=labels.index))}."
+    )
+    drawn = _axes({label: windows[label] for label in labels}, title, banded, styles)
+    legend = line_keys({label: styles[label] for label in labels})
+    return SvgFigure("Error along the gap", panels([drawn]), legend, caption)
+
+
+def _windows(results: TaskResults, parts: ErrorParts, metric: str) -> dict[str, Array]:
+    """Return the errors (W, P) of each label over the windows of the representative cases."""
+    cases = {case.name for case in results.representative_cases(metric)}
+    found: dict[str, list[Array]] = {}
+    for (task, case, label), errors in parts.along_gap.items():
+        if task == results.layout.name and case in cases:
+            found.setdefault(label, []).append(errors.astype(np.float64))
+    return {label: np.concatenate(errors) for label, errors in found.items()}
+
+
+def _axes(
+    windows: Mapping[str, Array], title: str, banded: set[str], styles: Mapping[str, Style]
+) -> Markup:
+    n_places = next(iter(windows.values())).shape[1]
+    places = (np.arange(n_places) + 0.5) / n_places
+    means = {label: errors.mean(axis=0) for label, errors in windows.items()}
+    bands = {label: np.quantile(windows[label], [0.25, 0.75], axis=0) for label in banded}
+    x = linear([0.0, 1.0], LEFT, WIDTH)
+    y = linear(np.concatenate([[0.0], *means.values(), *map(np.ravel, bands.values())]), 0.0, 1.0)
+    y = type(y)(0.0, y.high, TOP + HEIGHT, TOP)
+    at = x.places(places)
+    marks = [
+        *(group(styles[n], band(at, *y.places(sides))) for n, sides in bands.items()),
+        *(group(styles[n], polyline(at, y.places(m)), title=n) for n, m in means.items()),
+    ]
+    axes = Axes(x, y, "", "from the first hidden frame to the last", title)
+    return axes.draw(marks, f"{title} along the gap, of {counted(len(windows), 'model')}")

@@ -1,0 +1,85 @@
+"""The page of two runs: one HTML file that contains everything and needs no network."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+from mocapbench.reports.bundle.metric_info import MetricInfo
+from mocapbench.reports.resources import styles, template
+from mocapbench.reports.slopes.chart import slope_chart
+from mocapbench.reports.slopes.values import ChangeVerdict, ComparedTask, RunChanges, ScoreChange
+from mocapbench.reports.text import MINUS, counted
+
+__all__ = ["render_changes"]
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """The slope chart of one task, with what stands above it."""
+
+    task: ComparedTask
+    metric: MetricInfo
+    cells: int
+    chart: Markup
+
+
+def render_changes(changes: RunChanges) -> str:
+    """Return what changed between two runs as one self-contained HTML page."""
+    slopes, identical = _slopes(changes)
+    return template("page.html.j2", "mocapbench.reports.slopes").render(
+        changes=changes,
+        summary=_summary(changes),
+        slopes=slopes,
+        identical=identical,
+        metrics=_metrics(changes),
+        only=list(zip(changes.names, changes.only, strict=True)),
+        digits=_digits,
+        css=styles(),
+    )
+
+
+def _metrics(changes: RunChanges) -> Mapping[str, str]:
+    return {name: info.title for task in changes.tasks for name, info in task.metrics.items()}
+
+
+def _summary(changes: RunChanges) -> str:
+    """Return the sentence that the page begins with."""
+    counts, (_, other) = changes.counts, changes.names
+    parts = [
+        f"{counts[ChangeVerdict.BETTER]} better and {counts[ChangeVerdict.WORSE]} worse in "
+        f"{other} beyond fold noise",
+        f"{counts[ChangeVerdict.WITHIN_NOISE]} differ within it",
+        f"{counts[ChangeVerdict.UNTESTED]} differ on one unit, which allows no test",
+        f"{counts[ChangeVerdict.IDENTICAL]} are identical",
+    ]
+    return (
+        f"Of {counted(len(changes.scores), 'score')} that both runs have, {', '.join(parts)}. "
+        f"{counted(len(changes.newly_failing), 'job')} newly without a score, "
+        f"{len(changes.newly_passing)} newly with one."
+    )
+
+
+def _slopes(changes: RunChanges) -> tuple[list[Slopes], list[str]]:
+    """Return the charts of the tasks of which anything changed, and the titles of the others."""
+    slopes, identical = [], []
+    for task in changes.tasks:
+        metric = next(iter(task.metrics.values()))
+        scores = [s for s in changes.scores if (s.task, s.metric) == (task.name, metric.name)]
+        if _all_identical(scores):
+            identical.append(task.title)
+        else:
+            title = f"{task.title}: {metric.title} of each cell in both runs"
+            chart = slope_chart(title, changes.names, scores)
+            slopes.append(Slopes(task, metric, len(scores), chart))
+    return slopes, identical
+
+
+def _all_identical(scores: Sequence[ScoreChange]) -> bool:
+    return all(score.verdict is ChangeVerdict.IDENTICAL for score in scores)
+
+
+def _digits(value: float) -> str:
+    return f"{value:.4g}".replace("-", MINUS)
