@@ -48,6 +48,18 @@ class Cells:
         """Whether a label has a score in a cell, of shape (n_labels, n_cells)."""
         return np.isfinite(self.values)
 
+    @cached_property
+    def best(self) -> int:
+        """The row with the least mean loss among those with the most scores."""
+        n_scores = self.scored.sum(axis=1)
+        candidates = np.flatnonzero(n_scores == n_scores.max()).tolist()
+        return int(min(candidates, key=self.mean_loss))
+
+    @cached_property
+    def complete(self) -> NDArray[np.bool_]:
+        """Whether a label has a score wherever the best one has, of shape (n_labels,)."""
+        return np.asarray((self.scored == self.scored[self.best]).all(axis=1))
+
     def weights(self, kept: NDArray[np.bool_]) -> Array:
         """Return the weights of the cells that are ``kept`` in units, of shape (n_units, kept)."""
         address = kept.tobytes()

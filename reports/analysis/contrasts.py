@@ -1,15 +1,20 @@
-"""Paired contrasts of many pairs of entrants at once, by the units of the page."""
+"""Paired contrasts of all pairs of entrants at once, by the units of the page.
+
+The pairs of the best entrant with every complete other are one family, that of the standings
+(`mocapbench.reports.analysis.standings`), and all other pairs are a second one. Every pair thus has
+one interval and one p-value, wherever the page shows it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special
 
-from mocapbench.metrics.statistics import ALPHA, ROPE, holm_tests_of_means
+from mocapbench.metrics.statistics import ALPHA, holm_tests_of_means
 from mocapbench.reports.analysis.cells import Cells
 from mocapbench.reports.analysis.grid import Array
 from mocapbench.reports.analysis.units import FEWEST_UNITS
@@ -34,8 +39,6 @@ class PairContrast:
         (`mocapbench.metrics.statistics.families`); NaN without a test.
     t_p, t_p_holm : float
         Two-sided p of the paired t-test, before and after Holm's correction over the family.
-    better, equivalent, worse : float
-        Probabilities by the Bayesian correlated t-test; equivalent is within 2 %.
     """
 
     n: int
@@ -46,9 +49,6 @@ class PairContrast:
     high: float
     t_p: float
     t_p_holm: float
-    better: float
-    equivalent: float
-    worse: float
 
     @property
     def tested(self) -> bool:
@@ -60,35 +60,51 @@ class PairContrast:
         """Whether the difference is more than chance; never without a test."""
         return self.t_p_holm <= ALPHA
 
-
-def contrasts(scored: Cells, pairs: Sequence[tuple[str, str]]) -> list[PairContrast]:
-    """Return the contrasts of ``pairs`` of labels, one family."""
-    if not pairs:
-        return []
-    rows = np.array([[scored.labels.index(label) for label in pair] for pair in pairs])
-    n, first, second, mean, deviation, size = _samples(scored, rows)
-    enough = n >= FEWEST_UNITS
-    errors = np.where(enough, deviation / np.sqrt(np.maximum(n, 1)), np.nan)
-    tested = holm_tests_of_means(mean, errors, n)
-    better, worse = _posterior(mean, deviation, np.where(enough, n, np.nan), ROPE * size)
-    columns = (
-        *(first, second, mean, tested.low, tested.high, tested.uncorrected_p, tested.p),
-        *(better, 1.0 - better - worse, worse),
-    )
-    return [
-        PairContrast(int(count), *map(float, values))
-        for count, values in zip(n, np.transpose(columns), strict=True)
-    ]
+    @property
+    def reverse(self) -> PairContrast:
+        """The contrast of the second label with the first."""
+        return replace(
+            self,
+            first=self.second,
+            second=self.first,
+            advantage=-self.advantage,
+            low=-self.high,
+            high=-self.low,
+        )
 
 
-def _samples(scored: Cells, rows: NDArray[np.int_]) -> tuple[Array, ...]:
-    """Return units, means of both, mean and deviation of advantages, and mean size of values.
+def contrasts(scored: Cells) -> Mapping[tuple[str, str], PairContrast]:
+    """Return the contrasts of all pairs of labels, by the two labels in either order."""
+    rows = np.array([*combinations(range(len(scored.labels)), 2)], dtype=int).reshape(-1, 2)
+    if not rows.size:
+        return {}
+    n, first, second, mean, deviation = _samples(scored, rows)
+    errors = np.where(n >= FEWEST_UNITS, deviation / np.sqrt(np.maximum(n, 1.0)), np.nan)
+    of_best = (rows == scored.best).any(axis=1) & scored.complete[rows].all(axis=1)
+    tested = np.full((4, len(rows)), np.nan)
+    for family in (of_best, ~of_best):
+        found = holm_tests_of_means(mean[family], errors[family], n[family])
+        tested[:, family] = found.low, found.high, found.uncorrected_p, found.p
+    by_pair = {}
+    for pair, count, values in zip(
+        combinations(scored.labels, 2),
+        n,
+        zip(first, second, mean, *tested, strict=True),
+        strict=True,
+    ):
+        contrast = PairContrast(int(count), *map(float, values))
+        by_pair[pair], by_pair[pair[::-1]] = contrast, contrast.reverse
+    return by_pair
+
+
+def _samples(scored: Cells, rows: NDArray[np.int_]) -> Array:
+    """Return units, means of both, and mean and deviation of the advantages, of each pair.
 
     Pairs with scores in the same cells, usually all of them, are taken together.
     """
     shared = scored.scored[rows].all(axis=1)
     patterns, pattern_of = np.unique(shared, axis=0, return_inverse=True)
-    found = np.full((6, len(rows)), np.nan)
+    found = np.full((5, len(rows)), np.nan)
     for number, kept in enumerate(patterns):
         chosen = np.flatnonzero(pattern_of.reshape(-1) == number)
         weights = scored.weights(kept)
@@ -97,36 +113,15 @@ def _samples(scored: Cells, rows: NDArray[np.int_]) -> tuple[Array, ...]:
             values, losses = (
                 array[:, kept][rows[chosen]] @ weights.T for array in (scored.values, scored.losses)
             )
-            found[1:, chosen] = _summaries(values, losses[:, 1] - losses[:, 0])
-    return tuple(found)
+            found[1:3, chosen] = values.mean(axis=2).T
+            found[3:, chosen] = _mean_and_deviation(losses[:, 1] - losses[:, 0])
+    return found
 
 
-def _summaries(values: Array, advantages: Array) -> Array:
-    """Return what `_samples` does for pairs with ``values`` of shape (n_pairs, 2, n_units)."""
-    deviation = advantages.std(axis=1, ddof=1) if advantages.shape[1] > 1 else np.nan
+def _mean_and_deviation(advantages: Array) -> Array:
+    """Return both over units, exact where all advantages of a pair are equal."""
+    if advantages.shape[1] < 2:
+        return np.stack([advantages[:, 0], np.full(len(advantages), np.nan)])
     equal = np.ptp(advantages, axis=1) == 0.0
-    return np.stack(
-        [
-            *values.mean(axis=2).T,
-            np.where(equal, advantages[:, 0], advantages.mean(axis=1)),
-            np.where(equal & (advantages.shape[1] > 1), 0.0, deviation),
-            np.abs(values).mean(axis=(1, 2)),
-        ]
-    )
-
-
-def _posterior(mean: Array, deviation: Array, n: Array, rope: Array) -> tuple[Array, Array]:
-    """Return the probabilities of better and worse by the correlated t-test, ρ = 1/n.
-
-    See Also
-    --------
-    mocapbench.metrics.statistics.correlated_t_test : the same for a single sample.
-    """
-    with np.errstate(divide="ignore", invalid="ignore"):
-        scale = deviation * np.sqrt(1.0 / n + 1.0 / (n - 1.0))
-        # Where all advantages are equal the quotient is infinite, or 0/0 on the region's edge.
-        upper, lower = ((mean - rope) / scale, (-mean - rope) / scale)
-    return tuple(  # type: ignore[return-value]
-        np.where(np.isnan(t) & np.isfinite(n), 0.0, special.stdtr(n - 1.0, t))
-        for t in (upper, lower)
-    )
+    mean = np.where(equal, advantages[:, 0], advantages.mean(axis=1))
+    return np.stack([mean, np.where(equal, 0.0, advantages.std(axis=1, ddof=1))])

@@ -48,7 +48,8 @@ class Ranks:
 def ranks_over_units(results: TaskResults, metric: str) -> Ranks | None:
     """Return the ranks over the units of a task; None where they cannot separate any two."""
     scored = cells(results, metric)
-    return _ranks(unit_losses(scored), scored.unit)
+    few = len(set(scored.units)) < FEWEST_UNITS
+    return None if few else _ranks(unit_losses(scored), scored.unit)
 
 
 def ranks_over_tasks(tasks: Iterable[TaskResults]) -> Ranks | None:

@@ -103,8 +103,7 @@ def standings(
 def _standings(scored: Cells) -> tuple[Standing, ...]:
     if not scored.labels:
         return ()
-    best = _best(scored)
-    complete = (scored.scored == scored.scored[best]).all(axis=1)
+    best, complete = scored.best, scored.complete
     kept = scored.scored[best]
     losses = scored.losses[:, kept] @ scored.weights(kept).T
     differences = losses - losses[best]
@@ -126,14 +125,6 @@ def _standings(scored: Cells) -> tuple[Standing, ...]:
         )
         for row in map(int, order)
     )
-
-
-def _best(scored: Cells) -> int:
-    """Return the row with the least mean loss among those with the most scores."""
-    n_scores = scored.scored.sum(axis=1)
-    candidates = np.flatnonzero(n_scores == n_scores.max()).tolist()
-    means = [scored.mean_loss(row) for row in candidates]
-    return int(candidates[np.argmin(means)])
 
 
 def _tested(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 
 from mocapbench.reports.bundle.bundle import Bundle
@@ -44,10 +45,9 @@ FIELDS = ("task", "case", "label", "status", "message", "traceback")
 
 def troubles(bundle: Bundle, task: str | None = None) -> tuple[Trouble, ...]:
     """Return the jobs without a score, of one task or of all, in the order of the records."""
-    rows = bundle.records.loc[bundle.records["status"] != "ok", ["fold", *FIELDS]]
-    rows = rows.assign(number=range(1, len(rows) + 1))
-    if task is not None:
-        rows = rows[rows["task"] == task]
+    lost = bundle.records["status"].to_numpy() != "ok"
+    wanted = lost if task is None else lost & (bundle.records["task"].to_numpy() == task)
+    rows = bundle.records.loc[wanted, ["fold", *FIELDS]].assign(number=np.cumsum(lost)[wanted])
     return tuple(
         Trouble(
             id=f"job-{row['number']}",

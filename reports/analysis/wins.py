@@ -25,8 +25,7 @@ class Win:
     unit : str
         What the units of the contrast are.
     contrast : PairContrast
-        Of the winner and the loser over the units that both have, corrected over every pair that
-        could have been a win.
+        Of the winner and the loser over the units that both have.
     """
 
     winner: str
@@ -56,14 +55,10 @@ def wins(results: TaskResults, metric: str) -> list[Win]:
     published = results.layout.page.published_models
     losers = [label for label in scored.labels if label in published]
     winners = [label for label in scored.labels if label not in published]
-    pairs = [
-        (winner, loser)
-        for loser, winner in product(losers, winners)
-        if scored.covers(winner, loser)
-    ]
+    by_pair = contrasts(scored)
     strongest: dict[str, Win] = {}
-    for (winner, loser), contrast in zip(pairs, contrasts(scored, pairs), strict=True):
+    for loser, winner in product(losers, winners):
         least = strongest[loser].contrast.advantage if loser in strongest else 0.0
-        if contrast.advantage > least:
-            strongest[loser] = Win(winner, loser, scored.unit, contrast)
+        if scored.covers(winner, loser) and by_pair[winner, loser].advantage > least:
+            strongest[loser] = Win(winner, loser, scored.unit, by_pair[winner, loser])
     return [strongest[loser] for loser in losers if loser in strongest]

@@ -1,9 +1,8 @@
-"""Model against model over a task's cases: every pair's difference, interval and probabilities."""
+"""Model against model over a task's cases: every pair's difference and interval."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 
 import pandas as pd
@@ -18,51 +17,40 @@ from mocapbench.reports.text import counted, decimals, number, slug
 __all__ = ["contrast_table"]
 
 Contrasts = Mapping[tuple[str, str], PairContrast]
-"""By the two labels, first and second."""
+"""By the two labels, in either order."""
 
 
 def contrast_table(results: TaskResults, metric: str) -> Table | None:
     """Return the matrix of all pairs of competitors; None where no pair has enough units."""
     scored = cells(results, metric)
-    pairs = list(combinations(scored.labels, 2))
-    by_pair = dict(zip(pairs, contrasts(scored, pairs), strict=True))
+    by_pair = contrasts(scored)
     most = max((contrast.n for contrast in by_pair.values()), default=0)
     if most < FEWEST_UNITS:
         return None
-    places = decimals(c.advantage for c in by_pair.values() if math.isfinite(c.advantage))
+    data = _tidy(results, metric, scored.labels, by_pair)
+    places = decimals(data["advantage"].dropna())
     title = results.metrics[metric].title
     return Table(
         id=slug(results.layout.name, metric, "contrasts"),
-        caption=f"{title}, model against model: by how much the row is better than the column, "
-        f"over {counted(most, scored.unit)}",
+        caption=f"{title}, model against model: by how much the row is better than the column",
         columns=headings(["entrant", *(f"than {label}" for label in scored.labels)], "contrast"),
         rows=tuple(
-            (Cell(row), *(_cell(by_pair, row, column, places) for column in scored.labels))
+            (Cell(row), *(_cell(by_pair.get((row, column)), places) for column in scored.labels))
             for row in scored.labels
         ),
-        data=_tidy(results, metric, by_pair),
+        data=data,
+        notes=_notes(counted(most, scored.unit)),
     )
 
 
-def _cell(contrasts: Contrasts, row: str, column: str, places: int) -> Cell:
-    if (row, column) in contrasts:
-        return _contrast_cell(contrasts[row, column], 1.0, places)
-    if (column, row) in contrasts:
-        return _contrast_cell(contrasts[column, row], -1.0, places)
-    return ABSENT
-
-
-def _contrast_cell(contrast: PairContrast, sign: float, places: int) -> Cell:
-    """Return the cell of a contrast, seen from its first label (1) or its second (−1)."""
-    if not contrast.tested:
+def _cell(contrast: PairContrast | None, places: int) -> Cell:
+    if contrast is None or not contrast.tested:
         return ABSENT
-    low, high = sorted((sign * contrast.low, sign * contrast.high))
-    better, worse = (contrast.better, contrast.worse)[:: int(sign)]
-    shares = _unbroken(f"{better:.0%} / {contrast.equivalent:.0%} / {worse:.0%}")
-    side = "ahead" if sign * contrast.advantage > 0.0 else "behind"
+    low, high = (number(bound, places) for bound in (contrast.low, contrast.high))
+    side = "ahead" if contrast.advantage > 0.0 else "behind"
     return Cell(
-        number(sign * contrast.advantage, places),
-        note=f"{_unbroken(f'{number(low, places)} to {number(high, places)}')}; {shares}",
+        number(contrast.advantage, places),
+        note=_unbroken(f"{low} to {high}"),
         kind=f"contrast {side}" if contrast.separable else "contrast",
     )
 
@@ -71,7 +59,19 @@ def _unbroken(text: str) -> str:
     return text.replace(" ", "\N{NO-BREAK SPACE}")
 
 
-def _tidy(results: TaskResults, metric: str, by_pair: Contrasts) -> pd.DataFrame:
+def _notes(units: str) -> tuple[str, ...]:
+    return (
+        f"Below each difference: its interval over {units} (Student’s t, at the level at which "
+        "Holm’s method decides the pair). Pairs with the best entrant are corrected among "
+        "themselves, and so are all others.",
+        "▲ ahead, ▼ behind: the interval excludes 0, more than chance at 5 %. No mark: it may be "
+        "chance. That does not make the two alike.",
+    )
+
+
+def _tidy(
+    results: TaskResults, metric: str, labels: Sequence[str], by_pair: Contrasts
+) -> pd.DataFrame:
     return pd.DataFrame(
         [
             {
@@ -81,6 +81,7 @@ def _tidy(results: TaskResults, metric: str, by_pair: Contrasts) -> pd.DataFrame
                 "second_label": second,
                 **vars(contrast),
             }
-            for (first, second), contrast in by_pair.items()
+            for first, second in combinations(labels, 2)
+            for contrast in [by_pair[first, second]]
         ]
     )

@@ -1,12 +1,15 @@
+from itertools import combinations
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from mocapbench.metrics.statistics import ROPE, contrast, holm
+from mocapbench.metrics.statistics import contrast, holm
 from mocapbench.reports.analysis.cells import cells
 from mocapbench.reports.analysis.contrasts import contrasts
 from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.standings import Place, standings
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.tables.contrasts import contrast_table
 
@@ -21,8 +24,7 @@ def results_of(bundle):
 
 
 def contrast_of(results, *pair):
-    (found,) = contrasts(cells(results, "mse"), [pair])
-    return found
+    return contrasts(cells(results, "mse"))[pair]
 
 
 def cell(table, one, other):
@@ -30,35 +32,48 @@ def cell(table, one, other):
     return row[[column.text for column in table.columns].index(f"than {other}")]
 
 
-@settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
+laws = settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
+
+
+@laws
 @given(st.integers(0, 100_000))
 def test_all_pairs_at_once_are_the_contrasts_one_by_one(small, seed):
     """Also where some labels lack a fold, so that pairs have units of their own."""
     rng = np.random.default_rng(seed)
-    folds = rng.normal((1.0, 1.3, 2.0), size=(8, 3))
+    folds = rng.normal((1.0, 1.3, 2.0, 2.1), size=(8, 4))
     folds[rng.integers(8), 2] = np.nan
-    results = results_of(small({"row": dict(zip("abc", folds.T.tolist(), strict=True))}))
-    pairs = [("a", "b"), ("a", "c"), ("b", "c")]
-    found = contrasts(cells(results, "mse"), pairs)
+    results = results_of(small({"row": dict(zip("abcd", folds.T.tolist(), strict=True))}))
     table = results.scores.pivot(index="fold", columns="label", values="value")
-    singly = [
-        contrast(table[list(pair)].dropna().set_axis(["first", "second"], axis=1), float, ROPE)
-        for pair in pairs
-    ]
-    corrected = holm([one.t_p for one in singly])
-    for many, one, p in zip(found, singly, corrected, strict=True):
-        names = ("n", "first", "second", "advantage", "t_p", "better", "equivalent", "worse")
-        for name in names:
+    for pair, many in contrasts(cells(results, "mse")).items():
+        units = table[list(pair)].dropna().set_axis(["first", "second"], axis=1)
+        one = contrast(units, float)
+        for name in ("n", "first", "second", "advantage", "t_p"):
             assert getattr(many, name) == pytest.approx(getattr(one, name), abs=1e-9)
-        assert many.t_p_holm == pytest.approx(p)
         assert many.separable == (not many.low <= 0.0 <= many.high)
 
 
-def test_the_matrix_shows_the_difference_its_interval_and_the_probabilities(small):
+@laws
+@given(st.integers(0, 100_000))
+def test_pairs_with_the_best_are_those_of_the_standings_and_others_a_family(small, seed):
+    folds = np.random.default_rng(seed).normal((1.0, 1.3, 2.0, 2.1), size=(8, 4))
+    results = results_of(small({"row": dict(zip("abcd", folds.T.tolist(), strict=True))}))
+    by_pair = contrasts(cells(results, "mse"))
+    best, *others = standings(results, "mse")
+    for standing in others:
+        found = by_pair[best.label, standing.label]
+        assert found.advantage == pytest.approx(standing.difference)
+        assert (found.low, found.high) == pytest.approx((standing.low, standing.high))
+        assert found.separable == (standing.standing is Place.BEHIND)
+    rest = [pair for pair in combinations("abcd", 2) if best.label not in pair]
+    corrected = holm([by_pair[pair].t_p for pair in rest])
+    assert [by_pair[pair].t_p_holm for pair in rest] == pytest.approx(corrected)
+
+
+def test_the_matrix_shows_the_difference_and_its_interval(small):
     table = contrast_table(results_of(small(VALUES)), "mse")
     found = cell(table, "a", "b")
     assert (found.text, found.kind) == ("0.50", "contrast ahead")
-    assert found.note.replace("\N{NO-BREAK SPACE}", " ") == "0.50 to 0.51; 100% / 0% / 0%"
+    assert found.note.replace("\N{NO-BREAK SPACE}", " ") == "0.50 to 0.51"
     assert cell(table, "a", "a").kind == "absent"
 
 
@@ -66,7 +81,7 @@ def test_the_matrix_is_antisymmetric(small):
     table = contrast_table(results_of(small(VALUES)), "mse")
     there, back = cell(table, "a", "b"), cell(table, "b", "a")
     assert (back.text, back.kind) == (f"−{there.text}", "contrast behind")
-    assert back.note.replace("\N{NO-BREAK SPACE}", " ") == "−0.51 to −0.50; 0% / 0% / 100%"
+    assert back.note.replace("\N{NO-BREAK SPACE}", " ") == "−0.51 to −0.50"
 
 
 def test_a_mark_stands_only_where_the_test_separates(small):
