@@ -147,10 +147,10 @@ class Store:
         if not path.is_file():
             return None
         try:
-            record = Record.from_json(path.read_text(encoding="utf-8"))
+            record = Record.from_json(path.read_bytes())
             if record.key != key:
                 raise RecordError(f"it holds the record {record.key}")
-        except (OSError, UnicodeDecodeError, RecordError) as error:
+        except (OSError, RecordError) as error:
             self.damaged.append(f"{path}: {error}")
             return None
         return replace(
