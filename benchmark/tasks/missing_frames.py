@@ -73,7 +73,14 @@ def _case(
     name: str, columns: dict[str, str], test: str, training: tuple[str, ...], *, synthetic: bool
 ) -> Case:
     problem = partial(missing_frames_problem, test, training)
-    return Case(name, problem, columns, (test, *training), synthetic=synthetic)
+    return Case(
+        name,
+        problem,
+        columns,
+        (test, *training),
+        training=columns["training"],
+        synthetic=synthetic,
+    )
 
 
 def _real(trial: str, group: str) -> Case:

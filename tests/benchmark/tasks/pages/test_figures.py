@@ -4,7 +4,7 @@ import joblib
 import pytest
 
 from mocapbench.benchmark import MODELS, TASKS, Internals, Request, Solved, archive_at, plan
-from mocapbench.benchmark.runs.solve import solve
+from mocapbench.benchmark.runs.fitting.solve import solve, train
 from mocapbench.reports.figures.draw import draw
 
 BUDGET = {"max_iter": 1, "n_restarts": 1, "fill_iter": 1, "refine_iter": 1}
@@ -31,7 +31,10 @@ NAMES = [pytest.param(name, marks=[pytest.mark.slow] if name in SLOW else []) fo
 
 def _fit(job, problem):
     budget = {name: value for name, value in BUDGET.items() if name in job.parameters}
-    return solve(problem, MODELS.get(job.model), {**job.parameters, **budget}, job.seeds)
+    parameters = {**job.parameters, **budget}
+    random_state = job.training_seeds.random_state("init")
+    fitted = train(problem, MODELS.get(job.model), parameters, random_state)
+    return solve(problem, fitted, job.seeds.random_state("sample"))
 
 
 @pytest.fixture(scope="module", params=NAMES)
