@@ -45,13 +45,14 @@ class JobQueue:
     def __init__(self, jobs: Iterable[Job]) -> None:
         self._waiting: dict[_Kind, deque[Job]] = defaultdict(deque)
         self._followers: dict[str, list[Job]] = defaultdict(list)
-        self._leads: set[str] = set()
+        self._leads: dict[str, Job] = {}
         self._running: dict[str, tuple[_Kind, float]] = {}
         self._untried: deque[_Kind] = deque()
         self._durations = Durations()
         for job in jobs:
             shared = [key for key in (job.fit_key, job.training_key) if key in self._leads]
-            self._leads |= {job.fit_key, job.training_key} - {""}
+            for key in {job.fit_key, job.training_key} - {"", *shared}:
+                self._leads[key] = job
             if shared:
                 self._followers[shared[0]].append(job)
             else:
@@ -92,13 +93,18 @@ class JobQueue:
         self._durations.learn(kind.alike, seconds)
         for follower in self._followers.pop(job.fit_key, ()):
             self._append(follower, _SCORE)
-        followers = self._followers.pop(job.training_key, [])
-        if rescored and followers:
-            self._append(followers[0], _FIT)
-            self._followers[job.training_key] = followers[1:]
-        else:
+        if self._leads.get(job.training_key) is job:
+            self._release(job.training_key, fitted=not rescored)
+
+    def _release(self, training_key: str, *, fitted: bool) -> None:
+        """Let all jobs go that wait for a fitted model, or the next that is to fit it."""
+        followers = self._followers.pop(training_key, [])
+        if fitted or not followers:
             for follower in followers:
                 self._append(follower, _PREDICT)
+            return
+        self._leads[training_key], *self._followers[training_key] = followers
+        self._append(followers[0], _FIT)
 
     def _expected(self, kind: _Kind) -> float:
         return self._durations.expected(kind.alike)
