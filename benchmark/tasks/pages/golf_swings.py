@@ -22,7 +22,10 @@ PAGE = TaskPage(
         "steps; beside it stand its two parts, and the error of the joints in centimetres, by "
         "forward kinematics."
     ),
-    metrics=("rms_per_frame", "mpjpe", "angle_error_per_frame", "root_error_per_frame"),
+    metrics=(
+        *("rms_per_frame", "mpjpe", "angle_error_per_frame", "root_error_per_frame"),
+        *("coverage_95", "msll", "crps"),
+    ),
     remarks=(
         "The paper shows models of these swings and fills none of their frames: the protocol is "
         "this project’s own, and there are no published values.",

@@ -20,7 +20,7 @@ PAGE = TaskPage(
         "every fourth fold. Models see what is visible of the recording, and three others of the "
         "same subject or none."
     ),
-    metrics=("mpjpe", "bone_length_error", "jerk_ratio", "coverage_90", "msll"),
+    metrics=("mpjpe", "bone_length_error", "jerk_ratio", "coverage_95", "msll", "crps"),
     along="seconds",
     remarks=(
         "Gløersen and Federolf hide markers on the skin, of walking on a treadmill and of other "

@@ -27,7 +27,10 @@ PAGE = TaskPage(
         "which adds degrees and root steps; beside it stand its two parts, and the error of the "
         "joints in centimetres, by forward kinematics."
     ),
-    metrics=("rms_per_frame", "mpjpe", "angle_error_per_frame", "root_error_per_frame"),
+    metrics=(
+        *("rms_per_frame", "mpjpe", "angle_error_per_frame", "root_error_per_frame"),
+        *("coverage_95", "msll", "crps"),
+    ),
     rows={
         f"{test} {group}": RowNotes(published=test, remark=remark)
         for group, remark in _GROUPS.items()

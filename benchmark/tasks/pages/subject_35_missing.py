@@ -19,7 +19,7 @@ PAGE = TaskPage(
         "hidden angles, and the papers’ cumulative scaled error, in which each error is multiplied "
         "by its angle’s scale and squared, summed over frames and averaged over angles."
     ),
-    metrics=("rms_angle", "cumulative_scaled_error"),
+    metrics=("rms_angle", "cumulative_scaled_error", "coverage_95", "msll", "crps"),
     rows={name: RowNotes(published=name) for name in ("right leg", "upper body")},
     published_models={"nn-scaled": "scaled NN", "nn-radians": "NN"},
     published_metrics={
