@@ -21,6 +21,8 @@ Errors = Mapping[str, float]
 
 _MOST_HELD_OUT = 3
 """Training recordings that take the place of the one to fill."""
+_MANY = 4
+"""How many times as many recordings as are held out are enough to learn from."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,11 +74,18 @@ class Rehearsals:
         others = sorted((r for r in self.fitted if r.name != self.given.name), key=lambda r: r.name)
         if len(self.fitted) < 2:
             return []
-        places = np.linspace(0, len(others) - 1, _MOST_HELD_OUT).round().astype(int)
-        return [self._held_out(others[place]) for place in np.unique(places)]
+        places = np.unique(np.linspace(0, len(others) - 1, _MOST_HELD_OUT).round().astype(int))
+        chosen = [others[place] for place in places]
+        # Where many are left to learn from, those held out share one fit.
+        turns = [chosen] if len(others) > _MANY * len(chosen) else [[one] for one in chosen]
+        return [errors for turn in turns for errors in self._held_out(turn)]
 
-    def _held_out(self, recording: Recording) -> tuple[Errors, Errors]:
-        panel = Panel.of([r for r in self.fitted if r is not recording])
+    def _held_out(self, recordings: Sequence[Recording]) -> list[tuple[Errors, Errors]]:
+        names = {recording.name for recording in recordings}
+        panel = Panel.of([r for r in self.fitted if r.name not in names])
+        return [self._in_place_of_given(panel, recording) for recording in recordings]
+
+    def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Errors, Errors]:
         gaps, *trials = _aligned(recording, [~self.given.visible, *self.trials[1:2]])
         cut, hidden = gaps
         full = self._errors(panel, cut, hidden)
@@ -107,7 +116,9 @@ class Rehearsals:
 
 
 def _longest(masks: Sequence[Mask]) -> int:
-    return max((len(run) for mask in masks for run in runs(mask.any(axis=1))), default=0)
+    return max(
+        (len(run) for mask in masks for run in runs(np.asarray(mask.any(axis=1)))), default=0
+    )
 
 
 def _aligned(recording: Recording, masks: Sequence[Mask]) -> list[tuple[Recording, Mask]]:

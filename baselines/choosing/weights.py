@@ -18,23 +18,21 @@ _LEAST = 1e-12
 def expected_errors(rehearsals: Rehearsals) -> Errors:
     """Return the squared error to expect of each model in the gaps.
 
-    Where the recording has room for copies of its gaps, it is the mean error there. Where copies
-    are shorter than the gaps, it is multiplied by how much larger the model's error is in training
-    recordings with the gaps than with the copies. With no room at all, training alone counts.
-    Without a gap there is no error to expect.
+    It is the geometric mean of the errors in the recording itself and in training recordings that
+    take its place: the first knows the person, the second knows such gaps in such motions. Where
+    copies of the gaps in the recording had to be shorter, the first is multiplied by how much
+    larger the model's error is in training with the gaps than with such copies. Where one of the
+    two is missing the other counts alone; without a gap there is no error to expect.
     """
     if rehearsals.given.visible.all():
         return {}
-    own = _means(rehearsals.own())
-    if own and not rehearsals.are_short:
-        return own
-    in_training = rehearsals.in_training()
+    own, in_training = _means(rehearsals.own()), rehearsals.in_training()
     gaps = _means(with_gaps for with_gaps, _ in in_training)
-    copies = _means(with_copies for _, with_copies in in_training)
+    copies = _means(with_copies for _, with_copies in in_training) if rehearsals.are_short else gaps
     if not own or not gaps:
         return own or gaps
-    growth = {name: gaps[name] / copies[name] for name in gaps if name in copies}
-    return {name: own[name] * growth[name] for name in own if name in growth} or own
+    both = [name for name in own if name in gaps and name in copies]
+    return {name: gaps[name] * float(np.sqrt(own[name] / copies[name])) for name in both} or own
 
 
 def _means(errors: Iterable[Errors]) -> Errors:

@@ -75,5 +75,5 @@ def _placed(blocked: NDArray[np.bool_], length: int, place: float) -> NDArray[np
         starts = np.arange(1, len(blocked) - n_hidden)
         free = starts[counts[starts + n_hidden + 1] == counts[starts - 1]]
         if len(free) and 2 * n_hidden <= np.count_nonzero(~blocked):
-            return free[int(place * len(free))] + np.arange(n_hidden)
+            return np.asarray(free[int(place * len(free))] + np.arange(n_hidden))
     return np.empty(0, dtype=np.intp)

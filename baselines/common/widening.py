@@ -66,6 +66,6 @@ def _widened(
 
 def _ratios(recording: Recording, mask: Mask, answer: Prediction) -> tuple[Array, Array]:
     """Return the sum of squared errors over claimed variances, and their number, by channel."""
-    claimed = np.where(mask, answer.variance, 1.0)
+    claimed = np.where(mask, np.asarray(answer.variance, dtype=np.float64), 1.0)
     squares = np.where(mask, (recording.values - answer.mean) ** 2 / claimed, 0.0)
     return squares.sum(axis=0), mask.sum(axis=0)

@@ -71,3 +71,14 @@ def test_training_recordings_take_the_place_of_the_one_to_fill(n_frames):
 def test_one_training_recording_cannot_be_left_out():
     fitted = [walk("one")]
     assert Rehearsals(fitted, Panel.of(fitted), gap(walk("new"), 20, 40)).in_training() == []
+
+
+def test_of_many_training_recordings_three_are_held_out_in_one_fit(monkeypatch):
+    fitted = [walk(f"walk {k:02}", phase=0.3 * k) for k in range(16)]
+    fits = []
+    monkeypatch.setattr(
+        Panel, "of", classmethod(lambda cls, recordings: fits.append(recordings) or cls({}))
+    )
+    found = Rehearsals(fitted, Panel({}), gap(walk("new"), 20, 40)).in_training()
+    assert len(found) == 3
+    assert [len(recordings) for recordings in fits] == [13]

@@ -54,15 +54,17 @@ class _Gap:
     visible = np.array([[True], [False]])
 
 
-def test_copies_as_long_as_the_gaps_are_believed():
-    staged = Staged([{"a": 1.0, "b": 3.0}, {"a": 3.0, "b": 3.0}], [({"a": 9.0}, {})], short=False)
-    assert expected_errors(staged) == pytest.approx({"a": 2.0, "b": 3.0})
+def test_the_recording_and_training_count_alike():
+    own = [{"a": 1.0, "b": 3.0}, {"a": 3.0, "b": 3.0}]
+    staged = Staged(own, [({"a": 8.0, "b": 3.0}, {"a": 1.0})], short=False)
+    assert expected_errors(staged) == pytest.approx({"a": 4.0, "b": 3.0})
 
 
 def test_errors_in_short_copies_grow_as_they_do_in_training():
-    training = [({"a": 8.0, "b": 5.0}, {"a": 2.0, "b": 5.0})]
+    """For a from 1 to 4 and for b by nothing, which is then averaged with training."""
+    training = [({"a": 16.0, "b": 3.0}, {"a": 4.0, "b": 3.0})]
     staged = Staged([{"a": 1.0, "b": 3.0}], training, short=True)
-    assert expected_errors(staged) == pytest.approx({"a": 4.0, "b": 3.0})
+    assert expected_errors(staged) == pytest.approx({"a": 8.0, "b": 3.0})
 
 
 def test_without_room_training_counts_alone_and_without_training_the_copies():
