@@ -1,4 +1,5 @@
 from .aligned_window import AlignedWindow
+from .best_of import BestOf
 from .control import Control
 from .cpm import CPM
 from .cyclic_alignment import CyclicAlignment
@@ -70,6 +71,7 @@ __all__ = [
     "NN",
     "AlignedWindow",
     "Aligner",
+    "BestOf",
     "Blender",
     "Clusterer",
     "Control",

@@ -11,6 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
+from mocapbench.baselines.common.widening import widened
 from mocapbench.baselines.functional.basis import Array
 from mocapbench.baselines.functional.components import infer_scores, principal_axes
 from mocapbench.baselines.functional.cycles import Cycles
@@ -165,13 +166,15 @@ class FAM(Imputer, Inductive, Aligner):
 
         A recording takes the length of cycle and the shift at which its visible entries are closest
         to the reference curve. The length is at most a quarter beyond those of the fitted ones.
+        Variances are widened by trials on the recording's visible entries
+        (``docs/calibration.md``).
 
         Raises
         ------
         ValueError
             If channels differ, or a recording has no frame.
         """
-        return [self._imputed(recording) for recording in self._checked(recordings)]
+        return widened(self._checked(recordings), self._imputed)
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
         """Return the state of each frame of recordings, which are placed as by `impute`.
@@ -233,7 +236,10 @@ class FAM(Imputer, Inductive, Aligner):
     def _placed(self, recording: Recording) -> Array:
         return place(self.scaling_.apply(recording), self.reference_, self.periods_)
 
-    def _imputed(self, recording: Recording) -> Prediction:
+    def _imputed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        return [self._predicted(recording) for recording in recordings]
+
+    def _predicted(self, recording: Recording) -> Prediction:
         scaled = self.scaling_.apply(recording)
         cycles = Cycles.of([scaled], [self._placed(recording)], self.n_harmonics)
         scores = infer_scores(cycles.statistics, self.model_)

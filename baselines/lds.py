@@ -11,6 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive
+from mocapbench.baselines.common.widening import widened
 from mocapbench.baselines.protocols import (
     Imputer,
     Inductive,
@@ -133,6 +134,9 @@ class LDS(Imputer, Inductive, Synthesiser):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return mean and variance of the hidden entries given the visible ones of each recording.
 
+        Variances are those of the smoother, widened by trials on the recording's visible entries
+        (``docs/calibration.md``).
+
         Raises
         ------
         ValueError
@@ -140,6 +144,9 @@ class LDS(Imputer, Inductive, Synthesiser):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
+        return widened(recordings, self._smoothed)
+
+    def _smoothed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         data = self._observations(recordings)
         mean, variance = moments(self.parameters_, smoothed(self.parameters_, data))
         means = map(self.scaling_.restore, data.unpad(mean))

@@ -13,6 +13,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.own_means import OwnMeans
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
+from mocapbench.baselines.common.widening import widened
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -147,6 +148,9 @@ class LowRank(Imputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
+        return widened(recordings, self._by_frame)
+
+    def _by_frame(self, recordings: Sequence[Recording]) -> list[Prediction]:
         return [self._filled(recording) for recording in recordings]
 
     def _filled(self, recording: Recording) -> Prediction:

@@ -3,7 +3,9 @@
 A new subject differs from the training subjects, but by similar amounts whenever the pose is
 similar. Every training recording is therefore matched with the new one by its cheapest path
 (`PoseViterbi`), and the paths are averaged. A Gaussian process over the matched pose and time then
-predicts the residuals at hidden frames from those at visible frames (kriging).
+predicts the residuals at hidden frames from those at visible frames (kriging). How far the paths
+lie apart says how sure the average is. A motion that no path explains is filled from its own
+course.
 """
 
 from __future__ import annotations
@@ -13,13 +15,19 @@ from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import hidden_frames, runs
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
-from mocapbench.baselines.common.validation import check_not_negative, check_positive
+from mocapbench.baselines.common.validation import (
+    check_not_negative,
+    check_positive,
+    check_share,
+)
+from mocapbench.baselines.kriging.conditioned import ConditionedFrames
+from mocapbench.baselines.kriging.own_course import own_course
+from mocapbench.baselines.kriging.paths import MatchedPaths
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
@@ -39,15 +47,24 @@ class PoseKriging(FrameImputer, Inductive):
 
     Training recording k contributes the poses :math:`m_k(t)` of its cheapest path. A first path
     gives the subject's offset; it is subtracted before the path is found again. The poses are
-    averaged with weights :math:`\exp(-e_k / \min_j e_j)`, :math:`e_k` being the mean squared
-    residual at visible frames, to :math:`m(t)`. The conditional mean of a Gaussian process then
-    corrects it: each channel of :math:`y - m` has covariance :math:`\sigma_d^2 (10 + e^{-|t - t'| /
-    \tau} + v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2 S} + 0.05\, \delta)`, with S the total variance of
-    training frames and :math:`\sigma_d^2` by maximum likelihood. The predictive variance is that of
-    this process; it does not include the uncertainty of the path.
+    averaged to :math:`m(t)` with weights :math:`w_k \propto \exp(-e_k / \min_j e_j)`, where
+    :math:`e_k` is the variance of the residual at visible frames. The conditional mean of a
+    Gaussian process then corrects it: each channel of :math:`y - m` has covariance
+    :math:`\sigma_d^2 (10 + e^{-|t - t'| / \tau} + v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2 S} + 0.05\,
+    \delta)`, with S the total variance of training frames.
+
+    The predictive variance is that of this process, with the scale :math:`\sigma_d^2` integrated
+    out, plus the doubt about the path. Each path, corrected in the same way, is a prediction
+    :math:`\mu_k(t)`, and their weighted mean is the prediction :math:`\mu(t)`. A new subject counts
+    as one more draw from those whose K paths are seen, so that the doubt is :math:`\frac{K + 1}{K -
+    1} \sum_k w_k (\mu_k(t) - \mu(t))^2`. A single training recording says nothing about it.
+
+    A recording is unlike its training if no path explains the share ``least_explained`` of its
+    variance at visible frames. It is filled from its own course over time, whatever was learnt.
 
     The defaults gave the least error when each training walker of ``missing-frames`` was held out
-    in turn. Time is counted in frames, not seconds.
+    in turn; ``docs/calibration.md`` has the choice of ``least_explained``. Time is counted in
+    frames, not seconds.
 
     Parameters
     ----------
@@ -59,6 +76,9 @@ class PoseKriging(FrameImputer, Inductive):
         The prior variance v of the part that depends on pose; not negative.
     time_lengthscale : float, default=4.0
         The lengthscale τ over time, in frames; positive.
+    least_explained : float, default=1/3
+        The least share of a recording's variance that its best path explains, between 0 and 1. With
+        0, a path must be better than a pose that never changes.
 
     Attributes
     ----------
@@ -103,11 +123,13 @@ class PoseKriging(FrameImputer, Inductive):
         pose_lengthscale: float = 1.0,
         pose_variance: float = 3.0,
         time_lengthscale: float = 4.0,
+        least_explained: float = 1.0 / 3.0,
     ) -> None:
         self.smoothness = smoothness
         self.pose_lengthscale = pose_lengthscale
         self.pose_variance = pose_variance
         self.time_lengthscale = time_lengthscale
+        self.least_explained = least_explained
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the complete frames of each recording.
@@ -121,6 +143,7 @@ class PoseKriging(FrameImputer, Inductive):
         for name in ("pose_lengthscale", "time_lengthscale"):
             check_positive(name, getattr(self, name))
         check_not_negative("pose_variance", self.pose_variance)
+        check_share("least_explained", self.least_explained)
         checked = check_recordings(recordings)
         self.channels_ = checked[0].channels
         usable = [recording for recording in checked if _has_step(recording)]
@@ -141,38 +164,20 @@ class PoseKriging(FrameImputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
-        return [
-            Prediction.around(recording, *self._kriged(recording, self._matched(recording)))
-            for recording in recordings
-        ]
+        return [Prediction.around(recording, *self._filled(recording)) for recording in recordings]
 
-    def _matched(self, recording: Recording) -> FrameByChannel:
-        """Return the weighted mean (N, D) of the training recordings' paths."""
-        visible = ~hidden_frames(recording)
-        paths = []
-        for matcher in self.matchers_:
-            moved = recording.with_values(recording.values - matcher.residual(recording))
-            paths.append(matcher.match(moved))
-        residuals = [(recording.values - path)[visible].var(axis=0).sum() for path in paths]
-        errors = np.asarray(residuals) + np.finfo(float).tiny
-        weights = np.exp(-errors / errors.min())
-        return np.asarray(np.average(paths, axis=0, weights=weights))
-
-    def _kriged(
-        self, recording: Recording, matched: FrameByChannel
-    ) -> tuple[FrameByChannel, FrameByChannel]:
-        """Return ``matched`` with the residual's conditional mean added, and its variance."""
-        visible = ~hidden_frames(recording)
-        prior = self._covariance(matched)
-        noisy = prior[np.ix_(visible, visible)] + _NOISE * np.eye(int(visible.sum()))
-        factor = cho_factor(noisy, lower=True)
-        residual = (recording.values - matched)[visible]
-        dual = cho_solve(factor, residual)
-        scales = np.maximum((residual * dual).mean(axis=0), _LEAST_VARIANCE * self.total_variance_)
-        cross = prior[:, visible]
-        explained = (cross * cho_solve(factor, cross.T).T).sum(axis=1)
-        variance = np.diagonal(prior) + _NOISE - explained
-        return matched + cross @ dual, np.outer(variance, scales)
+    def _filled(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
+        """Return the mean and variance (N, D) of all frames given the visible ones."""
+        visible, least = ~hidden_frames(recording), _LEAST_VARIANCE * self.total_variance_
+        paths = MatchedPaths.of(recording, self.matchers_)
+        if paths.explained < self.least_explained:
+            return own_course(recording.values, visible, least)
+        given = ConditionedFrames(self._covariance(paths.mean), _NOISE, visible)
+        residuals = (recording.values - paths.mean)[visible]
+        corrected = [path + given.mean((recording.values - path)[visible]) for path in paths.paths]
+        scales = given.doubt_of_scale * given.scales(residuals, least)
+        variance = np.outer(given.variance, scales) + paths.doubt(np.array(corrected))
+        return paths.mean + given.mean(residuals), variance
 
     def _covariance(self, matched: FrameByChannel) -> Array:
         """Return the prior covariance (N, N) of a channel's residual without noise, up to scale."""

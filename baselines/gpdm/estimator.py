@@ -22,6 +22,7 @@ from mocapbench.baselines.common.validation import (
     check_seed,
     check_share,
 )
+from mocapbench.baselines.common.widening import widened
 from mocapbench.baselines.gpdm.conditional import Conditional, Query
 from mocapbench.baselines.gpdm.dynamics import Dynamics
 from mocapbench.baselines.gpdm.kernels import RBFKernel
@@ -115,6 +116,9 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the mean and variance of hidden frames given the training and visible frames.
 
+        Variances are those given the most probable latent positions, widened by trials on the
+        recording's visible frames (``docs/calibration.md``).
+
         Raises
         ------
         ValueError
@@ -122,6 +126,9 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
+        return widened(recordings, self._given_latents)
+
+    def _given_latents(self, recordings: Sequence[Recording]) -> list[Prediction]:
         return [self._filled(recording) for recording in recordings]
 
     def _filled(self, recording: Recording) -> Prediction:

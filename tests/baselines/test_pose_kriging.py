@@ -1,6 +1,11 @@
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from mocapbench.baselines.kriging.conditioned import ConditionedFrames
+from mocapbench.baselines.kriging.own_course import own_course
+from mocapbench.baselines.kriging.paths import MatchedPaths
 from mocapbench.baselines.pose_kriging import PoseKriging
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.datasets import Recording
@@ -50,22 +55,67 @@ def test_the_fill_moves_with_a_constant_offset():
     np.testing.assert_allclose(there.mean - here.mean, 0.01, atol=2e-3)
 
 
-def test_mean_and_variance_are_those_of_the_joint_normal():
+def conditional_variance(model, recording, matched):
+    """Return the conditional variance of the residuals, the doubt about the path left out."""
+    visible = recording.visible[:, 0]
+    process = ConditionedFrames(model._covariance(matched), 0.05, visible)
+    return np.outer(process.variance, process.scales((recording.values - matched)[visible], 0.0))
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.floats(0.0, 0.3), st.integers(0, 19), st.integers(4, 20))
+def test_the_doubt_about_the_path_only_adds_to_the_variance(style, start, first):
+    model = PoseKriging(least_explained=0.0).fit(TRAINING)
+    recording = gap(walk("new", start, 40, style=style), first, first + 12)
+    matched = MatchedPaths.of(recording, model.matchers_).mean
+    (prediction,) = model.impute([recording])
+    hidden = ~recording.visible
+    conditional = conditional_variance(model, recording, matched)[hidden]
+    assert (prediction.variance[hidden] >= conditional * (1 - 1e-9)).all()
+
+
+def test_the_mean_is_the_weighted_mean_of_what_each_path_predicts():
     model = PoseKriging().fit(TRAINING)
     recording = gap(walk("new", 2, 30, style=0.2), 10, 16)
-    matched = model._matched(recording)
-    mean, variance = model._kriged(recording, matched)
-    visible = recording.visible[:, 0]
-    covariance = model._covariance(matched) + 0.05 * np.eye(30)
-    precision = np.linalg.inv(covariance)
-    hidden = ~visible
-    block = np.linalg.inv(precision[np.ix_(hidden, hidden)])
-    residual = (recording.values - matched)[visible]
-    expected = matched[hidden] - block @ precision[np.ix_(hidden, visible)] @ residual
-    np.testing.assert_allclose(mean[hidden], expected, atol=1e-8)
-    inverse = np.linalg.inv(covariance[np.ix_(visible, visible)])
-    scales = np.diag(residual.T @ inverse @ residual) / visible.sum()
-    np.testing.assert_allclose(variance[hidden], np.outer(np.diag(block), scales), rtol=1e-6)
+    paths, visible = MatchedPaths.of(recording, model.matchers_), recording.visible[:, 0]
+    process = ConditionedFrames(model._covariance(paths.mean), 0.05, visible)
+    each = [path + process.mean((recording.values - path)[visible]) for path in paths.paths]
+    (prediction,) = model.impute([recording])
+    expected = np.average(each, axis=0, weights=paths.weights)
+    np.testing.assert_allclose(prediction.mean[~visible], expected[~visible], atol=1e-9)
+
+
+def standing(n_frames=40):
+    values = np.random.default_rng(0).normal(scale=0.01, size=(n_frames, 3)).cumsum(axis=0)
+    return Recording("still", np.arange(n_frames) / 30, values, ("a", "b", "c"), ("",) * 3)
+
+
+def test_a_motion_unlike_its_training_is_filled_from_its_own_course():
+    model = PoseKriging().fit(TRAINING)
+    recording = gap(standing(), 10, 30)
+    (prediction,) = model.impute([recording])
+    hidden = ~recording.visible[:, 0]
+    mean, variance = own_course(recording.values, ~hidden, 1e-12 * model.total_variance_)
+    np.testing.assert_array_equal(prediction.mean[hidden], mean[hidden])
+    np.testing.assert_array_equal(prediction.variance[hidden], variance[hidden])
+    assert np.abs(prediction.mean - standing().values).max() < 0.2
+
+
+def test_what_is_filled_from_its_own_course_owes_nothing_to_training():
+    recording = gap(standing(), 10, 30)
+    (here,) = PoseKriging().fit(TRAINING).impute([recording])
+    (there,) = PoseKriging().fit([walk("other", 7, 60, style=0.3)]).impute([recording])
+    np.testing.assert_allclose(here.mean, there.mean)
+    np.testing.assert_allclose(here.variance, there.variance)
+
+
+def test_neither_the_order_of_training_nor_company_matters():
+    recordings = [gap(walk("new", 5, 40), 8, 20), gap(standing(), 10, 30)]
+    one = PoseKriging().fit(TRAINING).impute(recordings)
+    other = PoseKriging().fit(TRAINING[::-1]).impute(recordings[::-1])[::-1]
+    for here, there in zip(one, other, strict=True):
+        np.testing.assert_allclose(here.mean, there.mean, atol=1e-9)
+        np.testing.assert_allclose(here.variance, there.variance, rtol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -74,6 +124,7 @@ def test_mean_and_variance_are_those_of_the_joint_normal():
         ({"pose_lengthscale": 0.0}, "pose_lengthscale to be a finite positive"),
         ({"time_lengthscale": -1.0}, "time_lengthscale to be a finite positive"),
         ({"pose_variance": -1.0}, "pose_variance to be a finite number of at least 0"),
+        ({"least_explained": 2.0}, "least_explained to be a number from 0 to 1"),
         ({"smoothness": "1"}, "smoothness to be a finite positive"),
     ],
 )

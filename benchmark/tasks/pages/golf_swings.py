@@ -21,7 +21,10 @@ PAGE = TaskPage(
         "differences."
     ),
     question="hidden-frames",
-    metrics=("rms_per_frame", "mpjpe", "angle_error_per_frame", "root_error_per_frame"),
+    metrics=(
+        *("rms_per_frame", "mpjpe", "angle_error_per_frame", "root_error_per_frame"),
+        *("coverage_95", "msll", "crps"),
+    ),
     remarks=(
         "The paper shows models of these swings and fills none of their frames: the protocol is "
         "this project’s own, without published values.",

@@ -20,7 +20,7 @@ PAGE = TaskPage(
         "three other recordings of the subject or none."
     ),
     question="other-channels",
-    metrics=("mpjpe", "bone_length_error", "jerk_ratio", "coverage_90", "msll"),
+    metrics=("mpjpe", "bone_length_error", "jerk_ratio", "coverage_95", "msll", "crps"),
     along="seconds",
     illustrated=(f"a limb 1 s, {OTHERS}", f"synthetic a limb 0.5 s, {OTHERS}"),
     figures=(FilledMotion(),),

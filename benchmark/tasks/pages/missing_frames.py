@@ -28,7 +28,10 @@ PAGE = TaskPage(
         "Values are 44 joint angles, three root rotations and three root translation differences."
     ),
     question="hidden-frames",
-    metrics=("rms_per_frame", "mpjpe", "angle_error_per_frame", "root_error_per_frame"),
+    metrics=(
+        *("rms_per_frame", "mpjpe", "angle_error_per_frame", "root_error_per_frame"),
+        *("coverage_95", "msll", "crps"),
+    ),
     rows={f"{test} {group}": RowNotes(published=test) for group in _GROUPS for test in _TESTS},
     published_models={
         "cubic-spline": "cubic-spline",

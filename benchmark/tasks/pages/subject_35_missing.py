@@ -20,7 +20,7 @@ PAGE = TaskPage(
         "root, each over its standard deviation in training."
     ),
     question="other-channels",
-    metrics=("rms_angle", "cumulative_scaled_error"),
+    metrics=("rms_angle", "cumulative_scaled_error", "coverage_95", "msll", "crps"),
     rows={name: RowNotes(published=name) for name in ("right leg", "upper body")},
     published_models={"nn-scaled": "scaled NN", "nn-radians": "NN"},
     published_metrics={

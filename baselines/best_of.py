@@ -1,0 +1,145 @@
+"""Several models, weighted by how they do in rehearsals of the gaps at hand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Self
+
+import numpy as np
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
+from mocapbench.baselines.choosing.rehearsals import Errors, Rehearsals
+from mocapbench.baselines.choosing.weights import expected_errors, weights_of
+from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.validation import check_positive
+from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
+from mocapbench.datasets import Recording
+
+__all__ = ["BestOf"]
+
+
+class BestOf(Imputer, Inductive):
+    r"""The mean of several models, weighted by their errors in rehearsals of the gaps.
+
+    A model that is best on walks may be bad for someone who stands still. For every recording to
+    fill, copies of its gaps are therefore hidden where its entries are visible, and every candidate
+    fills them. Where the visible stretches are shorter than the gaps, the copies are shorter, which
+    flatters models that only interpolate. Up to three training recordings then take the place of
+    the one to fill, in turn and left out of training: by what a candidate's error grows there from
+    the copies to the gaps, its error is multiplied.
+
+    The weights are :math:`w_i \propto E_i^{-p}` with the root mean squared error :math:`E_i` to
+    expect and the ``power`` p. The prediction is the mixture of the candidates' distributions: its
+    variance includes how far they lie apart. The variance of a candidate that has none is
+    :math:`E_i^2`. Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``,
+    ``pca-regression``, ``nn``, ``aligned-window`` and ``pose-kriging``; those that cannot fill a
+    mask, or not learn from the recordings, are left out. The seed of ``fam`` is fixed, so that
+    nothing is random.
+
+    Parameters
+    ----------
+    power : float, default=8.0
+        With 0 all candidates would count alike; the larger, the more the best one counts. Positive.
+
+    Attributes
+    ----------
+    channels_ : tuple of D str
+        The channels of the recordings given to `fit`.
+    recordings_ : tuple of Recording
+        The recordings given to `fit`, by which candidates are rehearsed.
+    panel_ : Panel
+        The candidates, fitted to them.
+
+    References
+    ----------
+    Not from a publication. ``docs/calibration.md`` has what was tried.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import BestOf
+    >>> from mocapbench.datasets import Recording
+    >>> times = np.arange(60) / 30
+    >>> values = np.column_stack([times, -times])
+    >>> line = Recording("line", times, values, ("x", "y"), ("cm", "cm"))
+    >>> gap = np.repeat(((times > 0.9) & (times < 1.2))[:, None], 2, axis=1)
+    >>> model = BestOf().fit([line.hide(gap)])
+    >>> (weights,) = model.weights([line.hide(gap)])
+    >>> round(sum(weights.values()), 9)
+    1.0
+    >>> (prediction,) = model.impute([line.hide(gap)])
+    >>> bool(np.abs(prediction.mean - values).max() < 1e-3)
+    True
+    """
+
+    max_frames = 1000
+
+    def __init__(self, power: float = 8.0) -> None:
+        self.power = power
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Fit the candidates.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of range, there is no recording, channels differ, or a name
+            repeats.
+        """
+        check_positive("power", self.power)
+        # In the order of names, so that the order given does not affect results.
+        checked = check_recordings(recordings)
+        self.recordings_ = tuple(sorted(checked, key=lambda recording: recording.name))
+        self.channels_ = checked[0].channels
+        self.panel_ = Panel.of(self.recordings_)
+        return self
+
+    def weights(self, recordings: Sequence[Recording]) -> list[Mapping[str, float]]:
+        """Return the weight of each candidate in each recording; they sum to one.
+
+        Raises
+        ------
+        ValueError
+            If channels differ.
+        """
+        checked = self._checked(recordings)
+        return [weights_of(self._errors(recording), self.power) for recording in checked]
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the weighted mean of the candidates, and the variance of their mixture.
+
+        Raises
+        ------
+        ValueError
+            If channels differ, or a channel is visible neither in a recording nor in those given to
+            `fit`.
+        """
+        return [self._mixture(recording) for recording in self._checked(recordings)]
+
+    def _checked(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_)
+        return recordings
+
+    def _rehearsals(self, recording: Recording) -> Rehearsals:
+        return Rehearsals(self.recordings_, self.panel_, recording)
+
+    def _errors(self, recording: Recording) -> Errors:
+        return expected_errors(self._rehearsals(recording))
+
+    def _mixture(self, recording: Recording) -> Prediction:
+        errors, scale = self._errors(recording), self._rehearsals(recording).scale
+        answers = self.panel_.impute(recording)
+        if LAST_RESORT not in answers:  # it says what nothing can fill
+            return self.panel_.models[LAST_RESORT].impute([recording])[0]
+        weights = weights_of({n: e for n, e in errors.items() if n in answers}, self.power)
+        means = {name: answers[name].mean for name in weights}
+        mean = np.sum([weights[name] * means[name] for name in weights], axis=0)
+        variance = np.zeros_like(mean)
+        for name, weight in weights.items():
+            claimed = answers[name].variance
+            expected = errors.get(name, 1.0) * scale**2
+            own = np.broadcast_to(expected, mean.shape) if claimed is None else claimed
+            variance += weight * (own + (means[name] - mean) ** 2)
+        return Prediction.around(recording, mean, variance)

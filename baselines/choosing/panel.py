@@ -1,0 +1,72 @@
+"""The models that `BestOf` chooses from, fitted to the same recordings."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+from typing import Self
+
+from mocapbench.baselines.aligned_window import AlignedWindow
+from mocapbench.baselines.fam import FAM
+from mocapbench.baselines.interpolation import (
+    CubicSplineImputer,
+    LinearImputer,
+    MakimaImputer,
+    PchipImputer,
+)
+from mocapbench.baselines.lds import LDS
+from mocapbench.baselines.low_rank import LowRank
+from mocapbench.baselines.nn import NN
+from mocapbench.baselines.pca_regression import PCARegression
+from mocapbench.baselines.pose_kriging import PoseKriging
+from mocapbench.baselines.protocols import FrameImputer, Prediction
+from mocapbench.datasets import Recording
+
+__all__ = ["CANDIDATES", "LAST_RESORT", "Panel"]
+
+LAST_RESORT = "pchip"
+"""What fills where no rehearsal has room: it never overshoots."""
+
+CANDIDATES: Mapping[str, Callable[[], FrameImputer]] = {
+    "linear": LinearImputer,
+    LAST_RESORT: PchipImputer,
+    "makima": MakimaImputer,
+    "cubic-spline": CubicSplineImputer,
+    "lds": LDS,
+    "fam": partial(FAM, n_restarts=1, max_iter=10, random_state=0),
+    "low-rank": LowRank,
+    "pca-regression": PCARegression,
+    "nn": NN,
+    "aligned-window": AlignedWindow,
+    "pose-kriging": PoseKriging,
+}
+"""All are inductive, and take a second at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """Fitted models by name; those that cannot learn from the recordings are left out."""
+
+    models: Mapping[str, FrameImputer]
+
+    @classmethod
+    def of(cls, recordings: Sequence[Recording]) -> Self:
+        """Fit every candidate that can be fitted."""
+        models = {}
+        for name, candidate in CANDIDATES.items():
+            # A model that expects other data refuses them with a ValueError.
+            with warnings.catch_warnings(), suppress(ValueError):
+                warnings.simplefilter("ignore")
+                models[name] = candidate().fit(recordings)
+        return cls(models)
+
+    def impute(self, recording: Recording) -> dict[str, Prediction]:
+        """Return the prediction of each model that can fill the recording."""
+        predictions = {}
+        for name, model in self.models.items():
+            with suppress(ValueError):
+                (predictions[name],) = model.impute([recording])
+        return predictions

@@ -1,0 +1,131 @@
+"""Rehearsals: gaps where the truth is visible, in the recording to fill and in training."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.choosing.panel import Panel
+from mocapbench.baselines.common.gaps import runs
+from mocapbench.baselines.common.trials import trial_masks
+from mocapbench.datasets import Mask, Recording
+
+__all__ = ["Errors", "Rehearsals"]
+
+Array = NDArray[np.float64]
+Errors = Mapping[str, float]
+"""The mean squared error of each model, in units of the channels' scales."""
+
+_MOST_HELD_OUT = 3
+"""Training recordings that take the place of the one to fill."""
+_MANY = 4
+"""How many times as many recordings as are held out are enough to learn from."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rehearsals:
+    """How a recording to fill can be rehearsed.
+
+    Parameters
+    ----------
+    fitted : sequence of Recording
+        What models learn from.
+    panel : Panel
+        The models, fitted to them.
+    given : Recording
+        The recording to fill.
+    """
+
+    fitted: Sequence[Recording]
+    panel: Panel
+    given: Recording
+
+    @property
+    def trials(self) -> list[Mask]:
+        """What each rehearsal in the recording itself hides."""
+        return trial_masks(self.given)
+
+    @property
+    def are_short(self) -> bool:
+        """Whether copies of the longest gap in the recording itself had to be shortened."""
+        return _longest(self.trials) < _longest([~self.given.visible])
+
+    def own(self) -> list[Errors]:
+        """Return errors in the recording itself, for each trial."""
+        return [self._own(mask) for mask in self.trials]
+
+    def _own(self, mask: Mask) -> Errors:
+        """Return errors in a trial, which no model has seen in fitting."""
+        tried = self.given.hide(mask)
+        panel = self.panel
+        if self.given.name in [recording.name for recording in self.fitted]:
+            others = [r for r in self.fitted if r.name != self.given.name]
+            panel = Panel.of([*others, tried])
+        return self._errors(panel, self.given, mask)
+
+    def in_training(self) -> list[tuple[Errors, Errors]]:
+        """Return errors with the gaps as they are, and in a trial, for recordings held out in turn.
+
+        The recording held out has the gaps of the one to fill.
+        """
+        others = sorted((r for r in self.fitted if r.name != self.given.name), key=lambda r: r.name)
+        if len(self.fitted) < 2:
+            return []
+        places = np.unique(np.linspace(0, len(others) - 1, _MOST_HELD_OUT).round().astype(int))
+        chosen = [others[place] for place in places]
+        # Where many are left to learn from, those held out share one fit.
+        turns = [chosen] if len(others) > _MANY * len(chosen) else [[one] for one in chosen]
+        return [errors for turn in turns for errors in self._held_out(turn)]
+
+    def _held_out(self, recordings: Sequence[Recording]) -> list[tuple[Errors, Errors]]:
+        names = {recording.name for recording in recordings}
+        panel = Panel.of([r for r in self.fitted if r.name not in names])
+        return [self._in_place_of_given(panel, recording) for recording in recordings]
+
+    def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Errors, Errors]:
+        gaps, *trials = _aligned(recording, [~self.given.visible, *self.trials[1:2]])
+        cut, hidden = gaps
+        full = self._errors(panel, cut, hidden)
+        short = [self._errors(panel, cut.hide(hidden), mask, cut) for _, mask in trials]
+        return full, short[0] if short else {}
+
+    def _errors(
+        self, panel: Panel, given: Recording, mask: Mask, truth: Recording | None = None
+    ) -> Errors:
+        """Return the errors of a panel where ``mask`` hides entries of ``given``."""
+        known = mask & (truth or given).visible
+        if not known.any():
+            return {}
+        values = (truth or given).values
+        return {
+            name: float(np.mean(((answer.mean - values) / self.scale)[known] ** 2))
+            for name, answer in panel.impute(given.hide(mask)).items()
+        }
+
+    @property
+    def scale(self) -> Array:
+        """(D,) the mean spread of the channels of each channel's unit: units count alike."""
+        stacked = np.concatenate([recording.values for recording in (*self.fitted, self.given)])
+        variance = np.ma.masked_invalid(stacked).var(axis=0).filled(0.0)
+        units = np.array(self.given.units)
+        mean = np.array([variance[units == unit].mean() for unit in self.given.units])
+        return np.sqrt(np.where(mean > 0.0, mean, 1.0))
+
+
+def _longest(masks: Sequence[Mask]) -> int:
+    return max(
+        (len(run) for mask in masks for run in runs(np.asarray(mask.any(axis=1)))), default=0
+    )
+
+
+def _aligned(recording: Recording, masks: Sequence[Mask]) -> list[tuple[Recording, Mask]]:
+    """Cut a recording and masks to the shorter of their lengths, around the gaps."""
+    n_frames, n_masked = len(recording.times), len(masks[0])
+    length = min(n_frames, n_masked)
+    cut = recording.frames((n_frames - length) // 2 + np.arange(length))
+    middle = int(np.flatnonzero(masks[0].any(axis=1)).mean())
+    first = min(max(middle - length // 2, 0), n_masked - length)
+    return [(cut, mask[first : first + length]) for mask in masks]

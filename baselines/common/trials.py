@@ -1,0 +1,79 @@
+"""Trials: more of a recording is hidden, like its gaps, where the truth is visible.
+
+A trial hides copies of the gaps elsewhere: of the same lengths, in the same channels. The real gaps
+stay hidden. Places are spread evenly over the visible frames and draw no random numbers, so that a
+recording has the same trials wherever it is filled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.common.gaps import runs
+from mocapbench.datasets import Mask, Recording
+
+__all__ = ["N_TRIALS", "trial_masks"]
+
+N_TRIALS = 3
+"""Trials of a recording."""
+_MOST_HIDDEN = 0.15
+"""Of a channel's visible frames, that a trial hides, unless one gap alone is longer."""
+_SHARES = (1.0, 0.5, 0.25, 0.125, 0.0625)
+"""By which a gap is shortened that fits nowhere."""
+_GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
+"""Successive multiples of it, modulo 1, are spread evenly."""
+
+Columns = NDArray[np.intp]
+
+
+def trial_masks(recording: Recording) -> list[Mask]:
+    """Return what each trial hides besides the gaps: masks (N, D), True where visible entries go.
+
+    There are fewer than `N_TRIALS` where gaps are too many or too long to have a copy, and none
+    without a gap.
+    """
+    hidden = ~recording.visible
+    masks = [np.zeros_like(hidden) for _ in range(N_TRIALS)]
+    for columns in _groups(hidden):
+        for number, mask in enumerate(masks):
+            for frames in _copies(hidden[:, columns[0]], (number + 0.5) / N_TRIALS):
+                mask[np.ix_(frames, columns)] = True
+    return [mask for mask in masks if mask.any()]
+
+
+def _groups(hidden: Mask) -> Iterator[Columns]:
+    """Yield the channels that are hidden at the same frames, those without a gap left out."""
+    _, group = np.unique(hidden, axis=1, return_inverse=True)
+    for number in range(int(group.max(initial=-1)) + 1):
+        columns = np.flatnonzero(group.ravel() == number)
+        if hidden[:, columns[0]].any():
+            yield columns
+
+
+def _copies(hidden: NDArray[np.bool_], place: float) -> Iterator[NDArray[np.intp]]:
+    """Yield the frames of copies of a channel's gaps, the first at ``place`` (0 to 1)."""
+    blocked, room = hidden.copy(), _MOST_HIDDEN * np.count_nonzero(~hidden)
+    taken = 0
+    for length in sorted(map(len, runs(hidden)), reverse=True):
+        if taken and taken + length > room:
+            continue
+        frames = _placed(blocked, length, place % 1.0)
+        if len(frames):
+            blocked[frames[0] - 1 : frames[-1] + 2] = True
+            taken, place = taken + len(frames), place + _GOLDEN
+            yield frames
+
+
+def _placed(blocked: NDArray[np.bool_], length: int, place: float) -> NDArray[np.intp]:
+    """Return a stretch of free frames with a free one on both sides; shorter if need be."""
+    counts = np.concatenate([[0], np.cumsum(blocked)])
+    for share in _SHARES:
+        n_hidden = max(round(share * length), 1)
+        starts = np.arange(1, len(blocked) - n_hidden)
+        free = starts[counts[starts + n_hidden + 1] == counts[starts - 1]]
+        if len(free) and 2 * n_hidden <= np.count_nonzero(~blocked):
+            return np.asarray(free[int(place * len(free))] + np.arange(n_hidden))
+    return np.empty(0, dtype=np.intp)

@@ -1,0 +1,89 @@
+"""Paths of training recordings that match a new recording, one for each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.common.gaps import hidden_frames
+from mocapbench.baselines.pose_viterbi import PoseViterbi
+from mocapbench.datasets import FrameByChannel, Recording
+
+__all__ = ["MatchedPaths"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class MatchedPaths:
+    """The cheapest path of each of K training recordings, and how well it fits.
+
+    Parameters
+    ----------
+    paths : ndarray of shape (K, N, D)
+        The matched training frames.
+    errors : ndarray of shape (K,)
+        Variance of the residual at visible frames, summed over channels.
+    moved : float
+        Variance of the recording at visible frames, summed over channels.
+    """
+
+    paths: Array
+    errors: Array
+    moved: float
+
+    @classmethod
+    def of(cls, recording: Recording, matchers: Sequence[PoseViterbi]) -> Self:
+        """Match a recording with each matcher's frames, the subject's offset taken out before."""
+        visible = ~hidden_frames(recording)
+        paths = np.array([_path(recording, matcher) for matcher in matchers])
+        errors = (recording.values - paths)[:, visible].var(axis=1).sum(axis=1)
+        return cls(paths, errors, float(recording.values[visible].var(axis=0).sum()))
+
+    @property
+    def explained(self) -> float:
+        """Which share of the recording's variance the best path explains, at most 1.
+
+        It is negative where a pose that never changes would be nearer than any path.
+        """
+        least = float(self.errors.min())
+        if least == 0.0:
+            return 1.0
+        return 1.0 - least / self.moved if self.moved > 0.0 else -np.inf
+
+    @cached_property
+    def weights(self) -> Array:
+        """(K,) weights of the paths by their errors; they sum to 1."""
+        errors = self.errors + np.finfo(float).tiny
+        weights = np.exp(-errors / errors.min())
+        return np.asarray(weights / weights.sum())
+
+    @cached_property
+    def mean(self) -> FrameByChannel:
+        """(N, D) the weighted mean of the paths."""
+        return np.tensordot(self.weights, self.paths, axes=1)
+
+    def doubt(self, predictions: Array) -> FrameByChannel:
+        """Return the variance (N, D) of one more draw from those that ``predictions`` are draws of.
+
+        0 for a single prediction, which says nothing about others.
+
+        Parameters
+        ----------
+        predictions : ndarray of shape (K, N, D)
+            What each path predicts.
+        """
+        n_paths = len(predictions)
+        mean = np.tensordot(self.weights, predictions, axes=1)
+        spread = np.tensordot(self.weights, (predictions - mean) ** 2, axes=1)
+        return np.asarray(spread * (n_paths + 1) / max(n_paths - 1, 1))
+
+
+def _path(recording: Recording, matcher: PoseViterbi) -> FrameByChannel:
+    moved = recording.with_values(recording.values - matcher.residual(recording))
+    return matcher.match(moved)

@@ -1,0 +1,152 @@
+"""Coverage, MSLL, CRPS and errors that `docs/calibration.md` reports.
+
+::
+
+    python docs/evidence/calibration.py walkers   # training walkers, each left out in turn
+    python docs/evidence/calibration.py strangers # walkers and other motions of no task's choice
+    python docs/evidence/calibration.py threshold # where pose-kriging should fall back
+    python docs/evidence/calibration.py best-of   # best-of beside its candidates
+
+All learn from the three training walkers of `missing-frames`. Its own test recordings are not
+used here: `mocapbench run` scores them.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from mocapbench import benchmark as bench
+from mocapbench.baselines import (
+    FAM,
+    GPDM,
+    GPLVM,
+    LDS,
+    BestOf,
+    FrameImputer,
+    MakimaImputer,
+    PchipImputer,
+    PoseKriging,
+)
+from mocapbench.baselines.common.gaps import hidden_frames
+from mocapbench.baselines.kriging.paths import MatchedPaths
+from mocapbench.benchmark import ImputeProblem
+from mocapbench.benchmark.problems.impute import FilledRecordings
+from mocapbench.benchmark.tasks.missing_frames import (
+    FIRST_HIDDEN,
+    GROUPS,
+    N_HIDDEN,
+    N_TEST_FRAMES,
+    N_WINDOWS,
+    TRAINING,
+)
+from mocapbench.datasets import Recording, gpdm_features, one_based_frames
+from mocapbench.metrics import coverage_95, crps, msll, rms_per_frame
+
+MODELS: Mapping[str, Callable[[], FrameImputer]] = {
+    "pose-kriging": PoseKriging,
+    "lds": LDS,
+    "fam": lambda: FAM(random_state=0),
+    "gpdm balanced": lambda: GPDM(max_iter=10, fill_iter=20, random_state=0),
+    "gpdm map": lambda: GPDM("map", max_iter=10, fill_iter=20, random_state=0),
+    "gplvm": lambda: GPLVM(start="window", max_iter=10, fill_iter=20, random_state=0),
+}
+WALKS = "02_01 02_02 39_01 39_02 07_03 07_04 08_04 16_22 16_31 16_32 07_06 08_03 08_06 16_16"
+CHOICE = "02_03 02_04 02_05 02_06 02_07 02_08 02_09 02_10 09_01 09_05 09_12 11_01 39_01 39_02 39_03"
+CHECK = "10_01 10_02 10_03 16_01 16_03 16_08 16_11 16_17 16_31 16_32 64_05 64_10 64_16 64_20"
+THRESHOLDS = (0.0, 0.1, 0.2, 0.3, 1 / 3, 0.4, 0.5, 0.6)
+
+
+def training() -> list[Recording]:
+    """Return the training walkers that are at hand."""
+    archive = bench.archive_at(None)
+    return [
+        gpdm_features(one_based_frames(archive.recording(uri), *TRAINING[uri]))
+        for uri in GROUPS["three-walkers"]
+    ]
+
+
+def windows(test: Recording, train: Sequence[Recording], step: int = 1) -> Iterator[ImputeProblem]:
+    """Yield the task's windows over the first frames of a recording."""
+    short = test.frames(np.arange(N_TEST_FRAMES))
+    for first in range(FIRST_HIDDEN, FIRST_HIDDEN + N_WINDOWS, step):
+        mask = np.zeros(short.values.shape, dtype=bool)
+        mask[first : first + N_HIDDEN] = True
+        yield ImputeProblem.of_one(short, mask, train, seen_in_fit=False)
+
+
+def report(name: str, model: FrameImputer, problems: Sequence[ImputeProblem]) -> None:
+    """Print mean error, coverage, MSLL and CRPS of a fitted model."""
+    began, rows = time.process_time(), []
+    for problem in problems:
+        outcome = problem.outcome(FilledRecordings(tuple(model.impute(problem.given))))
+        metrics = (rms_per_frame, coverage_95, msll, crps)
+        rows.append([m(outcome).value if m.applies(outcome) else np.nan for m in metrics])
+    error, coverage, loss, score = np.mean(rows, axis=0)
+    seconds = (time.process_time() - began) / len(problems)
+    print(f"{name:32} {error:7.2f} {coverage:6.3f} {loss:8.2f} {score:6.2f} {seconds:6.2f} s")
+
+
+def walkers() -> None:
+    """Print the scores of each training walker when it is left out."""
+    walks = training()
+    for name, make in MODELS.items():
+        for test in walks:
+            train = [walk for walk in walks if walk is not test]
+            model = make().fit(train)
+            report(f"{name} {test.name}", model, list(windows(test, train, 4)))
+
+
+def strangers() -> None:
+    """Print the scores of walks and other motions that take part in no task as tests."""
+    train, archive = training(), bench.archive_at(None)
+    for name in ("pose-kriging", "lds", "fam"):
+        model = MODELS[name]().fit(train)
+        for trial in WALKS.split():
+            test = gpdm_features(archive.recording(f"cmu:{trial}"))
+            report(f"{name} {trial}", model, list(windows(test, train, 4)))
+
+
+def best_of() -> None:
+    """Print the scores of `best-of` beside those of pose-kriging and an interpolation."""
+    walks, archive = training(), bench.archive_at(None)
+    tests = [(walk, [other for other in walks if other is not walk]) for walk in walks]
+    others = [gpdm_features(archive.recording(f"cmu:{trial}")) for trial in CHECK.split()]
+    tests += [(other, walks) for other in others if len(other.times) >= N_TEST_FRAMES]
+    for test, train in tests:
+        for model in (BestOf(), PoseKriging(), PchipImputer(), MakimaImputer()):
+            fitted, problems = model.fit(train), list(windows(test, train, 6))
+            report(f"{type(model).__name__} {test.name}", fitted, problems)
+
+
+def threshold() -> None:
+    """Print errors relative to makima by what share of the variance the best path must explain."""
+    train, archive = training(), bench.archive_at(None)
+    path = PoseKriging(least_explained=0.0).fit(train)
+    own = PoseKriging(least_explained=1.0).fit(train)
+    reference = MakimaImputer().fit(train)
+    for half in (CHOICE, CHECK):
+        rows = []
+        for trial in half.split():
+            test = gpdm_features(archive.recording(f"cmu:{trial}"))
+            for problem in windows(test, train, 6) if len(test.times) >= N_TEST_FRAMES else ():
+                (given,), hidden = problem.given, hidden_frames(problem.given[0])
+                models = (path, own, reference)
+                filled = [model.impute([given])[0].mean - problem.truth[0] for model in models]
+                errors = [np.linalg.norm(error[hidden], axis=1).mean() for error in filled]
+                rows.append((MatchedPaths.of(given, path.matchers_).explained, *errors))
+        explained, by_path, by_own, by_makima = np.array(rows).T
+        for least in THRESHOLDS:
+            ratio = np.where(explained < least, by_own, by_path) / by_makima
+            print(f"{least:5.2f} mean {ratio.mean():5.2f} largest {ratio.max():5.2f}")
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    {"walkers": walkers, "strangers": strangers, "threshold": threshold, "best-of": best_of}[
+        sys.argv[1]
+    ]()

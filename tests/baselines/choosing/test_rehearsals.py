@@ -1,0 +1,84 @@
+import numpy as np
+import pytest
+
+from mocapbench.baselines.choosing.panel import Panel
+from mocapbench.baselines.choosing.rehearsals import Rehearsals
+from mocapbench.baselines.protocols import Imputer, Prediction
+from mocapbench.datasets import Recording
+
+
+def walk(name, n_frames=60, phase=0.0):
+    angle = 2 * np.pi * np.arange(n_frames) / 20 + phase
+    values = np.column_stack([np.sin(angle), np.cos(angle)])
+    return Recording(name, np.arange(n_frames) / 30, values, ("a", "b"), ("",) * 2)
+
+
+def gap(recording, first, last):
+    hidden = np.zeros(recording.values.shape, dtype=bool)
+    hidden[first:last] = True
+    return recording.hide(hidden)
+
+
+class Watching(Imputer):
+    """Predicts 0, and keeps what it was given."""
+
+    def __init__(self):
+        self.given = []
+
+    def fit(self, recordings):
+        return self
+
+    def impute(self, recordings):
+        self.given.extend(recordings)
+        return [Prediction.around(recording, 0.0) for recording in recordings]
+
+
+def watched(fitted, given):
+    model = Watching()
+    return model, Rehearsals(fitted, Panel({"zero": model}), given)
+
+
+def test_real_gaps_stay_hidden_in_rehearsals():
+    given = gap(walk("new"), 20, 28)
+    model, rehearsals = watched([walk("one")], given)
+    assert len(rehearsals.own()) == 3
+    assert all(not seen.visible[20:28].any() for seen in model.given)
+
+
+def test_errors_are_those_of_the_copies_in_units_of_the_spread():
+    given = gap(walk("new"), 20, 28)
+    _, rehearsals = watched([walk("one")], given)
+    for mask, errors in zip(rehearsals.trials, rehearsals.own(), strict=True):
+        expected = np.mean((given.values / rehearsals.scale)[mask] ** 2)
+        assert errors == pytest.approx({"zero": expected})
+
+
+@pytest.mark.parametrize(("last", "short"), [(24, False), (55, True)])
+def test_copies_are_short_where_visible_stretches_are(last, short):
+    assert watched([walk("one")], gap(walk("new"), 20, last))[1].are_short is short
+
+
+@pytest.mark.parametrize("n_frames", [40, 60, 90])
+def test_training_recordings_take_the_place_of_the_one_to_fill(n_frames):
+    fitted = [walk("one", n_frames), walk("two", n_frames, 1.0)]
+    given = gap(walk("new"), 20, 40)
+    found = Rehearsals(fitted, Panel.of(fitted), given).in_training()
+    assert len(found) == 2
+    for with_gaps, with_copies in found:
+        assert set(with_gaps) == set(with_copies) >= {"linear", "lds", "pose-kriging"}
+
+
+def test_one_training_recording_cannot_be_left_out():
+    fitted = [walk("one")]
+    assert Rehearsals(fitted, Panel.of(fitted), gap(walk("new"), 20, 40)).in_training() == []
+
+
+def test_of_many_training_recordings_three_are_held_out_in_one_fit(monkeypatch):
+    fitted = [walk(f"walk {k:02}", phase=0.3 * k) for k in range(16)]
+    fits = []
+    monkeypatch.setattr(
+        Panel, "of", classmethod(lambda cls, recordings: fits.append(recordings) or cls({}))
+    )
+    found = Rehearsals(fitted, Panel({}), gap(walk("new"), 20, 40)).in_training()
+    assert len(found) == 3
+    assert [len(recordings) for recordings in fits] == [13]

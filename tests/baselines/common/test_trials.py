@@ -1,0 +1,73 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocapbench.baselines.common.gaps import runs
+from mocapbench.baselines.common.trials import N_TRIALS, trial_masks
+from mocapbench.datasets import Recording
+
+
+def recording(hidden):
+    values = np.where(hidden, np.nan, 1.0)
+    channels = tuple(f"c{d}" for d in range(hidden.shape[1]))
+    return Recording("r", np.arange(len(hidden)) / 30, values, channels, ("",) * len(channels))
+
+
+def with_gaps(seed, n_frames=60):
+    """Return a recording with up to two gaps of random channels."""
+    rng = np.random.default_rng(seed)
+    hidden = np.zeros((n_frames, 4), dtype=bool)
+    for _ in range(rng.integers(0, 3)):
+        first, length = rng.integers(0, n_frames - 25), rng.integers(1, 25)
+        hidden[first : first + length, rng.random(4) < 0.5] = True
+    return recording(hidden)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10_000))
+def test_a_trial_hides_visible_entries_of_the_channels_with_gaps_and_leaves_most(seed):
+    given = with_gaps(seed)
+    hidden = ~given.visible
+    masks = trial_masks(given)
+    assert len(masks) <= N_TRIALS
+    for mask in masks:
+        assert mask.any()
+        assert not (mask & hidden).any()
+        assert not mask[:, ~hidden.any(axis=0)].any()
+        assert (2 * mask.sum(axis=0) <= given.visible.sum(axis=0)).all()
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10_000))
+def test_no_copy_is_longer_than_the_longest_gap_or_touches_a_real_one(seed):
+    given = with_gaps(seed)
+    hidden = ~given.visible
+    for mask in trial_masks(given):
+        for d in range(4):
+            lengths = [len(run) for run in runs(mask[:, d])]
+            assert max(lengths, default=0) <= max(map(len, runs(hidden[:, d])), default=0)
+            assert not (mask[1:, d] & hidden[:-1, d]).any()
+            assert not (mask[:-1, d] & hidden[1:, d]).any()
+
+
+def test_frames_hidden_as_a_whole_have_whole_frames_as_copies():
+    hidden = np.zeros((50, 3), dtype=bool)
+    hidden[4:35] = True
+    masks = trial_masks(recording(hidden))
+    assert len(masks) == N_TRIALS
+    for mask in masks:
+        assert (mask.all(axis=1) == mask.any(axis=1)).all()
+
+
+def test_a_copy_is_as_long_as_the_gap_where_there_is_room():
+    hidden = np.zeros((100, 2), dtype=bool)
+    hidden[40:50, 0] = True
+    assert [int(mask[:, 0].sum()) for mask in trial_masks(recording(hidden))] == [10, 10, 10]
+
+
+@pytest.mark.parametrize("n_visible", [0, 1, 2, 50])
+def test_there_is_none_without_room_or_without_a_gap(n_visible):
+    hidden = np.ones((50, 2), dtype=bool)
+    hidden[:n_visible] = False
+    assert trial_masks(recording(hidden)) == []

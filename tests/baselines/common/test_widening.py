@@ -1,0 +1,68 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocapbench.baselines import LDS, Prediction
+from mocapbench.baselines.common.widening import widened
+from mocapbench.datasets import Recording
+
+
+def noise(name, scales, n_frames=200):
+    """Return white noise with a gap, of one standard deviation for each channel."""
+    rng = np.random.default_rng(len(name))
+    values = rng.normal(size=(n_frames, len(scales))) * scales
+    hidden = np.zeros(values.shape, dtype=bool)
+    hidden[80:110] = True
+    channels = tuple(f"c{d}" for d in range(len(scales)))
+    full = Recording(name, np.arange(n_frames) / 30, values, channels, ("",) * len(channels))
+    return full.hide(hidden)
+
+
+def claiming(variance):
+    """Return a model that predicts 0 and claims ``variance``."""
+
+    def impute(recordings):
+        return [Prediction.around(recording, 0.0, variance) for recording in recordings]
+
+    return impute
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(st.floats(0.1, 10.0), min_size=1, max_size=4), st.floats(0.01, 100.0))
+def test_means_stay_and_no_variance_becomes_smaller(scales, variance):
+    recording = noise("r", np.array(scales))
+    (before,) = claiming(variance)([recording])
+    (after,) = widened([recording], claiming(variance))
+    np.testing.assert_array_equal(after.mean, before.mean)
+    assert (after.variance >= before.variance).all()
+    assert (after.variance[recording.visible] == 0.0).all()
+
+
+@pytest.mark.parametrize("scale", [3.0, 30.0])
+def test_a_claim_that_is_too_small_becomes_what_trials_show(scale):
+    (prediction,) = widened([noise("r", np.array([scale, scale]))], claiming(1.0))
+    np.testing.assert_allclose(prediction.variance[80:110], scale**2, rtol=0.3)
+
+
+def test_each_channel_is_checked_by_itself():
+    recording = noise("r", np.array([1.0, 10.0]))
+    (prediction,) = widened([recording], claiming(1.0))
+    assert prediction.variance[90, 1] > 3.0 * prediction.variance[90, 0]
+
+
+def test_a_recording_without_a_trial_keeps_its_variance():
+    recording = Recording("r", np.arange(2.0), [[1.0], [np.nan]], ("c",), ("",))
+    (prediction,) = widened([recording], claiming(5.0))
+    assert prediction.variance[1, 0] == 5.0
+
+
+def test_neither_order_nor_company_matters():
+    recordings = [noise("a", np.array([2.0, 3.0])), noise("bb", np.array([5.0, 1.0]))]
+    model = LDS(n_states=2).fit(recordings)
+    here = model.impute(recordings)
+    there = model.impute(recordings[::-1])[::-1]
+    alone = [model.impute([recording])[0] for recording in recordings]
+    for one, *others in zip(here, there, alone, strict=True):
+        for other in others:
+            np.testing.assert_allclose(other.variance, one.variance)

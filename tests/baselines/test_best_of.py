@@ -1,0 +1,93 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocapbench.baselines import BestOf, PchipImputer
+from mocapbench.baselines.choosing.panel import CANDIDATES
+from mocapbench.datasets import Recording
+
+
+def walk(name, phase, offset=0.0, n_frames=60):
+    angle = 2 * np.pi * np.arange(n_frames) / 20.3 + phase
+    values = np.column_stack([np.sin(angle), np.cos(angle), np.sin(angle + 1.0)]) + offset
+    return Recording(name, np.arange(n_frames) / 30, values, ("a", "b", "c"), ("",) * 3)
+
+
+def still(name, n_frames=60):
+    values = np.random.default_rng(0).normal(scale=0.005, size=(n_frames, 3)).cumsum(axis=0)
+    return Recording(name, np.arange(n_frames) / 30, values, ("a", "b", "c"), ("",) * 3)
+
+
+def gap(recording, first, last, channels=slice(None)):
+    hidden = np.zeros(recording.values.shape, dtype=bool)
+    hidden[first:last, channels] = True
+    return recording.hide(hidden)
+
+
+TRAINING = [walk("one", 0.0), walk("two", 1.0, 0.1), walk("three", 2.0, -0.1)]
+MODEL = BestOf().fit(TRAINING)
+GIVEN = [
+    gap(walk("new", 0.5), 20, 40),
+    gap(walk("leg", 0.5), 20, 40, [0, 1]),
+    gap(still("still"), 20, 40),
+]
+
+
+@pytest.mark.parametrize("recording", GIVEN, ids=lambda recording: recording.name)
+def test_weights_of_candidates_sum_to_one(recording):
+    (weights,) = MODEL.weights([recording])
+    assert set(weights) <= set(CANDIDATES)
+    assert sum(weights.values()) == pytest.approx(1.0)
+    assert min(weights.values()) >= 0.0
+
+
+def test_a_walk_is_filled_by_what_has_learnt_walks():
+    (prediction,) = MODEL.impute(GIVEN[:1])
+    (spline,) = PchipImputer().fit(TRAINING).impute(GIVEN[:1])
+    truth = walk("new", 0.5).values
+    error = np.abs(prediction.mean - truth).max()
+    assert error < 0.1 * np.abs(spline.mean - truth).max()
+
+
+def test_someone_who_stands_still_is_filled_no_worse_than_by_interpolation():
+    (prediction,) = MODEL.impute(GIVEN[2:])
+    (spline,) = PchipImputer().fit(TRAINING).impute(GIVEN[2:])
+    truth = still("still").values
+    error, reference = (np.square(p.mean - truth).sum() for p in (prediction, spline))
+    assert error < 1.21 * reference
+
+
+@settings(max_examples=2, deadline=None)
+@given(st.permutations(range(3)))
+def test_nothing_is_random_and_neither_order_nor_company_matters(order):
+    here = MODEL.impute(GIVEN)
+    model = BestOf().fit([TRAINING[k] for k in order])
+    there = model.impute([GIVEN[k] for k in order])
+    for k, other in zip(order, there, strict=True):
+        np.testing.assert_allclose(other.mean, here[k].mean, atol=1e-8)
+        np.testing.assert_allclose(other.variance, here[k].variance, rtol=1e-5, atol=1e-12)
+
+
+def test_the_variance_includes_how_far_candidates_lie_apart():
+    (prediction,) = MODEL.impute(GIVEN[:1])
+    (weights,) = MODEL.weights(GIVEN[:1])
+    answers = MODEL.panel_.impute(GIVEN[0])
+    spread = sum(w * (answers[n].mean - prediction.mean) ** 2 for n, w in weights.items())
+    assert (prediction.variance >= spread).all()
+
+
+def test_a_complete_recording_stays_as_it_is():
+    (prediction,) = MODEL.impute([walk("new", 0.5)])
+    np.testing.assert_array_equal(prediction.mean, walk("new", 0.5).values)
+    np.testing.assert_array_equal(prediction.variance, 0.0)
+
+
+def test_what_cannot_be_filled_is_refused():
+    with pytest.raises(ValueError, match="power to be a finite positive number"):
+        BestOf(power=0.0).fit(TRAINING)
+    with pytest.raises(ValueError, match="expected channels"):
+        MODEL.impute([walk("new", 0.0).select(["a"])])
+    unseen = [gap(recording, 0, 60, [0]) for recording in TRAINING]
+    with pytest.raises(ValueError, match=r"none of \['a'\]"):
+        BestOf().fit(unseen).impute(unseen[:1])
