@@ -23,8 +23,8 @@ from mocapbench.reports.page.missing_data import missing_data
 from mocapbench.reports.page.notes import shared_notes
 from mocapbench.reports.page.sections import TaskView, task_view
 from mocapbench.reports.paper.citations import citations_of
-from mocapbench.reports.tables.check import check_table
 from mocapbench.reports.resources import scripts, styles, template
+from mocapbench.reports.tables.check import check_table
 from mocapbench.reports.tables.papers import papers_table
 
 __all__ = ["render"]
