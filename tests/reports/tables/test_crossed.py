@@ -27,7 +27,7 @@ def view(small):
         published_models={"replay": "real"},
         published_metrics={"mse": "MCC"},
     )
-    return task_view(task_results(bundle, bundle.layouts[0]), {})
+    return task_view(task_results(bundle, bundle.layouts[0]), bundle, {})
 
 
 def test_pairs_are_cells_of_rows_and_columns(view):
