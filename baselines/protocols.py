@@ -133,6 +133,10 @@ class Model(BaseEstimator, ABC):  # type: ignore[misc]
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Learn from recordings.
 
+        What is learnt follows from the recordings, the parameters and the seed alone. Where
+        problems have these in common, a benchmark fits once, and hands copies of the fitted model
+        (by `pickle`) to all of them.
+
         Parameters
         ----------
         recordings : sequence of Recording

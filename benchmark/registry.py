@@ -76,7 +76,7 @@ class Registry(Generic[T]):
         UnregisteredNameError
             If nothing is or was.
         """
-        if name in self.names():
+        if name in self._added or name in self._points:
             return name
         for current in self.names():
             if self._was_called(name, current):

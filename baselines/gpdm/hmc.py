@@ -1,4 +1,4 @@
-"""Hybrid Monte Carlo whose step size adapts during the first trajectories (GPDM §4.4).
+"""Hybrid Monte Carlo whose step size adapts while samples are discarded (GPDM §4.4).
 
 Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
 30(2), is cited as GPDM.
@@ -29,14 +29,15 @@ class HybridMonteCarlo:
     Parameters
     ----------
     n_samples, n_burn : int
-        Number of states returned, and number discarded before them.
+        Number of states returned, and number discarded before them. While they are discarded, the
+        step size grows by a tenth after each trajectory that is accepted and shrinks by a fifth
+        after each that is rejected. Then it stays at its geometric mean over the last half of them:
+        a step that followed the states that are kept would draw these to where long steps are
+        accepted.
     n_leaps : int
         Leapfrog steps of a trajectory.
     step : float
         Initial step size.
-    n_adapt : int, default=25
-        Number of first trajectories during which the step size adapts: it grows by a tenth after
-        each that is accepted and shrinks by a fifth after each that is rejected.
 
     References
     ----------
@@ -48,21 +49,21 @@ class HybridMonteCarlo:
     n_burn: int
     n_leaps: int
     step: float
-    n_adapt: int = 25
 
     def sample(
         self, potential: Potential, start: Array, rng: np.random.Generator
     ) -> tuple[Array, float]:
         """Return states (n_samples, *start.shape) and the fraction of trajectories accepted."""
-        state, step, kept, n_accepted = start, self.step, [], 0
-        here = potential(state)
-        for index in range(self.n_burn + self.n_samples):
+        state, here, steps, kept, n_accepted = start, potential(start), [self.step], [], 0
+        for _ in range(self.n_burn):
+            state, here, accepted = self._trajectory(potential, state, here, steps[-1], rng)
+            n_accepted += accepted
+            steps.append(steps[-1] * (_LONGER if accepted else _SHORTER))
+        step = float(np.exp(np.log(steps[len(steps) // 2 :]).mean()))
+        for _ in range(self.n_samples):
             state, here, accepted = self._trajectory(potential, state, here, step, rng)
             n_accepted += accepted
-            if index < self.n_adapt:
-                step *= _LONGER if accepted else _SHORTER
-            if index >= self.n_burn:
-                kept.append(state)
+            kept.append(state)
         return np.stack(kept), n_accepted / (self.n_burn + self.n_samples)
 
     def _trajectory(

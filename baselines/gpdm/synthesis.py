@@ -57,7 +57,7 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
         """Return the mean prediction (N, d) and samples (n, N, d) from the first training frame."""
         check_is_fitted(self)
         dynamics, first = self.conditional_.dynamics, self._first(self._origins()[0])
-        sampler = HybridMonteCarlo(n_samples, _BURN_IN, _LEAPS, _STEP, _BURN_IN)
+        sampler = HybridMonteCarlo(n_samples, _BURN_IN, _LEAPS, _STEP)
         rng = np.random.default_rng(random_state)
         samples = fair_trajectories(dynamics, first, n_frames, sampler, rng)
         return mean_trajectory(dynamics, first, n_frames), samples
@@ -76,7 +76,7 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
         origins = rng.choice(self._origins(), n_samples)
         chains = []
         for sequence, count in zip(*np.unique(origins, return_counts=True), strict=True):
-            sampler = HybridMonteCarlo(int(count), _BURN_IN, _LEAPS, _STEP, _BURN_IN)
+            sampler = HybridMonteCarlo(int(count), _BURN_IN, _LEAPS, _STEP)
             first = self._first(int(sequence))
             chains += [
                 *fair_trajectories(self.conditional_.dynamics, first, n_frames, sampler, rng)

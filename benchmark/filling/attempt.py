@@ -15,7 +15,7 @@ from mocapbench.benchmark.filling.question import Answer, Question, without_unse
 from mocapbench.benchmark.filling.windows import Window, windows_of
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.unit import Unit
-from mocapbench.benchmark.runs.solve import build_model
+from mocapbench.benchmark.runs.fitting.solve import build_model
 from mocapbench.datasets import FrameByChannel
 
 __all__ = ["Attempt", "attempt"]

@@ -22,6 +22,7 @@ class Step(StrEnum):
 
     SKIP = "skip"
     FIT = "fit and score"
+    PREDICT = "predict by a shared fit and score"
     SCORE = "score alone"
     CANNOT = "cannot run"
 
@@ -59,31 +60,40 @@ def explain(jobs: Sequence[Job], out: Path) -> list[Explanation]:
         return list(_first(jobs))
     store = Store(out)
     earlier = _Earlier(store)
-    predicted = {key for key in {job.fit_key for job in jobs} if store.has_fit(key)}
+    there = {key for key in {job.fit_key for job in jobs} if store.has_fit(key)}
     explanations = []
     for job in jobs:
-        explanations.append(_explained(job, store, earlier, predicted=job.fit_key in predicted))
-        predicted.add(job.fit_key)  # by now, or by the time when the next one runs
+        explanation = _explained(job, store, earlier, there)
+        explanations.append(explanation)
+        there |= _left_by(job, explanation.step)
     return explanations
 
 
 def _first(jobs: Sequence[Job]) -> Iterator[Explanation]:
     """Yield what becomes of the jobs of a first run."""
-    predicted: set[str] = set()
+    there: set[str] = set()
     for job in jobs:
-        step = _step(job, predicted=job.fit_key in predicted)
+        step = _step(job, there)
         yield Explanation(job.address, step, "no record yet")
-        predicted.add(job.fit_key)  # by the time when the next one runs
+        there |= _left_by(job, step)
 
 
-def _step(job: Job, *, predicted: bool) -> Step:
+def _left_by(job: Job, step: Step) -> set[str]:
+    """Return the keys of what is there by the time when the next job runs."""
+    fitted = {job.training_key} - {""} if step is Step.FIT else set()
+    return {job.fit_key, *fitted}
+
+
+def _step(job: Job, there: set[str]) -> Step:
     if job.missing:
         return Step.CANNOT
-    return Step.SCORE if predicted else Step.FIT
+    if job.fit_key in there:
+        return Step.SCORE
+    return Step.PREDICT if job.training_key in there else Step.FIT
 
 
-def _explained(job: Job, store: Store, earlier: _Earlier, *, predicted: bool) -> Explanation:
-    step, record = _step(job, predicted=predicted), store.load(job.key)
+def _explained(job: Job, store: Store, earlier: _Earlier, there: set[str]) -> Explanation:
+    step, record = _step(job, there), store.load(job.key)
     match record:
         case Record(status=Status.DATA_MISSING):
             return Explanation(job.address, Step.SKIP, "its recordings are still missing")

@@ -28,7 +28,7 @@ class Basis(StrEnum):
 
 
 class Work(NamedTuple):
-    """Fits to do; to score them takes no time beside it.
+    """Fits to do; to predict by a fit that is shared, and to score, takes little time beside it.
 
     Parameters
     ----------
@@ -89,14 +89,19 @@ def forecast(
     """
     ways, steps = _ways(out, profile), Counter(item.step for item in explanations)
     to_fit = [item.address for item in explanations if item.step is Step.FIT]
-    predicted = {job.fit_key for job in jobs if not job.missing}  # by then
-    lacking = {job.fit_key: job.address for job in jobs if job.fit_key not in predicted}
+    predicted = {_shared(job) for job in jobs if not job.missing}  # by then
+    lacking = {_shared(job): job.address for job in jobs if _shared(job) not in predicted}
     return Forecast(
         profile,
         {step: steps[step] for step in Step if steps[step]},
         _work(to_fit, ways),
         _work([*to_fit, *lacking.values()], ways),
     )
+
+
+def _shared(job: Job) -> str:
+    """Return what the jobs that share a fit have in common."""
+    return job.training_key or job.fit_key
 
 
 class _Way(NamedTuple):

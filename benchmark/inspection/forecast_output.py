@@ -17,6 +17,7 @@ __all__ = ["forecast_lines", "lacking", "lacking_line"]
 _STEPS = {
     Step.SKIP: "done already",
     Step.FIT: "to fit and score",
+    Step.PREDICT: "to predict by a shared fit",
     Step.SCORE: "only to score",
     Step.CANNOT: "without their recordings",
 }

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, Self
 
-from mocapbench.benchmark.runs.fit import Fit
+from mocapbench.benchmark.runs.fitting.fit import Fit
+from mocapbench.benchmark.runs.fitting.trained import Trained
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.address import Address
@@ -57,12 +58,16 @@ class Job:
         The case, the fold and the entrant.
     seeds : Seeds
         The random streams of the problem, which cases may share.
+    training_seeds : Seeds
+        Those of the fit, which problems with the same training recordings may share.
     model, parameters : str, mapping
         What the entrant is.
     metrics : tuple of str
         What to score.
     key, fit_key : str
         Names of the record and of the predictions.
+    training_key : str
+        Name of the fitted model; empty if no other problem can use it.
     digests : mapping of str to str
         Digests of the recordings it reads.
     missing : tuple of str
@@ -73,11 +78,13 @@ class Job:
 
     address: Address
     seeds: Seeds
+    training_seeds: Seeds
     model: str
     parameters: Mapping[str, Any]
     metrics: tuple[str, ...]
     key: str
     fit_key: str
+    training_key: str
     digests: Mapping[str, str]
     missing: tuple[str, ...] = ()
     parts: Mapping[str, str] = field(default_factory=dict)
@@ -110,6 +117,8 @@ class Work(NamedTuple):
     """The predictions, where the store has them: then they are only scored."""
     remarks: tuple[str, ...] = ()
     """What the record is to say besides, such as that predictions were damaged."""
+    trained: Trained | None = None
+    """The fitted model, where another job has fitted it."""
 
 
 class Outcome(NamedTuple):
@@ -120,6 +129,8 @@ class Outcome(NamedTuple):
     """The predictions, if they are new."""
     seconds: float
     """From when the worker took the job up."""
+    trained: Trained | None = None
+    """The fitted model, if it is new and other jobs can use it."""
 
     @classmethod
     def without_report(cls, job: Job, message: str) -> Self:

@@ -16,14 +16,14 @@ from collections.abc import Mapping, Sequence
 from functools import cache, partial
 from typing import Any
 
-from mocapbench.benchmark.runs import solve
 from mocapbench.benchmark.runs.descriptions import described
+from mocapbench.benchmark.runs.fitting import solve
 from mocapbench.benchmark.runs.sources import source_digest
 from mocapbench.benchmark.tasks.base import Case
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.metrics import Metric
 
-__all__ = ["fit_contents", "key_of", "score_contents"]
+__all__ = ["fit_contents", "key_of", "score_contents", "training_contents"]
 
 _FITTING = ("mocapbench.datasets", "mocapbench.baselines", "mocapbench.benchmark")
 _SCORING = ("mocapbench.metrics",)
@@ -54,6 +54,7 @@ def fit_contents(
     return {
         "problem": [*seeds.address, seeds.root, dict(digests)],
         "posed by": _problem(case),
+        "training": case.training,
         "entrant": [model.__qualname__, dict(parameters)],
         "source": [
             source_digest(model.__module__, _FITTING),
@@ -61,6 +62,22 @@ def fit_contents(
         ],
         "libraries": {name: _installed_version(name) for name in _LIBRARIES},
     }
+
+
+def training_contents(fitted: Mapping[str, Any], seeds: Seeds) -> Mapping[str, Any]:
+    """Return what the training key of a fitted model covers, which problems share.
+
+    The recordings that it was fitted to are compared one by one: see `Trained.suits`.
+
+    Parameters
+    ----------
+    fitted : mapping of str to Any
+        What the fit key of its predictions on one of the problems covers.
+    seeds : Seeds
+        The streams of the fit.
+    """
+    shared = {name: fitted[name] for name in ("entrant", "source", "libraries")}
+    return {"trained by": [*seeds.address, seeds.root], **shared}
 
 
 def _problem(case: Case) -> Any:

@@ -13,7 +13,7 @@ from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.case_names import matching_cases
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.key_parts import key_parts
-from mocapbench.benchmark.runs.keys import fit_contents, key_of, score_contents
+from mocapbench.benchmark.runs.keys import fit_contents, key_of, score_contents, training_contents
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Entrant, Profile, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
@@ -201,15 +201,18 @@ def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> It
             seeds = Seeds(request.seed, address._replace(case=case.problem_name))
             fitted = fit_contents(case, seeds, model=model, parameters=parameters, digests=seen)
             fit, scored_by = key_of(fitted), [METRICS.get(name) for name in metrics]
+            learnt = seeds.of_training(case.training)
             scored = score_contents(fit, scored_by, case.name, compared)
             yield Job(
                 address,
                 seeds,
+                learnt,
                 entrant.model,
                 parameters,
                 metrics,
                 key_of(scored),
                 fit,
+                key_of(training_contents(fitted, learnt)) if case.training else "",
                 digests,
                 missing,
                 key_parts(fitted, scored),

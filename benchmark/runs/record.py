@@ -9,6 +9,8 @@ from dataclasses import dataclass, field, fields
 from enum import StrEnum
 from typing import Any, Self
 
+import orjson
+
 from mocapbench.benchmark.tasks.address import Address
 
 __all__ = ["Record", "RecordError", "Status"]
@@ -101,7 +103,7 @@ class Record:
         return json.dumps({"format": FORMAT, **_without_nan(document)})
 
     @classmethod
-    def from_json(cls, text: str) -> Self:
+    def from_json(cls, text: str | bytes) -> Self:
         """Read a record back.
 
         Raises
@@ -110,7 +112,7 @@ class Record:
             If the text is not a whole record of this format.
         """
         try:
-            document = json.loads(text)
+            document = orjson.loads(text)
             if document.pop("format") != FORMAT:
                 raise RecordError("the record has another format")
             document["status"] = Status(document["status"])

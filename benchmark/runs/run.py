@@ -15,6 +15,7 @@ from mocapbench.benchmark.runs.execution.base import Site
 from mocapbench.benchmark.runs.execution.execute import execute
 from mocapbench.benchmark.runs.execution.job_queue import JobQueue
 from mocapbench.benchmark.runs.execution.spool import Spool
+from mocapbench.benchmark.runs.fitting.trained import TrainedModels
 from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
 from mocapbench.benchmark.runs.progress import watch
 from mocapbench.benchmark.runs.record import Record, Status
@@ -81,14 +82,15 @@ def _computed(
     """Yield the record of each job as it ends, once it is in the store."""
     archive, queue = archive_at(config.data_dir), JobQueue(jobs)
     with TemporaryDirectory(prefix="mocapbench-") as folder:
-        spool = Spool(Path(folder))
+        spool, models = Spool(Path(folder)), TrainedModels(Path(folder))
 
         def work(job: Job) -> Work:
             spool.add(archive, job.digests)
             already_damaged = len(store.damaged)
             fit = store.load_fit(job.fit_key)
             log.job_started(job.address)
-            return Work(job, fit, tuple(store.damaged[already_damaged:]))
+            trained = models.load(job.training_key) if fit is None else None
+            return Work(job, fit, tuple(store.damaged[already_damaged:]), trained)
 
         def left() -> float:
             return queue.time_left(site.n_workers)
@@ -97,6 +99,8 @@ def _computed(
         for outcome in watch(outcomes, len(jobs), left, console):
             if outcome.fit is not None:
                 store.save_fit(outcome.record.fit_key, outcome.fit)
+            if outcome.trained is not None:
+                models.save(outcome.trained)
             store.save(outcome.record)
             _log_end(log, outcome.record, outcome.seconds)
             yield outcome.record

@@ -35,7 +35,7 @@ from mocapbench.benchmark.runs.directory.key_file import KEYS, KeyEntry, read_ke
 from mocapbench.benchmark.runs.directory.leftovers import sweep
 from mocapbench.benchmark.runs.directory.lock import held, is_held
 from mocapbench.benchmark.runs.directory.plan_file import load_plan, save_plan
-from mocapbench.benchmark.runs.fit import Fit
+from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.record import Record, RecordError
 
 __all__ = ["Store"]
@@ -147,10 +147,10 @@ class Store:
         if not path.is_file():
             return None
         try:
-            record = Record.from_json(path.read_text(encoding="utf-8"))
+            record = Record.from_json(path.read_bytes())
             if record.key != key:
                 raise RecordError(f"it holds the record {record.key}")
-        except (OSError, UnicodeDecodeError, RecordError) as error:
+        except (OSError, RecordError) as error:
             self.damaged.append(f"{path}: {error}")
             return None
         return replace(

@@ -44,6 +44,10 @@ class Case:
         Cases that differ only in their references pose one problem: they share its name, and with
         it their seeds and fits. Their ``problem`` binds the references as a keyword argument
         ``references``, the one argument that may differ. By default the case's own name.
+    training : str
+        Where models learn from the same recordings in all folds, a name of these recordings. Cases
+        may share it. What a model learns is then the same in all of them, its seed included, and
+        it is fitted once.
     synthetic : bool
         Whether it stands on generated gait rather than recordings of people.
     subjects : tuple of str
@@ -60,6 +64,7 @@ class Case:
     sources: tuple[str, ...] = ()
     references: tuple[str, ...] = ()
     problem_name: str = ""
+    training: str = ""
     synthetic: bool = False
     subjects: tuple[str, ...] = ()
     parameters: Mapping[str, object] = field(default_factory=dict)

@@ -63,8 +63,15 @@ def _case(name: str, swing: str, held_out: str, frames: dict[str, tuple[int, int
     sources = (held_out, *(uri for uri in frames if uri != held_out))
     problem = partial(golf_problem, frames, held_out)
     synthetic = frames is SYNTHETIC
-    subjects = () if synthetic else (subject_of(held_out),)
-    return Case(name, problem, {"swing": swing}, sources, synthetic=synthetic, subjects=subjects)
+    return Case(
+        name,
+        problem,
+        {"swing": swing},
+        sources,
+        training=f"all but {held_out}",
+        synthetic=synthetic,
+        subjects=() if synthetic else (subject_of(held_out),),
+    )
 
 
 def _real(uri: str) -> Case:

@@ -73,9 +73,15 @@ def _case(
     name: str, columns: dict[str, str], test: str, training: tuple[str, ...], *, synthetic: bool
 ) -> Case:
     problem = partial(missing_frames_problem, test, training)
-    subjects = () if synthetic else (subject_of(test),)
-    sources = (test, *training)
-    return Case(name, problem, columns, sources, synthetic=synthetic, subjects=subjects)
+    return Case(
+        name,
+        problem,
+        columns,
+        (test, *training),
+        training=columns["training"],
+        synthetic=synthetic,
+        subjects=() if synthetic else (subject_of(test),),
+    )
 
 
 def _real(trial: str, group: str) -> Case:

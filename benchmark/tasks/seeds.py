@@ -49,6 +49,11 @@ class Seeds:
         """The fold, counted from 0."""
         return self.address.fold or 0
 
+    def of_training(self, training: str) -> Seeds:
+        """Return the streams of a fit to recordings of this name; its own if there is no name."""
+        shared = self.address._replace(case=training, fold=None)
+        return Seeds(self.root, shared) if training else self
+
     def generator(self, stream: str) -> np.random.Generator:
         """Return the generator of a stream that all entrants share, such as ``data``."""
         return np.random.default_rng(self._sequence(stream))

@@ -85,7 +85,10 @@ def _check_problems(task: Task, archive: Archive) -> None:
     if {Imputer, FrameImputer} & set(task.requires):
         _check_masks(one, two)
         if task.max_folds != 1:
-            _check_folds(one, _posed(task, case, 1, archive))
+            other = _posed(task, case, 1, archive)
+            _check_folds(one, other)
+            if case.training:
+                _check_training(one, other)
     # What no model sees counts too: the truth, the references and the process.
     same = joblib.hash(one) == joblib.hash(two)
     require(same, "the same problem again at the same address", "another", advice)
@@ -106,6 +109,12 @@ def _check_masks(one: Any, two: Any) -> None:
 def _check_folds(one: Any, other: Any) -> None:
     same = np.array_equal(one.given[0].values, other.given[0].values, equal_nan=True)
     require(not same, "another problem in another fold", "the same", "draw anew for every fold")
+
+
+def _check_training(one: Any, other: Any) -> None:
+    same = joblib.hash(one.train) == joblib.hash(other.train)
+    advice = "leave out Case.training"
+    require(same, "the training recordings of another fold, which are named", "others", advice)
 
 
 def _posable(task: Task, archive: Archive) -> Case:

@@ -59,7 +59,7 @@ def main(n_jobs: int, folder: Path) -> None:
     with timed("write", n_jobs):
         store.save_plan(bench.plan_document(jobs, provenance=about, workers=1))
         for job in jobs:
-            record, fit = outcomes[job.address.label]
+            record, fit, _ = outcomes[job.address.label]
             scores = {name: value * rng.uniform(0.9, 1.1) for name, value in record.scores.items()}
             mine = replace(
                 record, key=job.key, fit_key=job.fit_key, address=job.address, scores=scores

@@ -20,6 +20,7 @@ from mocapbench.metrics.statistics.families import (
     HolmTests,
     holm_tests,
     holm_tests_of_means,
+    means_and_errors,
 )
 from mocapbench.metrics.statistics.pairing import case_units, pair, pooled_units
 from mocapbench.metrics.statistics.posterior import Posterior, correlated_t_test
@@ -41,6 +42,7 @@ __all__ = [
     "holm_tests_of_means",
     "least_signed_rank_p",
     "mean_interval",
+    "means_and_errors",
     "nemenyi",
     "pair",
     "pooled_units",

@@ -18,7 +18,7 @@ from scipy import special
 
 from mocapbench.metrics.statistics.differences import ALPHA, Array, holm
 
-__all__ = ["HolmTests", "holm_tests", "holm_tests_of_means"]
+__all__ = ["HolmTests", "holm_tests", "holm_tests_of_means", "means_and_errors"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,13 +57,36 @@ def holm_tests(differences: ArrayLike) -> HolmTests:
     """
     rows = np.asarray(differences, dtype=float)
     n = rows.shape[1]
-    alone = np.full(len(rows), np.nan)
-    errors = rows.std(axis=1, ddof=1) / np.sqrt(n) if n > 1 else alone
-    # Rounding of the mean could hide in the variance that all differences are equal.
-    equal = np.ptp(rows, axis=1) == 0.0
-    errors = np.where(equal & (n > 1), 0.0, errors)
-    means = np.where(equal, rows[:, 0], rows.mean(axis=1))
+    means, errors = means_and_errors(rows, np.full(n, 1.0 / n))
     return holm_tests_of_means(means, errors, np.full(len(rows), n))
+
+
+def means_and_errors(values: ArrayLike, shares: ArrayLike) -> tuple[Array, Array]:
+    """Return weighted means over units and their standard errors, √(n/(n − 1) Σ s² (x − x̄)²).
+
+    This is the error of a mean over cells that come in independent clusters; with equal shares it
+    is that of the mean of the values.
+
+    Parameters
+    ----------
+    values : array-like of shape (m, n)
+        One row per mean, one column per unit.
+    shares : array-like of shape (n,)
+        Their sum is 1.
+
+    Returns
+    -------
+    means, errors : ndarray of shape (m,)
+        Exact where all values of a row are equal. The error of a single unit is NaN.
+    """
+    rows, weights = np.asarray(values, dtype=float), np.asarray(shares, dtype=float)
+    n = rows.shape[1]
+    # Rounding of the mean could hide in the variance that all values are equal.
+    equal = np.ptp(rows, axis=1) == 0.0
+    means = np.where(equal, rows[:, 0], rows @ weights)
+    squares = (weights * (rows - means[:, None])) ** 2
+    errors = np.sqrt(n / max(n - 1, 1) * squares.sum(axis=1))
+    return means, errors if n > 1 else np.full(len(rows), np.nan)
 
 
 def holm_tests_of_means(means: ArrayLike, errors: ArrayLike, n: ArrayLike) -> HolmTests:

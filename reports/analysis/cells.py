@@ -61,7 +61,7 @@ class Cells:
         return np.asarray((self.scored == self.scored[self.best]).all(axis=1))
 
     def weights(self, kept: NDArray[np.bool_]) -> Array:
-        """Return the weights of the cells that are ``kept`` in units, of shape (n_units, kept)."""
+        """Return the weights of the cells that are ``kept``, by unit, of shape (n_units, kept)."""
         address = kept.tobytes()
         if address not in self._weights:
             columns = np.flatnonzero(kept)
@@ -75,16 +75,16 @@ class Cells:
         return {}
 
     def mean(self, row: int) -> float:
-        """Return the mean value of a label over its units, each weighing the same."""
-        return self._mean_over_units(self.values, row)
+        """Return the mean value of a label over its cases, each weighing the same."""
+        return self._mean_over_cases(self.values, row)
 
     def mean_loss(self, row: int) -> float:
-        """Return the mean loss of a label over its units, each weighing the same."""
-        return self._mean_over_units(self.losses, row)
+        """Return the mean loss of a label over its cases, each weighing the same."""
+        return self._mean_over_cases(self.losses, row)
 
-    def _mean_over_units(self, array: Array, row: int) -> float:
+    def _mean_over_cases(self, array: Array, row: int) -> float:
         kept = self.scored[row]
-        return float((self.weights(kept) @ array[row, kept]).mean())
+        return float(self.weights(kept).sum(axis=0) @ array[row, kept])
 
     def covers(self, label: str, other: str) -> bool:
         """Return whether ``label`` has a score wherever ``other`` has one."""

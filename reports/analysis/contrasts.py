@@ -14,7 +14,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.statistics import ALPHA, holm_tests_of_means
+from mocapbench.metrics.statistics import ALPHA, holm_tests_of_means, means_and_errors
 from mocapbench.reports.analysis.cells import Cells
 from mocapbench.reports.analysis.grid import Array
 from mocapbench.reports.analysis.units import FEWEST_UNITS
@@ -78,8 +78,8 @@ def contrasts(scored: Cells) -> Mapping[tuple[str, str], PairContrast]:
     rows = np.array([*combinations(range(len(scored.labels)), 2)], dtype=int).reshape(-1, 2)
     if not rows.size:
         return {}
-    n, first, second, mean, deviation = _samples(scored, rows)
-    errors = np.where(n >= FEWEST_UNITS, deviation / np.sqrt(np.maximum(n, 1.0)), np.nan)
+    n, first, second, mean, error = _samples(scored, rows)
+    errors = np.where(n >= FEWEST_UNITS, error, np.nan)
     of_best = (rows == scored.best).any(axis=1) & scored.complete[rows].all(axis=1)
     tested = np.full((4, len(rows)), np.nan)
     for family in (of_best, ~of_best):
@@ -98,7 +98,7 @@ def contrasts(scored: Cells) -> Mapping[tuple[str, str], PairContrast]:
 
 
 def _samples(scored: Cells, rows: NDArray[np.int_]) -> Array:
-    """Return units, means of both, and mean and deviation of the advantages, of each pair.
+    """Return units, means of both, and mean and error of the advantages, of each pair.
 
     Pairs with scores in the same cells, usually all of them, are taken together.
     """
@@ -110,18 +110,11 @@ def _samples(scored: Cells, rows: NDArray[np.int_]) -> Array:
         weights = scored.weights(kept)
         found[0, chosen] = len(weights)
         if len(weights):
+            shares = weights.sum(axis=1)
             values, losses = (
-                array[:, kept][rows[chosen]] @ weights.T for array in (scored.values, scored.losses)
+                array[:, kept][rows[chosen]] @ weights.T / shares
+                for array in (scored.values, scored.losses)
             )
-            found[1:3, chosen] = values.mean(axis=2).T
-            found[3:, chosen] = _mean_and_deviation(losses[:, 1] - losses[:, 0])
+            found[1:3, chosen] = (values @ shares).T
+            found[3:, chosen] = means_and_errors(losses[:, 1] - losses[:, 0], shares)
     return found
-
-
-def _mean_and_deviation(advantages: Array) -> Array:
-    """Return both over units, exact where all advantages of a pair are equal."""
-    if advantages.shape[1] < 2:
-        return np.stack([advantages[:, 0], np.full(len(advantages), np.nan)])
-    equal = np.ptp(advantages, axis=1) == 0.0
-    mean = np.where(equal, advantages[:, 0], advantages.mean(axis=1))
-    return np.stack([mean, np.where(equal, 0.0, advantages.std(axis=1, ddof=1))])

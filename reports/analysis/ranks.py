@@ -74,7 +74,8 @@ def unit_losses(scored: Cells) -> pd.DataFrame:
     """
     whole = scored.scored.all(axis=1)
     weights = scored.weights(np.ones(len(scored.cases), dtype=bool))
-    losses = weights @ np.where(np.expand_dims(whole, 1), scored.losses, np.nan).T
+    values = weights / weights.sum(axis=1, keepdims=True)
+    losses = values @ np.where(np.expand_dims(whole, 1), scored.losses, np.nan).T
     return pd.DataFrame(losses, columns=list(scored.labels))
 
 

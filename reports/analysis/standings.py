@@ -1,6 +1,6 @@
 """Where each label stands against the best one: the one comparison that the page makes.
 
-The best label has the least mean loss over units (`mocapbench.reports.analysis.units`) among the
+The best label has the least mean loss over cases (`mocapbench.reports.analysis.units`) among the
 labels with the most scores. Every other label that has all of its scores is compared with it, and
 only with it, so that no two labels are ever said to be alike. Of labels that cannot be told from
 the best, one may well be better than another.
@@ -15,7 +15,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.statistics import holm_tests
+from mocapbench.metrics.statistics import holm_tests_of_means, means_and_errors
 from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.grid import Array
 from mocapbench.reports.analysis.results import TaskResults
@@ -44,7 +44,7 @@ class Standing:
     ----------
     label : str
     mean : float
-        Of the metric, over the units where the label has scores, each weighing the same.
+        Of the metric, over the cases where the label has scores, each weighing the same.
     n_cases, n_units : int
         In how many cases and units it has scores.
     unit : str
@@ -105,10 +105,13 @@ def _standings(scored: Cells) -> tuple[Standing, ...]:
         return ()
     best, complete = scored.best, scored.complete
     kept = scored.scored[best]
-    losses = scored.losses[:, kept] @ scored.weights(kept).T
+    weights = scored.weights(kept)
+    shares = weights.sum(axis=1)
+    losses = scored.losses[:, kept] @ weights.T / shares
     differences = losses - losses[best]
-    low, high, separable = _tested(differences, complete & (np.arange(len(complete)) != best))
-    mean = differences.mean(axis=1)
+    rivals = complete & (np.arange(len(complete)) != best)
+    low, high, separable = _tested(differences, shares, rivals)
+    mean = differences @ shares
     order = np.lexsort((mean, np.arange(len(mean)) != best, ~complete))
     return tuple(
         Standing(
@@ -128,13 +131,15 @@ def _standings(scored: Cells) -> tuple[Standing, ...]:
 
 
 def _tested(
-    differences: Array, rivals: NDArray[np.bool_]
+    differences: Array, shares: Array, rivals: NDArray[np.bool_]
 ) -> tuple[Array, Array, NDArray[np.bool_]]:
     """Return intervals and whether 0 is outside, of the rows that are ``rivals``."""
     low, high = np.full((2, len(rivals)), np.nan)
     separable = np.zeros(len(rivals), dtype=bool)
-    if differences.shape[1] >= FEWEST_UNITS and rivals.any():
-        tested = holm_tests(differences[rivals])
+    n = len(shares)
+    if n >= FEWEST_UNITS and rivals.any():
+        means, errors = means_and_errors(differences[rivals], shares)
+        tested = holm_tests_of_means(means, errors, np.full(len(means), n))
         low[rivals], high[rivals], separable[rivals] = tested.low, tested.high, tested.separable
     return low, high, separable
 

@@ -6,13 +6,17 @@ A *cell* is a fold f of a case c. Its unit is
               the fold (c, f)       else, where folds are independent draws of the protocol,
               the case c            else, as for overlapping windows of generated motion.
 
-Let C(u) be the cases that have cells in a unit, and F(u, c) those cells of one case. The value of a
-unit is the mean over its cases of the means over their cells,
+Every case weighs the same in a mean, and so does every cell of a case: of C cases, a cell of a case
+with F(c) cells has the weight w(c, f) = 1/(C F(c)). The share of a unit and its value are
 
-    x(u) = Σ_c 1/|C(u)| Σ_f x(c, f)/|F(u, c)|,   c in C(u), f in F(u, c),
+    s(u) = Σ w(c, f),    x(u) = Σ w(c, f) x(c, f)/s(u),    over the cells of u,
 
-and every unit weighs the same in a mean. Two recordings of one subject are thus one unit. Where the
-units are folds, and cases have equally many, the mean over units is the mean over cases.
+so that the mean Σ s(u) x(u) is the mean over cases. Its standard error is that of the units,
+
+    e² = n/(n − 1) Σ s(u)² (x(u) − Σ s x)²,
+
+with Student's t at n − 1 degrees of freedom for n units. Two recordings of one subject are thus one
+unit. Where all units have the same share it is the usual t-test over their values.
 
 With fewer than `FEWEST_UNITS` units no difference is tested: not to find one would say nothing.
 """
@@ -60,7 +64,7 @@ def unit_names(case: CaseLayout, folds: Sequence[int], *, independent: bool) -> 
 
 
 def unit_weights(units: Sequence[str], cases: Sequence[str]) -> NDArray[np.float64]:
-    """Return the weights of cells in the values of units.
+    """Return the weights w(c, f) of cells, each in the row of its unit.
 
     Parameters
     ----------
@@ -70,12 +74,12 @@ def unit_weights(units: Sequence[str], cases: Sequence[str]) -> NDArray[np.float
     Returns
     -------
     ndarray of shape (n_units, n_cells)
-        Each row sums to 1. Units are in order of first appearance.
+        The sum of a row is the unit's share, that of all is 1. Units are in order of first
+        appearance.
     """
-    pairs = Counter(zip(units, cases, strict=True))
-    n_cases = Counter(unit for unit, _ in pairs)
-    rows = {unit: row for row, unit in enumerate(n_cases)}
+    n_cells = Counter(cases)
+    rows = {unit: row for row, unit in enumerate(dict.fromkeys(units))}
     weights = np.zeros((len(rows), len(units)))
     for column, (unit, case) in enumerate(zip(units, cases, strict=True)):
-        weights[rows[unit], column] = 1.0 / (n_cases[unit] * pairs[unit, case])
+        weights[rows[unit], column] = 1.0 / (len(n_cells) * n_cells[case])
     return weights

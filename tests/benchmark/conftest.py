@@ -10,7 +10,7 @@ from mocapbench.benchmark.cli.main import main
 from mocapbench.benchmark.runs import sources
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, plan_document
-from mocapbench.benchmark.runs.fit import Fit
+from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address

@@ -50,7 +50,7 @@ def stages(tmp_path, request):
     spool.add(bench.archive_at(None), job.digests)
     archive = SpooledArchive(libraries, spool, job.digests)
     problem = bench.TASKS.get(job.address.task).case(job.address.case).problem
-    record, fit = evaluate.evaluate(Work(job, None), config, archive)
+    record, fit, _ = evaluate.evaluate(Work(job, None), config, archive)
     assert fit is not None
     return {
         "empty call": _nothing,

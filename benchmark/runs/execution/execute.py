@@ -36,18 +36,19 @@ def execute(
         Where they run.
     """
     executor = site.start(config, spool)
-    running: dict[Any, Job] = {}
+    running: dict[Any, Work] = {}
     try:
         while True:
             # As many again wait at the site, so that no worker waits for the store.
             while len(running) < 2 * site.n_workers and (job := queue.take()):
-                running[executor.submit(work(job))] = job
+                handed = work(job)
+                running[executor.submit(handed)] = handed
             if not running:
                 return
             for future in executor.ended(running.keys()):
-                job = running.pop(future)
+                job, fit, *_ = running.pop(future)
                 outcome = executor.outcome(future, job)
-                queue.ended(job, outcome.seconds)
+                queue.ended(job, outcome.seconds, rescored=fit is not None)
                 yield outcome
     finally:
         executor.stop(running.keys())

@@ -18,8 +18,8 @@ class _Kind(NamedTuple):
 
     task: str
     label: str
-    rescored: bool
-    """Whether the predictions are there already."""
+    left: str
+    """What is to be done."""
 
     @property
     def alike(self) -> tuple[Hashable, ...]:
@@ -27,12 +27,15 @@ class _Kind(NamedTuple):
         return self, self.label, ()
 
 
+_FIT, _PREDICT, _SCORE = "fit", "predict", "score"
+
+
 class JobQueue:
     """Jobs in an order that keeps all workers busy to the end.
 
     One job of each entrant and task goes first, to learn how long they take; then those of the
     slowest entrants. Of jobs that share their predictions only one waits at first, since the
-    others can score what it predicts.
+    others can score what it predicts; of those that share a fitted model only one, too.
 
     Parameters
     ----------
@@ -42,19 +45,21 @@ class JobQueue:
     def __init__(self, jobs: Iterable[Job]) -> None:
         self._waiting: dict[_Kind, deque[Job]] = defaultdict(deque)
         self._followers: dict[str, list[Job]] = defaultdict(list)
-        self._leads: set[str] = set()
+        self._leads: dict[str, Job] = {}
         self._running: dict[str, tuple[_Kind, float]] = {}
         self._untried: deque[_Kind] = deque()
         self._durations = Durations()
         for job in jobs:
-            if job.fit_key in self._leads:
-                self._followers[job.fit_key].append(job)
+            shared = [key for key in (job.fit_key, job.training_key) if key in self._leads]
+            for key in {job.fit_key, job.training_key} - {"", *shared}:
+                self._leads[key] = job
+            if shared:
+                self._followers[shared[0]].append(job)
             else:
-                self._leads.add(job.fit_key)
-                self._append(job, rescored=False)
+                self._append(job, _FIT)
 
-    def _append(self, job: Job, *, rescored: bool) -> None:
-        kind = _Kind(job.address.task, job.address.label, rescored)
+    def _append(self, job: Job, left: str) -> None:
+        kind = _Kind(job.address.task, job.address.label, left)
         if kind not in self._waiting:
             self._untried.append(kind)
         self._waiting[kind].append(job)
@@ -74,12 +79,32 @@ class JobQueue:
         waiting = [kind for kind, jobs in self._waiting.items() if jobs]
         return max(waiting, key=self._expected, default=None)
 
-    def ended(self, job: Job, seconds: float) -> None:
-        """Take note that a job that was taken has ended after so many seconds."""
+    def ended(self, job: Job, seconds: float, *, rescored: bool = False) -> None:
+        """Take note that a job that was taken has ended after so many seconds.
+
+        Parameters
+        ----------
+        job : Job
+        seconds : float
+        rescored : bool
+            Whether it only scored predictions that were there: then there is no fitted model yet.
+        """
         kind, _ = self._running.pop(job.key)
         self._durations.learn(kind.alike, seconds)
         for follower in self._followers.pop(job.fit_key, ()):
-            self._append(follower, rescored=True)
+            self._append(follower, _SCORE)
+        if self._leads.get(job.training_key) is job:
+            self._release(job.training_key, fitted=not rescored)
+
+    def _release(self, training_key: str, *, fitted: bool) -> None:
+        """Let all jobs go that wait for a fitted model, or the next that is to fit it."""
+        followers = self._followers.pop(training_key, [])
+        if fitted or not followers:
+            for follower in followers:
+                self._append(follower, _PREDICT)
+            return
+        self._leads[training_key], *self._followers[training_key] = followers
+        self._append(followers[0], _FIT)
 
     def _expected(self, kind: _Kind) -> float:
         return self._durations.expected(kind.alike)

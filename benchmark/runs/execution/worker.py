@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_limits
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
-from mocapbench.benchmark.runs.evaluate import evaluate
+from mocapbench.benchmark.runs.evaluate import Evaluation, evaluate
 from mocapbench.benchmark.runs.execution.child import (
     ProcessDiedError,
     adopt_orphans,
@@ -61,15 +61,15 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
     _import_code(job.model, job.address.task, job.metrics)
     archive = SpooledArchive(archive_at(config.data_dir).libraries, spool, job.digests)
     try:
-        record, fit = call_in_child(evaluate, work, config, archive, timeout=config.timeout)
+        ended = call_in_child(evaluate, work, config, archive, timeout=config.timeout)
     except TimeoutError:
-        record, fit = job.timed_out(config.timeout), None
+        ended = Evaluation(job.timed_out(config.timeout))
     except ProcessDiedError as error:
         message = f"the process died with exit code {error.exit_code} before it could report"
-        record, fit = job.record(Status.FAILED, message), None
+        ended = Evaluation(job.record(Status.FAILED, message))
     finally:
         kill_children()  # what the job started and left running
-    return Outcome(record, fit, time.perf_counter() - started)
+    return Outcome(ended.record, ended.fit, time.perf_counter() - started, ended.trained)
 
 
 @cache

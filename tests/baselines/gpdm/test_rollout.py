@@ -57,7 +57,7 @@ def test_draws_are_seeded(conditional):
 
 
 def test_draws_have_the_moments_of_a_known_prior():
-    sampler = HybridMonteCarlo(n_samples=1000, n_burn=0, n_leaps=8, step=0.2, n_adapt=0)
+    sampler = HybridMonteCarlo(n_samples=1000, n_burn=0, n_leaps=8, step=0.2)
     drawn = fair_trajectories(Static(), np.zeros((1, 2)), 4, sampler, np.random.default_rng(0))
     later = drawn[:, 1:].reshape(-1, 2)
     np.testing.assert_allclose(later.mean(axis=0), 0.0, atol=0.1)

@@ -52,7 +52,7 @@ def run(tmp_path):
         archive = archive_at(None)
         jobs = plan(request, archive)
         for job in jobs:
-            record, _ = evaluate(Work(job, None), config, archive)
+            record = evaluate(Work(job, None), config, archive).record
             assert not record.message
             store.save(record)
         store.save_plan({"keys": [job.key for job in jobs], "provenance": about})

@@ -11,9 +11,10 @@ from mocapbench.benchmark.inspection.explanation import Step, explain
 from mocapbench.benchmark.inspection.output import explanation_table
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, TASKS
-from mocapbench.benchmark.runs import keys, solve
+from mocapbench.benchmark.runs import keys
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
-from mocapbench.benchmark.runs.fit import Fit
+from mocapbench.benchmark.runs.fitting import solve
+from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.runs.store import Store
@@ -187,7 +188,7 @@ def _library(world, monkeypatch):
 
 
 def _fitting(world, monkeypatch):
-    monkeypatch.setattr(solve, "__name__", "mocapbench.benchmark.runs.fit")
+    monkeypatch.setattr(solve, "__name__", "mocapbench.benchmark.runs.fitting.fit")
 
 
 CHANGES = {

@@ -52,6 +52,21 @@ def test_records_of_the_entrant_go_first_and_what_is_done_takes_no_time(tmp_path
     assert found.now.seconds.count(7.0) == others
 
 
+def test_jobs_that_share_a_fit_count_as_one(tmp_path):
+    request = Request("smoke", ("missing-frames",), ("knn",), ("synthetic*",), folds=3)
+    first, *rest = planned = plan(request, archive_at(None))
+    found = of(planned, tmp_path / "none", "smoke")
+    assert found.steps == {Step.FIT: 1, Step.PREDICT: len(rest)}
+    assert len(found.now.seconds) == 1
+    store = Store.create(tmp_path / "run")
+    done(store, first, 7.0)  # its fitted model has ended with the run
+    assert of(planned, store.path, "smoke").steps == {
+        Step.SKIP: 1,
+        Step.FIT: 1,
+        Step.PREDICT: len(rest) - 1,
+    }
+
+
 def test_an_entrant_that_nobody_ran_is_expected_to_take_the_mean(tmp_path):
     (job, *_) = planned = jobs(("knn",), TASKS[:1], folds=1)
     renamed = [type(job)(**{**vars(job), "address": job.address._replace(label="new")})]
@@ -75,7 +90,9 @@ def test_missing_recordings_are_counted_with_and_without(tmp_path):
     planned = jobs(("trivial",))
     found, short = of(planned, tmp_path), sum(bool(job.missing) for job in planned)
     assert found.steps[Step.CANNOT] == short > 0
-    assert len(found.with_all.seconds) == len(found.now.seconds) + short
+    trainings = {job.training_key for job in planned if job.missing}
+    assert "" not in trainings
+    assert len(found.with_all.seconds) == len(found.now.seconds) + len(trainings)
     assert "cmu:35_03" in lacking(planned)
     assert not any(uri.startswith("gait:") for uri in lacking(planned))
     line = lacking_line(planned, "do this")

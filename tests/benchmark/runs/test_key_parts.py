@@ -24,6 +24,7 @@ FITTED = st.fixed_dictionaries(
             DIGESTS,
         ),
         "posed by": st.lists(LONG, max_size=2),
+        "training": TEXT,
         "entrant": st.tuples(TEXT, st.dictionaries(TEXT, st.integers(0, 2) | TEXT, max_size=2)),
         "source": st.tuples(LONG, LONG),
         "libraries": st.dictionaries(st.sampled_from(["numpy", "scipy"]), TEXT),

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
-from mocapbench.benchmark.runs.fit import Fit
+from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.record import Record, RecordError, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address

@@ -38,6 +38,11 @@ def _other_truth(pose, seeds, archive):
     return replace(problem, truth=(problem.truth[0] + 1.0,))
 
 
+def _other_training(pose, seeds, archive):
+    problem = pose(seeds, archive)
+    return replace(problem, train=problem.train[: 1 + seeds.fold])
+
+
 def _unposable(pose, seeds, archive):
     raise RuntimeError("no process")
 
@@ -116,3 +121,14 @@ def test_a_task_that_cannot_be_tried_without_recordings_is_refused(tmp_path, mon
     task = replace(TASK, cases=(case,), profiles=profiles, page=page)
     with pytest.raises(ConformanceError, match="add one on generated data"):
         check_task(task, archive_at(tmp_path))
+
+
+def test_training_that_is_named_is_the_same_in_all_folds():
+    case = replace(TASKS.get("missing-frames").case("synthetic 1"), training="walkers")
+    profiles = {"quick": Profile((case.name,), folds=2)}
+    task = replace(TASKS.get("missing-frames"), cases=(case,), profiles=profiles)
+    task = replace(task, page=replace(task.page, illustrated=(), rows={}))
+    check_task(task)
+    wrong = replace(case, problem=partial(_other_training, case.problem))
+    with pytest.raises(ConformanceError, match="the training recordings of another fold"):
+        check_task(replace(task, cases=(wrong,)))

@@ -104,4 +104,4 @@ def test_the_diagram_names_its_groups_in_words(small):
 
 def test_the_same_ranks_give_the_same_bytes(small):
     ranks = ranks_over_units(results_of(small(ORDERED)), "mse")
-    assert rank_figure(ranks, "MSE", "n") == rank_figure(ranks, "MSE", "n")
+    assert rank_figure(ranks, "MSE", STYLES) == rank_figure(ranks, "MSE", STYLES)

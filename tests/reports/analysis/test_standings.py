@@ -114,9 +114,9 @@ def test_they_are_in_order_and_the_first_is_the_best_of_the_table(small, values)
 
 @laws
 @given(tables(fewest=6, most=8))
-def test_a_subjects_second_recording_counts_no_more(small, values):
+def test_a_second_recording_of_every_subject_counts_no_more(small, values):
     """Recordings that are repeated under another name change no mean, interval or unit."""
-    twice = {**values, **{f"{case} again": values[case] for case in list(values)[:3]}}
+    twice = {**values, **{f"{case} again": values[case] for case in values}}
 
     def bundle_of(table):
         cases = tuple(CaseLayout(name, {}, subjects=(name.split()[1],)) for name in table)
@@ -126,10 +126,24 @@ def test_a_subjects_second_recording_counts_no_more(small, values):
     for label, standing in plain.items():
         other = repeated[label]
         assert (other.n_units, other.unit) == (standing.n_units, "subject")
-        assert other.n_cases == standing.n_cases + 3
+        assert other.n_cases == 2 * standing.n_cases
         assert other.standing is standing.standing
         for name in ("mean", "difference", "low", "high"):
             assert getattr(other, name) == pytest.approx(getattr(standing, name), nan_ok=True)
+
+
+def test_the_error_is_that_of_clusters(small):
+    """Six recordings of five subjects: the mean of six, the scatter of five."""
+    rows = {f"{n}{s}": x for n, (s, x) in enumerate(zip("aabcde", (3, 5, 1, 2, 4, 8), strict=True))}
+    cases = tuple(CaseLayout(name, {}, subjects=(name[1],)) for name in rows)
+    table = {name: {"best": [0.0], "other": [float(x)]} for name, x in rows.items()}
+    found = by_label(standings_of(small(table, cases=cases, independent_folds=False)))["other"]
+    means, shares = np.array([4.0, 1.0, 2.0, 4.0, 8.0]), np.array([2, 1, 1, 1, 1]) / 6
+    middle = np.mean([*rows.values()])
+    error = np.sqrt(5 / 4 * np.sum((shares * (means - middle)) ** 2))
+    assert found.difference == pytest.approx(middle)
+    assert found.high - found.low == pytest.approx(2 * stats.t.ppf(0.975, 4) * error)
+    assert found.n_units == 5
 
 
 SIX_FRAMES = {f"{name}": {"a": [1.0], "b": [2.0]} for name in ("07-1", "07-2", "08-1", "08-2")}

@@ -27,19 +27,17 @@ def test_the_unit_of_a_fold(subjects, independent, names):
 
 
 @given(addresses)
-def test_a_unit_is_the_mean_over_its_cases_of_the_means_over_their_cells(pairs):
+def test_the_mean_over_units_by_their_shares_is_the_mean_over_cases(pairs):
     units, cases = zip(*pairs, strict=True)
     values = np.arange(len(pairs), dtype=float)
-    expected = [
-        np.mean(
-            [
-                np.mean([v for v, pair in zip(values, pairs, strict=True) if pair == (unit, case)])
-                for case in {case for name, case in pairs if name == unit}
-            ]
-        )
-        for unit in dict.fromkeys(units)
+    weights = unit_weights(units, cases)
+    shares = weights.sum(axis=1)
+    of_cases = [
+        np.mean([v for v, name in zip(values, cases, strict=True) if name == case])
+        for case in set(cases)
     ]
-    np.testing.assert_allclose(unit_weights(units, cases) @ values, expected)
+    assert shares.sum() == pytest.approx(1.0)
+    assert shares @ (weights @ values / shares) == pytest.approx(np.mean(of_cases))
 
 
 def test_a_subjects_two_recordings_are_one_unit(small):

@@ -15,8 +15,8 @@ def test_the_root_reproduces_the_kernel_matrix(name, scale):
     gram = KERNELS[name].value(np.subtract.outer(TIMES, TIMES), scale)
     root = PivotedRoot.of(KERNELS[name], scale, TIMES).values
     residual = gram - root @ root.T
-    assert np.trace(residual) < 1e-12 * len(TIMES) + 1e-13
-    np.testing.assert_allclose(residual, 0.0, atol=2e-12)
+    assert np.trace(residual) < 1e-14 * len(TIMES) + 1e-13
+    np.testing.assert_allclose(residual, 0.0, atol=2e-14)
 
 
 @pytest.mark.parametrize("name", KERNELS)

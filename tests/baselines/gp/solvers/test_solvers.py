@@ -6,11 +6,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines.gp.posterior.prediction import infer
+from mocapbench.baselines.gp.prior.kernels import KERNELS
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.kronecker import Kronecker
 from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
 from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
 from mocapbench.baselines.gp.solvers.state_space.solver import StateSpace
+from mocapbench.baselines.gp.training.bounds import MIN_NOISE
 
 SOLVERS = (Dense, LatentSplit, StateSpace, Kronecker)
 AT = np.array([-0.4, 0.7, 1.3, 5.0])
@@ -89,6 +91,39 @@ def test_the_trend_conditions_the_joint_gaussian(solver, by, case, brute_force):
         expected = brute_force(example).posterior(AT, None, ("parent",))
         np.testing.assert_allclose(mean.T, expected[0], atol=1e-9)
         np.testing.assert_allclose(variance.T, expected[1], atol=1e-9)
+
+
+@pytest.mark.parametrize("name", KERNELS)
+@pytest.mark.parametrize("solver", SOLVERS[1:])
+def test_solvers_agree_at_the_least_noise(solver, name, by, case):
+    """Beyond the last frame too: there a smooth kernel's variance rests on its least directions."""
+    sizes = {"n_outputs": 8, "n_replicates": 10, "n_times": 40, "rank": 1}
+    example = case(np.random.default_rng(0), kernel=name, masks="complete", **sizes)
+    phases = np.arange(80.0).reshape(10, 8, 1)
+    example.replicates.data[:] = np.sin(example.replicates.times + phases)
+    reduction, parameters = example.reduction, example.parameters
+    parameters.log_noise[:] = np.log(MIN_NOISE)
+    for layer in parameters.layers.values():
+        layer.log_lengthscales[:] = 0.4
+        layer.coregionalisation.weights[:] *= 3.0
+        layer.coregionalisation.kappa_roots[:] *= 0.01
+    times = example.replicates.times[-1] + np.array([-0.7, 0.2, 0.5, 1.5, 4.0])
+    curves = [reduction.trend, reduction.replicates[0]]
+    (expected, found), (exact, value) = zip(
+        *(
+            (
+                infer(reduction, solvers, parameters, curves, [times, times]),
+                reduction.evaluate(solvers, parameters)[0],
+            )
+            for solvers in (by(Dense, example), by(solver, example))
+        ),
+        strict=True,
+    )
+    assert value == pytest.approx(exact, rel=1e-9)
+    for (mean, variance), (exact_mean, exact_variance) in zip(found, expected, strict=True):
+        np.testing.assert_allclose(variance, exact_variance, rtol=1e-4)
+        scale = np.abs(exact_mean).max()
+        np.testing.assert_allclose(mean, exact_mean, atol=1e-4 * scale)
 
 
 @pytest.mark.parametrize("solver", [Dense, LatentSplit])

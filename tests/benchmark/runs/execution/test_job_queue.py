@@ -11,9 +11,12 @@ from mocapbench.benchmark.runs.execution.job_queue import JobQueue
 from mocapbench.benchmark.tasks.address import Address
 
 
-def _job(number, label="a", fit_key=""):
+def _job(number, label="a", fit_key="", training_key=""):
     address = Address("task", 1, "case", number, label)
-    return SimpleNamespace(key=str(number), fit_key=fit_key or f"fit {number}", address=address)
+    fit_key = fit_key or f"fit {number}"
+    return SimpleNamespace(
+        key=str(number), fit_key=fit_key, training_key=training_key, address=address
+    )
 
 
 JOBS = st.lists(
@@ -39,6 +42,29 @@ def test_every_job_is_taken_once_whatever_ends_first(chosen, n_workers):
         queue.ended(job, seconds[job.key])
     assert sorted(taken) == sorted(job.key for job in jobs)
     assert queue.time_left(n_workers) == 0
+
+
+@given(st.lists(st.tuples(st.integers(0, 6), st.booleans()), max_size=20), st.integers(1, 4))
+def test_a_shared_model_is_fitted_by_one_job_before_the_others_start(chosen, n_workers):
+    """Fits may share predictions too, and some predictions are in the store already."""
+    jobs = [_job(n, "a", f"fit {fit}", f"model {fit // 3}") for n, (fit, _) in enumerate(chosen)]
+    stored = {f"fit {fit}" for fit, is_stored in chosen if is_stored}
+    queue, running, fits, models, n_taken = JobQueue(jobs), [], [], set(), 0
+    while True:
+        while len(running) < n_workers and (job := queue.take()):
+            n_taken += 1
+            if job.fit_key not in stored and job.training_key not in models:
+                fits.append(job.training_key)
+            running.append((job, job.fit_key in stored))
+        if not running:
+            break
+        job, rescored = running.pop(0)
+        if not rescored:
+            models.add(job.training_key)
+        stored.add(job.fit_key)
+        queue.ended(job, 1.0, rescored=rescored)
+    assert n_taken == len(jobs)
+    assert len(fits) == len(set(fits))
 
 
 def test_once_each_entrant_is_known_the_slowest_go_first():

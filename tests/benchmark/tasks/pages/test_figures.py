@@ -4,7 +4,7 @@ import joblib
 import pytest
 
 from mocapbench.benchmark import MODELS, TASKS, Internals, Request, Solved, archive_at, plan
-from mocapbench.benchmark.runs.solve import solve
+from mocapbench.benchmark.runs.fitting.solve import solve, train
 from mocapbench.reports import Motions
 from mocapbench.reports.figures.pictures.draw import draw
 from mocapbench.reports.figures.svg_figure import SvgFigure
@@ -37,7 +37,10 @@ NAMES = [pytest.param(name, marks=[pytest.mark.slow] if name in SLOW else []) fo
 
 def _fit(job, problem):
     budget = {name: value for name, value in BUDGET.items() if name in job.parameters}
-    return solve(problem, MODELS.get(job.model), {**job.parameters, **budget}, job.seeds)
+    parameters = {**job.parameters, **budget}
+    random_state = job.training_seeds.random_state("init")
+    fitted = train(problem, MODELS.get(job.model), parameters, random_state)
+    return solve(problem, fitted, job.seeds.random_state("sample"))
 
 
 @pytest.fixture(scope="module", params=NAMES)

@@ -1,0 +1,111 @@
+"""Fitting one entrant to one problem and asking it, while time and memory are measured."""
+
+from __future__ import annotations
+
+import resource
+import time
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any, NamedTuple
+
+from mocapbench.baselines import Model
+from mocapbench.benchmark.problems.base import Problem
+from mocapbench.benchmark.problems.internals import internals_of
+from mocapbench.benchmark.runs.fitting.fit import Fit
+
+__all__ = ["FitCosts", "Fitted", "build_model", "solve", "train"]
+
+MIB = 2**20
+
+
+class FitCosts(NamedTuple):
+    """What a fit cost, and the warnings that the model raised in it."""
+
+    seconds: float
+    peak_memory_mb: float
+    warnings: tuple[str, ...]
+
+
+class Fitted(NamedTuple):
+    """A fitted model, and what its fit cost."""
+
+    model: Model
+    costs: FitCosts
+
+
+def build_model(model: type[Model], parameters: Mapping[str, Any], random_state: int) -> Model:
+    """Return an unfitted model, seeded if it takes a seed."""
+    built = model(**parameters)
+    if "random_state" in built.get_params():
+        built.set_params(random_state=random_state)
+    return built
+
+
+def train(
+    problem: Problem[Any], entrant: type[Model], parameters: Mapping[str, Any], random_state: int
+) -> Fitted:
+    """Return the entrant, fitted to what ``problem`` lets it see.
+
+    Parameters
+    ----------
+    problem : Problem
+    entrant, parameters : type, mapping
+        The class of the model, and its parameters.
+    random_state : int
+        The seed of the fit.
+    """
+    model = build_model(entrant, parameters, random_state)
+    with _warnings() as caught:
+        started = time.perf_counter()
+        problem.fit(model)
+        seconds = time.perf_counter() - started
+    return Fitted(model, FitCosts(seconds, _peak_memory_mb(), _texts(caught)))
+
+
+def solve(problem: Problem[Any], fitted: Fitted, random_state: int) -> Fit:
+    """Return a fitted model's answer to ``problem``, and what it cost with the fit.
+
+    Parameters
+    ----------
+    problem : Problem
+    fitted : Fitted
+        A model fitted to the training recordings of the problem.
+    random_state : int
+        The seed of what it draws.
+    """
+    model, costs = fitted
+    with _warnings() as caught:
+        started = time.perf_counter()
+        answer = problem.solve(model, random_state)
+        seconds = time.perf_counter() - started
+        internals = internals_of(model, problem.train)
+    iterations, converged = (
+        getattr(model, f"{name}_", None) for name in ("n_iterations", "converged")
+    )
+    return Fit(
+        {**answer.to_arrays(), **internals.to_arrays()},
+        fit_seconds=costs.seconds,
+        predict_seconds=seconds,
+        peak_memory_mb=max(costs.peak_memory_mb, _peak_memory_mb()),
+        iterations=None if iterations is None else int(iterations),
+        converged=None if converged is None else bool(converged),
+        engine=str(getattr(model, "engine_", "")),
+        warnings=tuple(dict.fromkeys((*costs.warnings, *_texts(caught)))),
+    )
+
+
+@contextmanager
+def _warnings() -> Iterator[list[warnings.WarningMessage]]:
+    """Collect all warnings."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        yield caught
+
+
+def _texts(caught: list[warnings.WarningMessage]) -> tuple[str, ...]:
+    return tuple(str(warning.message) for warning in caught)
+
+
+def _peak_memory_mb() -> float:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / MIB
