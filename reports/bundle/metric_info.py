@@ -55,9 +55,9 @@ class MetricInfo:
 
     @property
     def short(self) -> str:
-        """The abbreviation that the title ends in, or its part before a comma or a bracket."""
+        """The abbreviation that the title ends in, or its part before a bracket."""
         abbreviation = re.search(r"\(((?:\w+ )?[A-Z]{2,})\)", self.title)
-        return abbreviation[1] if abbreviation else re.split(r",| \(", self.title)[0]
+        return abbreviation[1] if abbreviation else self.title.partition(" (")[0]
 
     @property
     def better(self) -> str:

@@ -29,17 +29,17 @@ def contrast_table(results: TaskResults, metric: str) -> Table | None:
         return None
     data = _tidy(results, metric, scored.labels, by_pair)
     places = decimals(data["advantage"].dropna())
-    title = results.metrics[metric].title
+    title = results.metrics[metric].short
     return Table(
         id=slug(results.layout.name, metric, "contrasts"),
-        caption=f"{title}, model against model: by how much the row is better than the column",
+        caption=f"{title}, model against model: by how much the row is better than the column, "
+        f"over {counted(most, scored.unit)}",
         columns=headings(["entrant", *(f"than {label}" for label in scored.labels)], "contrast"),
         rows=tuple(
             (Cell(row), *(_cell(by_pair.get((row, column)), places) for column in scored.labels))
             for row in scored.labels
         ),
         data=data,
-        notes=_notes(counted(most, scored.unit)),
     )
 
 
@@ -57,16 +57,6 @@ def _cell(contrast: PairContrast | None, places: int) -> Cell:
 
 def _unbroken(text: str) -> str:
     return text.replace(" ", "\N{NO-BREAK SPACE}")
-
-
-def _notes(units: str) -> tuple[str, ...]:
-    return (
-        f"Below each difference: its interval over {units} (Student’s t, at the level at which "
-        "Holm’s method decides the pair). Pairs with the best entrant are corrected among "
-        "themselves, and so are all others.",
-        "▲ ahead, ▼ behind: the interval excludes 0, more than chance at 5 %. No mark: it may be "
-        "chance. That does not make the two alike.",
-    )
 
 
 def _tidy(

@@ -106,10 +106,17 @@ def test_the_texts_of_a_task_are_short(name):
         ("mpjpe_global", "global MPJPE"),
         ("smse_pooled", "pooled SMSE"),
         ("rms_per_frame", "Mean error norm per frame"),
-        ("foot_skate", "Foot skate"),
+        ("foot_skate", "Foot skate, cm/s"),
         ("purity", "Purity"),
     ],
 )
 def test_a_title_has_a_short_form(name, short):
     metric = METRICS.get(name)
     assert MetricInfo(name, metric.title, Direction.LOWER).short == short
+
+
+@pytest.mark.parametrize("name", TASKS.names())
+def test_the_short_forms_of_a_task_are_distinct(name):
+    metrics = [METRICS.get(metric) for metric in TASKS.get(name).page.metrics]
+    short = {MetricInfo(m.name, m.title, Direction.LOWER).short for m in metrics}
+    assert len(short) == len(metrics)

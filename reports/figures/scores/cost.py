@@ -40,12 +40,8 @@ def cost_against_error(results: TaskResults, styles: Mapping[str, Style]) -> Svg
     ranked = [label for label in labels if label in results.layout.ranked]
     best = front([(info.loss(points[n][0]), points[n][1]) for n in ranked])
     drawn, note = _panel(points, [ranked[place] for place in best], info.title, styles)
-    caption = (
-        "median seconds to fit and predict one fold against the mean over the cases with "
-        "recordings. The line joins the models that no other is both cheaper and better than."
-    )
     legend = dot_keys(styles[label] for label in labels)
-    return SvgFigure("Cost against error", panels([drawn]), legend, f"{caption} {note}".strip())
+    return SvgFigure("Cost against error", panels([drawn]), legend, note)
 
 
 def front(points: Sequence[tuple[float, float]]) -> list[int]:

@@ -37,7 +37,7 @@ def dot_plot(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> 
     overlap = () if results.layout.independent_folds else (WINDOWS,)
     remarks = dict.fromkeys(remark for _, remark in drawn if remark)
     return SvgFigure(
-        f"{results.metrics[metric].title} by case",
+        f"{results.metrics[metric].short} by case",
         panels(panel for panel, _ in drawn),
         (),
         " ".join([*overlap, *remarks]),

@@ -36,13 +36,8 @@ def reliability(results: TaskResults, styles: Mapping[str, Style]) -> SvgFigure 
     curves = {label: curve for label, curve in curves.items() if len(curve) >= FEWEST}
     if not curves:
         return None
-    caption = (
-        "the share of hidden values inside predicted intervals, mean over folds and cases with "
-        "recordings, against the share that the intervals promise. On the dotted line a model is "
-        "calibrated; below it, its predicted variances are too small."
-    )
     legend = line_keys({label: styles[label] for label in curves})
-    return SvgFigure("Reliability", panels([_panel(curves, styles)]), legend, caption)
+    return SvgFigure("Reliability", panels([_panel(curves, styles)]), legend, "")
 
 
 def _levels(results: TaskResults) -> dict[float, str]:

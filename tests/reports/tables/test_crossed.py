@@ -3,6 +3,7 @@ import pytest
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.bundle.task_page import RowNotes
+from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.page.sections import task_view
 
 PAIRS = ("12(1) vs 12(1)", "12(1) vs 16(15)", "16(15) vs 16(15)", "16(15) vs 10(5)")
@@ -27,7 +28,7 @@ def view(small):
         published_models={"replay": "real"},
         published_metrics={"mse": "MCC"},
     )
-    return task_view(task_results(bundle, bundle.layouts[0]), {})
+    return task_view(task_results(bundle, bundle.layouts[0]), bundle, model_styles(bundle.layouts))
 
 
 def test_pairs_are_cells_of_rows_and_columns(view):

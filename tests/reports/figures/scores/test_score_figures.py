@@ -64,7 +64,6 @@ def test_rows_are_sorted_by_mean_and_every_fold_is_a_tick(drawn):
         assert _models(root) == list(LABELS)
         ticks = [p.attrib["d"].count("M") for p in root.iter("path") if p.get("class") == "fold"]
         assert ticks == [len(SPREAD)] * len(LABELS)
-    assert "Student’s t" in figure.caption
 
 
 def test_metrics_that_are_better_higher_have_the_highest_on_top(drawn):
@@ -77,7 +76,7 @@ def test_folds_that_are_not_independent_and_single_folds_have_no_interval(drawn)
     single, _ = drawn({case: {label: [1.0] for label in LABELS} for case in ("x", "y")})
     for results in (dependent, single):
         assert 'class="interval"' not in dot_plot(results, "mse", styles).svg
-    assert "not independent" in dot_plot(dependent, "mse", styles).caption
+    assert "no interval" in dot_plot(dependent, "mse", styles).caption
 
 
 @pytest.mark.parametrize("n_cases", [1, 7])
