@@ -68,13 +68,10 @@ def played(
     rows = shown_frames(*timing)
     shown = timing.times[rows]
     seen = [side_view(pair.truth[rows], pair.made[rows], joints) for pair in pairs]
-    cut = f"{shown[-1] - shown[0]:.1f} s at {(len(rows) - 1) / (shown[-1] - shown[0]):.0f} Hz"
-    of = timing.times[-1] - timing.times[0]
-    whole = "" if shown[-1] - shown[0] > 0.99 * of else f" of {of:.1f} s, around the first gap"
     return Motions(
         task=solved.task,
         title="Motion",
-        caption=f"{caption} {cut}{whole}. {entrants.phrase}.",
+        caption=f"{caption} {_extent(timing.times, shown)}. {entrants.phrase}.",
         interval=float(np.diff(shown).mean()),
         joints=joints,
         parents=body.skeleton.parents,
@@ -86,3 +83,10 @@ def played(
         ),
         beside=entrants.beside,
     )
+
+
+def _extent(times: Frames, shown: Frames) -> str:
+    """Return how much of a recording is shown, and at which rate."""
+    whole, part = times[-1] - times[0], shown[-1] - shown[0]
+    extent = f"{part:.1f} s at {(len(shown) - 1) / part:.0f} Hz"
+    return extent if part > 0.99 * whole else f"{extent}, of {whole:.1f} s, around the first gap"
