@@ -9,7 +9,8 @@ import numpy as np
 
 from mocapbench.benchmark.figures.motions.chosen import chosen
 from mocapbench.benchmark.figures.motions.placing import PlacesJoints, placed
-from mocapbench.benchmark.figures.motions.played import Pair, Timing, played
+from mocapbench.benchmark.figures.motions.played import Pair, played
+from mocapbench.benchmark.figures.motions.window import Window
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.reports import Motions
@@ -43,15 +44,16 @@ class FilledMotion:
     remark: str = ""
 
     def pictures(self, solved: FilledProblem, /) -> Sequence[Motions]:
-        """Return one player; none if no body is known, or part of the truth is not."""
-        body, given, truth = self.body(solved), solved.problem.given[0], solved.problem.truth[0]
+        """Return one player; none if no body is known, or part of the truth shown is not."""
+        body, given = self.body(solved), solved.problem.given[0]
+        window = Window(given.times, np.asarray((~given.visible).any(axis=1)))
+        shown, truth = given.frames(np.r_[window.part]), solved.problem.truth[0][window.part]
         if body is None or not np.isfinite(truth).all():
             return ()
         entrants = chosen(solved, self.n_most)
         means = [solved.answers[label].predictions[0].mean for label in entrants.labels]
-        filled = [np.where(given.visible, truth, mean) for mean in means]
-        true, *made = placed(body, given, [truth, *filled])
+        filled = [np.where(shown.visible, truth, mean[window.part]) for mean in means]
+        true, *made = placed(body, shown, [truth, *filled])
         pairs = [Pair("truth", true, positions) for positions in made]
-        timing = Timing(given.times, np.asarray((~given.visible).any(axis=1)))
         caption = f"{given.name}, shaded where something is hidden.{self.remark}"
-        return (played(solved, body, timing, entrants=entrants, pairs=pairs, caption=caption),)
+        return (played(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),)

@@ -6,17 +6,16 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.benchmark.figures.motions.chosen import Chosen
 from mocapbench.benchmark.figures.motions.placing import PlacesJoints
 from mocapbench.benchmark.figures.motions.side_view import side_view
-from mocapbench.benchmark.figures.motions.window import shown_frames
+from mocapbench.benchmark.figures.motions.window import Window
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.datasets import FrameByJointBy3, Frames
 from mocapbench.reports import Motion, Motions
 
-__all__ = ["Pair", "Timing", "played"]
+__all__ = ["Pair", "played"]
 
 
 class Pair(NamedTuple):
@@ -26,8 +25,8 @@ class Pair(NamedTuple):
     ----------
     against : str
         Name of the truth.
-    truth, made : ndarray of shape (N, J, 3)
-        Positions of joints, in centimetres.
+    truth, made : ndarray of shape (P, J, 3)
+        Positions of joints in the `Window.part`, in centimetres.
     """
 
     against: str
@@ -35,17 +34,10 @@ class Pair(NamedTuple):
     made: FrameByJointBy3
 
 
-class Timing(NamedTuple):
-    """The times (N,) of frames in seconds, and of which something is hidden (N,)."""
-
-    times: Frames
-    hidden: NDArray[np.bool_]
-
-
 def played(
     solved: Solved[Any, Any],
     body: PlacesJoints,
-    timing: Timing,
+    window: Window,
     *,
     entrants: Chosen,
     pairs: Sequence[Pair],
@@ -57,7 +49,7 @@ def played(
     ----------
     solved : Solved
     body : PlacesJoints
-    timing : Timing
+    window : Window
     entrants : Chosen
     pairs : sequence of Pair
         In the order of the entrants.
@@ -65,20 +57,17 @@ def played(
         What the figure shows; how it was cut and who takes part is added.
     """
     joints = tuple(segment.name for segment in body.skeleton.segments)
-    rows = shown_frames(*timing)
-    shown = timing.times[rows]
-    seen = [side_view(pair.truth[rows], pair.made[rows], joints) for pair in pairs]
-    cut = f"{shown[-1] - shown[0]:.1f} s at {(len(rows) - 1) / (shown[-1] - shown[0]):.0f} Hz"
-    of = timing.times[-1] - timing.times[0]
-    whole = "" if shown[-1] - shown[0] > 0.99 * of else f" of {of:.1f} s, around the first gap"
+    rows, shown = window.rows, window.times[window.rows]
+    kept = rows - rows[0]
+    seen = [side_view(pair.truth[kept], pair.made[kept], joints) for pair in pairs]
     return Motions(
         task=solved.task,
         title="Motion",
-        caption=f"{caption} {cut}{whole}. {entrants.phrase}.",
+        caption=f"{caption} {_extent(window.times, shown)}. {entrants.phrase}.",
         interval=float(np.diff(shown).mean()),
         joints=joints,
         parents=body.skeleton.parents,
-        hidden=timing.hidden[rows],
+        hidden=window.hidden[rows],
         truths={pair.against: truth for pair, (truth, _) in zip(pairs, seen, strict=True)},
         motions=tuple(
             Motion(label, made, pair.against)
@@ -86,3 +75,10 @@ def played(
         ),
         beside=entrants.beside,
     )
+
+
+def _extent(times: Frames, shown: Frames) -> str:
+    """Return how much of a recording is shown, and at which rate."""
+    whole, part = times[-1] - times[0], shown[-1] - shown[0]
+    extent = f"{part:.1f} s at {(len(shown) - 1) / part:.0f} Hz"
+    return extent if part > 0.99 * whole else f"{extent}, of {whole:.1f} s, around the first gap"

@@ -10,7 +10,8 @@ from numpy.linalg import norm
 
 from mocapbench.benchmark.figures.motions.chosen import chosen
 from mocapbench.benchmark.figures.motions.placing import on_the_spot, placed
-from mocapbench.benchmark.figures.motions.played import Pair, Timing, played
+from mocapbench.benchmark.figures.motions.played import Pair, played
+from mocapbench.benchmark.figures.motions.window import Window
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.synthesise import Samples, SynthesiseProblem
 from mocapbench.datasets import FrameByJointBy3
@@ -37,19 +38,19 @@ class SampledMotion:
         if body is None:
             return ()
         entrants = chosen(solved, self.n_most)
-        like = replace(problem.train[0], times=problem.times, values=problem.references[0])
+        window = Window(problem.times, np.zeros(len(problem.times), dtype=bool))
         samples = [solved.answers[label].values[0] for label in entrants.labels]
-        motions = placed(body, like, [*problem.references, *samples])
-        on_spot = [on_the_spot(motion) for motion in motions]
-        references = on_spot[: len(problem.references)]
-        pairs = [_beside_nearest(made, references) for made in on_spot[len(references) :]]
-        timing = Timing(problem.times, np.zeros(len(problem.times), dtype=bool))
+        values = [motion[window.part] for motion in (*problem.references, *samples)]
+        like = replace(problem.train[0], times=problem.times[window.part], values=values[0])
+        motions = [on_the_spot(motion) for motion in placed(body, like, values)]
+        references, made = motions[: -len(samples)], motions[-len(samples) :]
+        pairs = [_beside_nearest(sample, references) for sample in made]
         caption = (
             f"The first sample of each entrant, beside the reference, of {len(references)}, whose "
             f"joints are nearest on average; all on the body of {like.name}, without the path on "
             "the floor."
         )
-        return (played(solved, body, timing, entrants=entrants, pairs=pairs, caption=caption),)
+        return (played(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),)
 
 
 def _beside_nearest(sample: FrameByJointBy3, references: Sequence[FrameByJointBy3]) -> Pair:

@@ -2,18 +2,46 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.datasets import Frames
 
-__all__ = ["LONGEST", "shown_frames"]
+__all__ = ["LONGEST", "Window", "shown_frames"]
 
 LONGEST = 10.0
 """Seconds."""
 _RATE = 30.0
 """Frames per second at the least, where a recording has them; fewer than twice as many."""
 _TOLERANCE = 1.001  # 59.99 frames per second are 60
+
+
+class Window(NamedTuple):
+    """The part of a recording that a player shows.
+
+    Parameters
+    ----------
+    times : ndarray of shape (N,)
+        Of all frames, in seconds.
+    hidden : ndarray of bool of shape (N,)
+        Of which frames something is hidden.
+    """
+
+    times: Frames
+    hidden: NDArray[np.bool_]
+
+    @property
+    def rows(self) -> NDArray[np.intp]:
+        """The frames to show; see `shown_frames`."""
+        return shown_frames(self.times, self.hidden)
+
+    @property
+    def part(self) -> slice:
+        """The first to the last of them, with all between."""
+        rows = self.rows
+        return slice(int(rows[0]), int(rows[-1]) + 1)
 
 
 def shown_frames(times: Frames, hidden: NDArray[np.bool_]) -> NDArray[np.intp]:

@@ -82,7 +82,7 @@
       const gap = this.hidden[this.frame] ? ", hidden" : "";
       const [a, b] = ["a", "b"].map((side) =>
         `${this.name(this.chosen[side])} ${this.means[side][this.frame].toFixed(1)} cm`);
-      return `${where}${gap}. Mean distance of joints from the truth: A ${a}, B ${b}.`;
+      return `${where}${gap}. Mean distance of joints from the recording: A ${a}, B ${b}.`;
     }
 
     choose() {

@@ -79,3 +79,29 @@ def test_a_sample_is_beside_the_reference_that_it_is_nearest_to(posed):
     assert not picture.hidden.any()
     bodiless = Solved("walking-synthesis", replace(problem, body=None), answers)
     assert SampledMotion().pictures(bodiless) == ()
+
+
+def test_a_long_recording_is_cut_before_it_is_placed(gap):
+    n = 30 * 60
+    problem = gap.problem
+    whole = np.arange(n) % len(problem.truth[0])
+    times = np.arange(n) / 30
+    truth = problem.truth[0][whole]
+    recording = replace(problem.given[0], times=times, values=truth)
+    hidden = np.zeros(truth.shape, dtype=bool)
+    hidden[900:930] = True
+    asked = []
+
+    class Counting:
+        skeleton = problem.body.skeleton
+
+        def positions(self, recording):
+            asked.append(len(recording.times))
+            return problem.body.positions(recording)
+
+    longer = replace(problem, given=(recording.hide(hidden),), truth=(truth,), body=Counting())
+    solved = replace(gap, problem=longer, answers=filled(longer, {"right": 0.0}))
+    (picture,) = FilledMotion().pictures(solved)
+    assert asked == [2 * 300]  # ten seconds of the truth and of one entrant
+    assert "10.0 s at 30 Hz, of 60.0 s" in picture.caption
+    assert (picture.hidden.sum(), len(picture.hidden)) == (30, 300)
