@@ -9,7 +9,7 @@ from mocapbench.reports.paper.remarks import footnotes, marks
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.tables.score_cells import MISSING_ID
 from mocapbench.reports.tables.scores import metric_decimals, score_table
-from mocapbench.reports.text import number
+from mocapbench.reports.text import cell_anchor, number
 
 __all__ = ["cross_table"]
 
@@ -68,7 +68,8 @@ def _cell(results: TaskResults, case: CaseLayout | None, metric: str, lettered: 
         return Cell("missing", kind="trouble", link=MISSING_ID)
     places = metric_decimals(results, metric)
     note = _note(results.published_value(case, label, metric), places, lettered)
-    return Cell(number(estimate.mean, places), note=note)
+    opens = cell_anchor(results.layout.name, case.name, label)
+    return Cell(number(estimate.mean, places), note=note, opens=opens)
 
 
 def _note(published: PublishedValue | None, places: int, lettered: Lettered) -> str:
