@@ -32,7 +32,7 @@ class Cell:
         ``"contrast"``, ``"contrast ahead"``, ``"contrast behind"`` or a verdict: the cell's class
         in the style sheet.
     link : str
-        Id of the place on the page that explains the note, or the text where there is no note.
+        Id of the place on the page that explains the text.
     span : int
         Number of columns that it takes.
     """

@@ -58,7 +58,7 @@ def _cell(results: TaskResults, case: CaseLayout | None, metric: str, lettered: 
         return Cell("missing", kind="trouble")
     places = results.decimals[metric]
     note = _note(results.published_value(case, label, metric), places, lettered)
-    link = "" if note else cell_anchor(results.layout.name, case.name, label)
+    link = cell_anchor(results.layout.name, case.name, label)
     return Cell(number(estimate.mean, places), note=note, link=link)
 
 
