@@ -77,19 +77,20 @@ def _panel(
     loss = results.metrics[metric].loss
     order = sorted(of_case, key=lambda label: loss(centre(of_case[label], scale)))
     sure, bottom = results.layout.independent_folds, TOP + ROW * len(order)
+    rows = (
+        row(
+            styles[label],
+            place,
+            fold_marks(of_case[label], scale, place, styles[label].shape, sure),
+            title=_told(label, of_case[label], scale),
+        )
+        for place, label in enumerate(order)
+    )
     marks = [
         text(0.0, 13.0, case.heading, "title"),
         vertical(map(scale.place, scale.ticks(4)), TOP, bottom, "grid"),
         bottom_axis(scale, bottom, _axis_name(results, metric, scale)),
-        *(
-            row(
-                styles[label],
-                place,
-                fold_marks(of_case[label], scale, place, styles[label].shape, sure),
-                title=_told(label, of_case[label], scale),
-            )
-            for place, label in enumerate(order)
-        ),
+        *rows,
     ]
     name = f"{results.metrics[metric].title} of {counted(len(order), 'model')}, {case.heading}"
     return svg(WIDTH, bottom + BOTTOM, name, marks), remark(scale)
