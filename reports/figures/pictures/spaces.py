@@ -109,9 +109,10 @@ def _tripod(onto: Array) -> list[str]:
     """Return the axes, from the corner of least values."""
     corner = SIDE / 2.0 - onto.sum(axis=0) * SIDE / 3.6
     ends = corner + 2.0 * onto * SIDE / 3.6
+    lines = (np.stack([corner, end], axis=1) for end in ends)
     names = zip(ends, ("x₁", "x₂", "x₃"), strict=True)
     return [
-        *(polyline(*np.stack([corner, end]).T, "axis") for end in ends),
+        *(polyline(xs, ys, "axis") for xs, ys in lines),
         *(text(x, y - 3.0, name) for (x, y), name in names),
     ]
 
