@@ -1,7 +1,4 @@
-"""Draw paths through a cloud of points: two views as marks, and a canvas that turns.
-
-Without a script the two views are all there is.
-"""
+"""Draw paths through a cloud of points: two views as marks, and a canvas that a script turns."""
 
 from __future__ import annotations
 
