@@ -27,8 +27,9 @@ __all__ = [
 WIDTH = 340.0
 """Of a panel, in pixels: it fits a phone."""
 LEFT, RIGHT, TOP, BOTTOM = 48.0, 12.0, 36.0, 36.0
+LETTER = 5.8
+"""Width of a letter, in pixels."""
 _POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_SUFFIX = 5
 
 
 @dataclass(frozen=True)
@@ -79,9 +80,16 @@ def bottom_axis(scale: Scale, y: float, label: str) -> str:
             horizontal(scale.start, scale.stop, y, "axis"),
             vertical(map(scale.place, ticks), y, y + 4.0, "axis"),
             *(text(scale.place(tick), y + 16.0, written(tick), "middle") for tick in ticks),
-            text((scale.start + scale.stop) / 2.0, y + 31.0, label, "middle"),
+            _label(scale, y + 31.0, label),
         ]
     )
+
+
+def _label(scale: Scale, y: float, label: str) -> str:
+    """Return the label of an axis in its middle; one that is longer starts at the left edge."""
+    if LETTER * len(label) > scale.stop - scale.start:
+        return text(0.0, y, label)
+    return text((scale.start + scale.stop) / 2.0, y, label, "middle")
 
 
 def left_axis(scale: Scale, x: float, end: float) -> str:
@@ -100,7 +108,7 @@ def names(labels: Sequence[str], places: Iterable[float], x: float) -> str:
 def written(tick: float) -> str:
     """Return a tick as text: up to six digits, or a power of ten where it is far from one."""
     mantissa, exponent = f"{tick:e}".split("e")
-    if abs(int(exponent)) < _SUFFIX - 1:
+    if abs(int(exponent)) < 4:
         return f"{tick:.6g}".replace("-", MINUS)
     power = f"10{str(int(exponent)).translate(_POWERS)}"
     factor = f"{float(mantissa):g}".replace("-", MINUS)

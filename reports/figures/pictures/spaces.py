@@ -1,7 +1,4 @@
-"""Draw paths through a cloud of points: two views as marks, and a canvas that turns.
-
-Without a script the two views are all there is.
-"""
+"""Draw paths through a cloud of points: two views as marks, and a canvas that a script turns."""
 
 from __future__ import annotations
 
@@ -16,7 +13,7 @@ from numpy.typing import NDArray
 from mocapbench.reports.bundle.spaces import Path3D, Space
 from mocapbench.reports.figures.axes import WIDTH, panels
 from mocapbench.reports.figures.legend import key, line_keys
-from mocapbench.reports.figures.marks import dot, group, polyline, svg
+from mocapbench.reports.figures.marks import dot, group, polyline, svg, text
 from mocapbench.reports.figures.pictures.thinning import thinned
 from mocapbench.reports.figures.styles import Style, group_styles
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
@@ -96,11 +93,24 @@ def _seen(
     onto = projection(*view) * [1.0, -1.0]
     places = SIDE / 2.0 + cloud @ onto * SIDE / 3.6
     return [
+        *_tripod(onto),
         *(_points(places[levels == level], level) for level in CLOUD),
         *(
             group(styles[p.group], polyline(*thinned(SIDE / 2.0 + p.points @ onto * SIDE / 3.6).T))
             for p in paths
         ),
+    ]
+
+
+def _tripod(onto: Array) -> list[str]:
+    """Return the axes, from the corner of least values."""
+    corner = SIDE / 2.0 - onto.sum(axis=0) * SIDE / 3.6
+    ends = corner + 2.0 * onto * SIDE / 3.6
+    lines = (np.stack([corner, end], axis=1) for end in ends)
+    names = zip(ends, ("x₁", "x₂", "x₃"), strict=True)
+    return [
+        *(polyline(xs, ys, "axis") for xs, ys in lines),
+        *(text(x, y - 3.0, name) for (x, y), name in names),
     ]
 
 
@@ -133,6 +143,6 @@ def _packed(points: Array) -> str:
 
 def _level_keys(space: Space) -> list[Key]:
     return [
-        key(f"{space.value_name} ≥ {edge:.2g}", Style(f"c{level}"), dot(14.0, 7.0))
+        key(f"{space.value_name} ≥ {edge:.3g}", Style(f"c{level}"), dot(14.0, 7.0))
         for level, edge in zip(CLOUD, _edges(space), strict=True)
     ]

@@ -19,7 +19,7 @@ from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.text import counted
 
-__all__ = ["dot_plot", "fold_marks"]
+__all__ = ["dot_plot"]
 
 MOST_PANELS = 6
 """More cases are for the strips of the table, which show them on one scale."""
@@ -44,19 +44,6 @@ def dot_plot(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> 
     )
 
 
-def fold_marks(values: Sequence[float], scale: Scale, row: int, shape: int, sure: bool) -> str:
-    """Return ticks, interval and dot of one row; ``sure`` says whether folds give an interval."""
-    y = place_of(row)
-    ends = interval(values, scale) if sure else None
-    low, high = (min(max(end, scale.low), scale.high) for end in ends or (scale.low, scale.low))
-    marks = [
-        horizontal(scale.place(low), scale.place(high), y) if ends else "",
-        vertical(map(scale.place, values), y - 4.0, y + 4.0) if len(values) > 1 else "",
-        dot(scale.place(centre(values, scale)), y, shape),
-    ]
-    return "".join(marks)
-
-
 def _panel(
     results: TaskResults,
     metric: str,
@@ -70,28 +57,29 @@ def _panel(
     loss = results.metrics[metric].loss
     order = sorted(of_case, key=lambda label: loss(centre(of_case[label], scale)))
     sure, bottom = results.layout.independent_folds, TOP + ROW * len(order)
+    rows = (
+        _row(styles[label], of_case[label], place, scale, sure) for place, label in enumerate(order)
+    )
     marks = [
         text(0.0, 13.0, case.heading, "title"),
         vertical(map(scale.place, scale.ticks(4)), TOP, bottom, "grid"),
-        bottom_axis(scale, bottom, _axis_name(results, metric, scale)),
-        *(
-            row(
-                styles[label],
-                place,
-                fold_marks(of_case[label], scale, place, styles[label].shape, sure),
-                title=_told(label, of_case[label], scale),
-            )
-            for place, label in enumerate(order)
-        ),
+        bottom_axis(scale, bottom, "logarithmic" if isinstance(scale, LogScale) else ""),
+        *rows,
     ]
     name = f"{results.metrics[metric].title} of {counted(len(order), 'model')}, {case.heading}"
     return svg(WIDTH, bottom + BOTTOM, name, marks), remark(scale)
 
 
-def _axis_name(results: TaskResults, metric: str, scale: Scale) -> str:
-    kind = ", logarithmic" if isinstance(scale, LogScale) else ""
-    return f"{results.metrics[metric].title}{kind}"
-
-
-def _told(label: str, values: Sequence[float], scale: Scale) -> str:
-    return f"{label}: {centre(values, scale):.4g}, {counted(len(values), 'fold')}"
+def _row(style: Style, values: Sequence[float], place: int, scale: Scale, sure: bool) -> str:
+    """Return ticks, interval and dot of a model; ``sure`` says whether folds give an interval."""
+    y = place_of(place)
+    ends = interval(values, scale) if sure else None
+    low, high = (min(max(end, scale.low), scale.high) for end in ends or (scale.low, scale.low))
+    middle = centre(values, scale)
+    marks = (
+        horizontal(scale.place(low), scale.place(high), y) if ends else "",
+        vertical(map(scale.place, values), y - 4.0, y + 4.0) if len(values) > 1 else "",
+        dot(scale.place(middle), y, style.shape),
+    )
+    told = f"{style.label}: {middle:.4g}, {counted(len(values), 'fold')}"
+    return row(style, place, *marks, title=told)

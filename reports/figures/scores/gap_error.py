@@ -40,8 +40,8 @@ def gap_error(
     banded = {labels[0], labels[-1]}
     caption = (
         f"mean over {n} of all windows and cases with recordings, each stretched to one length, of "
-        f"the {len(labels)} models with the least mean, the best interpolation among them. Bands "
-        f"hold the middle half of the gaps, of {' and '.join(sorted(banded, key=labels.index))}."
+        "the models with the least mean and of the best interpolation. Bands hold the middle half "
+        f"of the gaps, of {' and '.join(sorted(banded, key=labels.index))}."
     )
     drawn = _axes({label: windows[label] for label in labels}, title, banded, styles)
     legend = line_keys({label: styles[label] for label in labels})

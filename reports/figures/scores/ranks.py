@@ -36,8 +36,9 @@ def _diagram(ranks: Ranks, title: str, styles: Mapping[str, Style]) -> Markup:
     order = sorted(range(n_entrants), key=means.__getitem__)
     stop = WIDTH - 34.0 - BAR_GAP * len(ranks.comparison.groups)
     scale, bottom = LinearScale(0.8, n_entrants, NAMES, stop), TOP + ROW * n_entrants
+    n = counted(ranks.comparison.n, ranks.unit)
     marks = [
-        text(0.0, 13.0, title, "title"),
+        text(0.0, 13.0, f"ranks over {n}", "title"),
         bottom_axis(scale, bottom, "mean rank (1 is best)"),
         *(
             _row(styles[ranks.labels[entrant]], number, means[entrant], scale)
@@ -45,7 +46,6 @@ def _diagram(ranks: Ranks, title: str, styles: Mapping[str, Style]) -> Markup:
         ),
         *_bars(ranks, {entrant: number for number, entrant in enumerate(order)}),
     ]
-    n = counted(ranks.comparison.n, ranks.unit)
     label = f"{title}: mean ranks of {counted(n_entrants, 'entrant')} over {n}"
     return svg(WIDTH, bottom + BOTTOM, label, marks)
 

@@ -9,7 +9,7 @@ __all__ = ["NAMES", "ROW", "TOP", "place_of", "row"]
 
 NAMES, ROW, TOP = 152.0, 17.0, 24.0
 """Width of the names, height of a row, and of the heading, in pixels."""
-_LONGEST = 26
+_LONGEST = 24
 
 
 def place_of(number: int) -> float:

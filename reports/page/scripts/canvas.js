@@ -41,11 +41,23 @@
     return [side / 2 + (right * side) / 3.6, side / 2 - (above * side) / 3.6];
   };
 
+  // The corner of least values, and the ends of the three axes.
+  const AXES = [-1, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1, 1].map((end) => end * 32767);
   const drawSpace = (canvas, space) => {
     const context = canvas.getContext("2d");
     const side = canvas.width;
     context.clearRect(0, 0, side, side);
-    context.globalAlpha = 0.5;
+    context.strokeStyle = context.fillStyle = colour("quiet");
+    const corner = place(0, AXES, space.view, side);
+    ["x₁", "x₂", "x₃"].forEach((name, at) => {
+      const end = place(at + 1, AXES, space.view, side);
+      context.beginPath();
+      context.moveTo(...corner);
+      context.lineTo(...end);
+      context.stroke();
+      context.fillText(name, ...end);
+    });
+    context.globalAlpha = 0.8;
     space.levels.forEach((level, at) => {
       context.fillStyle = colour(`level-${level}`);
       context.fillRect(...place(at, space.points, space.view, side).map((x) => x - 1.5), 3, 3);

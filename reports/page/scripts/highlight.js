@@ -10,13 +10,13 @@
     if (model === shown) return;
     shown = model;
     root.classList.toggle("highlighting", model !== null);
-    rule.textContent =
-      model === null
-        ? ""
-        : `.highlighting figure [data-model]:not([data-model="${CSS.escape(model)}"]),
-           .highlighting .strip[data-model]:not([data-model="${CSS.escape(model)}"]) { opacity: .15; }
-           .highlighting [data-model="${CSS.escape(model)}"] { font-weight: 600; }`;
+    rule.textContent = model === null ? "" : ruleOf(`[data-model="${CSS.escape(model)}"]`);
   };
+
+  const ruleOf = (chosen) => `
+    .highlighting :is(figure g, .strip)[data-model]:not(${chosen}) { opacity: .15; }
+    .highlighting .legend ${chosen} { text-decoration: underline; }
+    .highlighting tr${chosen} > * { background: var(--tint); }`;
 
   const modelOf = (target) => target.closest?.("[data-model]")?.dataset.model ?? null;
 
