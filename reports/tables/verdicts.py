@@ -32,8 +32,8 @@ RULES = (
     "paper prints, where it prints one.",
     "Better, worse: the published value lies outside our interval widened by the greater of the "
     "two. Undecided: none of these, because the folds are too few or too noisy.",
-    "One fold, or windows of one recording, have no interval: the verdict rests on the difference "
-    "alone. A run with fewer windows than the paper averages over another set.",
+    "One unit, such as one fold or windows of one recording, has no interval: the verdict rests on "
+    "the difference alone. A run with fewer windows than the paper averages over another set.",
     "Beside: another row or entrant answers the value, and only that one counts in the totals. It "
     "is the first in the order of the tables that may be compared and has a score.",
 )
