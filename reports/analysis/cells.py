@@ -9,12 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction
-from mocapbench.reports.analysis.grid import Array
+from mocapbench.reports.analysis.grid import Array, linear_losses
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.units import unit_kind, unit_names, unit_weights
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.bundle.metric_info import MetricInfo
 
 __all__ = ["Cells", "cells"]
 
@@ -107,22 +105,16 @@ def cells(results: TaskResults, metric: str, cases: Sequence[CaseLayout] | None 
     scored = [case for case in shown if case.name in grid.cases]
     ranked = [label for label in results.layout.ranked if label in grid.labels]
     values = grid.select(metric, ranked, [case.name for case in scored])
-    losses = _linear_losses(values, results.metrics[metric])
-    names = [
-        name for case in scored for name in unit_names(case, grid.folds, independent=independent)
+    losses = linear_losses(values, results.metrics[metric])
+    units = [
+        unit for case in scored for unit in unit_names(case, grid.folds, independent=independent)
     ]
-    shape = (len(ranked), len(names))
+    shape = (len(ranked), len(units))
+    of_cells = tuple(case.name for case in scored for _ in grid.folds)
     kinds = {unit_kind(case, independent=independent).value for case in scored}
-    return _without_empty(
-        Cells(
-            tuple(ranked),
-            values.reshape(shape),
-            losses.reshape(shape),
-            tuple(case.name for case in scored for _ in grid.folds),
-            tuple(names),
-            kinds.pop() if len(kinds) == 1 else "unit",
-        )
-    )
+    kind = kinds.pop() if len(kinds) == 1 else "unit"
+    values, losses = values.reshape(shape), losses.reshape(shape)
+    return _without_empty(Cells(tuple(ranked), values, losses, of_cells, tuple(units), kind))
 
 
 def _without_empty(whole: Cells) -> Cells:
@@ -136,16 +128,3 @@ def _without_empty(whole: Cells) -> Cells:
         tuple(whole.units[i] for i in columns),
         whole.unit,
     )
-
-
-def _linear_losses(values: Array, info: MetricInfo) -> Array:
-    """Return losses whose mean over the folds of a case is the loss of the mean.
-
-    Where the metric has a target, the loss is the distance from it on the side where the mean of
-    the case lies: above it, what a fold has more; below it, what it has less.
-    """
-    if info.direction is not Direction.TARGET or info.target is None:
-        return np.asarray(info.loss(1.0) * values)
-    finite = np.isfinite(values)
-    distance = np.where(finite, values - info.target, 0.0).sum(axis=-1, keepdims=True)
-    return np.where(distance < 0.0, -1.0, 1.0) * (values - info.target)

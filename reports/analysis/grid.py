@@ -9,7 +9,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-__all__ = ["Array", "Grid"]
+from mocapbench.metrics.base import Direction
+from mocapbench.reports.bundle.metric_info import MetricInfo
+
+__all__ = ["Array", "Grid", "linear_losses"]
 
 Array = NDArray[np.float64]
 
@@ -72,3 +75,16 @@ class Grid:
 def _present(known: Sequence[str], used: pd.Series[str]) -> tuple[str, ...]:
     present = set(pd.unique(used))
     return tuple(name for name in known if name in present)
+
+
+def linear_losses(values: Array, info: MetricInfo) -> Array:
+    """Return losses whose mean over the folds of a case is the loss of the mean.
+
+    Where the metric has a target, the loss is the distance from it on the side where the mean of
+    the case lies: above it, what a fold has more; below it, what it has less.
+    """
+    if info.direction is not Direction.TARGET or info.target is None:
+        return np.asarray(info.loss(1.0) * values)
+    finite = np.isfinite(values)
+    distance = np.where(finite, values - info.target, 0.0).sum(axis=-1, keepdims=True)
+    return np.where(distance < 0.0, -1.0, 1.0) * (values - info.target)

@@ -108,25 +108,29 @@ def _standings(scored: Cells) -> tuple[Standing, ...]:
     weights = scored.weights(kept)
     shares = weights.sum(axis=1)
     losses = scored.losses[:, kept] @ weights.T / shares
+    others = np.arange(len(losses)) != best
     differences = losses - losses[best]
-    rivals = complete & (np.arange(len(complete)) != best)
-    low, high, separable = _tested(differences, shares, rivals)
+    low, high, separable = _tested(differences, shares, complete & others)
     mean = differences @ shares
-    order = np.lexsort((mean, np.arange(len(mean)) != best, ~complete))
-    return tuple(
-        Standing(
-            scored.labels[row],
-            scored.mean(row),
-            scored.n_cases(row),
-            scored.n_units(row),
-            scored.unit,
-            bool(complete[row]),
-            float(mean[row]),
-            float(low[row]),
-            float(high[row]),
-            _place(row == best, complete[row], losses.shape[1], separable[row]),
-        )
-        for row in map(int, order)
+    places = _places(others, complete, separable, losses.shape[1])
+    order = np.lexsort((mean, others, ~complete)).tolist()
+    intervals = np.stack([mean, low, high], axis=1).tolist()
+    return tuple(_standing(scored, row, intervals[row], places[row]) for row in order)
+
+
+def _standing(scored: Cells, row: int, interval: Sequence[float], place: Place) -> Standing:
+    difference, low, high = interval
+    return Standing(
+        scored.labels[row],
+        scored.mean(row),
+        scored.n_cases(row),
+        scored.n_units(row),
+        scored.unit,
+        bool(scored.complete[row]),
+        difference,
+        low,
+        high,
+        place,
     )
 
 
@@ -144,11 +148,16 @@ def _tested(
     return low, high, separable
 
 
-def _place(best: bool, complete: bool, n_units: int, separable: bool) -> Place:
-    if best:
-        return Place.BEST
-    if not complete:
-        return Place.INCOMPLETE
-    if n_units < FEWEST_UNITS:
-        return Place.UNTESTED
-    return Place.BEHIND if separable else Place.INSEPARABLE
+def _places(
+    others: NDArray[np.bool_],
+    complete: NDArray[np.bool_],
+    separable: NDArray[np.bool_],
+    n_units: int,
+) -> list[Place]:
+    tested = n_units >= FEWEST_UNITS
+    conditions = [~others, ~complete, np.full(len(others), not tested), separable]
+    places = [Place.BEST, Place.INCOMPLETE, Place.UNTESTED, Place.BEHIND]
+    return [
+        next((place for place, holds in zip(places, row, strict=True) if holds), Place.INSEPARABLE)
+        for row in zip(*conditions, strict=True)
+    ]

@@ -12,7 +12,7 @@ from mocapbench.reports.analysis.standings import Place, standings
 from mocapbench.reports.analysis.units import FEWEST_UNITS
 from mocapbench.reports.bundle.layout import CaseLayout
 
-laws = settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+laws = settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
 LABELS = ("a", "b", "c", "d")
 
 

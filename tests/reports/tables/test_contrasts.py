@@ -32,7 +32,7 @@ def cell(table, one, other):
     return row[[column.text for column in table.columns].index(f"than {other}")]
 
 
-laws = settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
+laws = settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 @laws
