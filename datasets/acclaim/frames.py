@@ -111,7 +111,7 @@ class Frame:
         return self._line_by_line(layout.counts)
 
     def _line_by_line(self, layout: Sequence[tuple[str, int]]) -> list[float]:
-        """Return the values of the segments whose lines are there, or name the one that is wrong."""
+        """Return the values of the lines that are there, or name the one that is wrong."""
         shape = layout[: len(self.texts) - 1]
         # No more words than would show that there are too many.
         block = [

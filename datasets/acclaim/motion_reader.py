@@ -172,10 +172,11 @@ def _rows(split: Iterable[Frame], first: int, layout: Layout) -> Iterator[list[f
     """Yield the values of each whole frame."""
     for number, frame in enumerate(split, first):
         row = frame.values(number, layout)
-        lacking = 1 + len(layout.counts) - len(frame.texts)
+        n_segments = len(layout.counts)
+        lacking = 1 + n_segments - len(frame.texts)
         if lacking:
             warnings.warn(
-                f"{frame.file}: the last frame lacks {lacking} of its {len(layout.counts)} segments "
+                f"{frame.file}: the last frame lacks {lacking} of its {n_segments} segments "
                 "and was dropped",
                 TruncatedFrameWarning,
                 stacklevel=4,

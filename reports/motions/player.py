@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.reports.bundle.motions import Motions
-from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.motions.encoding import encode, resolution
 from mocapbench.reports.text import slug
 
@@ -42,9 +40,8 @@ class PlayerFigure:
     data: dict[str, Any]
 
 
-def draw(picture: Motions, models: Mapping[str, Style]) -> PlayerFigure:
-    """Return ``picture`` as a figure of the page; hues tell the two motions shown apart."""
-    del models
+def draw(picture: Motions) -> PlayerFigure:
+    """Return ``picture`` as a figure of the page."""
     names = list(picture.truths)
     data = {
         "frames": len(picture.hidden),

@@ -33,4 +33,10 @@ def draw(picture: Picture, models: Mapping[str, Style]) -> SvgFigure | PlayerFig
 draw.register(Illustration, panels.draw)
 draw.register(HeatMaps, heat_maps.draw)
 draw.register(Space, spaces.draw)
-draw.register(Motions, player.draw)
+
+
+@draw.register
+def _(picture: Motions, models: Mapping[str, Style]) -> PlayerFigure:
+    """Return a player, in which two hues tell the motions apart that are shown."""
+    del models
+    return player.draw(picture)
