@@ -43,7 +43,7 @@ def motion(
     data_dir: DataDir = None,
     plugin: Plugins = None,
 ) -> None:
-    """Write the motion that a model made, as a file.
+    """Write the motion that a model made as GIF, AMC, BVH or CSV.
 
     It is the first recording that was filled, with what was visible as recorded, or the first
     sample. Folds are counted from 1; without one, it is the first. No file is overwritten.
