@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 from mocapbench.reports import CaseLayout, RowNotes, render
+from mocapbench.reports.text import cell_anchor
 
 
 class Outline(HTMLParser):
@@ -42,12 +43,23 @@ def test_headings_start_with_one_h1_and_skip_no_level(outline):
     assert all(after <= before + 1 for before, after in pairwise(levels))
 
 
-def test_ids_are_unique_and_every_link_leads_somewhere(outline):
+def cell_addresses(page):
+    """Return the addresses of the cells that the page knows."""
+    blob = re.search(r'<script type="application/json" id="cells">(.*?)</script>', page, re.S)
+    document = json.loads(blob.group(1))
+    return {
+        f"#{cell_anchor(task, *(document['shared'][place] for place in row[:2]))}"
+        for task, about in document["tasks"].items()
+        for row in about["rows"]
+    }
+
+
+def test_ids_are_unique_and_every_link_leads_somewhere(outline, page):
     ids = Counter(attributes["id"] for _, attributes in outline.elements if "id" in attributes)
     assert set(ids.values()) == {1}
     named = [attributes for _, attributes in outline.elements]
     targets = {link["href"] for link in outline.of("a")}
-    assert targets <= {f"#{name}" for name in ids}
+    assert targets <= {f"#{name}" for name in ids} | cell_addresses(page)
     labelled = {each["aria-labelledby"] for each in named if "aria-labelledby" in each}
     assert labelled <= set(ids)
 
@@ -78,7 +90,7 @@ def test_hostile_text_stays_text(page, outline):
 def test_hostile_names_stay_text(small):
     name = "<script>alert('x')</script>\"&"
     hostile = Outline(render(small({name: {name: [1.0, 2.0], "b": [float("nan")] * 2}})))
-    assert len(hostile.of("script")) == 2
+    assert len(hostile.of("script")) == 3
 
 
 def test_the_headline_says_that_the_simple_model_wins(page):
