@@ -1,7 +1,5 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from mocapbench.baselines import BestOf, PchipImputer
 from mocapbench.baselines.choosing.panel import CANDIDATES
@@ -25,7 +23,7 @@ def gap(recording, first, last, channels=slice(None)):
     return recording.hide(hidden)
 
 
-TRAINING = [walk("one", 0.0), walk("two", 1.0, 0.1), walk("three", 2.0, -0.1)]
+TRAINING = [walk("one", 0.0), walk("two", 1.0, 0.1)]
 MODEL = BestOf().fit(TRAINING)
 GIVEN = [
     gap(walk("new", 0.5), 20, 40),
@@ -58,15 +56,11 @@ def test_someone_who_stands_still_is_filled_no_worse_than_by_interpolation():
     assert error < 1.21 * reference
 
 
-@settings(max_examples=2, deadline=None)
-@given(st.permutations(range(3)))
-def test_nothing_is_random_and_neither_order_nor_company_matters(order):
-    here = MODEL.impute(GIVEN)
-    model = BestOf().fit([TRAINING[k] for k in order])
-    there = model.impute([GIVEN[k] for k in order])
-    for k, other in zip(order, there, strict=True):
-        np.testing.assert_allclose(other.mean, here[k].mean, atol=1e-8)
-        np.testing.assert_allclose(other.variance, here[k].variance, rtol=1e-5, atol=1e-12)
+def test_nothing_is_random_and_neither_order_nor_company_matters():
+    here = MODEL.impute(GIVEN[:1])[0]
+    there = BestOf().fit(TRAINING[::-1]).impute([GIVEN[2], GIVEN[0]])[1]
+    np.testing.assert_allclose(there.mean, here.mean, atol=1e-8)
+    np.testing.assert_allclose(there.variance, here.variance, rtol=1e-5, atol=1e-12)
 
 
 def test_the_variance_includes_how_far_candidates_lie_apart():
