@@ -53,11 +53,11 @@ def evaluate(work: Work, config: WorkerConfig, archive: Archive) -> Evaluation:
         return Evaluation(_scored(work, fit, problem, config), new, trained)
     except MemoryError:
         limit = config.memory / 2**30
-        status = Status.OUT_OF_MEMORY
         message = f"the job needed more than its {limit:.1f} GiB; raise --memory or lower --jobs"
+        record = job.record(Status.OUT_OF_MEMORY, message, traceback=traceback.format_exc())
     except BaseException as error:  # a model that calls sys.exit has failed like any other
-        status, message = Status.FAILED, f"{type(error).__name__}: {error}"
-    record = job.record(status, message, traceback=traceback.format_exc())
+        message = f"{type(error).__name__}: {error}"
+        record = job.record(Status.FAILED, message, traceback=traceback.format_exc())
     return Evaluation(record, new, trained)
 
 

@@ -115,6 +115,7 @@ def test_it_remains_where_a_problem_then_fails(jobs, drawn, monkeypatch):
     monkeypatch.setattr(Drawn, "impute", lambda *_: 1 / 0)
     ended = evaluate(Work(job, None), CONFIG, archive_at(None))
     assert "ZeroDivisionError" in ended.record.message
+    assert "1 / 0" in ended.record.traceback
     assert ended.trained is not None
 
 
