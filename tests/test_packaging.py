@@ -113,7 +113,7 @@ def test_the_wheel_holds_the_packages_and_their_data_alone(tree):
         held = {name for name in archive.namelist() if ".dist-info/" not in name}
     packages = {f"mocapbench/{name}" for name in files_below(tree, *FOLDERS)}
     assert held == packages | {"mocapbench/__init__.py", "mocapbench/py.typed"}
-    assert {"mocapbench/reports/page/report.html.j2", "mocapbench/metrics/__init__.pyi"} <= held
+    assert {"mocapbench/reports/page/parts/page.html.j2", "mocapbench/metrics/__init__.pyi"} <= held
     parts = ("parts/player.html.j2", "scripts/player.js", "styles/player.css")
     assert {f"mocapbench/reports/page/{part}" for part in parts} <= held
     assert not any("/test_" in name for name in held)

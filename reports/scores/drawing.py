@@ -54,7 +54,7 @@ class Drawing:
         chosen = grid.select(metric, grid.labels, [name for name in names if name in grid.cases])
         flat = {
             label: row[np.isfinite(row)].tolist()
-            for label, row in zip(grid.labels, chosen.reshape(len(grid.labels), -1), strict=True)
+            for label, row in zip(grid.labels, chosen, strict=True)
         }
         values = {label: row for label, row in flat.items() if row}
         scale = strip_scale(chain.from_iterable(values.values())) if values else None

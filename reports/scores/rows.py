@@ -81,7 +81,7 @@ class Rows:
 
     def _mean(self, label: str, standing: Standing | None) -> ScoreCell:
         """Return the mean over the cases that count; with one case, what is behind it."""
-        if not self.shown:
+        if len(self.results.cases) == 1:
             return self._cell(self.results.cases[0], label)
         found = [self.results.estimate(case.name, label, self.metric) for case in self.counting]
         means = [estimate.mean for estimate in found if estimate is not None]

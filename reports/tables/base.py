@@ -1,15 +1,9 @@
-"""Tables as values: cells of text for people, and a tidy frame of full precision for machines.
-
-Every table of the page is a `Table`, so that one template renders all of them and one function
-each turns them into CSV and LaTeX.
-"""
+"""Plain tables as values, so that one template renders all of them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-
-import pandas as pd
 
 __all__ = ["ABSENT", "Cell", "Table", "headings"]
 
@@ -62,8 +56,6 @@ class Table:
         Column headings.
     rows : tuple of tuple of Cell
         The first cell of a row is its heading.
-    data : DataFrame
-        The same content, tidy and unrounded.
     notes : tuple of str
         Notes below the table.
     """
@@ -72,7 +64,6 @@ class Table:
     caption: str
     columns: tuple[Cell, ...]
     rows: tuple[tuple[Cell, ...], ...]
-    data: pd.DataFrame | None = None
     notes: tuple[str, ...] = ()
 
 

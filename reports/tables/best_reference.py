@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import pandas as pd
-
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
@@ -48,7 +46,6 @@ def best_reference_table(results: TaskResults) -> Table | None:
             *headings([results.metrics[name].title for name in metrics]),
         ),
         rows=tuple(_row(results, case, label, metrics) for case, label in rows),
-        data=_tidy(results, [(case.name, label) for case, label in rows], metrics),
     )
 
 
@@ -72,16 +69,3 @@ def _cell(results: TaskResults, case: str, label: str, metric: str) -> Cell:
     spread = plus_minus(estimate.sample_two_sd, places)
     kind = "best" if label == results.best_label(case, metric) else ""
     return Cell(number(estimate.mean, places), spread=spread, kind=kind)
-
-
-def _tidy(
-    results: TaskResults, rows: Sequence[tuple[str, str]], metrics: Sequence[str]
-) -> pd.DataFrame:
-    return pd.DataFrame(
-        [
-            {"case": case, "label": label, "metric": metric, **vars(estimate)}
-            for case, label in rows
-            for metric in metrics
-            if (estimate := results.estimate(case, label, metric)) is not None
-        ]
-    )

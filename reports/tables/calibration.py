@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import pandas as pd
 
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
@@ -49,7 +48,6 @@ def calibration_table(results: TaskResults) -> Table | None:
                 for label, by_metric in scored.items()
             ),
         ),
-        data=pd.DataFrame([{"label": label, **by_metric} for label, by_metric in scored.items()]),
     )
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Mapping
 from itertools import combinations
-
-import pandas as pd
 
 from mocapbench.reports.analysis.cells import cells
 from mocapbench.reports.analysis.contrasts import PairContrast, contrasts
@@ -27,8 +26,8 @@ def contrast_table(results: TaskResults, metric: str) -> Table | None:
     most = max((contrast.n for contrast in by_pair.values()), default=0)
     if most < FEWEST_UNITS:
         return None
-    data = _tidy(results, metric, scored.labels, by_pair)
-    places = decimals(data["advantage"].dropna())
+    advantages = [by_pair[pair].advantage for pair in combinations(scored.labels, 2)]
+    places = decimals(value for value in advantages if not math.isnan(value))
     title = results.metrics[metric].short
     return Table(
         id=slug(results.layout.name, metric, "contrasts"),
@@ -39,7 +38,6 @@ def contrast_table(results: TaskResults, metric: str) -> Table | None:
             (Cell(row), *(_cell(by_pair.get((row, column)), places) for column in scored.labels))
             for row in scored.labels
         ),
-        data=data,
     )
 
 
@@ -57,21 +55,3 @@ def _cell(contrast: PairContrast | None, places: int) -> Cell:
 
 def _unbroken(text: str) -> str:
     return text.replace(" ", "\N{NO-BREAK SPACE}")
-
-
-def _tidy(
-    results: TaskResults, metric: str, labels: Sequence[str], by_pair: Contrasts
-) -> pd.DataFrame:
-    return pd.DataFrame(
-        [
-            {
-                "task": results.layout.name,
-                "metric": metric,
-                "first_label": first,
-                "second_label": second,
-                **vars(contrast),
-            }
-            for first, second in combinations(labels, 2)
-            for contrast in [by_pair[first, second]]
-        ]
-    )

@@ -39,7 +39,6 @@ def cost_table(results: TaskResults) -> Table | None:
         caption="Cost: over the jobs that finished",
         columns=headings(list(shown)),
         rows=tuple(zip(*shown.values(), strict=True)),
-        data=data,
     )
 
 
@@ -92,7 +91,7 @@ def _cost_row(row: Mapping[Hashable, float]) -> tuple[Cell, ...]:
 
 
 def _engine(engine: str) -> Cell:
-    """Return the names of the engines; the reasons for their choice are in the data."""
+    """Return the names of the engines, without the reasons for their choice."""
     names = dict.fromkeys(each.partition(":")[0] for each in engine.split("; "))
     return Cell(", ".join(names)) if engine else ABSENT
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import pandas as pd
-
 from mocapbench.reports.analysis.negative_control import (
     ENOUGH_CELLS,
     LEAST_VARIANCE_RATIO,
@@ -46,7 +44,6 @@ def negative_control_table(results: TaskResults) -> Table | None:
             *headings(["cells", "MLC", "MCC", "variance ratio"]),
         ),
         rows=(*map(_row, entrants), _row(control, note="its MLC, no difference")),
-        data=pd.DataFrame([_tidy(entrant, m) for entrant in checked for m in entrant.measures]),
         notes=_notes(checked),
     )
 
@@ -98,17 +95,3 @@ def _notes(checked: Sequence[NegativeControlResult]) -> tuple[str, ...]:
             if result.exempt
         ),
     )
-
-
-def _tidy(result: NegativeControlResult, measure: Measure) -> dict[str, object]:
-    estimate = measure.estimate
-    return {
-        "label": result.label,
-        "measure": measure.name,
-        "mean": None if estimate is None else estimate.mean,
-        "half_width": None if estimate is None else estimate.half_width,
-        "n": 0 if estimate is None else estimate.n,
-        "decision": measure.decision.value,
-        "offending": len(measure.offending),
-        "exempt": result.exempt,
-    }

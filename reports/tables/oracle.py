@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pandas as pd
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.tables.base import Cell, Table, headings
@@ -34,7 +33,6 @@ def oracle_table(results: TaskResults) -> Table | None:
         rows=tuple(
             (Cell(label), Cell(f"{number(ratio, 2)}×"), Cell(str(n))) for label, ratio, n in rows
         ),
-        data=pd.DataFrame(rows, columns=["label", "ratio", "cases"]),
     )
 
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-import pandas as pd
-
 from mocapbench.reports.analysis.published.totals import (
     Tally,
     published_totals,
@@ -51,7 +49,6 @@ def papers_table(tasks: Iterable[TaskResults]) -> Table | None:
             )
             for row in rows
         ),
-        data=pd.DataFrame(rows),
     )
 
 

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
-import pandas as pd
-
 from mocapbench.reports.analysis.published.comparisons import Comparison, answers, comparisons
-from mocapbench.reports.analysis.published.verdicts import PublishedVerdict, allowance
+from mocapbench.reports.analysis.published.verdicts import PublishedVerdict
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.paper.published import PublishedValue
 from mocapbench.reports.paper.remarks import PublishedAddress
 from mocapbench.reports.tables.base import Cell, Table, headings
 from mocapbench.reports.tables.letters import letters
@@ -50,7 +46,6 @@ def verdict_table(results: TaskResults, metric: str) -> Table | None:
             *headings(["verdict"], "text"),
         ),
         rows=tuple(_row(pair, places, lettered, counts=_counts(pair, answering)) for pair in pairs),
-        data=pd.DataFrame([_tidy(pair, counts=_counts(pair, answering)) for pair in pairs]),
     )
 
 
@@ -85,30 +80,3 @@ def _row(
             kind=KINDS[pair.verdict],
         ),
     )
-
-
-def _tidy(pair: Comparison, *, counts: bool) -> dict[str, object]:
-    return {
-        "task": pair.published.task,
-        "case": pair.case.name,
-        "label": pair.label,
-        "metric": pair.metric,
-        **vars(pair.ours),
-        "source": pair.published.source,
-        "published_case": pair.published.case,
-        "published_metric": pair.published.metric,
-        "published_model": pair.published.model,
-        "published": pair.published.value,
-        "published_two_sd": pair.published.two_sd,
-        "allowance": allowance(pair.published),
-        "difference": pair.ours.mean - pair.published.value,
-        "relative_difference": _relative(pair.ours.mean - pair.published.value, pair.published),
-        "verdict": pair.verdict.value,
-        "counts": counts,
-        "reason": pair.reason,
-        "erratum": pair.published.erratum,
-    }
-
-
-def _relative(difference: float, published: PublishedValue) -> float:
-    return difference / abs(published.value) if published.value else math.nan

@@ -84,8 +84,8 @@ def _row(pair: Comparison, number: int, scale: Scale, style: Style) -> str:
         dot(scale.place(ours), y + 2.5, style.shape),
         text(WIDTH - 4.0, y + 4.0, MARKS[pair.verdict], "end"),
     ]
-    names = f"{pair.label}, {pair.case.heading}"
-    told = f"{names}: ours {ours:.4g}, published {paper:.4g}, {pair.verdict.value}"
+    numbers = f"ours {ours:.4g}, published {paper:.4g}, {pair.verdict.value}"
+    told = f"{pair.label}, {pair.case.heading}: {numbers}"
     return row(style, number, *marks, title=told, name=f"{pair.label}, {pair.case.name}")
 
 

@@ -12,7 +12,7 @@
   );
 
   const reveal = () => {
-    const id = decodeURIComponent(location.hash.slice(1));
+    const id = location.hash.slice(1); // ids have letters, digits and hyphens alone
     if (!id || id.startsWith("cell=")) return;
     const folded = holder(id);
     if (folded) fill(folded.parentElement);

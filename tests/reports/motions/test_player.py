@@ -15,7 +15,8 @@ def drawn():
     return draw(
         Motions(
             "a-task", "Motion", "c", 0.1, JOINTS, (-1, 0, 0, 0, 3), HIDDEN, truths, motions, "nn"
-        )
+        ),
+        {},
     )
 
 

@@ -9,7 +9,7 @@ import pytest
 from mocapbench.reports import Curve, HeatMap, HeatMaps, Illustration, Panel, Path3D, Space
 from mocapbench.reports.figures.pictures.draw import draw
 from mocapbench.reports.figures.styles import Style
-from mocapbench.reports.page.assets import stylesheet
+from mocapbench.reports.resources import styles
 
 CHROMIUM = Path("/usr/bin/chromium")
 sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
@@ -51,7 +51,7 @@ def address(tmp_path_factory):
     )
     body = f"<ul class=legend>{legend}</ul>" + "".join(each.svg for each in figures)
     page = (
-        f"<!DOCTYPE html><head><style>{stylesheet()}</style></head><body><figure>{body}</figure>"
+        f"<!DOCTYPE html><head><style>{styles()}</style></head><body><figure>{body}</figure>"
         + "".join(f"<script>{{{script}}}</script>" for script in scripts)
     )
     path = tmp_path_factory.mktemp("page") / "figures.html"

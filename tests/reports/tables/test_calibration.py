@@ -11,7 +11,7 @@ def results_of(bundle, task=0):
 def test_coverage_stands_beside_its_nominal_value(bundle):
     table = calibration_table(results_of(bundle))
     assert [cell.text for cell in table.rows[0]] == ["nominal", "0.50", "0.80", "0.90", "0.95"]
-    assert set(table.data["label"]) == {
+    assert {row[0].text for row in table.rows[1:]} == {
         *("mohgp-3", "moa-3", "lmc-independent", "gp-independent", "trivial", "oracle")
     }
 

@@ -91,14 +91,6 @@ def test_a_mark_stands_only_where_the_test_separates(small):
     assert cell(table, "a", "d").text == "0.000"
 
 
-def test_the_data_hold_every_pair_once_at_full_precision(small):
-    results = results_of(small(VALUES))
-    data = contrast_table(results, "mse").data
-    assert len(data) == 3
-    assert data["advantage"].iloc[0] == contrast_of(results, "a", "b").advantage
-    assert (data["t_p_holm"] >= data["t_p"]).all()
-
-
 def test_the_caption_names_the_units(small):
     assert "over 6 folds" in contrast_table(results_of(small(VALUES)), "mse").caption
     cases = tuple(CaseLayout(name, {}, subjects=(name,)) for name in VALUES)

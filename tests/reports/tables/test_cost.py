@@ -12,8 +12,8 @@ def test_cost_is_the_median_of_seconds_and_the_peak_of_memory(small):
     bundle = small({"row": {"a": [1.0, 1.0, 1.0, float("nan")]}})
     bundle.records["fit_seconds"] = [1.0, 2.0, 9.0, 99.0]
     bundle.records["peak_memory_mb"] = [10.0, 30.0, 20.0, 99.0]
-    (cost,) = cost_table(results_of(bundle)).data.to_dict("records")
-    assert (cost["jobs"], cost["fit_seconds"], cost["peak_memory_mb"]) == (3, 2.0, 30.0)
+    (cost,) = cost_table(results_of(bundle)).rows
+    assert [cell.text for cell in cost[:5]] == ["a", "3", "2", "1", "30"]
 
 
 def test_what_no_label_has_gets_no_column(small):
@@ -27,20 +27,19 @@ def test_what_no_label_has_gets_no_column(small):
 
 def test_convergence_is_a_share_and_absent_where_it_means_nothing(bundle):
     table = cost_table(results_of(bundle))
-    shares = table.data.set_index("label")["converged"]
-    assert 0.5 < shares["mohgp-3"] <= 1.0
-    spline = next(row for row in table.rows if row[0].text == "cubic-spline")
-    assert spline[-2].text == "–"
+    place = [column.text for column in table.columns].index("converged")
+    shares = {row[0].text: row[place].text for row in table.rows}
+    assert 50 < int(shares["mohgp-3"].rstrip("%")) <= 100
+    assert shares["cubic-spline"] == "–"
 
 
-def test_each_engine_is_named_once_and_its_reason_is_in_the_data(small):
+def test_each_engine_is_named_once(small):
     bundle = small({"row": {"a": [1.0, 1.0, 1.0], "b": [1.0, 1.0, 1.0]}})
     bundle.records["engine"] = ["dense: least work", "split: also", "dense: least work", "", "", ""]
     table = cost_table(results_of(bundle))
     (_, *_, first), (_, *_, second) = table.rows
     assert (first.text, first.note) == ("dense, split", "")
     assert second.text == "–"
-    assert "dense: least work" in cost_table(results_of(bundle)).data["engine"].iloc[0]
 
 
 @pytest.mark.parametrize(

@@ -17,30 +17,41 @@ def table(tasks):
     return papers_table(tasks)
 
 
-def test_every_row_adds_up_to_its_values(table):
-    assert (table.data[list(VERDICTS)].sum(axis=1) == table.data["values"]).all()
+@pytest.fixture
+def counts(table):
+    """Return the numbers of each row by their headings, 0 where a dash stands."""
+    return {
+        row[0].text: {
+            name: 0 if cell == ABSENT else int(cell.text)
+            for name, cell in zip(COUNTS, row[2:], strict=True)
+        }
+        for row in table.rows
+    }
 
 
-def test_the_last_row_counts_all_published_values(tasks, table):
-    last = table.data.iloc[-1]
-    assert (last["source"], last["values"]) == (ALL, len(every_value()))
-    assert last[list(VERDICTS)].to_dict() == published_totals(tasks).counts
+def test_every_row_adds_up_to_its_values(counts):
+    assert len(counts) > 1
+    for row in counts.values():
+        assert sum(row[verdict] for verdict in VERDICTS) == row["values"]
 
 
-def test_a_value_that_two_entrants_answer_counts_once(table):
-    table_10 = table.data.set_index("source").loc["thesis-table-10"]
-    assert table_10[list(VERDICTS)].sum() == table_10["values"] == 12
+def test_the_last_row_counts_all_published_values(tasks, counts):
+    values, *verdicts = counts[ALL].values()
+    assert list(counts)[-1] == ALL
+    assert values == len(every_value())
+    assert dict(zip(VERDICTS, verdicts, strict=True)) == published_totals(tasks).counts
+
+
+def test_a_value_that_two_entrants_answer_counts_once(counts):
+    table_10 = counts["thesis table 10"]
+    assert table_10["values"] == 12
     assert table_10["not run"] == 0
 
 
-def test_cells_stand_under_their_headings(table):
+def test_rows_are_as_wide_as_the_headings(table):
     headings = [cell.text for cell in table.columns]
     assert headings == ["published in", "task", *COUNTS]
-    for cells, row in zip(table.rows, table.data.to_dict("records"), strict=True):
-        shown = dict(zip(headings, cells, strict=True))
-        assert shown["task"].text == row["task"]
-        for name in COUNTS:
-            assert shown[name].text == (str(row[name]) if row[name] else ABSENT.text)
+    assert {len(row) for row in table.rows} == {len(headings)}
 
 
 def test_the_page_shows_it_and_offers_it(page):
