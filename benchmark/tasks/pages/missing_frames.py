@@ -67,10 +67,10 @@ PAGE = TaskPage(
         "window has Markov chains of its own.",
         "The constants of pose-kriging are those with the least error when each training walker is "
         "left out in turn.",
-        "The GPDM family learns noise from training frames that each have a latent position of their "
-        "own, and predicts given one latent trajectory: by itself it claims too little variance for a "
-        "new person. Its variances, and those of lds, fam and low-rank, are therefore widened by "
-        "trials on visible frames; trials are shorter than the gap, so that some stay too narrow.",
+        "The GPDM family learns its noise from training frames that have a latent position each, "
+        "and predicts given one latent trajectory: by itself it claims too little variance for a "
+        "new person. Its variances, and those of lds, fam and low-rank, are widened by trials on "
+        "visible frames. Trials are shorter than the gap, so that some variances stay too small.",
         "pca-regression and low-rank learn what channels of one frame tell about each other, and "
         "nothing over time: on whole hidden frames they give each channel’s mean in the recording.",
         "Four of the fifty channels are constant in training. The GPDM family leaves them out, "
