@@ -60,34 +60,15 @@ PAGE = TaskPage(
         "parameters still drift.",
         "In cyclic-alignment-centred a cycle’s deviation from its parent is smooth, not the cycle: "
         "chosen on the training walkers, each left out in turn.",
-        "Two-stage learning draws 25 samples a round here and 50 in the paper; each window has "
-        "Markov chains of its own.",
+        "Two-stage learning draws 25 samples a round here and 50 in the paper; the windows of a "
+        "recording share one fit.",
         "The constants of pose-kriging have the least error when each training walker is left out "
         "in turn.",
         NOTHING_OVER_TIME,
-        "The paper’s “error per frame” is the mean Euclidean norm of the 50-channel error.",
-        "The paper does not say where the latent trajectory of a gap starts from, which matters "
-        "more than the way of learning. In the labels of the GPDM family, the last word is the "
-        "start. The published columns stand beside the start whose mean over these rows came "
-        "nearest, which was chosen by looking at them; every way of learning enters with its "
-        "best start too.",
-        "Kernel properties of GPDM Table 1, four walkers: SNR(α) 6.47 (MAP), 940 (balanced), "
-        "100 (fixed α), 18.0 (two-stage); CLS(α) 0.32, 1.44, 2.24, 0.75; SNR(β) 34.0, 5.23, "
-        "9.32, 45.0; CLS(β) 0.54, 0.77, 1.43, 1.34. Ours stand with the pictures of the latent "
-        "spaces. Learning is stopped early, after a stated number of iterations: the parameters "
-        "keep drifting.",
-        "In cyclic-alignment-centred it is a cycle's deviation from its parent that is smooth, not "
-        "the cycle. It was chosen on the training walkers, each left out in turn.",
-        "Two-stage learning draws 25 samples in each round here, where the paper drew 50; each "
-        "window has Markov chains of its own.",
-        "The constants of pose-kriging are those with the least error when each training walker is "
-        "left out in turn.",
-        "The GPDM family learns its noise from training frames that have a latent position each, "
-        "and predicts given one latent trajectory: by itself it claims too little variance for a "
-        "new person. Its variances, and those of lds, fam and low-rank, are widened by trials on "
-        "visible frames. Trials are shorter than the gap, so that some variances stay too small.",
-        "pca-regression and low-rank learn what channels of one frame tell about each other, and "
-        "nothing over time: on whole hidden frames they give each channel’s mean in the recording.",
+        "The GPDM family knows no difference between persons, so that by itself it claims too little "
+        "variance for a new one. Its variances, and those of lds, fam and low-rank, are widened by "
+        "trials on visible frames.",
+        "Trials are shorter than the gap, so that some variances stay too small.",
         "Four of the fifty channels are constant in training. The GPDM family leaves them out, "
         "which hardly changes errors and lowers SNR(β).",
     ),
