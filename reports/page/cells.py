@@ -66,7 +66,7 @@ def _task(results: TaskResults, origins: Origins, shared: Shared) -> dict[str, A
 
 
 def _metric(info: MetricInfo) -> list[str]:
-    return [info.title, _GOALS.get(info.direction.value, f"{info.target} is ideal")]
+    return [info.name, info.short, _GOALS.get(info.direction.value, f"{info.target} is ideal")]
 
 
 def _jobs(results: TaskResults) -> dict[tuple[str, str], list[Job]]:

@@ -48,7 +48,7 @@
     return [`${digits(value)}${spread}`, element("small", {}, remarks.join(" · "))];
   };
 
-  const scoreRow = ([name, goal], score) => {
+  const scoreRow = ([, name, goal], score) => {
     const [values, mean, half, published] = score ?? [[], null, null];
     const head = element("th", { scope: "row" }, name, element("small", {}, goal));
     const interval = half === null ? "–" : `${digits(mean - half)} to ${digits(mean + half)}`;
@@ -86,14 +86,22 @@
     part(name).textContent = sign(cell.label);
   };
 
+  const ofCases = (task, cell, cells) => cells.map((other) => element("a", {
+    href: address(task, other.case, other.label),
+    ...(other.case === cell.case ? { "aria-current": "true" } : {}),
+  }, other.case));
+
   const fill = (task, cell) => {
-    const { metrics } = tasks[task];
-    const row = cellsOf(task).filter((other) => other.case === cell.case);
+    const { metrics } = tasks[task], cells = cellsOf(task);
+    const row = cells.filter((other) => other.case === cell.case);
+    const column = cells.filter((other) => other.label === cell.label);
+    part("cases").hidden = column.length === 1;
+    part("cases").replaceChildren(...ofCases(task, cell, column));
     const place = row.findIndex((other) => other.label === cell.label);
     neighbour("previous", task, row[place - 1], (label) => `← ${label}`);
     neighbour("next", task, row[place + 1], (label) => `${label} →`);
     part("scores").replaceChildren(...metrics.map((metric, index) => scoreRow(metric, cell.scores[index])));
-    const names = [...metrics.map(([name]) => name), "fit, s", "predict, s", "memory, MB"];
+    const names = [...metrics.map(([, name]) => name), "fit, s", "predict, s", "memory, MB"];
     part("fold-columns").replaceChildren(element("tr", {}, ...["fold", "status", ...names].map(
       (name) => element("th", { scope: "col", class: name === "status" ? "text" : "" }, name))));
     part("folds").replaceChildren(...cell.folds.map((_, place) => foldRow(cell, place)));
@@ -115,8 +123,8 @@
   let before = null; // where a link of this page opened the dialog, so that going back closes it
   const show = ([task, name, label]) => {
     const known = Object.hasOwn(tasks, task) ? cellsOf(task) : [];
-    const cell = known.find((other) => other.case === name && other.label === label);
-    title.textContent = cell ? `${label} · ${name}` : "No such cell";
+    const cell = known.find((other) => other.label === label && (other.case === name || name === ""));
+    title.textContent = cell ? `${label} · ${cell.case}` : "No such cell";
     part("where").textContent = cell ? `${tasks[task].title} · ${task}`
       : `This report has no cell “${[task, name, label].filter((each) => each !== undefined).join("/")}”. A cell is task/case/model, as the tables name them.`;
     part("known").hidden = !cell;

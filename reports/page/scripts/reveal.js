@@ -24,9 +24,12 @@
   };
 
   document.addEventListener("toggle", ({ target }) => target.open && fill(target), true);
+  let folded = [];
   addEventListener("beforeprint", () => {
-    document.querySelectorAll("details").forEach((details) => { fill(details); details.open = true; });
+    folded = [...document.querySelectorAll("details:not([open])")];
+    folded.forEach((details) => { fill(details); details.open = true; });
   });
+  addEventListener("afterprint", () => folded.forEach((details) => { details.open = false; }));
   addEventListener("hashchange", reveal);
   reveal();
 })();

@@ -1,6 +1,6 @@
 "use strict";
 
-// Sort a table by a head, show one family of models, save a table as CSV or LaTeX.
+// Sort a table by a head, show one family of models.
 (() => {
   const worth = (cell) => (cell?.dataset.v === undefined ? Infinity : Number(cell.dataset.v));
 
@@ -25,51 +25,15 @@
     }
   };
 
-  const filter = (family) => {
-    const others = [...document.querySelectorAll("tr[data-family]")];
-    others.forEach((row) => { row.hidden = family !== "" && row.dataset.family !== family; });
-  };
-
-  const text = (cell) => cell.dataset.v ?? cell.textContent.replace(/\s+/g, " ").trim();
-  const quoted = (value) => {
-    const safe = /^[=+@-]/.test(value) && Number.isNaN(Number(value)) ? `'${value}` : value;
-    return `"${safe.replaceAll('"', '""')}"`;
-  };
-  const escaped = (value) => value
-    .replace(/[\\&%$#_{}~^]/g, (c) => ({ "\\": "\\textbackslash{}", "~": "\\textasciitilde{}", "^": "\\textasciicircum{}" })[c] ?? `\\${c}`)
-    .replaceAll("±", "$\\pm$").replaceAll("−", "$-$").replaceAll("≈", "$\\approx$");
-
-  const lines = (table, read) => [...table.rows].map((row) => [...row.cells].map(read));
-  const formats = {
-    csv: (table) => lines(table, (cell) => quoted(text(cell))).map((row) => row.join(",")).join("\r\n"),
-    tex: (table) => {
-      const rows = lines(table, (cell) => escaped(cell.textContent.replace(/\s+/g, " ").trim()));
-      const shape = `l${"r".repeat(Math.max(...rows.map((row) => row.length)) - 1)}`;
-      const [head, ...body] = rows.map((row) => `${row.join(" & ")} \\\\`);
-      return [`\\begin{tabular}{${shape}}`, "\\toprule", head, "\\midrule", ...body, "\\bottomrule", "\\end{tabular}"].join("\n");
-    },
-  };
-  const types = { csv: "text/csv", tex: "application/x-tex" };
-
-  const save = (name, format, content) => {
-    const blob = new Blob([content], { type: `${types[format]};charset=utf-8` });
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(blob);
-    link.download = `${name}.${format}`;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-  };
-
-  const show = (root) => root.querySelectorAll(".downloads").forEach((group) => { group.hidden = false; });
-  document.addEventListener("click", ({ target }) => {
-    const button = target.closest("button");
-    if (button?.matches(".sort")) sort(button);
-    if (button?.dataset.table) {
-      const { table, format } = button.dataset;
-      save(table, format, formats[format](document.getElementById(table)));
-    }
+  const choice = document.querySelector(".filter select");
+  const filter = () => document.querySelectorAll("tr[data-family]").forEach((row) => {
+    row.hidden = choice.value !== "" && row.dataset.family !== choice.value;
   });
-  document.addEventListener("filled", ({ target }) => show(target));
-  document.querySelector(".filter select")?.addEventListener("change", ({ target }) => filter(target.value));
-  show(document);
+
+  document.addEventListener("click", ({ target }) => {
+    const button = target.closest(".sort");
+    if (button) sort(button);
+  });
+  choice.addEventListener("change", filter);
+  document.addEventListener("filled", filter);
 })();
