@@ -138,7 +138,10 @@
     const names = named(location.hash);
     if (names) return show(names);
     dialog.close();
-    if (before?.hash === location.hash) scrollTo({ top: before.top, behavior: "instant" });
+    const { hash, top } = before ?? {};
+    if (hash === location.hash) { // after what else follows an address has scrolled to it
+      requestAnimationFrame(() => scrollTo({ top, behavior: "instant" }));
+    }
     before = null;
   };
 
