@@ -210,7 +210,7 @@ marker_gaps = Task(
             ),
             folds=4,
             budget={"max_iter": 10, "n_restarts": 1},
-            opt_in=_NOT_QUICK,
+            opt_in=(*_NOT_QUICK, "best-of"),
         ),
         "paper": Profile(on_recordings(_CASES), folds=4, budget={"max_iter": 50}, opt_in=_SLOW),
     },

@@ -129,6 +129,7 @@ missing_frames = Task(
                 *NOT_QUICK,
                 "gpdm-balanced-viterbi",
                 "cyclic-alignment-centred",
+                "best-of",
                 *_LIKE_OTHERS_HERE,
             ),
         ),

@@ -60,11 +60,15 @@ PAGE = TaskPage(
         "parameters still drift.",
         "In cyclic-alignment-centred a cycle’s deviation from its parent is smooth, not the cycle: "
         "chosen on the training walkers, each left out in turn.",
-        "Two-stage learning draws 25 samples a round here and 50 in the paper; each window has "
-        "Markov chains of its own.",
+        "Two-stage learning draws 25 samples a round here and 50 in the paper; the windows of a "
+        "recording share one fit.",
         "The constants of pose-kriging have the least error when each training walker is left out "
         "in turn.",
         NOTHING_OVER_TIME,
+        "The GPDM family knows no difference between persons, so that by itself it claims too "
+        "little variance for a new one. Its variances, and those of lds, fam and low-rank, are "
+        "widened by trials on visible frames.",
+        "Trials are shorter than the gap, so that some variances stay too small.",
         "Four of the fifty channels are constant in training. The GPDM family leaves them out, "
         "which hardly changes errors and lowers SNR(β).",
     ),
