@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.bundle.model_info import ModelInfo
 from mocapbench.reports.front.answers import answers
 from mocapbench.reports.front.board import SHADES, BoardCell
 from mocapbench.reports.front.board_cells import board_cells, reference_of
@@ -94,8 +93,8 @@ def test_the_scoreboard_has_a_column_a_task_and_rows_of_what_took_part(small):
 
 def test_the_best_interpolation_of_each_task_is_a_reference_line(small):
     values = {"row": {"a": [1.0], "linear": [2.0], "pchip": [1.5]}}
-    models = {name: ModelInfo(name, family="Interpolation") for name in ("linear", "pchip")}
-    results = [results_of(small(values, models=models)), results_of(small(values))]
+    interpolations = ("linear", "pchip")
+    results = [results_of(small(values, interpolations=interpolations)), results_of(small(values))]
     board = scoreboard(results, {"Models": ["a", "linear", "pchip"]})
     (best,) = board.references
     assert best.label == "best interpolation"
@@ -132,7 +131,7 @@ def test_where_as_many_tasks_have_other_leaders_it_depends(small):
 
 def test_a_leader_that_is_no_better_than_the_reference_is_told(small):
     (answer,) = answers([results_of(small({"row": {"a": [3.0], "replay": [2.0]}}))])
-    assert answer.findings[0].text == "a 3.00; no better than replay; no rival"
+    assert answer.findings[0].text == "a 3.00; no better than replay"
     assert answers([results_of(small({"row": {"a": [NAN]}}))]) == []
 
 
