@@ -117,3 +117,34 @@ def test_the_keyboard_reaches_the_results_first(visit):
     tab = visit()
     tab.keyboard.press("Tab")
     assert tab.evaluate("document.activeElement.getAttribute('href')") == "#main"
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_model_mean_and_interval_of_every_table_of_scores_are_in_view(visit, width):
+    tab = visit(width)
+    unfold(tab)
+    tab.wait_for_selector("details .scores")
+    ends = tab.eval_on_selector_all(
+        ".scores :is(th:first-child, .mean, .drawn, .strip)",
+        "cells => cells.filter(c => c.checkVisibility()).map(c => c.getBoundingClientRect().right)",
+    )
+    assert 0 < max(ends) <= width
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+def test_the_bar_covers_no_heading_that_a_link_leads_to(visit, width):
+    tab = visit(width, fragment="#task-walking-interpolation", reduced_motion="reduce")
+    bar, heading = (
+        tab.locator(selector).bounding_box()
+        for selector in (".contents", "#task-walking-interpolation")
+    )
+    assert heading["y"] >= bar["y"] + bar["height"] or heading["y"] + heading["height"] <= bar["y"]
+
+
+def test_no_head_of_the_scoreboard_is_cut(visit):
+    tab = visit()
+    cut = tab.eval_on_selector_all(
+        "#scoreboard thead th",
+        "all => all.filter(th => th.scrollWidth > th.clientWidth + 1).length",
+    )
+    assert cut == 0

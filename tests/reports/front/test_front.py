@@ -1,0 +1,159 @@
+"""The first screen: answers, the scoreboard and the line of trust."""
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.front.answers import answers
+from mocapbench.reports.front.board import SHADES, BoardCell
+from mocapbench.reports.front.board_cells import board_cells, reference_of
+from mocapbench.reports.front.scoreboard import scoreboard
+from mocapbench.reports.front.trust import trust
+from mocapbench.reports.text import cell_anchor
+
+NAN = float("nan")
+laws = settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+
+
+def results_of(bundle):
+    return task_results(bundle, bundle.layouts[0])
+
+
+@pytest.mark.parametrize("task", [0, 1, 2])
+def test_every_cell_is_the_mean_over_cases_that_count(bundle, task):
+    results = task_results(bundle, bundle.layouts[task])
+    metric = results.layout.page.metrics[0]
+    cases = {case.name for case in results.representative_cases(metric)}
+    scores = results.scores
+    own = scores[(scores["metric"] == metric) & scores["case"].isin(cases)]
+    means = own.groupby(["label", "case"])["value"].mean().groupby("label").mean()
+    found = {label: cell.value for label, cell in board_cells(results).items()}
+    assert found == pytest.approx(means.to_dict())
+
+
+@laws
+@given(st.lists(st.floats(0.01, 100.0), min_size=2, max_size=8, unique=True))
+def test_shades_say_how_many_times_worse_than_the_best_a_mean_is(small, means):
+    labels = [f"model {place}" for place in range(len(means))]
+    one = {label: [mean] for label, mean in zip(labels, means, strict=True)}
+    cells = board_cells(results_of(small({"row": one})))
+    most = {name: times for times, name in SHADES}
+    for label, mean in zip(labels, means, strict=True):
+        times = mean / min(means)
+        shade = cells[label].shade
+        assert times <= most.get(shade, float("inf")) * (1 + 1e-9)
+        assert all(times >= limit or most.get(shade, 1e9) <= limit for limit in most.values())
+    assert [cell.shade for cell in cells.values()].count("best") == 1
+
+
+def test_limits_are_not_shaded_and_cells_name_the_cases_that_they_lack(small):
+    values = {"x": {"a": [1.0], "b": [2.0], "oracle": [0.1]}, "y": {"a": [1.0], "b": [NAN]}}
+    cells = board_cells(results_of(small(values)))
+    assert (cells["oracle"].shade, cells["oracle"].style) == ("", "reference")
+    assert cells["b"].note == "1 of 2 cases"
+    assert cells["a"].link == cell_anchor("small", "", "a")
+
+
+def test_what_is_no_better_than_the_reference_is_marked(small):
+    results = results_of(small({"row": {"a": [1.0], "trivial": [2.0], "b": [2.0], "c": [3.0]}}))
+    cells = board_cells(results)
+    assert reference_of(results) == "trivial"
+    assert {label for label, cell in cells.items() if cell.beaten} == {"b", "c"}
+    assert reference_of(results_of(small({"row": {"a": [1.0]}}))) is None
+
+
+def test_a_style_names_the_shade_and_the_mark():
+    styles = [BoardCell("", 0.0, name).style for _, name in SHADES]
+    assert styles == [f"shade-{place}" for place in range(len(SHADES))]
+    assert BoardCell("", 0.0, "worse", beaten=True).style == f"shade-{len(SHADES)} beaten"
+
+
+FAMILIES = {"Models": ["a", "b"], "Others": ["stranger"], "References": ["oracle"]}
+
+
+def test_the_scoreboard_has_a_column_a_task_and_rows_of_what_took_part(small):
+    results = [
+        results_of(small({"row": {"a": [1.0], "oracle": [0.5]}}, task="first")),
+        results_of(small({"row": {"b": [1.0], "a": [2.0]}}, task="second")),
+        results_of(small({"row": {"a": [NAN]}}, task="third")),
+    ]
+    board = scoreboard(results, FAMILIES)
+    assert [column.id for column in board.columns] == ["task-first", "task-second"]
+    assert sum(width for _, width in board.questions) == len(board.columns)
+    ((family, rows),) = board.groups
+    assert (family, [row.label for row in rows]) == ("Models", ["a", "b"])
+    assert rows[1].cells[0] is None
+    assert rows[1].cells[1].shade == "best"
+    assert [row.label for row in board.references] == ["oracle"]
+
+
+def test_the_best_interpolation_of_each_task_is_a_reference_line(small):
+    values = {"row": {"a": [1.0], "linear": [2.0], "pchip": [1.5]}}
+    interpolations = ("linear", "pchip")
+    results = [results_of(small(values, interpolations=interpolations)), results_of(small(values))]
+    board = scoreboard(results, {"Models": ["a", "linear", "pchip"]})
+    (best,) = board.references
+    assert best.label == "best interpolation"
+    assert (best.cells[0].note, best.cells[0].value, best.cells[0].shade) == ("pchip", 1.5, "")
+    assert best.cells[1] is None
+
+
+CLEAR = {"a": [1.0, 1.1, 0.9, 1.0, 1.1, 0.9], "b": [9.0, 9.1, 9.2, 9.0, 9.1, 8.9]}
+
+
+def test_an_answer_names_the_model_that_leads_its_margin_and_the_test(small):
+    (answer,) = answers([results_of(small({"row": CLEAR}))])
+    (finding,) = answer.findings
+    assert answer.model == "a"
+    assert finding.text.startswith("a 1.00, next b 9.05 (behind by ")
+    assert (
+        answer.sure == "The lead: more than chance (6 folds)." or "more than chance" in answer.sure
+    )
+    assert finding.id == "task-small"
+
+
+def test_where_as_many_tasks_have_other_leaders_it_depends(small):
+    tasks = [
+        results_of(small({"row": {"a": [1.0], "b": [2.0]}}, task="first")),
+        results_of(small({"row": {"a": [2.0], "b": [1.0]}}, task="second")),
+    ]
+    (answer,) = answers(tasks)
+    assert answer.model == ""
+    third = results_of(small({"row": {"a": [2.0], "b": [1.0]}}, task="third"))
+    (answer,) = answers([*tasks, third])
+    assert answer.model == "b"
+    assert [finding.id for finding in answer.findings][-1] == "task-first"
+
+
+def test_a_leader_that_is_no_better_than_the_reference_is_told(small):
+    (answer,) = answers([results_of(small({"row": {"a": [3.0], "replay": [2.0]}}))])
+    assert answer.findings[0].text == "a 3.00; no better than replay"
+    assert answers([results_of(small({"row": {"a": [NAN]}}))]) == []
+
+
+def test_the_line_of_trust_counts_what_ran_and_what_is_missing(small):
+    bundle = small({"x": {"a": [1.0, NAN], "b": [1.0, 1.0]}, "y": {"a": [NAN], "b": [NAN]}})
+    bundle = replace(bundle, provenance={"profile": "quick", "wall time": "3 s", "seed": "0"})
+    assert trust(bundle, [results_of(bundle)]) == [
+        "profile quick",
+        "1 task, 1 of 2 cases scored, 2 folds",
+        "3 jobs ok, 3 failed",
+        "3 s",
+    ]
+
+
+def test_one_of_each_is_singular_and_an_empty_run_says_so(small):
+    bundle = small({"row": {"a": [1.0]}})
+    assert trust(bundle, [results_of(bundle)]) == ["1 task, 1 case, 1 fold", "1 job ok"]
+    empty = replace(bundle, records=bundle.records.head(0), scores=bundle.scores.head(0))
+    assert trust(empty, [results_of(empty)])[-1] == "no job ran"
+
+
+def test_generated_cases_beside_recordings_enter_no_mean(small):
+    cases = (CaseLayout("x", {}), CaseLayout("y", {}, synthetic=True))
+    bundle = small({"x": {"a": [1.0]}, "y": {"a": [9.0]}}, cases=cases)
+    assert board_cells(results_of(bundle))["a"].value == 1.0

@@ -1,0 +1,213 @@
+"""Tables of scores: a row a model, best first, and a column a case."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.standings import Place, standings
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.bundle.task_page import RowNotes
+from mocapbench.reports.figures.styles import model_styles
+from mocapbench.reports.paper.published import published_values
+from mocapbench.reports.scores.basis import basis
+from mocapbench.reports.scores.behind import behind_cell
+from mocapbench.reports.scores.build import score_table
+from mocapbench.reports.scores.drawing import Drawing
+from mocapbench.reports.scores.table import NO_SCORE
+from mocapbench.reports.text import cell_anchor
+
+NAN = float("nan")
+laws = settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
+TWO = {"one": {"a": [1.0, 3.0], "b": [5.0, 5.0]}, "two": {"a": [4.0, 4.0], "b": [2.0, 2.0]}}
+
+
+def results_of(bundle, task=0):
+    return task_results(bundle, bundle.layouts[task])
+
+
+def table_of(bundle, metric="mse", task=0):
+    return score_table(results_of(bundle, task), metric, model_styles(bundle.layouts))
+
+
+def row(table, label):
+    return next(row for row in table.rows if row.label == label)
+
+
+def cell(table, case, label):
+    return row(table, label).cells[[head.name for head in table.heads].index(case)]
+
+
+@pytest.mark.parametrize("task", [0, 1, 2])
+def test_every_row_is_as_wide_as_the_heads_and_means_ascend(bundle, task):
+    metric = bundle.layouts[task].page.metrics[0]
+    table = table_of(bundle, metric, task)
+    assert {len(row.cells) for row in table.rows} == {len(table.heads)}
+    means = [row.mean.value for row in table.rows if row.kind == "ranked"]
+    complete = [s for s in standings(results_of(bundle, task), metric) if s.complete]
+    assert means[: len(complete)] == sorted(means[: len(complete)])
+    kinds = [row.kind for row in table.rows]
+    assert kinds == sorted(kinds, key=["ranked", "reference", "published"].index)
+
+
+@laws
+@given(st.integers(0, 10_000))
+def test_a_mean_is_that_of_the_cases_and_one_alone_is_bold(small, seed):
+    numbers = np.random.default_rng(seed).uniform(1.0, 9.0, (3, 2, 4))
+    values = {
+        f"case {c}": dict(zip("ab", of_case.tolist(), strict=True))
+        for c, of_case in enumerate(numbers)
+    }
+    table = table_of(small(values))
+    for place, label in enumerate("ab"):
+        assert row(table, label).mean.value == pytest.approx(numbers[:, place].mean())
+        for case, of_case in enumerate(numbers):
+            found = cell(table, f"case {case}", label).value
+            assert found == pytest.approx(of_case[place].mean())
+    for column in zip(*([r.mean, *r.cells] for r in table.rows), strict=True):
+        (best,) = (found for found in column if found.kind == "best")
+        assert best.value == min(found.value for found in column)
+
+
+def test_higher_is_better_where_the_metric_says_so(small):
+    table = table_of(small(TWO, metric="mcc"), "mcc")
+    assert [row.label for row in table.rows] == ["b", "a"]
+    assert (table.better, row(table, "b").mean.kind) == ("higher", "best")
+    assert row(table, "a").behind.text == "+0.50"
+
+
+def test_one_case_has_no_column_beside_its_mean(small):
+    table = table_of(small({"row": {"a": [1.0], "b": [2.0]}}))
+    assert (table.heads, table.mean_head.name) == ((), "row")
+    assert row(table, "a").mean.link == cell_anchor("small", "row", "a")
+
+
+def test_a_mean_over_cases_links_to_the_model_and_a_score_to_its_cell(small):
+    table = table_of(small(TWO))
+    assert row(table, "a").mean.link == cell_anchor("small", "", "a")
+    assert cell(table, "two", "a").link == cell_anchor("small", "two", "a")
+
+
+def test_heads_name_what_a_case_varies_and_what_its_name_does_not_say(small):
+    cases = (
+        CaseLayout("one", {"noise": 0.1, "size": "one"}),
+        CaseLayout("two", {}, synthetic=True),
+    )
+    first, second = table_of(small(TWO, cases=cases)).heads
+    assert (first.name, first.facts) == ("one", ("noise 0.1",))
+    assert (second.name, second.facts) == ("two", ("generated",))
+
+
+def test_generated_cases_beside_recordings_have_columns_and_enter_no_mean(small):
+    cases = (CaseLayout("one", {}), CaseLayout("two", {}, synthetic=True))
+    table = table_of(small(TWO, cases=cases))
+    assert [head.name for head in table.heads] == ["one", "two"]
+    assert row(table, "a").mean.value == 2.0
+    assert table.mean_head.name == "mean of 1 case"
+
+
+def test_a_failed_cell_names_the_failure_and_leads_to_its_cell(bundle):
+    found = cell(table_of(bundle), "test 8", "nn")
+    assert (found.text, found.kind, found.value) == ("failed", "trouble", None)
+    assert found.link == cell_anchor("toy-interpolation-1", "test 8", "nn")
+
+
+def test_lost_folds_and_lacking_cases_are_counted(small):
+    values = {"one": {"a": [1.0, NAN, 2.0], "b": [5.0] * 3}, "two": {"a": [NAN], "b": [5.0]}}
+    table = table_of(small(values))
+    assert (cell(table, "one", "a").text, cell(table, "one", "a").note) == ("1.50", "1 fold lost")
+    assert row(table, "a").mean.note == "1 of 2 cases"
+    assert row(table, "a").behind is NO_SCORE
+
+
+def test_missing_recordings_are_told_in_the_head_alone(bundle):
+    table = table_of(bundle, "rms_per_frame", task=2)
+    (head,) = (head for head in table.heads if head.name == "12-02 four-walkers")
+    assert "recording missing" in head.facts
+    assert cell(table, "12-02 four-walkers", "knn") is NO_SCORE
+
+
+@pytest.mark.parametrize("place", Place)
+def test_the_lag_says_what_the_test_found(small, place):
+    values = {
+        Place.INSEPARABLE: [1.3, 0.9, 1.2, 1.1, 1.0, 0.8],
+        Place.BEHIND: [9.0, 9.1, 9.2, 9.0, 9.1, 8.9],
+        Place.UNTESTED: [9.0],
+        Place.INCOMPLETE: [9.0, NAN, 9.0, 9.0, 9.0, 9.0],
+    }.get(place, [5.0] * 6)
+    best = [1.0, 1.1, 0.9, 1.2, 0.8, 1.0][: len(values)]
+    first, second = standings(results_of(small({"row": {"a": best, "b": values}})), "mse")
+    found = behind_cell(first if place is Place.BEST else second, 2)
+    match place:
+        case Place.BEST:
+            assert found.text == ""
+        case Place.INCOMPLETE:
+            assert found is NO_SCORE
+        case Place.UNTESTED:
+            assert (found.text, found.note) == ("+8.00", "")
+        case Place.INSEPARABLE:
+            assert (found.text[:3], found.kind) == ("≈ +", "tied")
+            assert second.low <= 0.0 <= second.high
+        case Place.BEHIND:
+            low, high = map(float, found.note.split(" to "))
+            assert (found.text[0], found.kind) == ("+", "")
+            assert 0.0 < low < found.value < high
+
+
+def test_strips_show_every_value_and_an_interval_where_folds_are_draws(small):
+    for independent in (True, False):
+        bundle = small(TWO, independent_folds=independent)
+        styles = model_styles(bundle.layouts)
+        results = results_of(bundle)
+        drawing = Drawing.of(results, "mse", results.cases, styles)
+        assert drawing.values == {"a": [1.0, 3.0, 4.0, 4.0], "b": [5.0, 5.0, 2.0, 2.0]}
+        assert ('class="interval"' in drawing.strip("a")) is independent
+        assert 'aria-label="a, 4 values"' in drawing.strip("a")
+    (missing,) = map(drawing.strip, ["stranger"])
+    assert missing is None
+
+
+def test_a_metric_without_scores_draws_nothing(small):
+    bundle = small(TWO)
+    results = results_of(bundle)
+    drawing = Drawing.of(results, "mlc", results.cases, model_styles(bundle.layouts))
+    assert (drawing.axis, drawing.strip("a")) == (None, None)
+
+
+@pytest.mark.parametrize(
+    ("lost", "words"), [(0, "2 cases, 2 folds"), (3, "2 cases, 2 folds, up to 3 outputs left out")]
+)
+def test_the_basis_counts_cases_folds_and_outputs_left_out(small, lost, words):
+    bundle = small(TWO)
+    bundle.scores["left_out"] = lost
+    results = results_of(bundle)
+    assert basis(results, "mse", results.cases).startswith(words)
+
+
+def test_the_papers_other_models_come_last_with_their_printed_values(bundle):
+    table = table_of(bundle, "rms_per_frame", task=2)
+    others = [row for row in table.rows if row.kind == "published"]
+    models = ("GPDM-MAP", "B-GPDM", "GPDM-fixed-alpha", "GPDM-two-stage-MAP")
+    assert [row.label for row in others] == [f"{model} (published)" for model in models]
+    printed, cases = published_values("missing-frames"), bundle.layouts[2].cases
+    for row_, model in zip(others, models, strict=True):
+        for head, found in zip(table.heads, row_.cells, strict=True):
+            name = next(case.notes.published for case in cases if case.name == head.name)
+            assert found.value == printed[name, "RMS per frame", model].value
+
+
+def test_a_paper_that_lacks_a_case_has_no_mean(small):
+    bundle = small(
+        {"one": {"a": [8.0]}, "two": {"a": [9.0]}},
+        task="toy-synthesis",
+        cases=(CaseLayout("one", {}, notes=RowNotes(published="test 1")), CaseLayout("two", {})),
+        published_metrics={"mse": "MCC"},
+        published_models={"a": "MOHGP"},
+    )
+    rows = [row for row in table_of(bundle).rows if row.kind == "published"]
+    assert rows
+    assert {row.mean for row in rows} == {NO_SCORE}
+    assert all(math.isfinite(row.cells[0].value) for row in rows)
