@@ -8,13 +8,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.standings import Standing, standings
+from mocapbench.reports.analysis.standings import Place, Standing, standings
 from mocapbench.reports.bundle.questions import QUESTIONS, Question
 from mocapbench.reports.front.board_cells import board_cells, first_metric, reference_of
-from mocapbench.reports.text import number, slug
+from mocapbench.reports.text import counted, number, slug
 
 __all__ = ["Answer", "Finding", "answers"]
 
+TESTED = (Place.BEHIND, Place.INSEPARABLE)
 OF_TOYS = "recover"
 """A question that only generated data can answer, and no user asks."""
 Ranked = Sequence[Standing]
@@ -30,8 +31,7 @@ class Finding:
     id, title : str
         The anchor of the task's section, and its short title.
     text : str
-        The best model, its mean, the next, the margin, and what the test says of it where that is
-        not the same for all tasks of the question.
+        The best model, its mean, the next, and the margin.
     """
 
     id: str
@@ -48,11 +48,12 @@ class Answer:
     question, ask : str
         Its title, and the question in one sentence.
     model : str
-        The model that is best in most of its tasks; empty where several are in as many.
+        The model that is best in more than half of its tasks, and there better than the reference;
+        empty where none is.
     findings : tuple of Finding
         One for each task, those that ``model`` leads first.
     sure : str
-        What the tests say of all leads; empty where they say different things.
+        What the tests say of the leads.
     """
 
     question: str
@@ -74,26 +75,25 @@ def answers(tasks: Sequence[TaskResults]) -> list[Answer]:
 
 
 def _answer(question: Question, group: Sequence[tuple[TaskResults, Ranked]]) -> Answer:
-    leaders = Counter(ranked[0].label for _, ranked in group)
-    (model, most), *others = leaders.most_common()
-    alone = all(count < most for _, count in others)
-    first = sorted(group, key=lambda pair: alone and pair[1][0].label != model)
-    sure = {_sure(ranked) for _, ranked in first}
+    leaders = Counter(ranked[0].label for task, ranked in group if not _beaten(task, ranked[0]))
+    model, most = leaders.most_common(1)[0] if leaders else ("", 0)
+    named = model if 2 * most > len(group) else ""
+    first = sorted(group, key=lambda pair: pair[1][0].label != named)
     return Answer(
         question.title,
         question.ask,
-        model if alone else "",
-        tuple(_finding(task, ranked, told=len(sure) == 1) for task, ranked in first),
-        f"The lead: {sure.pop()}." if len(sure) == 1 else "",
+        named,
+        tuple(_finding(task, ranked) for task, ranked in first),
+        _sure([_lead(ranked) for _, ranked in first]),
     )
 
 
-def _finding(results: TaskResults, ranked: Ranked, *, told: bool) -> Finding:
+def _finding(results: TaskResults, ranked: Ranked) -> Finding:
     best, second = ranked[0], _next(ranked)
     text = f"{best.label} {_mean(results, best)}"
     if second is not None:
         text += f", next {second.label} {_mean(results, second)}{_margin(results, second)}"
-    text += _beside(results, best.label) + ("" if told else f"; {_sure(ranked)}")
+    text += f"; no better than {reference_of(results)}" if _beaten(results, best) else ""
     return Finding(slug("task", results.layout.name), results.layout.page.short, text)
 
 
@@ -114,13 +114,19 @@ def _margin(results: TaskResults, second: Standing) -> str:
     return f" (behind by {low} to {high})"
 
 
-def _sure(ranked: Ranked) -> str:
-    """Return what the test says of the lead."""
+def _lead(ranked: Ranked) -> Place | None:
+    """Return what the test says of the lead; None without a rival."""
     second = _next(ranked)
-    return second.finding if second else "no rival"
+    return second.standing if second else None
 
 
-def _beside(results: TaskResults, best: str) -> str:
-    """Return a clause on the reference where no model is better than it."""
-    cell, reference = board_cells(results)[best], reference_of(results)
-    return f"; no better than {reference}" if cell.beaten and reference else ""
+def _sure(leads: Sequence[Place | None]) -> str:
+    """Return how many leads are more than chance, how many may be chance, how many not tested."""
+    counts = [(leads.count(place), place) for place in (*TESTED, Place.UNTESTED)]
+    told = "; ".join(f"{count} {place.value}" for count, place in counts if count)
+    return f"{counted(len(leads), 'lead')}: {told}" if told else "no rival"
+
+
+def _beaten(results: TaskResults, best: Standing) -> bool:
+    """Return whether the best model is no better than the task's reference."""
+    return board_cells(results)[best.label].beaten

@@ -17,6 +17,8 @@ from mocapbench.reports.text import cell_anchor, number
 __all__ = ["board_cells", "first_metric", "reference_of"]
 
 WORSE = "worse"
+NEXT = 1.0 + 1e-9
+"""Only the best has its shade, alone."""
 TRIVIAL = "trivial"
 
 
@@ -63,11 +65,11 @@ def _cell(
     if label not in ranked:
         return BoardCell(text, mean, link=link)
     info, own = results.metrics[metric], ranked[label]
-    best = next(iter(ranked.values())).mean
+    best = next(iter(ranked.values()))
     reference = reference_of(results)
     lacking = "" if own.n_cases == total else f"{own.n_cases} of {total} cases"
     beaten = label != reference and _beaten(results, metric, mean, reference)
-    return BoardCell(text, mean, _shade(info, mean, best), beaten, link, lacking)
+    return BoardCell(text, mean, _shade(info, own, best), beaten, link, lacking)
 
 
 def _beaten(results: TaskResults, metric: str, mean: float, reference: str | None) -> bool:
@@ -77,17 +79,15 @@ def _beaten(results: TaskResults, metric: str, mean: float, reference: str | Non
     return other is not None and loss(mean) >= loss(other)
 
 
-def _shade(info: MetricInfo, mean: float, best: float) -> str:
+def _shade(info: MetricInfo, own: Standing, best: Standing) -> str:
     """Return the name of the shade: how many times worse than the best a mean is."""
-    times = _times_worse(info, mean, best)
+    times = 1.0 if own is best else _times_worse(info, own.mean, best.mean)
     return next((name for most, name in SHADES if times <= most), WORSE)
 
 
 def _times_worse(info: MetricInfo, mean: float, best: float) -> float:
-    """Return the ratio of a mean to the best one, 1 or more; infinite across zero."""
-    if mean == best:
-        return 1.0
+    """Return the ratio of a mean to the best one, above 1; infinite across zero."""
     better, worse = (mean, best) if info.direction is Direction.HIGHER else (best, mean)
     if info.direction is Direction.TARGET:
         better, worse = info.loss(best), info.loss(mean)
-    return worse / better if better > 0.0 and worse > 0.0 else math.inf
+    return max(worse / better, NEXT) if better > 0.0 and worse > 0.0 else math.inf

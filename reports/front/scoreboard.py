@@ -74,7 +74,9 @@ def _unit(metric: MetricInfo) -> str:
     _, _, rest = metric.title.partition("(")
     acronym = rest.partition(")")[0]
     named = acronym if acronym.isupper() else metric.unit
-    return named if 0 < len(named) <= LONGEST_UNIT else "error"
+    if 0 < len(named) <= LONGEST_UNIT:
+        return named
+    return "error" if metric.direction is Direction.LOWER else "score"
 
 
 def _best_interpolations(

@@ -16,7 +16,6 @@ from mocapbench.reports.motions.player import PlayerFigure
 from mocapbench.reports.page.headline import Headline
 from mocapbench.reports.page.lead_headlines import lead_headlines
 from mocapbench.reports.page.notes import task_notes
-from mocapbench.reports.page.published_headlines import published_headlines
 from mocapbench.reports.page.win_headlines import win_headlines
 from mocapbench.reports.scores.build import score_table
 from mocapbench.reports.scores.table import ScoreTable
@@ -124,7 +123,7 @@ def task_view(
     return TaskView(
         id=slug("task", layout.name),
         layout=layout,
-        leads=[*lead_headlines(results, first), *published_headlines(results, first)],
+        leads=lead_headlines(results, first),
         wins=win_headlines(results, first),
         metrics=[_metric_view(results, metric, styles) for metric in layout.page.metrics],
         figures=open_figures(results, bundle.parts, styles),

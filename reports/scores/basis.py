@@ -24,4 +24,5 @@ def basis(results: TaskResults, metric: str, cases: Sequence[CaseLayout]) -> str
     folds = " or ".join([*map(str, fewer), counted(most, "fold")])
     left_out = int(max(rows["left_out"], default=0))
     lost = f", up to {counted(left_out, 'output')} left out as degenerate" if left_out else ""
-    return f"{counted(len(cases), 'case')}, {folds}{lost}"
+    each = " each" if len(cases) > 1 else ""
+    return f"{counted(len(cases), 'case')}, {folds}{each}{lost}"

@@ -9,7 +9,7 @@ __all__ = ["PAGE"]
 
 PAGE = TaskPage(
     title="Recovery of the generating covariances",
-    short="Covariance recovery",
+    short="Layers",
     reference="thesis §5.2.3, Figures 11–13",
     description=(
         "Five complete children of one parent come from a process whose outputs correlate strongly "

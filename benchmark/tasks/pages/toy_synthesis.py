@@ -11,7 +11,7 @@ _NOT_CENTRED = "draws samples of its own, not centred on the children's trend"
 
 PAGE = TaskPage(
     title="Toy synthesis",
-    short="Toy",
+    short="Toy draws",
     reference="thesis §5.2.1, Tables 12–13, Figure 21",
     description=(
         "Children of one parent are drawn from a two-layer LMC Gaussian process. Each entrant "

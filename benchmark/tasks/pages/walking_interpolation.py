@@ -12,7 +12,7 @@ __all__ = ["PAGE"]
 
 PAGE = TaskPage(
     title="Walking interpolation",
-    short="Walking",
+    short="Walks",
     reference="thesis §5.1.2, Tables 10–11, Figure 20",
     description=(
         "Three walks, 39 joint angles, 90 frames. In the first walk only some frames of each "

@@ -20,7 +20,15 @@
     for (let node = target; node; node = node.parentElement) {
       if (node instanceof HTMLDetailsElement) node.open = true;
     }
-    target?.scrollIntoView();
+    if (target) land(target);
+  };
+
+  // Sections are laid out when they come near, which moves what is below them.
+  const land = (target, times = 40) => {
+    const before = target.getBoundingClientRect().top;
+    target.scrollIntoView({ behavior: "instant" });
+    const moved = Math.abs(target.getBoundingClientRect().top - before) > 1;
+    if (times && (moved || times > 34)) requestAnimationFrame(() => land(target, times - 1));
   };
 
   document.addEventListener("toggle", ({ target }) => target.open && fill(target), true);
@@ -31,5 +39,9 @@
   });
   addEventListener("afterprint", () => folded.forEach((details) => { details.open = false; }));
   addEventListener("hashchange", reveal);
+  document.addEventListener("click", ({ target }) => {
+    const link = target.closest('a[href^="#"]');
+    if (link && link.hash === location.hash) reveal();
+  });
   reveal();
 })();

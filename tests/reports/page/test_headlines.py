@@ -4,9 +4,7 @@ import pytest
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.wins import wins
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.bundle.task_page import RowNotes
 from mocapbench.reports.page.lead_headlines import lead_headlines
-from mocapbench.reports.page.published_headlines import published_headlines
 from mocapbench.reports.page.win_headlines import win_headlines
 
 PUBLISHED = {"mohgp-1": "MOHGP", "mohgp-3": "MOHGP"}
@@ -93,7 +91,6 @@ def test_a_task_has_few_words(bundle):
         results, metric = task_results(bundle, layout), layout.page.metrics[0]
         found = [
             *lead_headlines(results, metric),
-            *published_headlines(results, metric),
             *win_headlines(results, metric),
         ]
         assert found
@@ -162,28 +159,6 @@ def test_without_scores_there_is_nothing_to_say(small):
     assert win_headlines(results, "mse") == []
 
 
-def spline_on_35_03(small, value, *, synthetic=False):
-    return small(
-        {"row": {"cubic-spline": [value]}},
-        metric="rms_per_frame",
-        task="missing-frames",
-        cases=(CaseLayout("row", {}, synthetic=synthetic, notes=RowNotes(published="35-03")),),
-        published_metrics={"rms_per_frame": "RMS per frame"},
-    )
-
-
-def test_a_published_value_better_than_all_of_ours_is_reported(small):
-    (found,) = published_headlines(results_of(spline_on_35_03(small, 62.98)), "rms_per_frame")
-    assert found.text == "in 1 of 1 case."
-
-
-def test_no_published_headline_where_an_entrant_is_better_or_the_motion_generated(small):
-    better = spline_on_35_03(small, 12.0)
-    generated = spline_on_35_03(small, 62.98, synthetic=True)
-    for bundle in (better, generated):
-        assert published_headlines(results_of(bundle), "rms_per_frame") == []
-
-
 def test_a_win_follows_the_metrics_direction(small):
     values = {"row": {"mohgp-1": [0.2], "gp-independent": [0.45]}}
     bundle = small(values, metric="coverage_50", published_models=PUBLISHED)
@@ -191,25 +166,6 @@ def test_a_win_follows_the_metrics_direction(small):
     near = {"row": {"mohgp-1": [0.5], "gp-independent": [0.2]}}
     bundle = small(near, metric="coverage_50", published_models=PUBLISHED)
     assert wins(results_of(bundle), "coverage_50") == []
-
-
-@pytest.mark.parametrize(
-    ("not_comparable", "found"), [({}, 1), ({"mohgp-1": "trained on other walks"}, 0)]
-)
-def test_a_value_that_is_not_comparable_is_no_better_value(small, not_comparable, found):
-    """The paper prints 22.546 for its ICM, and otherwise 23.082 or more (less is taken as better).
-
-    MOHGP-LMC, 25.248, is printed twice and counts once.
-    """
-    notes = RowNotes(published="35(1)", not_comparable=not_comparable)
-    bundle = small(
-        {"row": {"mohgp-1": [23.0], "mohgp-3": [24.0]}},
-        task="walking-synthesis",
-        cases=(CaseLayout("row", {}, notes=notes),),
-        published_models={"mohgp-1": "MOHGP-ICM", "mohgp-3": "MOHGP"},
-        published_metrics={"mse": "MCC"},
-    )
-    assert len(published_headlines(results_of(bundle), "mse")) == found
 
 
 def test_the_next_best_is_one_model_over_all_cases(small):
