@@ -13,6 +13,8 @@ import pandas as pd
 import pytest
 from scipy import stats
 
+pytestmark = pytest.mark.slow
+
 TASKS = ("toy-interpolation-1", "toy-synthesis", "missing-frames")
 MODELS = "cubic-spline,linear,knn,nn,trivial,gp-independent,lds"
 FOLDS = 6
