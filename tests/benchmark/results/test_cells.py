@@ -42,7 +42,7 @@ def cells(document):
     """Return each cell by (task, case, label), with what it shares with others in its place."""
     shared, found = document["shared"], {}
     for task, about in document["tasks"].items():
-        metrics = [title for title, _ in about["metrics"]]
+        metrics = [title for title, *_ in about["metrics"]]
         for row in about["rows"]:
             cell = dict(zip(document["columns"], row, strict=True))
             for name in ("case", "label", "model", "parameters", "recordings"):
