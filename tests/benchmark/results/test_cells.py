@@ -42,7 +42,7 @@ def cells(document):
     """Return each cell by (task, case, label), with what it shares with others in its place."""
     shared, found = document["shared"], {}
     for task, about in document["tasks"].items():
-        metrics = [title for title, *_ in about["metrics"]]
+        metrics = [name for name, *_ in about["metrics"]]
         for row in about["rows"]:
             cell = dict(zip(document["columns"], row, strict=True))
             for name in ("case", "label", "model", "parameters", "recordings"):
@@ -59,7 +59,7 @@ def test_every_number_is_that_of_the_exported_table(path, cells):
     for address, rows in exported:
         cell = cells[address]
         by_fold = rows.set_index("fold")["value"]
-        values, mean, half, *_ = cell["scores"]["Mean squared error (MSE)"]
+        values, mean, half, *_ = cell["scores"]["mse"]
         filled = by_fold.reindex(cell["folds"])
         np.testing.assert_allclose(np.array(values, float), filled, rtol=1e-5)
         np.testing.assert_allclose(mean, by_fold.mean(), rtol=1e-5)
