@@ -88,7 +88,7 @@ def test_a_job_without_a_score_says_why(document, cells):
     ((fold, status, message, anchor),) = cells[BROKEN[:3]]["troubles"]
     told = (fold, document["shared"][status], document["shared"][message], anchor)
     assert told == (2, "failed", "by run", "job-1")
-    assert cells[BROKEN[:3]]["scores"]["Mean squared error (MSE)"][0][2] is None
+    assert cells[BROKEN[:3]]["scores"]["mse"][0][2] is None
 
 
 def test_the_command_stands_beside_its_cell(cells):
