@@ -138,10 +138,7 @@
     const names = named(location.hash);
     if (names) return show(names);
     dialog.close();
-    const { hash, top } = before ?? {};
-    if (hash === location.hash) { // after what else follows an address has scrolled to it
-      requestAnimationFrame(() => scrollTo({ top, behavior: "instant" }));
-    }
+    if (before?.hash === location.hash) scrollTo({ top: before.top, behavior: "instant" });
     before = null;
   };
 

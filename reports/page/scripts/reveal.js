@@ -38,7 +38,13 @@
     folded.forEach((details) => { fill(details); details.open = true; });
   });
   addEventListener("afterprint", () => folded.forEach((details) => { details.open = false; }));
-  addEventListener("hashchange", reveal);
+  // Where a cell was opened, cell.js brings back what was in view; elsewhere its links lead.
+  let behind = null;
+  addEventListener("hashchange", ({ oldURL }) => {
+    const left = new URL(oldURL).hash, ofCell = left.startsWith("#cell=");
+    if (!ofCell) behind = left;
+    if (!ofCell || location.hash !== behind) reveal();
+  });
   document.addEventListener("click", ({ target }) => {
     const link = target.closest('a[href^="#"]');
     if (link && link.hash === location.hash) reveal();

@@ -65,7 +65,7 @@ def test_a_mean_opens_the_first_case_of_its_model_and_leads_to_the_others(visit,
     assert title(tab) == f"{LABEL} · test 4"
     assert cases.nth(3).get_attribute("aria-current") == "true"
     tab.keyboard.press("Escape")
-    assert not is_open(tab)
+    tab.wait_for_function("!document.getElementById('cell').open")
     assert tab.locator(mean).evaluate("link => link === document.activeElement")
 
 

@@ -69,16 +69,17 @@ def test_what_has_no_score_comes_last_in_both_directions(tab):
         assert "failed" in last[-2].inner_text() or last[-2].get_attribute("data-v") is None
 
 
-def test_a_head_sorts_the_scoreboard_within_its_families_by_keyboard(tab):
+def test_a_head_sorts_the_scoreboard_as_one_list_by_keyboard_and_references_stay_below(tab):
     head = tab.locator("#scoreboard thead tr").nth(1).locator("th").first
-    families = tab.locator("#scoreboard .family").all_inner_texts()
-    for reverse in (False, True):
+    for direction, reverse in (("ascending", False), ("descending", True)):
         head.locator(".sort").focus()
         tab.keyboard.press("Enter")
-        for body in range(tab.locator("#scoreboard tbody").count()):
-            found = values(tab, f"#scoreboard tbody:nth-of-type({body + 1})", 1)
+        assert head.get_attribute("aria-sort") == direction
+        for part in ("tbody:not(.below)", "tbody.below"):
+            found = values(tab, f"#scoreboard {part}", 1)
             assert found == sorted(found, reverse=reverse)
-    assert tab.locator("#scoreboard .family").all_inner_texts() == families
+    last = tab.locator("#scoreboard tr[data-model]").last
+    assert last.evaluate("row => row.closest('.below') !== null")
 
 
 def test_one_family_is_shown_also_in_what_is_unfolded_later(tab):

@@ -178,7 +178,8 @@ def test_a_metric_without_scores_draws_nothing(small):
 
 
 @pytest.mark.parametrize(
-    ("lost", "words"), [(0, "2 cases, 2 folds"), (3, "2 cases, 2 folds, up to 3 outputs left out")]
+    ("lost", "words"),
+    [(0, "2 cases, 2 folds each"), (3, "2 cases, 2 folds each, up to 3 outputs left out")],
 )
 def test_the_basis_counts_cases_folds_and_outputs_left_out(small, lost, words):
     bundle = small(TWO)
