@@ -196,5 +196,5 @@ def test_without_scripts_it_says_so(browser, address):
     tab.goto(address)
     assert not tab.locator(PLAYER).is_visible()
     tab.locator(".player-figure").scroll_into_view_if_needed()
-    assert tab.get_by_text("The motion player needs JavaScript.").is_visible()
+    tab.get_by_text("The motion player needs JavaScript.").wait_for()
     context.close()

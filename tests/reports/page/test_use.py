@@ -14,7 +14,11 @@ from mocapbench.reports.bundle.model_info import ModelInfo
 
 TABLE = "#toy-interpolation-1-mse"
 TASK = "toy-interpolation-1"
-FAMILIES = {"Interpolation": ("cubic-spline",), "Gaussian processes": ("mohgp-3", "moa-3")}
+FAMILIES = {
+    "Interpolation": ("cubic-spline",),
+    "Gaussian processes": ("mohgp-3", "moa-3"),
+    "References": ("oracle",),
+}
 IN_VIEW = """
 selector => {
   const { top } = document.querySelector(selector).getBoundingClientRect();
