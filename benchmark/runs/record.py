@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from enum import StrEnum
@@ -112,7 +113,7 @@ class Record:
             If the text is not a whole record of this format.
         """
         try:
-            document = orjson.loads(text)
+            document = _parsed(text)
             if document.pop("format") != FORMAT:
                 raise RecordError("the record has another format")
             document["status"] = Status(document["status"])
@@ -131,6 +132,15 @@ class Record:
 
 
 _ENTRIES = {*Address._fields, *(item.name for item in fields(Record))} - {"address"}
+
+
+_LONG = re.compile(rb"[0-9]{19}")
+
+
+def _parsed(text: str | bytes) -> Any:
+    """Return what a JSON text says; integers of any length stay whole, which orjson rounds."""
+    data = text.encode() if isinstance(text, str) else text
+    return json.loads(data) if _LONG.search(data) else orjson.loads(data)
 
 
 def _encodable(text: str) -> str:

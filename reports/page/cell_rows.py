@@ -86,7 +86,7 @@ def cell_row(
         Takes what other cells may have too.
     """
     folds, models, parameters, *costs = zip(*jobs, strict=True)
-    keys = b"".join(bytes.fromhex(origin.keys[fold]) for fold in folds if fold in origin.keys)
+    keys = _joined([origin.keys.get(fold, "") for fold in folds])
     return [
         *(shared.place(text) for text in (*cell, models[0], parameters[0])),
         origin.seed,
@@ -118,3 +118,11 @@ def _rounded(value: float | None, digits: int = 6) -> float | None:
         return None
     rounded = float(f"{value:.{digits}g}")
     return int(rounded) if rounded.is_integer() else rounded  # shorter by ".0"
+
+
+def _joined(keys: Sequence[str]) -> bytes:
+    """Return keys of hexadecimal digits as bytes; nothing where one is no key of a run."""
+    try:
+        return b"".join(map(bytes.fromhex, keys))
+    except ValueError:
+        return b""

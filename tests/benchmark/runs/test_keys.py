@@ -146,6 +146,8 @@ FIT_PATH = [
     ("baselines.common.shortest_path", "missing-frames", "pose-viterbi"),
     ("baselines.common.threads", "toy-interpolation-1", "mohgp"),
     ("baselines.common.transitions", "missing-frames", "knn"),
+    ("baselines.common.trials", "missing-frames", "lds"),
+    ("baselines.common.widening", "missing-frames", "lds"),
     ("baselines.common.validation", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.prior.kernels", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.solvers.latent_split.gradient", "toy-interpolation-1", "mohgp"),
@@ -234,7 +236,7 @@ def test_no_module_of_the_fit_path_is_forgotten(covered):
     harness = {name for name in ours if name.startswith("mocapbench.benchmark.")}
     posing = tuple(f"mocapbench.benchmark.{part}." for part in ("problems", "tasks"))
     poses = {name for name in harness if name.startswith(posing) and ".pages." not in name}
-    solves = {f"mocapbench.benchmark.runs.{name}" for name in ("solve", "fit")}
+    solves = {f"mocapbench.benchmark.runs.fitting.{name}" for name in ("solve", "fit")}
     users_files = {name for name in ours if name.startswith("mocapbench.datasets.formats")}
     expected = (ours - harness | poses | solves) - used_elsewhere - users_files
     assert expected - covered == set()
