@@ -24,7 +24,7 @@ COMMANDS = {
     "init": "Write a task file for recordings of your own.",
     "status": "Show how far a run is, also one in another terminal.",
     "merge": "Merge run directories into one.",
-    "report": "Write the HTML report of a run directory, or of what changed between two.",
+    "report": "Write the HTML report of a run, or of what changed between two.",
     "motion": "Write the motion that a model made as GIF, AMC, BVH or CSV.",
     "check": "Check that no metric of a run is worse than its reference value.",
     "compare": "Compare two runs, or two models of one run, fold by fold.",

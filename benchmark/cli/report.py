@@ -45,7 +45,7 @@ def report(
     data_dir: DataDir = None,
     plugin: Plugins = None,
 ) -> None:
-    """Write the HTML report of a run directory, or of what changed between two."""
+    """Write the HTML report of a run, or of what changed between two."""
     load_plugins(plugin)
     require_writable(to)
     match runs or []:

@@ -17,7 +17,7 @@ from mocapbench.benchmark.problems.body import JointPositions
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.masks import Run, hide_runs
 from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
-from mocapbench.benchmark.tasks.pages.marker_gaps import ALONE, OTHERS, PAGE
+from mocapbench.benchmark.tasks.pages.marker_gaps import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive, Recording, joint_trajectories, subject_of
 
@@ -36,6 +36,9 @@ LIMBS = {
     "left leg": ("lfemur", "ltibia", "lfoot", "ltoes"),
     "right leg": ("rfemur", "rtibia", "rfoot", "rtoes"),
 }
+
+ALONE = "this recording alone"
+OTHERS = "others of the subject"
 
 Joints = tuple[str, ...]
 ChooseJoints = Callable[[np.random.Generator, Joints], list[Joints]]

@@ -5,10 +5,8 @@ from __future__ import annotations
 from mocapbench.benchmark.figures.motions.filled import FilledMotion
 from mocapbench.reports.bundle.task_page import TaskPage
 
-__all__ = ["ALONE", "OTHERS", "PAGE"]
+__all__ = ["PAGE"]
 
-ALONE = "this recording alone"
-OTHERS = "others of the subject"
 
 PAGE = TaskPage(
     title="Marker gaps",
@@ -22,7 +20,10 @@ PAGE = TaskPage(
     question="other-channels",
     metrics=("mpjpe", "bone_length_error", "jerk_ratio", "coverage_95", "msll", "crps"),
     along="seconds",
-    illustrated=(f"a limb 1 s, {OTHERS}", f"synthetic a limb 0.5 s, {OTHERS}"),
+    illustrated=(
+        "a limb 1 s, others of the subject",
+        "synthetic a limb 0.5 s, others of the subject",
+    ),
     figures=(FilledMotion(),),
     remarks=(
         "Gløersen and Federolf hide skin markers at random times and places, in longer recordings "
