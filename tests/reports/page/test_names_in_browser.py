@@ -1,16 +1,11 @@
 """Names of models and metrics in a real browser: they open, are read and close by keyboard."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from mocapbench.reports import render
 from mocapbench.reports.bundle.model_info import ModelInfo
-
-CHROMIUM = Path("/usr/bin/chromium")
-sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-pytestmark = pytest.mark.skipif(not CHROMIUM.exists(), reason=f"no browser at {CHROMIUM}")
 
 SENTENCE = "Interpolate each channel with a smooth curve through its visible frames."
 IN_VIEW = """
@@ -28,16 +23,6 @@ def address(bundle, tmp_path_factory):
     path = tmp_path_factory.mktemp("names") / "report.html"
     path.write_text(render(replace(bundle, layouts=layouts)), encoding="utf-8")
     return path.as_uri()
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=str(CHROMIUM), args=["--no-sandbox"], timeout=60_000
-        )
-        yield browser
-        browser.close()
 
 
 @pytest.fixture(params=[(width, script) for width in (390, 1280) for script in (True, False)])

@@ -1,36 +1,14 @@
 """The motion player in a real browser, from a file."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-CHROMIUM = Path("/usr/bin/chromium")
-sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-pytestmark = pytest.mark.skipif(not CHROMIUM.exists(), reason=f"no browser at {CHROMIUM}")
 
 PLAYER = ".player"
 STILL_FRAMES = 60
 MOVES = "drawing => { window.before = drawing.toDataURL() }"
 MOVED = "drawing => drawing.toDataURL() !== window.before"
-
-
-@pytest.fixture(scope="module")
-def address(page, tmp_path_factory):
-    path = tmp_path_factory.mktemp("report") / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path.as_uri()
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=str(CHROMIUM), args=["--no-sandbox"], timeout=60_000
-        )
-        yield browser
-        browser.close()
 
 
 def bring_near(tab, selector):

@@ -1,7 +1,6 @@
 """Scripts of figures in a real browser: models light up, matrices and spaces are drawn."""
 
 from importlib.resources import files
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,10 +9,6 @@ from mocapbench.reports import Curve, HeatMap, HeatMaps, Illustration, Panel, Pa
 from mocapbench.reports.figures.pictures.draw import draw
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.resources import styles
-
-CHROMIUM = Path("/usr/bin/chromium")
-sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-pytestmark = pytest.mark.skipif(not CHROMIUM.exists(), reason=f"no browser at {CHROMIUM}")
 
 STYLES = {name: Style(f"h{place}", place, name) for place, name in enumerate(("knn", 'a "b" \\'))}
 TIMES = np.linspace(0.0, 1.0, 5)
@@ -57,16 +52,6 @@ def address(tmp_path_factory):
     path = tmp_path_factory.mktemp("page") / "figures.html"
     path.write_text(page, encoding="utf-8")
     return path.as_uri()
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=str(CHROMIUM), args=["--no-sandbox"], timeout=60_000
-        )
-        yield browser
-        browser.close()
 
 
 @pytest.fixture
