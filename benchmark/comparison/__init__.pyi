@@ -1,6 +1,6 @@
+from .changes import run_changes
 from .contrasts import compare, tidy
 from .output import markdown, notes, terminal
-from .run_changes import run_changes
 from .sides import between_models, between_runs, side_names
 
 __all__ = [

@@ -9,9 +9,9 @@ import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import atomic_write
-from mocapbench.benchmark.motion.entrant_motion import EntrantMotion
 from mocapbench.benchmark.motion.gif import gif_bytes
 from mocapbench.benchmark.motion.joint_angles import amc_text, bvh_text
+from mocapbench.benchmark.motion.made import EntrantMotion
 from mocapbench.datasets import Recording, format_skeleton
 
 __all__ = ["require_new", "write"]

@@ -75,7 +75,6 @@ PENDULUMS = Task(
         title="Pendulums",
         reference="an example",
         description="Fill a gap in the swing of a pendulum, having seen others of other lengths.",
-        question="hidden-frames",
         metrics=("rms_per_frame", "worst_error"),
         illustrated=("long",),
         figures=(GapError(),),
@@ -89,8 +88,6 @@ WORST_ERROR = Metric(
     worst_error,
     sentence="Largest difference of prediction and truth over all hidden entries.",
     unit="that of the data",
-    range="0 to ∞",
-    source="an example",
 )
 
 LIBRARIES = {"pendulums": Pendulums}

@@ -132,12 +132,12 @@ def test_what_is_folded_opens_by_click(tab):
     assert tab.locator("#toy-interpolation-1-msll").count() == 0
     summary.scroll_into_view_if_needed()
     summary.click()
-    assert tab.locator("#toy-interpolation-1-msll").is_visible()
+    tab.locator("#toy-interpolation-1-msll").wait_for()
 
 
 def test_what_is_folded_opens_by_link(visit):
     tab = visit(fragment="#toy-interpolation-1-msll")
-    assert tab.locator("#toy-interpolation-1-msll").is_visible()
+    tab.locator("#toy-interpolation-1-msll").wait_for()
     tab.wait_for_function(IN_VIEW, arg="#toy-interpolation-1-msll")
 
 
