@@ -74,13 +74,20 @@ def test_new_children_resemble_the_references_and_the_control_does_not(posed):
 
 @pytest.mark.slow
 def test_the_hierarchy_comes_close_to_the_oracle(posed):
-    """Over the nine tests: MLC within .05, MCC within 3 %, and the variance of new children."""
+    """Over the nine tests: MLC within .05, MCC within 3 %, and the variance of new children.
+
+    Each score is the mean over six draws of samples: the variance ratio of one draw scatters.
+    """
     models = (MOHGP(n_components=3, kernel="rbf"), Oracle())
     scores = []
     for problem in (posed(TASK.name, name) for name in NAMES):
-        outcomes = [problem.outcome(problem.solve(problem.fit(model), 1)) for model in models]
+        fitted = [problem.fit(model) for model in models]
+        outcomes = [[problem.outcome(problem.solve(m, seed)) for seed in DRAWS] for m in fitted]
         scores.append(
-            [[metric(o).value for metric in (mlc, mcc, variance_ratio)] for o in outcomes]
+            [
+                [np.mean([metric(o).value for o in drawn]) for metric in (mlc, mcc, variance_ratio)]
+                for drawn in outcomes
+            ]
         )
     ours, limit = np.array(scores).transpose(1, 2, 0)
     assert np.mean(ours[0] - limit[0]) == pytest.approx(0.0, abs=0.05)
