@@ -9,6 +9,7 @@ from mocapbench.baselines import MOHGP, Control, Oracle
 from mocapbench.benchmark import MODELS, TASKS, Address, Record, Status, Store
 from mocapbench.metrics import mcc, mlc, variance_ratio
 
+DRAWS = range(1, 7)
 TASK, INTERPOLATION = TASKS.get("toy-synthesis"), TASKS.get("toy-interpolation-1")
 FIRST, *_ = NAMES = [case.name for case in TASK.cases]
 SAMPLERS = Path(__file__).parents[1] / "samplers.py"
