@@ -134,7 +134,8 @@ class Record:
 _ENTRIES = {*Address._fields, *(item.name for item in fields(Record))} - {"address"}
 
 
-_LONG = re.compile(rb"[0-9]{19}")
+_LONG = re.compile(rb"(?<![0-9.])[0-9]{19}")
+"""An integer that may need more than 64 bits; not the digits behind a point."""
 
 
 def _parsed(text: str | bytes) -> Any:
