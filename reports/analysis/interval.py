@@ -8,7 +8,7 @@ from scipy import special
 
 from mocapbench.reports.analysis.grid import Array
 
-__all__ = ["half_widths", "log_interval"]
+__all__ = ["half_widths"]
 
 UPPER = 0.975
 
@@ -34,29 +34,3 @@ def half_widths(values: ArrayLike) -> Array:
     squares = np.where(present, units - means[..., None], 0.0) ** 2
     errors = np.sqrt(squares.sum(axis=-1) / freedom / np.maximum(n, 1))
     return np.where(n > 1, special.stdtrit(freedom, UPPER) * errors, np.nan)
-
-
-def log_interval(values: ArrayLike) -> tuple[float, float, float] | None:
-    """Return the geometric mean of ``values`` with its 95 % interval, for logarithmic axes.
-
-    It is the interval of the mean of the logarithms by Student's t, put back by exp: it is above 0,
-    lies symmetrically about the geometric mean on a logarithmic axis, and is of the geometric mean,
-    not of the mean.
-
-    Parameters
-    ----------
-    values : array-like of shape (n_units,)
-        One value per unit.
-
-    Returns
-    -------
-    mean, low, high : float
-        Or None for fewer than two values, or where a value is not above 0.
-    """
-    units = np.asarray(values, dtype=float)
-    if units.size < 2 or not (units > 0.0).all():
-        return None
-    logs = np.log(units)
-    mean, half = logs.mean(), half_widths(logs)
-    low, middle, high = np.exp([mean - half, mean, mean + half])
-    return float(middle), float(low), float(high)

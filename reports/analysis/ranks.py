@@ -1,4 +1,4 @@
-"""Mean ranks of entrants over the units of a task, and over tasks.
+"""Mean ranks of entrants over the units of a task.
 
 Ranks are compared only where they can separate: over at least `FEWEST_UNITS` units, and where the
 critical difference is less than k − 1, which is how far apart the first and the last of k can be.
@@ -6,20 +6,18 @@ critical difference is less than k − 1, which is how far apart the first and t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import reduce
 
 import numpy as np
 import pandas as pd
-from scipy import stats
 
 from mocapbench.metrics.statistics import RankComparison, compare_ranks, nemenyi
 from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.units import FEWEST_UNITS
 
-__all__ = ["Ranks", "ranks_over_tasks", "ranks_over_units", "unit_losses"]
+__all__ = ["Ranks", "ranks_over_units", "unit_losses"]
 
 FEWEST_ENTRANTS = 3
 
@@ -35,7 +33,7 @@ class Ranks:
     left_out : tuple of str
         Entrants that lack some.
     unit : str
-        What the entrants are ranked over: ``"subject"``, ``"fold"``, ``"case"`` or ``"task"``.
+        What the entrants are ranked over: ``"subject"``, ``"fold"`` or ``"case"``.
     comparison : RankComparison
     """
 
@@ -50,21 +48,6 @@ def ranks_over_units(results: TaskResults, metric: str) -> Ranks | None:
     scored = cells(results, metric)
     few = len(set(scored.units)) < FEWEST_UNITS
     return None if few else _ranks(unit_losses(scored), scored.unit)
-
-
-def ranks_over_tasks(tasks: Iterable[TaskResults]) -> Ranks | None:
-    """Return the ranks over tasks, each by its first metric; None where they separate none.
-
-    Each task counts once, by the mean ranks over its units of the entrants that all tasks share.
-    """
-    losses = [unit_losses(cells(task, task.layout.page.metrics[0])) for task in tasks]
-    losses = [table for table in losses if not table.empty]
-    if len(losses) < FEWEST_UNITS:
-        return None
-    common = reduce(pd.Index.intersection, [table.dropna(axis=1).columns for table in losses])
-    ranked = [stats.rankdata(table[common], axis=1).mean(axis=0) for table in losses]
-    entered = list(dict.fromkeys(label for table in losses for label in table.columns))
-    return _ranks(pd.DataFrame(ranked, columns=common).reindex(columns=entered), "task")
 
 
 def unit_losses(scored: Cells) -> pd.DataFrame:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.special import stdtrit
 
+from mocapbench.reports.analysis.interval import half_widths
 from mocapbench.reports.figures.scale import Scale
 
 __all__ = ["centre", "interval"]
@@ -37,6 +37,5 @@ def interval(values: Sequence[float], scale: Scale) -> tuple[float, float] | Non
     if len(values) < 2:
         return None
     seen = scale.forward(np.array(values, dtype=float))
-    half = stdtrit(len(seen) - 1, 0.975) * seen.std(ddof=1) / np.sqrt(len(seen))
-    low, high = scale.backward(seen.mean() + half * np.array([-1.0, 1.0]))
+    low, high = scale.backward(seen.mean() + half_widths(seen) * np.array([-1.0, 1.0]))
     return float(low), float(high)

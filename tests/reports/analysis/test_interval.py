@@ -4,9 +4,17 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy import stats
 
-from mocapbench.reports.analysis.interval import half_widths, log_interval
+from mocapbench.reports.analysis.interval import half_widths
+from mocapbench.reports.figures.fitting import fitted
+from mocapbench.reports.figures.intervals import centre, interval
+from mocapbench.reports.figures.scale import LogScale
 
 positive = st.lists(st.floats(0.01, 1e3), min_size=2, max_size=12)
+
+
+def log_interval(values):
+    scale = LogScale(1e-3, 1e5, 0.0, 100.0)
+    return (centre(values, scale), *interval(values, scale))
 
 
 @given(positive)
@@ -34,9 +42,14 @@ def test_a_log_interval_is_symmetric_on_a_logarithmic_axis(values):
     assert np.log(high / middle) == pytest.approx(np.log(middle / low), abs=1e-9)
 
 
-@pytest.mark.parametrize("values", [[1.0], [1.0, 0.0], [1.0, -2.0], []])
-def test_too_few_values_or_some_not_above_zero_have_none(values):
-    assert log_interval(values) is None
+@pytest.mark.parametrize("values", [[1.0, 0.0], [1.0, -2.0], []])
+def test_values_that_are_not_above_zero_get_no_logarithmic_scale(values):
+    assert not isinstance(fitted(values, 0.0, 100.0), LogScale)
+
+
+@pytest.mark.parametrize("values", [[1.0], []])
+def test_too_few_values_have_no_interval(values):
+    assert interval(values, LogScale(1e-3, 1e5, 0.0, 100.0)) is None
 
 
 def test_one_value_has_no_interval():

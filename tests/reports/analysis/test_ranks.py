@@ -3,7 +3,7 @@ import re
 import pytest
 
 from mocapbench.metrics.statistics import nemenyi
-from mocapbench.reports.analysis.ranks import ranks_over_tasks, ranks_over_units
+from mocapbench.reports.analysis.ranks import ranks_over_units
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.units import FEWEST_UNITS
 from mocapbench.reports.bundle.layout import CaseLayout
@@ -68,30 +68,6 @@ def test_ranks_that_cannot_separate_are_not_drawn(small, n_cases, n_labels):
     ranks = ranks_over_units(results_of(small(dict.fromkeys("abcde"[:n_cases], labels))), "mse")
     reach = n_labels - 1
     assert (ranks is None) == (n_cases < FEWEST_UNITS or nemenyi(n_cases, n_labels) >= reach)
-
-
-def tasks_of(small, n, values=ORDERED):
-    return [results_of(small(values)) for _ in range(n)]
-
-
-def test_a_task_counts_once_however_many_cases_it_has(small):
-    reverse = {"row": {"c": [1.0], "b": [2.0], "a": [3.0]}}
-    ranks = ranks_over_tasks([*tasks_of(small, 4), *tasks_of(small, 4, reverse)])
-    assert (ranks.unit, ranks.comparison.n) == ("task", 8)
-    assert ranks.comparison.mean_ranks == (2.0, 2.0, 2.0)
-
-
-def test_only_common_entrants_are_ranked_over_tasks(small):
-    other = small({"row": {"a": [1.0], "b": [2.0], "c": [3.0], "d": [0.1]}})
-    ranks = ranks_over_tasks([*tasks_of(small, 7), results_of(other)])
-    assert (ranks.labels, ranks.left_out) == (("a", "b", "c"), ("d",))
-    strangers = small({"row": {"x": [1.0], "y": [2.0], "z": [3.0]}})
-    assert ranks_over_tasks([*tasks_of(small, 7), results_of(strangers)]) is None
-
-
-def test_few_tasks_are_not_ranked(small):
-    assert ranks_over_tasks(tasks_of(small, FEWEST_UNITS - 1)) is None
-    assert ranks_over_tasks(tasks_of(small, FEWEST_UNITS)) is not None
 
 
 def test_the_diagram_names_its_groups_in_words(small):
