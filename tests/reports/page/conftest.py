@@ -1,5 +1,6 @@
 """The page in a real browser, with the network cut off."""
 
+import time
 from pathlib import Path
 
 import pytest
@@ -48,6 +49,23 @@ def visit(browser, address):
     yield open_page
     for context in contexts:
         context.close()
+
+
+@pytest.fixture
+def until():
+    """Return a function that waits until a condition holds in a tab.
+
+    The tab's own ``wait_for_function`` evaluates text in the page while it polls,
+    which the page's policy forbids.
+    """
+
+    def wait(tab, condition, arg=None):
+        deadline = time.monotonic() + 30
+        while not tab.evaluate(condition, arg):
+            assert time.monotonic() < deadline, f"never came true: {condition}"
+            tab.wait_for_timeout(20)
+
+    return wait
 
 
 def _only(address, route, complaints):

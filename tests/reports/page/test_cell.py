@@ -54,7 +54,9 @@ def test_every_score_opens_its_own_cell(visit, bundle):
 
 
 @pytest.mark.parametrize("table", ["#scoreboard", "#toy-interpolation-1-mse"])
-def test_a_mean_opens_the_first_case_of_its_model_and_leads_to_the_others(visit, bundle, table):
+def test_a_mean_opens_the_first_case_of_its_model_and_leads_to_the_others(
+    visit, bundle, table, until
+):
     tab = visit()
     mean = f"{table} a[href='#{cell_anchor(TASK, '', LABEL)}']"
     tab.locator(mean).click()
@@ -65,12 +67,12 @@ def test_a_mean_opens_the_first_case_of_its_model_and_leads_to_the_others(visit,
     assert title(tab) == f"{LABEL} · test 4"
     assert cases.nth(3).get_attribute("aria-current") == "true"
     tab.keyboard.press("Escape")
-    tab.wait_for_function("!document.getElementById('cell').open")
+    until(tab, "!document.getElementById('cell').open")
     assert tab.locator(mean).evaluate("link => link === document.activeElement")
 
 
 @pytest.mark.parametrize("key", ["Escape", "back", "Close"])
-def test_closing_brings_back_place_address_and_focus(visit, key):
+def test_closing_brings_back_place_address_and_focus(visit, key, until):
     tab = visit(fragment="#provenance", reduced_motion="reduce")
     link = tab.locator("#toy-interpolation-1-mse a[href^='#cell=']").first
     link.scroll_into_view_if_needed()
@@ -87,9 +89,9 @@ def test_closing_brings_back_place_address_and_focus(visit, key):
         tab.go_back()
     else:
         tab.get_by_role("button", name="Close").click()
-    tab.wait_for_function("!document.getElementById('cell').open")
+    until(tab, "!document.getElementById('cell').open")
     assert tab.evaluate("location.hash") == "#provenance"
-    tab.wait_for_function("top => scrollY === top", arg=before)
+    until(tab, "top => scrollY === top", arg=before)
     assert tab.evaluate("document.activeElement.hash") == anchor
 
 
@@ -110,26 +112,26 @@ def test_an_unknown_cell_is_told(visit, fragment):
     assert tab.complaints == []
 
 
-def test_a_failed_fold_says_why_and_leads_to_the_failure(visit):
+def test_a_failed_fold_says_why_and_leads_to_the_failure(visit, until):
     tab = visit(fragment=f"#{cell_anchor('walking-interpolation', 'observed 10', 'mohgp-3')}")
     row = tab.locator("[data-cell=folds] tr").nth(2)
     assert "LinAlgError" in row.inner_text()
     row.get_by_role("link", name="failed").click()
-    tab.wait_for_function("!document.getElementById('cell').open")
+    until(tab, "!document.getElementById('cell').open")
     assert tab.locator(tab.evaluate("location.hash")).get_attribute("open") is not None
 
 
-def test_the_command_is_copied_or_else_selected(visit):
+def test_the_command_is_copied_or_else_selected(visit, until):
     tab = visit(fragment=ANCHOR)
     tab.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject() }")
     tab.locator("[data-cell=copy]").click()
-    tab.wait_for_function("document.querySelector('[data-cell=copied]').textContent")
+    until(tab, "document.querySelector('[data-cell=copied]').textContent")
     assert tab.evaluate("getSelection().toString()") == " ".join(COMMAND)
     copied = []
     tab.expose_function("keep", lambda text: copied.append(text))  # noqa: PLW0108
     tab.evaluate("() => { navigator.clipboard.writeText = (text) => keep(text) }")
     tab.locator("[data-cell=copy]").click()
-    tab.wait_for_function("document.querySelector('[data-cell=copied]').textContent === 'Copied.'")
+    until(tab, "document.querySelector('[data-cell=copied]').textContent === 'Copied.'")
     assert copied == [" ".join(COMMAND)]
 
 

@@ -55,12 +55,12 @@ def address(tmp_path_factory):
 
 
 @pytest.fixture
-def tab(browser, address):
+def tab(browser, address, until):
     tab = browser.new_page(viewport={"width": 1000, "height": 2000}, color_scheme="light")
     complaints = []
     tab.on("pageerror", lambda error: complaints.append(str(error)))
     tab.goto(address)
-    tab.wait_for_function("document.querySelector('canvas.matrix').width !== 300")
+    until(tab, "document.querySelector('canvas.matrix').width !== 300")
     yield tab
     assert complaints == []
     tab.close()

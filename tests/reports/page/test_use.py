@@ -135,10 +135,10 @@ def test_what_is_folded_opens_by_click(tab):
     tab.locator("#toy-interpolation-1-msll").wait_for()
 
 
-def test_what_is_folded_opens_by_link(visit):
+def test_what_is_folded_opens_by_link(visit, until):
     tab = visit(fragment="#toy-interpolation-1-msll")
     tab.locator("#toy-interpolation-1-msll").wait_for()
-    tab.wait_for_function(IN_VIEW, arg="#toy-interpolation-1-msll")
+    until(tab, IN_VIEW, arg="#toy-interpolation-1-msll")
 
 
 @pytest.mark.parametrize("reduced", ["reduce", "no-preference"])
