@@ -1,0 +1,6 @@
+"""
+Fill a recording
+================
+"""
+
+print("to be written")
