@@ -95,7 +95,10 @@ golf_swings = Task(
     entrants=(*POSE_VITERBI, *WITH_BEST_START),
     profiles={
         "smoke": Profile(
-            ("synthetic",), folds=1, budget={"max_iter": 2, "fill_iter": 10}, opt_in=SLOW
+            ("synthetic",),
+            folds=1,
+            budget={"max_iter": 2, "fill_iter": 10},
+            opt_in=(*SLOW, "best-of"),
         ),
         "quick": Profile(
             tuple(case.name for case in _CASES),

@@ -204,7 +204,7 @@ marker_gaps = Task(
             (f"synthetic a limb 0.5 s, {OTHERS}",),
             folds=1,
             budget={"max_iter": 2, "n_restarts": 1},
-            opt_in=_NOT_QUICK,
+            opt_in=(*_NOT_QUICK, "best-of"),
         ),
         "quick": Profile(
             (

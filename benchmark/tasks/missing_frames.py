@@ -119,7 +119,7 @@ missing_frames = Task(
             ("synthetic 1",),
             folds=1,
             budget={"max_iter": 2, "fill_iter": 10},
-            opt_in=(*SLOW, "cyclic-alignment-centred"),
+            opt_in=(*SLOW, "cyclic-alignment-centred", "best-of"),
         ),
         "quick": Profile(
             (*(case.name for case in _CASES if "three" in case.name), "synthetic 1"),

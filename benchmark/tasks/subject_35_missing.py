@@ -108,6 +108,7 @@ subject_35_missing = Task(
             ("synthetic right leg",),
             folds=1,
             budget={"max_iter": 3, "n_restarts": 1, "n_styles": 2},
+            opt_in=("best-of",),
         ),
         "quick": Profile(
             tuple(case.name for case in _CASES), folds=1, budget={"n_restarts": 1, "max_iter": 10}

@@ -70,7 +70,10 @@ upper_body_missing = Task(
     max_folds=N_WALKS,
     profiles={
         "smoke": Profile(
-            ("synthetic walks",), folds=1, budget={"max_iter": 3, "n_restarts": 1, "n_styles": 2}
+            ("synthetic walks",),
+            folds=1,
+            budget={"max_iter": 3, "n_restarts": 1, "n_styles": 2},
+            opt_in=("best-of",),
         ),
         "quick": Profile(tuple(case.name for case in _CASES), folds=3),
         "paper": Profile(on_recordings(_CASES), folds=N_WALKS),

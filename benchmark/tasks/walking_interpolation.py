@@ -77,13 +77,13 @@ walking_interpolation = Task(
             ("synthetic observed 40",),
             folds=1,
             budget={"max_iter": 5, "n_restarts": 1},
-            opt_in=("mohgp-1+5",),
+            opt_in=("mohgp-1+5", "mohgp-1", "hgp", "best-of"),
         ),
         "quick": Profile(
             ("observed 40", "synthetic observed 40"),
             folds=1,
             budget={"max_iter": 200},
-            opt_in=("mohgp-1+5", "cyclic-alignment"),  # longer than all others together
+            opt_in=("mohgp-1+5", "mohgp-1", "cyclic-alignment"),  # longer than all others together
         ),
         "paper": Profile(on_recordings(_CASES), folds=5, budget={"max_iter": 500}),
     },
