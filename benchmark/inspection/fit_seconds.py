@@ -10,7 +10,7 @@ from mocapbench.benchmark.runs.execution.durations import Durations
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["MEASURED", "alike", "of_records", "typical"]
+__all__ = ["MEASURED", "alike", "of_fits", "of_predictions", "of_records", "typical"]
 
 MEASURED = {"smoke": "smoke", "quick": "quick", "paper": "quick"}
 """Of each profile, the one whose fits were measured; those of ``paper`` take longer."""
@@ -25,11 +25,28 @@ def alike(address: Address) -> tuple[tuple[str, ...], ...]:
 
 def of_records(records: Iterable[Record]) -> Durations:
     """Return how long the fits of ``records`` took, predictions included."""
+    return _learnt(
+        (record.address, record.fit_seconds + (record.predict_seconds or 0.0))
+        for record in records
+        if record.fit_seconds is not None
+    )
+
+
+def of_fits(records: Iterable[Record]) -> Durations:
+    """Return how long the fits of ``records`` took."""
+    return _learnt((record.address, record.fit_seconds) for record in records)
+
+
+def of_predictions(records: Iterable[Record]) -> Durations:
+    """Return how long the predictions of ``records`` took."""
+    return _learnt((record.address, record.predict_seconds) for record in records)
+
+
+def _learnt(seconds: Iterable[tuple[Address, float | None]]) -> Durations:
     durations = Durations()
-    for record in records:
-        if record.fit_seconds is not None:
-            seconds = record.fit_seconds + (record.predict_seconds or 0.0)
-            durations.learn(alike(record.address), seconds)
+    for address, each in seconds:
+        if each is not None:
+            durations.learn(alike(address), each)
     return durations
 
 
@@ -41,10 +58,9 @@ def typical(profile: str) -> Durations:
     profile : str
         See `MEASURED`.
     """
-    durations = Durations()
     with _TYPICAL.open(encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
-            if row["profile"] == MEASURED[profile]:
-                address = Address(row["task"], 0, "", 0, row["label"])
-                durations.learn(alike(address), float(row["seconds"]))
-    return durations
+        return _learnt(
+            (Address(row["task"], 0, "", 0, row["label"]), float(row["seconds"]))
+            for row in csv.DictReader(file)
+            if row["profile"] == MEASURED[profile]
+        )

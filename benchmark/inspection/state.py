@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from mocapbench.benchmark.inspection.fit_seconds import alike, of_records
+from mocapbench.benchmark.inspection.fit_seconds import alike, of_fits, of_predictions
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, planned_jobs
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
@@ -113,7 +113,12 @@ def _seconds_left(
     """Return the seconds of work in jobs, each expected to take as long as those most like it.
 
     To score predictions that are there, or that another row asks for too, takes no time beside it.
+    A model that several jobs share is fitted once.
     """
-    to_fit = {job.fit_key: job.address for job in left if job.fit_key not in predicted}
-    durations = of_records(records)
-    return sum(durations.expected(alike(address)) for address in to_fit.values())
+    new = [job for job in left if job.fit_key not in predicted]
+    to_predict = {job.fit_key: job.address for job in new}
+    to_fit = {job.training_key or job.fit_key: job.address for job in new}
+    fits, predictions = of_fits(records), of_predictions(records)
+    return sum(fits.expected(alike(address)) for address in to_fit.values()) + sum(
+        predictions.expected(alike(address)) for address in to_predict.values()
+    )

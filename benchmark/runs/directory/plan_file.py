@@ -38,12 +38,17 @@ class PlannedJob(NamedTuple):
     key: str
     fit_key: str
     address: Address
+    training_key: str = ""
+    """Of the fitted model that it shares; empty where it shares none."""
 
 
 def plan_document(jobs: Iterable[Job | PlannedJob], **about: Any) -> dict[str, Any]:
     """Return the plan of ``jobs``, and what else is to be said of it."""
     jobs = list(jobs)
-    rows = [{"fit_key": job.fit_key, **job.address._asdict()} for job in jobs]
+    rows = [
+        {"fit_key": job.fit_key, "training_key": job.training_key, **job.address._asdict()}
+        for job in jobs
+    ]
     return {"keys": [job.key for job in jobs], "jobs": rows, **about}
 
 
@@ -61,7 +66,12 @@ def planned_task_files(plan: Mapping[str, Any]) -> tuple[TaskFile, ...]:
 def planned_jobs(plan: Mapping[str, Any]) -> list[PlannedJob]:
     """Return the jobs of a plan; none if an earlier version wrote it, which did not tell them."""
     return [
-        PlannedJob(key, row["fit_key"], Address(**{name: row[name] for name in Address._fields}))
+        PlannedJob(
+            key,
+            row["fit_key"],
+            Address(**{name: row[name] for name in Address._fields}),
+            row.get("training_key", ""),
+        )
         for key, row in zip(plan["keys"], plan.get("jobs", ()), strict=False)
     ]
 

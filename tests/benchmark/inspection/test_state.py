@@ -73,6 +73,15 @@ def test_to_score_what_is_predicted_takes_no_time(write_run, tmp_path):
     assert run_state(store).seconds_left == 0.5
 
 
+def test_a_model_that_jobs_share_is_fitted_once(write_run, tmp_path):
+    store = Store(write_run(tmp_path / "run", ROWS, left=ROWS[6:], seconds=4.0))
+    each = run_state(store).seconds_left
+    plan = dict(store.load_plan())
+    plan["jobs"] = [row | {"training_key": row["task"]} for row in plan["jobs"]]
+    store.save_plan(plan)
+    assert run_state(store).seconds_left == pytest.approx(each / len(ROWS[6:]))
+
+
 def test_damaged_files_are_named(write_run, tmp_path):
     store = Store(write_run(tmp_path / "run", ROWS))
     victims = [next(store.path.glob(f"{name}/*/*")) for name in ("records", "predictions")]
