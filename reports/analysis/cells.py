@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from mocapbench.reports.analysis.grid import Array, linear_losses
 from mocapbench.reports.analysis.results import TaskResults
@@ -58,7 +59,7 @@ class Cells:
         """Whether a label has a score wherever the best one has, of shape (n_labels,)."""
         return np.asarray((self.scored == self.scored[self.best]).all(axis=1))
 
-    def weights(self, kept: NDArray[np.bool_]) -> Array:
+    def weights(self, kept: NDArray[np.bool_]) -> csr_array[np.float64]:
         """Return the weights of the cells that are ``kept``, by unit, of shape (n_units, kept)."""
         address = kept.tobytes()
         if address not in self._weights:
@@ -69,7 +70,7 @@ class Cells:
         return self._weights[address]
 
     @cached_property
-    def _weights(self) -> dict[bytes, Array]:
+    def _weights(self) -> dict[bytes, csr_array[np.float64]]:
         return {}
 
     def mean(self, row: int) -> float:
@@ -91,7 +92,7 @@ class Cells:
 
     def n_units(self, row: int) -> int:
         """Return in how many units a label has scores."""
-        return len(self.weights(self.scored[row]))
+        return int(self.weights(self.scored[row]).shape[0])
 
     def n_cases(self, row: int) -> int:
         """Return in how many cases a label has scores."""

@@ -108,11 +108,11 @@ def _samples(scored: Cells, rows: NDArray[np.int_]) -> Array:
     for number, kept in enumerate(patterns):
         chosen = np.flatnonzero(pattern_of.reshape(-1) == number)
         weights = scored.weights(kept)
-        found[0, chosen] = len(weights)
-        if len(weights):
-            shares = weights.sum(axis=1)
+        found[0, chosen] = weights.shape[0]
+        if weights.shape[0]:
+            shares: Array = weights.sum(axis=1)
             values, losses = (
-                array[:, kept][rows[chosen]] @ weights.T / shares
+                (array[:, kept] @ weights.T / shares)[rows[chosen]]
                 for array in (scored.values, scored.losses)
             )
             found[1:3, chosen] = (values @ shares).T

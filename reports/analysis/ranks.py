@@ -57,9 +57,8 @@ def unit_losses(scored: Cells) -> pd.DataFrame:
     """
     whole = scored.scored.all(axis=1)
     weights = scored.weights(np.ones(len(scored.cases), dtype=bool))
-    values = weights / weights.sum(axis=1, keepdims=True)
-    losses = values @ np.where(np.expand_dims(whole, 1), scored.losses, np.nan).T
-    return pd.DataFrame(losses, columns=list(scored.labels))
+    sums = np.where(np.expand_dims(whole, 1), scored.losses, np.nan) @ weights.T
+    return pd.DataFrame((sums / weights.sum(axis=1)).T, columns=list(scored.labels))
 
 
 def _ranks(losses: pd.DataFrame, unit: str) -> Ranks | None:

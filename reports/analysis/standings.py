@@ -106,7 +106,7 @@ def _standings(scored: Cells) -> tuple[Standing, ...]:
     best, complete = scored.best, scored.complete
     kept = scored.scored[best]
     weights = scored.weights(kept)
-    shares = weights.sum(axis=1)
+    shares: Array = weights.sum(axis=1)
     losses = scored.losses[:, kept] @ weights.T / shares
     others = np.arange(len(losses)) != best
     differences = losses - losses[best]

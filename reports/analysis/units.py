@@ -28,7 +28,7 @@ from collections.abc import Sequence
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from mocapbench.reports.bundle.layout import CaseLayout
 
@@ -63,7 +63,7 @@ def unit_names(case: CaseLayout, folds: Sequence[int], *, independent: bool) -> 
             return [f"case {case.name}"] * len(folds)
 
 
-def unit_weights(units: Sequence[str], cases: Sequence[str]) -> NDArray[np.float64]:
+def unit_weights(units: Sequence[str], cases: Sequence[str]) -> csr_array[np.float64]:
     """Return the weights w(c, f) of cells, each in the row of its unit.
 
     Parameters
@@ -73,13 +73,12 @@ def unit_weights(units: Sequence[str], cases: Sequence[str]) -> NDArray[np.float
 
     Returns
     -------
-    ndarray of shape (n_units, n_cells)
+    sparse array of shape (n_units, n_cells)
         The sum of a row is the unit's share, that of all is 1. Units are in order of first
         appearance.
     """
     n_cells = Counter(cases)
     rows = {unit: row for row, unit in enumerate(dict.fromkeys(units))}
-    weights = np.zeros((len(rows), len(units)))
-    for column, (unit, case) in enumerate(zip(units, cases, strict=True)):
-        weights[rows[unit], column] = 1.0 / (len(n_cells) * n_cells[case])
-    return weights
+    weights = [1.0 / (len(n_cells) * n_cells[case]) for case in cases]
+    places = [rows[unit] for unit in units], range(len(units))
+    return csr_array((weights, places), shape=(len(rows), len(units)))

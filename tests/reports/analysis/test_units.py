@@ -40,6 +40,13 @@ def test_the_mean_over_units_by_their_shares_is_the_mean_over_cases(pairs):
     assert shares @ (weights @ values / shares) == pytest.approx(np.mean(of_cases))
 
 
+def test_weights_take_memory_for_each_cell_but_not_for_each_pair_of_unit_and_cell():
+    units = [f"fold {number}" for number in range(100_000)]
+    weights = unit_weights(units, ["row"] * len(units))
+    assert weights.nnz == len(units)
+    assert weights.sum() == pytest.approx(1.0)
+
+
 def test_a_subjects_two_recordings_are_one_unit(small):
     values = {name: {"a": [1.0, 3.0], "b": [2.0, 4.0]} for name in ("07-01", "07-02", "35-03")}
     cases = tuple(CaseLayout(name, {}, subjects=(name[:2],)) for name in values)
