@@ -69,6 +69,12 @@ class Cells:
             )
         return self._weights[address]
 
+    def by_unit(self, array: Array, kept: NDArray[np.bool_]) -> Array:
+        """Return the means x(u) of each label over ``kept`` cells, of shape (n_labels, n_units)."""
+        weights = self.weights(kept)
+        sums: Array = np.asarray(weights @ array[:, kept].T)
+        return sums.T / weights.sum(axis=1)
+
     @cached_property
     def _weights(self) -> dict[bytes, csr_array[np.float64]]:
         return {}

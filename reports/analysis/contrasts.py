@@ -112,7 +112,7 @@ def _samples(scored: Cells, rows: NDArray[np.int_]) -> Array:
         if weights.shape[0]:
             shares: Array = weights.sum(axis=1)
             values, losses = (
-                (array[:, kept] @ weights.T / shares)[rows[chosen]]
+                scored.by_unit(array, kept)[rows[chosen]]
                 for array in (scored.values, scored.losses)
             )
             found[1:3, chosen] = (values @ shares).T

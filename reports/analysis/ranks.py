@@ -56,9 +56,9 @@ def unit_losses(scored: Cells) -> pd.DataFrame:
     A label that lacks a score in any cell is NaN throughout: what it lacks may be hard.
     """
     whole = scored.scored.all(axis=1)
-    weights = scored.weights(np.ones(len(scored.cases), dtype=bool))
-    sums = np.where(np.expand_dims(whole, 1), scored.losses, np.nan) @ weights.T
-    return pd.DataFrame((sums / weights.sum(axis=1)).T, columns=list(scored.labels))
+    losses = np.where(np.expand_dims(whole, 1), scored.losses, np.nan)
+    means = scored.by_unit(losses, np.ones(len(scored.cases), dtype=bool))
+    return pd.DataFrame(means.T, columns=list(scored.labels))
 
 
 def _ranks(losses: pd.DataFrame, unit: str) -> Ranks | None:

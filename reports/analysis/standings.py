@@ -105,9 +105,8 @@ def _standings(scored: Cells) -> tuple[Standing, ...]:
         return ()
     best, complete = scored.best, scored.complete
     kept = scored.scored[best]
-    weights = scored.weights(kept)
-    shares: Array = weights.sum(axis=1)
-    losses = scored.losses[:, kept] @ weights.T / shares
+    shares: Array = scored.weights(kept).sum(axis=1)
+    losses = scored.by_unit(scored.losses, kept)
     others = np.arange(len(losses)) != best
     differences = losses - losses[best]
     low, high, separable = _tested(differences, shares, complete & others)
