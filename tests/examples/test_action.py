@@ -48,7 +48,7 @@ LINES = st.lists(TEXT)
 
 
 CACHES = shutil.ignore_patterns(
-    ".git", ".tox", ".venv", ".*_cache", "__pycache__", "*.egg-info", "build", "dist"
+    ".git", ".tox", ".venv", ".*_cache", "__pycache__", "*.egg-info", "build", "dist", "_build"
 )
 
 
