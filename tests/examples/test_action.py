@@ -45,8 +45,6 @@ MODELS = {"fails": Fails}
 """
 TEXT = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0\n"), min_size=1)
 LINES = st.lists(TEXT)
-
-
 CACHES = shutil.ignore_patterns(
     ".git", ".tox", ".venv", ".*_cache", "__pycache__", "*.egg-info", "build", "dist", "_build"
 )
@@ -82,7 +80,6 @@ def test_no_input_is_pasted_into_a_script(name):
     step = SCRIPTS[name]
     assert "${{" not in step["run"]
     used = set(re.findall(r"\$\{?(INPUT_\w+|RUN\b|PYTHON\b)", step["run"]))
-    used |= set(re.findall(r'<<< "\$(\w+)"', step["run"]))
     assert used == set(step["env"])
 
 
