@@ -1,11 +1,13 @@
-"""The task that CONTRIBUTING.md shows is a valid one."""
+"""The task that CONTRIBUTING.md shows is a valid one, and the environments it names exist."""
 
+import configparser
 import re
 from pathlib import Path
 
 from mocapbench.benchmark.testing import check_task
 
-PAGE = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).parents[1]
+PAGE = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 
 
 def test_its_task_conforms():
@@ -13,3 +15,12 @@ def test_its_task_conforms():
     shown = {}
     exec(source, shown)
     check_task(shown["wave"])
+
+
+def test_its_environments_of_tox_exist():
+    tox = configparser.ConfigParser(interpolation=None)
+    tox.read(ROOT / "tox.ini")
+    sections = re.findall(r"testenv:\{?([\w,]+)", " ".join(tox.sections()))
+    known = {"tests", *(name for names in sections for name in names.split(","))}
+    named = re.findall(r"tox run -e ([\w,]+)", PAGE)
+    assert {name for names in named for name in names.split(",")} <= known

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from mocapbench import __version__
+
 ROOT = Path(__file__).parents[1]
 FOLDERS = ("datasets", "metrics", "baselines", "reports", "benchmark")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
@@ -93,18 +95,35 @@ def build(kind, tree):
     return path
 
 
+@pytest.fixture(scope="module")
+def sdist(tree):
+    """Return the source distribution."""
+    return build("sdist", tree)
+
+
 @pytest.mark.slow
-def test_the_source_distribution_holds_what_its_tests_need(tree):
-    with tarfile.open(build("sdist", tree)) as archive:
+def test_the_source_distribution_holds_what_its_tests_need(tree, sdist):
+    with tarfile.open(sdist) as archive:
         held = {member.name.partition("/")[2] for member in archive if member.isfile()}
     top = {"CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "LICENSE", "README.md", "tox.ini"}
-    needed = files_below(tree, *FOLDERS, "src", "tests", "docs", "examples", ".ci")
+    top |= {"action.yml", ".pre-commit-config.yaml", ".pre-commit-hooks.yaml"}
+    needed = files_below(tree, *FOLDERS, "src", "tests", "docs", "examples", "conda", ".ci")
     assert {*top, "pyproject.toml", *needed} - held == set()
     assert {"tests/goldens/metrics/tolerances.toml", "tests/lowest.txt", ".ci/run"} <= held
     generated = {"PKG-INFO", "setup.cfg", "MANIFEST.in", "pyproject.toml"}
     assert {
         name for name in held - needed - top - generated if not name.startswith("mocapbench.egg")
     } == set()
+
+
+@pytest.mark.slow
+def test_an_archive_without_a_history_of_git_makes_a_wheel_of_this_version(sdist, tmp_path):
+    shutil.unpack_archive(sdist, tmp_path)
+    (unpacked,) = tmp_path.iterdir()
+    assert unpacked.name == f"mocapbench-{__version__}"
+    with zipfile.ZipFile(build("wheel", unpacked)) as archive:
+        metadata = archive.read(f"mocapbench-{__version__}.dist-info/METADATA").decode()
+    assert f"\nVersion: {__version__}\n" in metadata
 
 
 @pytest.mark.slow

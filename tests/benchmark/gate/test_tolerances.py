@@ -44,7 +44,7 @@ def test_a_metric_under_both_of_its_names_is_refused(written):
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("[cros]", "unknown entry of --tolerances 'cros': did you mean cross"),
+        ("[crosss]", "unknown entry of --tolerances 'crosss': did you mean cross"),
         ("[cross]\nrelativ = 1", "did you mean relative"),
         ("[cross]\nk = -1", "cross.k: expected a number from 0, got -1"),
         ("[cross]\nk = nan", "expected a number from 0, got nan"),

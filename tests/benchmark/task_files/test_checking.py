@@ -16,8 +16,8 @@ GOOD = 'files = ["*.csv"]\nfolds = 2\n[hide]\nruns = { seconds = 0.1, count = 2 
 
 WRONG = [
     (
-        'fils = ["*.csv"]\n[hide]\nfraction = 0.2',
-        r"line 1, key fils: .* did you mean files",
+        'filez = ["*.csv"]\n[hide]\nfraction = 0.2',
+        r"line 1, key filez: .* did you mean files",
     ),
     (
         "[hide]\nfraction = 0.2",
@@ -93,7 +93,7 @@ WRONG = [
     ),
     (
         'files = "*.csv"\n[hide]\nchannels = "("\nfraction = 0.1',
-        r"line 3, key hide.channels: expecte",
+        r"line 3, key hide.channels: expected",
     ),
     (
         'files = "*.csv"\n[hide]\nchannels = "toe"\nfraction = 0.1',

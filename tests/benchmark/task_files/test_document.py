@@ -70,5 +70,5 @@ def test_an_error_has_file_line_and_key():
 
 
 def test_an_unknown_key_is_met_with_the_nearest():
-    with pytest.raises(TaskFileError, match=r"line 1, key fils: .* did you mean files\?"):
-        Document("my.toml", "fils = 1").require_known("", ("files", "hide"))
+    with pytest.raises(TaskFileError, match=r"line 1, key filez: .* did you mean files\?"):
+        Document("my.toml", "filez = 1").require_known("", ("files", "hide"))

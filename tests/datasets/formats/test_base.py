@@ -76,7 +76,7 @@ def test_a_rate_is_positive(tmp_path, rate):
 def test_another_recording_cannot_be_written(tmp_path):
     path = sample("csv", tmp_path)
     with pytest.raises(
-        FormatError, match=r"the 60 frames and 62 channels of walk.csv, got 59 fram"
+        FormatError, match=r"the 60 frames and 62 channels of walk.csv, got 59 frames"
     ):
         CSVFormat().write(tmp_path / "out.csv", walk(59), like=path)
 

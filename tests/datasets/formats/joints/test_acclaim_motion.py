@@ -105,7 +105,7 @@ def test_what_is_wrong_is_said_plainly(given, old, new, complaint):
 def test_a_wrong_skeleton_is_named(given):
     given.with_suffix(".asf").write_text("nothing")
     with pytest.raises(
-        FormatError, match=r"walk.asf, line 1: expected .*; export the skeleton agai"
+        FormatError, match=r"walk.asf, line 1: expected .*; export the skeleton again"
     ):
         AMC.read(given)
 
