@@ -26,6 +26,7 @@ from mocapbench.baselines.alignment.updates import (
     update_smoothness,
     update_weights,
 )
+from mocapbench.baselines.alignment.warping import similar_styles
 
 __all__ = ["EMSettings", "best_fit", "random_cycle", "random_start", "run", "split"]
 
@@ -89,10 +90,11 @@ def run(state: State, sequences: Sequences, settings: EMSettings, max_iter: int)
 
 
 def random_start(sequences: Sequences, settings: EMSettings, rng: np.random.Generator) -> State:
-    """Return a start: all sequences aligned to one cycle, then random styles of equal size.
+    """Return a start: all sequences aligned to one cycle, then styles of those alike on it.
 
     The first cycle is that of a random sequence, as in HLM §4. HLM starts with nearly uniform
-    labels instead, so that styles differ by noise alone and each style aligns separately.
+    labels instead. EM moves few sequences between styles later on, because the cycle of a style
+    adapts to those that it has: from random groups it ends in styles that mix motions.
     """
     common = start(
         random_cycle(sequences, settings.n_states, rng),
@@ -103,7 +105,7 @@ def random_start(sequences: Sequences, settings: EMSettings, rng: np.random.Gene
         hyper=settings.hyper,
     )
     aligned = run(common, sequences, settings, _COMMON_ITER).state
-    styles = rng.permutation(len(sequences.lengths)) % settings.n_styles
+    styles = similar_styles(aligned, sequences, settings.n_styles, rng)
     return split(aligned, np.eye(settings.n_styles)[styles])
 
 
