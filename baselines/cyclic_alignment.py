@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.em import Run
+from mocapbench.baselines.alignment.errors import corrected
 from mocapbench.baselines.alignment.estimator import CycleAligner
 from mocapbench.baselines.alignment.fitting import EMSettings, best_fit
 from mocapbench.baselines.alignment.inference import moments, refine
@@ -166,7 +167,8 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         A recording joins the fitted ones, replacing one of the same name, for ``refine_iter``
         iterations of EM. These start from the style with the highest bound and, if a style is
         empty, also from a new style for this recording alone; the run with the higher bound is
-        kept.
+        kept. The errors of a frame's visible entries then correct its hidden ones, by the
+        covariance of the errors of all recordings.
 
         Raises
         ------
@@ -241,13 +243,10 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)
 
     def _imputed(self, recording: Recording) -> Prediction:
-        others = np.flatnonzero([name != recording.name for name in self.names_])
-        state = refine(
-            self._sequences([recording]),
-            self.state_.rows(others),
-            self.sequences_.rows(others),
-            self.settings_,
-            self.refine_iter,
-        )
-        mean, variance = (moment[-1, : len(recording.times)] for moment in moments(state))
-        return Prediction.around(recording, self._unscaled(mean), variance * self.scaling_.scale**2)
+        index = np.flatnonzero([name != recording.name for name in self.names_])
+        new, others = self._sequences([recording]), self.sequences_.rows(index)
+        state = refine(new, self.state_.rows(index), others, self.settings_, self.refine_iter)
+        mean, variance = moments(state)
+        filled = corrected(mean, others.join(new))
+        spread = variance[-1, : len(filled)] * self.scaling_.scale**2
+        return Prediction.around(recording, self._unscaled(filled), spread)

@@ -62,7 +62,7 @@ def refine(
     style is empty, also with the new sequence alone in that style. The run with the higher bound
     is returned.
     """
-    joined = Sequences.of([*sequences.arrays(), *sequence.arrays()])
+    joined = sequences.join(sequence)
     first = _joined(fitted, infer(sequence, fitted, settings.hyper))
     runs = [
         run(update_paths(state, joined, settings.hyper), joined, settings, max_iter)
