@@ -1,4 +1,4 @@
-"""EM from random starts; the run with the highest bound is kept.
+"""EM from random starts.
 
 Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
 as HLM.
@@ -28,7 +28,7 @@ from mocapbench.baselines.alignment.updates import (
 )
 from mocapbench.baselines.alignment.warping import similar_styles
 
-__all__ = ["EMSettings", "best_fit", "random_cycle", "random_start", "run", "split"]
+__all__ = ["EMSettings", "random_cycle", "random_start", "restarts", "run", "split"]
 
 # Cycles first: while all styles have the same cycle, an update makes all labels equal.
 _E_STEP: tuple[Update, ...] = (update_cycles, update_labels, update_paths)
@@ -58,21 +58,19 @@ class EMSettings:
     tolerance: float
 
 
-def best_fit(
+def restarts(
     sequences: Sequences,
     settings: EMSettings,
     *,
     n_restarts: int,
     max_iter: int,
     rng: np.random.Generator,
-) -> tuple[Run, list[float]]:
-    """Return the run with the highest final bound, and the final bounds of all runs."""
-    runs = [
+) -> list[Run]:
+    """Return runs of EM from random starts."""
+    return [
         run(random_start(sequences, settings, rng), sequences, settings, max_iter)
         for _ in range(n_restarts)
     ]
-    ends = [attempt.bounds[-1] for attempt in runs]
-    return runs[int(np.argmax(ends))], ends
 
 
 def run(state: State, sequences: Sequences, settings: EMSettings, max_iter: int) -> Run:
