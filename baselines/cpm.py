@@ -11,7 +11,8 @@ from mocapbench.baselines.alignment.estimator import CycleAligner
 from mocapbench.baselines.alignment.fitting import random_cycle
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.profile import fit_profile, prototype
+from mocapbench.baselines.alignment.profile import fit_profile
+from mocapbench.baselines.alignment.warping import prototypes
 
 __all__ = ["CPM"]
 
@@ -122,8 +123,7 @@ class CPM(CycleAligner):
 
     def _describe(self, run: Run, order: Sequence[int]) -> None:
         self.log_likelihood_ = np.array(run.bounds)
-        trace, arrays = run.state.cycles.mean[:, 0], self.sequences_.arrays()
-        prototypes = [
-            prototype(arrays[k], path, trace) for k, path in zip(order, self.path_, strict=True)
-        ]
-        self.trace_, self.prototypes_ = self._unscaled(trace), self._unscaled(np.stack(prototypes))
+        trace = run.state.cycles.mean[:, 0]
+        given = self.sequences_.rows(np.array(order, dtype=np.intp))
+        self.trace_ = self._unscaled(trace)
+        self.prototypes_ = self._unscaled(prototypes(self.path_, given, trace))

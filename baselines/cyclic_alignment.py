@@ -13,11 +13,13 @@ from numpy.typing import ArrayLike, NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.em import Run
+from mocapbench.baselines.alignment.errors import corrected
 from mocapbench.baselines.alignment.estimator import CycleAligner
-from mocapbench.baselines.alignment.fitting import EMSettings, best_fit
+from mocapbench.baselines.alignment.fitting import EMSettings, restarts
 from mocapbench.baselines.alignment.inference import moments, refine
-from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.priors import PRIORS
+from mocapbench.baselines.alignment.sequences import Array
 from mocapbench.baselines.alignment.synthesis import blended, draw_cycles, draw_sequences
 from mocapbench.baselines.protocols import (
     Blender,
@@ -51,7 +53,8 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
     max_jump : int, default=3
         Largest number J of states between consecutive frames.
     n_restarts : int, default=3
-        Number of runs of EM from random starts; the one with the highest bound is kept.
+        Number of runs of EM from random starts. The one with the highest bound is kept, but
+        `impute` averages over all.
     max_iter : int, default=40
         Largest number of iterations of a run.
     tolerance : float, default=1e-5
@@ -92,6 +95,8 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         Probability of each style for each recording.
     bound_ : ndarray of shape (n_iterations_ + 1,)
         The variational bound at the start and after each iteration, for standardised channels.
+    runs_ : list of Run
+        All runs of EM.
     restart_bounds_ : ndarray of shape (n_restarts,)
         The final bound of each run.
     n_iterations_ : int
@@ -166,7 +171,9 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         A recording joins the fitted ones, replacing one of the same name, for ``refine_iter``
         iterations of EM. These start from the style with the highest bound and, if a style is
         empty, also from a new style for this recording alone; the run with the higher bound is
-        kept.
+        kept. The errors of a frame's visible entries then correct its hidden ones, by the
+        covariance of the errors of all recordings. The result is the mixture over all runs of
+        `fit`, with equal weights: the bound does not rank their errors.
 
         Raises
         ------
@@ -224,15 +231,15 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
             n_inner=self.n_inner,
             tolerance=self.tolerance,
         )
-        best, ends = best_fit(
+        self.runs_ = restarts(
             self.sequences_,
             self.settings_,
             n_restarts=self.n_restarts,
             max_iter=self.max_iter,
             rng=rng,
         )
-        self.restart_bounds_ = np.array(ends)
-        return best
+        self.restart_bounds_ = np.array([run.bounds[-1] for run in self.runs_])
+        return self.runs_[int(self.restart_bounds_.argmax())]
 
     def _describe(self, run: Run, order: Sequence[int]) -> None:
         self.bound_ = np.array(run.bounds)
@@ -241,13 +248,18 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)
 
     def _imputed(self, recording: Recording) -> Prediction:
-        others = np.flatnonzero([name != recording.name for name in self.names_])
-        state = refine(
-            self._sequences([recording]),
-            self.state_.rows(others),
-            self.sequences_.rows(others),
-            self.settings_,
-            self.refine_iter,
-        )
-        mean, variance = (moment[-1, : len(recording.times)] for moment in moments(state))
+        """Return the mean and variance of the mixture of all runs, with equal weights."""
+        filled, spread = np.array(
+            [self._filled(recording, run.state) for run in self.runs_]
+        ).swapaxes(0, 1)
+        mean = filled.mean(axis=0)
+        variance = spread.mean(axis=0) + filled.var(axis=0)
         return Prediction.around(recording, self._unscaled(mean), variance * self.scaling_.scale**2)
+
+    def _filled(self, recording: Recording, fitted: State) -> tuple[Array, Array]:
+        """Return mean and variance (N, D) of a standardised recording by one run."""
+        index = np.flatnonzero([name != recording.name for name in self.names_])
+        new, others = self._sequences([recording]), self.sequences_.rows(index)
+        state = refine(new, fitted.rows(index), others, self.settings_, self.refine_iter)
+        mean, variance = moments(state)
+        return corrected(mean, others.join(new)), variance[-1, : len(recording.times)]

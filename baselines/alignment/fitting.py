@@ -1,4 +1,4 @@
-"""EM from random starts; the run with the highest bound is kept.
+"""EM from random starts.
 
 Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
 as HLM.
@@ -26,8 +26,9 @@ from mocapbench.baselines.alignment.updates import (
     update_smoothness,
     update_weights,
 )
+from mocapbench.baselines.alignment.warping import similar_styles
 
-__all__ = ["EMSettings", "best_fit", "random_cycle", "random_start", "run", "split"]
+__all__ = ["EMSettings", "random_cycle", "random_start", "restarts", "run", "split"]
 
 # Cycles first: while all styles have the same cycle, an update makes all labels equal.
 _E_STEP: tuple[Update, ...] = (update_cycles, update_labels, update_paths)
@@ -57,21 +58,19 @@ class EMSettings:
     tolerance: float
 
 
-def best_fit(
+def restarts(
     sequences: Sequences,
     settings: EMSettings,
     *,
     n_restarts: int,
     max_iter: int,
     rng: np.random.Generator,
-) -> tuple[Run, list[float]]:
-    """Return the run with the highest final bound, and the final bounds of all runs."""
-    runs = [
+) -> list[Run]:
+    """Return runs of EM from random starts."""
+    return [
         run(random_start(sequences, settings, rng), sequences, settings, max_iter)
         for _ in range(n_restarts)
     ]
-    ends = [attempt.bounds[-1] for attempt in runs]
-    return runs[int(np.argmax(ends))], ends
 
 
 def run(state: State, sequences: Sequences, settings: EMSettings, max_iter: int) -> Run:
@@ -89,10 +88,11 @@ def run(state: State, sequences: Sequences, settings: EMSettings, max_iter: int)
 
 
 def random_start(sequences: Sequences, settings: EMSettings, rng: np.random.Generator) -> State:
-    """Return a start: all sequences aligned to one cycle, then random styles of equal size.
+    """Return a start: all sequences aligned to one cycle, then styles of those alike on it.
 
     The first cycle is that of a random sequence, as in HLM §4. HLM starts with nearly uniform
-    labels instead, so that styles differ by noise alone and each style aligns separately.
+    labels instead. EM moves few sequences between styles later on, because the cycle of a style
+    adapts to those that it has: from random groups it ends in styles that mix motions.
     """
     common = start(
         random_cycle(sequences, settings.n_states, rng),
@@ -103,7 +103,7 @@ def random_start(sequences: Sequences, settings: EMSettings, rng: np.random.Gene
         hyper=settings.hyper,
     )
     aligned = run(common, sequences, settings, _COMMON_ITER).state
-    styles = rng.permutation(len(sequences.lengths)) % settings.n_styles
+    styles = similar_styles(aligned, sequences, settings.n_styles, rng)
     return split(aligned, np.eye(settings.n_styles)[styles])
 
 

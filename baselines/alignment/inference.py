@@ -9,12 +9,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.alignment.bound import sequence_bounds
-from mocapbench.baselines.alignment.chain import viterbi
 from mocapbench.baselines.alignment.em import Update, expectation_maximisation
-from mocapbench.baselines.alignment.expectations import emission
 from mocapbench.baselines.alignment.fitting import EMSettings, run
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.sequences import Array, Sequences
@@ -26,7 +23,7 @@ from mocapbench.baselines.alignment.updates import (
     update_precisions,
 )
 
-__all__ = ["best_paths", "infer", "moments", "refine"]
+__all__ = ["infer", "moments", "refine"]
 
 _MAX_ITER = 30
 _TOLERANCE = 1e-8
@@ -65,7 +62,7 @@ def refine(
     style is empty, also with the new sequence alone in that style. The run with the higher bound
     is returned.
     """
-    joined = Sequences.of([*sequences.arrays(), *sequence.arrays()])
+    joined = sequences.join(sequence)
     first = _joined(fitted, infer(sequence, fitted, settings.hyper))
     runs = [
         run(update_paths(state, joined, settings.hyper), joined, settings, max_iter)
@@ -84,13 +81,6 @@ def moments(state: State) -> tuple[Array, Array]:
     mean = _expected(state, cycles.mean)
     second = _expected(state, cycles.mean**2 + cycles.variance + noise)
     return mean, second - mean**2
-
-
-def best_paths(state: State, sequences: Sequences) -> tuple[NDArray[np.intp], ...]:
-    """Return the most likely path (N_k,) of each sequence."""
-    theta = state.parameters
-    expected = emission(sequences, state.cycles, theta.precisions, state.labels)
-    return viterbi(expected, theta.jumps, sequences.frames)
 
 
 def _expected(state: State, statistic: Array) -> Array:

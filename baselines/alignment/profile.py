@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.alignment import ring
 from mocapbench.baselines.alignment.bound import sequence_bounds
@@ -23,7 +22,7 @@ from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.alignment.start import start
 from mocapbench.baselines.alignment.updates import update_jumps, update_paths, update_precisions
 
-__all__ = ["fit_profile", "penalised_likelihood", "prototype", "update_trace"]
+__all__ = ["fit_profile", "penalised_likelihood", "update_trace"]
 
 
 def fit_profile(
@@ -67,26 +66,6 @@ def penalised_likelihood(state: State, sequences: Sequences, hyper: Hyperparamet
     steps = np.roll(state.cycles.mean, -1, axis=0) - state.cycles.mean
     penalty = hyper.regularisation * (steps**2).sum()
     return float(sequence_bounds(state, sequences, hyper).sum() - penalty)
-
-
-def prototype(frames: Array, path: NDArray[np.intp], trace: Array) -> Array:
-    """Return a sequence warped onto the cycle by its path and averaged over its cycles: (M, F).
-
-    Between the states of its visible frames (N, F) it is interpolated linearly. At states that the
-    sequence does not reach it equals the trace (M, F).
-    """
-    n_states = len(trace)
-    position = path[0] + np.concatenate([[0], np.cumsum(np.diff(path) % n_states)])
-    cycle = trace.copy()
-    for channel, values in zip(cycle.T, frames.T, strict=True):
-        known = np.flatnonzero(~np.isnan(values))
-        if len(known):
-            reached = np.arange(position[known[0]], position[known[-1]] + 1)
-            warped = np.interp(reached, position[known], values[known])
-            visits = np.bincount(reached % n_states, minlength=n_states)
-            totals = np.bincount(reached % n_states, warped, minlength=n_states)
-            np.divide(totals, visits, out=channel, where=visits > 0)
-    return cycle
 
 
 def _point(mean: Array) -> Ring:

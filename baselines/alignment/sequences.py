@@ -65,6 +65,10 @@ class Sequences:
         """Return the sequences at ``index``."""
         return Sequences(self.values[index], self.visible[index], self.lengths[index])
 
+    def join(self, other: Sequences) -> Sequences:
+        """Return these sequences followed by the others."""
+        return Sequences.of([*self.arrays(), *other.arrays()])
+
     def arrays(self) -> list[Array]:
         """Return the array (N_k, F) of each sequence, NaN where hidden: the inverse of `of`."""
         return self.unpad(np.where(self.visible > 0, self.values, np.nan))

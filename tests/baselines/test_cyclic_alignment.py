@@ -94,6 +94,20 @@ def test_a_recording_seen_in_fit_is_taken_as_it_is_given_now(fitted):
     assert np.abs((prediction.mean - WALKS[2].values)[mask]).mean() < 2.0
 
 
+def test_a_filled_recording_is_the_mixture_over_runs():
+    model = CyclicAlignment(**{**QUICK, "max_iter": 4}, n_restarts=3).fit(WALKS)
+    given = WALKS[0].hide(_hidden(WALKS[0], [0, 2]))
+    (mixture,) = model.impute([given])
+    runs, single = model.runs_, []
+    for run in runs:
+        model.runs_ = [run]
+        single += model.impute([given])
+    mean = np.mean([s.mean for s in single], axis=0)
+    second = np.mean([s.variance + s.mean**2 for s in single], axis=0)
+    np.testing.assert_allclose(mixture.mean, mean)
+    np.testing.assert_allclose(mixture.variance, second - mean**2, atol=1e-6)
+
+
 def test_units_mean_nothing():
     factor, offset = np.array([1e-3, 1.0, 50.0, 7.0]), np.array([5.0, 0.0, -1e3, 2.0])
     other = [walk.with_values(walk.values * factor + offset) for walk in WALKS]

@@ -8,7 +8,7 @@ import pytest
 
 from mocapbench.baselines.alignment import ring
 from mocapbench.baselines.alignment.chain import Paths, forward_backward
-from mocapbench.baselines.alignment.fitting import EMSettings, best_fit
+from mocapbench.baselines.alignment.fitting import EMSettings, restarts
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Sequences
@@ -114,7 +114,7 @@ def _em(n_sequences, n_frames, max_iter):
         tolerance=-np.inf,
     )
     sequences, rng = _sequences(n_sequences, n_frames), np.random.default_rng(0)
-    best, _ = best_fit(sequences, settings, n_restarts=1, max_iter=max_iter, rng=rng)
+    (best,) = restarts(sequences, settings, n_restarts=1, max_iter=max_iter, rng=rng)
     return best
 
 

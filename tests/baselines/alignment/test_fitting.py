@@ -5,9 +5,9 @@ import pytest
 
 from mocapbench.baselines.alignment.fitting import (
     EMSettings,
-    best_fit,
     random_cycle,
     random_start,
+    restarts,
     split,
 )
 from mocapbench.baselines.alignment.model import Hyperparameters
@@ -34,17 +34,18 @@ def sequences():
     return Sequences.of([wave + 0.1 * rng.normal(size=wave.shape) for wave in waves])
 
 
-def test_the_run_with_the_highest_bound_is_kept(sequences):
+def test_no_run_ever_lowers_the_bound(sequences):
     rng = np.random.default_rng(0)
-    best, ends = best_fit(sequences, SETTINGS, n_restarts=3, max_iter=4, rng=rng)
-    assert len(ends) == 3
-    assert best.bounds[-1] == max(ends)
-    assert (np.diff(best.bounds) >= -1e-9 * np.abs(best.bounds[1:])).all()
+    runs = restarts(sequences, SETTINGS, n_restarts=3, max_iter=4, rng=rng)
+    assert len(runs) == 3
+    for run in runs:
+        assert (np.diff(run.bounds) >= -1e-9 * np.abs(run.bounds[1:])).all()
 
 
-def test_a_start_has_random_styles_of_equal_size(sequences):
+def test_a_start_has_styles_that_are_all_in_use_with_one_cycle(sequences):
     state = random_start(sequences, SETTINGS, np.random.default_rng(0))
-    assert state.labels.sum(axis=0).tolist() == [2.0, 2.0]
+    assert (state.labels.sum(axis=0) >= 1).all()
+    assert set(state.labels.ravel()) == {0.0, 1.0}
     assert state.cycles.mean.shape == (8, 2, 2)
     np.testing.assert_array_equal(state.cycles.mean[:, 0], state.cycles.mean[:, 1])
 
