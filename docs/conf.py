@@ -1,19 +1,23 @@
 """How the site is built: `tox run -e docs` writes it to docs/_build/html."""
 
 import sys
+import tomllib
 from pathlib import Path
 
 from mocapbench import __version__
 
 HERE = Path(__file__).parent
+METADATA = tomllib.loads((HERE.parent / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 sys.path.insert(0, str(HERE / "extensions"))
 
 project = "mocapbench"
 author = "The mocapbench developers"
 release = version = __version__
+source_repository = METADATA["urls"]["Source"]
 
 extensions = [
     "catalogue",
+    "source_links",
     "myst_parser",
     "numpydoc",
     "sphinx.ext.autodoc",
@@ -37,6 +41,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": "generated/tutorials",
     "filename_pattern": r"\.py$",
     "abort_on_example_error": True,
+    "write_computation_times": False,
 }
 
 html_theme = "pydata_sphinx_theme"
