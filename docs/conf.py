@@ -4,11 +4,14 @@ import sys
 import tomllib
 from pathlib import Path
 
+from numpydoc.xref import DEFAULT_LINKS
+
 from mocapbench import __version__
 
 HERE = Path(__file__).parent
 METADATA = tomllib.loads((HERE.parent / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 sys.path.insert(0, str(HERE / "extensions"))
+import front_doors  # noqa: E402
 
 project = "mocapbench"
 author = "The mocapbench developers"
@@ -17,6 +20,7 @@ source_repository = METADATA["urls"]["Source"]
 
 extensions = [
     "catalogue",
+    "front_doors",
     "source_links",
     "myst_parser",
     "numpydoc",
@@ -27,14 +31,32 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "sphinx-mathjax-offline",  # formulas without a network
 ]
+templates_path = ["templates"]
 exclude_patterns = ["_build", "evidence", "extensions", "tutorials/*.rst"]
 
 myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_fence_as_directive = ["math"]
 myst_heading_anchors = 4
 
+default_role = "py:obj"
+nitpicky = True
+nitpick_ignore_regex = [
+    ("py:class", r"numpy\..*")
+]  # parts of types; no inventory without a network
 autosummary_generate = True
+autosummary_filename_map = {"mocapbench.benchmark.Run": "mocapbench.benchmark.Run-class"}  # not run
+autodoc_typehints = "none"  # the sections name the types, with shapes
+autodoc_member_order = "bysource"
+autodoc_default_options = {
+    "members": True,
+    "inherited-members": "ABC,AbstractContextManager,Enum,Exception,int,str,tuple",
+}
 numpydoc_show_class_members = False
+numpydoc_xref_param_type = True
+numpydoc_xref_ignore = "all"
+numpydoc_xref_aliases = {word: word for word in DEFAULT_LINKS} | {  # others' sites: no network
+    name: f"{package}.{name}" for package, names in front_doors.offered().items() for name in names
+}
 
 sphinx_gallery_conf = {
     "examples_dirs": "tutorials",
@@ -46,3 +68,8 @@ sphinx_gallery_conf = {
 
 html_theme = "pydata_sphinx_theme"
 html_theme_options = {"header_links_before_dropdown": 6}
+
+
+def setup(app):
+    """Say that an extension which only copies files keeps no build from being parallel."""
+    app.extensions["sphinx-mathjax-offline"].parallel_read_safe = True

@@ -63,7 +63,7 @@ class TaskPage:
     kind : str
         ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``.
     question : str
-        Name of what the task asks (`mocapbench.reports.bundle.questions`), under which the page
+        Name of what the task asks (``mocapbench.reports.bundle.questions``), under which the page
         shows it. By default that of its kind; for ``"impute"`` it is ``"hidden-frames"``.
     metrics : tuple of str
         The tables to show, in order. The headlines use the first.
