@@ -36,11 +36,11 @@ class PCARegression(Imputer, Inductive):
     This is strategy R1 of Gløersen and Federolf (2016), applied by itself to every set of channels
     that are hidden together. The number of components is theirs: the axes that hold ``share`` of
     the sum of singular values, in whichever of both sets needs more. It differs in four ways,
-    because channels here need not be coordinates of markers. (1) Visible channels all count alike; theirs
-    count less the further the marker is from a gap. With equal weights, strategy R2 (one marker
-    after the other) has the same limit. (2) Every recording is centred on its own visible means,
-    in place of the mean position of its markers in each frame. (3) Recordings given to `fit` are
-    used besides the recording to fill, from which alone they learn. (4) There is at most one
+    because channels here need not be coordinates of markers. (1) Visible channels all count alike;
+    theirs count less the further the marker is from a gap. With equal weights, strategy R2 (one
+    marker after the other) has the same limit. (2) Every recording is centred on its own visible
+    means, in place of the mean position of its markers in each frame. (3) Recordings given to `fit`
+    are used besides the recording to fill, from which alone they learn. (4) There is at most one
     component for ten complete frames.
 
     It learns nothing over time: frames that are hidden as a whole, and all hidden entries where

@@ -14,12 +14,13 @@ sys.path.insert(0, str(HERE / "extensions"))
 import front_doors  # noqa: E402
 
 project = "mocapbench"
-author = "The mocapbench developers"
+author = copyright = METADATA["authors"][0]["name"]  # noqa: A001
 release = version = __version__
 source_repository = METADATA["urls"]["Source"]
 
 extensions = [
     "catalogue",
+    "citation",
     "front_doors",
     "source_links",
     "myst_parser",
@@ -32,7 +33,10 @@ extensions = [
     "sphinx-mathjax-offline",  # formulas without a network
 ]
 templates_path = ["templates"]
-exclude_patterns = ["_build", "evidence", "extensions", "tutorials/*.rst"]
+exclude_patterns = [
+    *("_build", "checks", "evidence", "extensions", "static", "templates"),
+    *("generated/citation.md", "tutorials/*.rst"),
+]
 
 myst_enable_extensions = ["colon_fence", "dollarmath"]
 myst_fence_as_directive = ["math"]
@@ -40,9 +44,8 @@ myst_heading_anchors = 4
 
 default_role = "py:obj"
 nitpicky = True
-nitpick_ignore_regex = [
-    ("py:class", r"numpy\..*")
-]  # parts of types; no inventory without a network
+# No inventory of others' names without a network: they occur in what a type stands for.
+nitpick_ignore_regex = [("py:class", r"numpy\..*")]
 autosummary_generate = True
 autosummary_filename_map = {"mocapbench.benchmark.Run": "mocapbench.benchmark.Run-class"}  # not run
 autodoc_typehints = "none"  # the sections name the types, with shapes
@@ -52,6 +55,13 @@ autodoc_default_options = {
     "inherited-members": "ABC,AbstractContextManager,Enum,Exception,int,str,tuple",
 }
 numpydoc_show_class_members = False
+# Faults of fact: what is described and is not there, in another order, or without a type.
+numpydoc_validation_checks = {
+    *("GL05", "GL06", "GL07", "GL09", "GL10", "RT04", "RT05"),
+    *("PR02", "PR03", "PR04", "PR05", "PR06", "PR08", "PR09", "PR10"),
+}
+# These bind a parameter of the function whose text they show.
+numpydoc_validation_exclude = {r"^mocapbench\.metrics\.(coverage_|mcc|mlc)"}
 numpydoc_xref_param_type = True
 numpydoc_xref_ignore = "all"
 numpydoc_xref_aliases = {word: word for word in DEFAULT_LINKS} | {  # others' sites: no network
@@ -67,7 +77,26 @@ sphinx_gallery_conf = {
 }
 
 html_theme = "pydata_sphinx_theme"
-html_theme_options = {"header_links_before_dropdown": 6}
+html_theme_options = {
+    "header_links_before_dropdown": 6,
+    "logo": {"image_light": "static/mark.svg", "image_dark": "static/mark.svg", "text": project},
+    "icon_links": [{"name": "Source", "url": source_repository, "icon": "fa-brands fa-github"}],
+    "navigation_with_keys": False,
+    "show_prev_next": False,
+    "footer_start": ["copyright"],
+    "footer_end": [],
+    "back_to_top_button": False,
+}
+html_context = {"default_mode": "auto"}
+html_title = project
+html_favicon = "static/mark.svg"
+html_static_path = ["static"]
+html_css_files = ["site.css"]
+html_copy_source = False
+html_show_sourcelink = False
+copybutton_prompt_text = r">>> |\.\.\. |\$ "  # examples are copied as they are typed
+copybutton_prompt_is_regexp = True
+copybutton_exclude = ".linenos, .gp, .go"
 
 
 def setup(app):

@@ -11,6 +11,7 @@ import ast
 import functools
 import importlib
 import inspect
+from enum import Enum
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,7 @@ BEFORE_NUMPYDOC = 400
 def setup(app: Sphinx) -> dict[str, bool]:
     """Have autodoc ask here for the text of what is neither a class nor a function."""
     app.setup_extension("sphinx.ext.autodoc")
-    app.connect("autodoc-process-docstring", _replace, priority=BEFORE_NUMPYDOC)
+    app.connect("autodoc-process-docstring", _complete, priority=BEFORE_NUMPYDOC)
     app.connect("autodoc-process-signature", _leave_out, priority=BEFORE_NUMPYDOC)
     app.connect("autodoc-skip-member", _is_foreign)
     app.connect("missing-reference", _in_other_package)
@@ -67,11 +68,14 @@ def documented(full_name: str, value: Any) -> list[str]:
     return analyzer.find_attr_docs().get(("", name), [])
 
 
-def _replace(
+def _complete(
     _app: Sphinx, what: str, name: str, value: Any, _options: object, lines: list[str]
 ) -> None:
     if what == "data":
         lines[:] = documented(name, value)
+    elif inspect.isclass(value) and issubclass(value, Enum):
+        values = ", ".join(f"``{member.name}`` ({member.value!r})" for member in value)
+        lines += ["", f"Members: {values}."]
 
 
 def _leave_out(
@@ -84,8 +88,10 @@ def _leave_out(
 def _is_foreign(
     _app: Sphinx, _what: str, _name: str, member: Any, _skip: bool, _options: object
 ) -> bool | None:
-    """Leave out what models have from scikit-learn, which its own site documents."""
-    return str(getattr(member, "__module__", "")).startswith("sklearn.") or None
+    """Leave out what models have from scikit-learn, and fields that have only a number."""
+    from_sklearn = str(getattr(member, "__module__", "")).startswith("sklearn.")
+    numbered = (inspect.getdoc(member) or "").startswith("Alias for field number")
+    return from_sklearn or numbered or None
 
 
 def _in_other_package(
