@@ -26,12 +26,13 @@ from mocapbench.metrics import Metric
 __all__ = ["defining_modules", "documented", "offered", "setup"]
 
 PACKAGES = ("datasets", "metrics", "baselines", "reports", "benchmark")
-BEFORE_NUMPYDOC = 400
+BEFORE_NUMPYDOC = BEFORE_AUTOSUMMARY = 400
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
     """Have autodoc ask here for the text of what is neither a class nor a function."""
     app.setup_extension("sphinx.ext.autodoc")
+    app.connect("builder-inited", _forget, priority=BEFORE_AUTOSUMMARY)
     app.connect("autodoc-process-docstring", _complete, priority=BEFORE_NUMPYDOC)
     app.connect("autodoc-process-signature", _leave_out, priority=BEFORE_NUMPYDOC)
     app.connect("autodoc-skip-member", _is_foreign)
@@ -66,6 +67,12 @@ def documented(full_name: str, value: Any) -> list[str]:
         return (inspect.getdoc(function) or "").splitlines()
     analyzer = ModuleAnalyzer.for_module(defining_modules(package)[name])
     return analyzer.find_attr_docs().get(("", name), [])
+
+
+def _forget(app: Sphinx) -> None:
+    """Remove pages of an earlier build, some of whose names may be gone."""
+    for page in Path(app.srcdir, "api", "generated").glob("*.rst"):
+        page.unlink()
 
 
 def _complete(
