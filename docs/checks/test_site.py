@@ -25,7 +25,7 @@ class Page(HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.links, self.loaded, self.anchors, self.prose = [], [], {""}, ""
-        self.open = {tag: 0 for tag in ("article", *NOT_PROSE)}
+        self.open = dict.fromkeys(("article", *NOT_PROSE), 0)
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
