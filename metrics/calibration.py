@@ -82,7 +82,7 @@ def interval_coverage(outcome: Imputation, level: float) -> Score:
 
 
 def pit_distance(outcome: Imputation) -> Score:
-    """Return the distance of the PIT histogram from uniform, ``½ Σ_b |f_b − 1/10|``.
+    r"""Return the distance of the PIT histogram from uniform, ``½ Σ_b |f_b − 1/10|``.
 
     The metric ``pit``. f_b is the share of hidden entries whose probability integral transform
     (PIT) Φ((y − μ)/σ) falls in the b-th of ten equal bins of [0, 1]. The distance is the total
