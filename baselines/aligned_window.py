@@ -118,7 +118,7 @@ class AlignedWindow(FrameImputer, Inductive):
         Raises
         ------
         ValueError
-            If `n_windows` is below 1, there is no recording, channels differ, or a name repeats.
+            If ``n_windows`` is below 1, there is no recording, channels differ, or a name repeats.
         """
         if self.n_windows < 1:
             raise ValueError(f"expected n_windows of at least 1, got {self.n_windows}")

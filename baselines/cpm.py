@@ -56,7 +56,7 @@ class CPM(CycleAligner):
         The latent trace.
     prototypes_ : ndarray of shape (K, M, D)
         Each recording warped onto the cycle by its path, and averaged over its cycles.
-    log_likelihood_ : ndarray of shape (n_iterations_ + 1,)
+    log_likelihood_ : ndarray of shape (n_iterations + 1,)
         The penalised log-likelihood at the start and after each iteration.
     n_iterations_ : int
         Iterations of the run that was kept.

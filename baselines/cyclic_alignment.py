@@ -93,7 +93,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         Mean cycle of each style, in the channels' units.
     probabilities_ : ndarray of shape (K, C)
         Probability of each style for each recording.
-    bound_ : ndarray of shape (n_iterations_ + 1,)
+    bound_ : ndarray of shape (n_iterations + 1,)
         The variational bound at the start and after each iteration, for standardised channels.
     runs_ : list of Run
         All runs of EM.

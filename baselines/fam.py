@@ -76,7 +76,7 @@ class FAM(Imputer, Inductive, Aligner):
         The components, each times its standard deviation, the one of most variance first.
     prototypes_ : ndarray of shape (K, M, D)
         The mean of each recording's cycles, hidden entries filled.
-    log_likelihood_ : ndarray of shape (n_iterations_ + 1,)
+    log_likelihood_ : ndarray of shape (n_iterations + 1,)
         The penalised log-likelihood at the start and after each round, for standardised channels.
     n_iterations_ : int
         Number of rounds.

@@ -172,7 +172,7 @@ class PchipImputer(_Interpolation):
     ----------
     F. N. Fritsch and J. Butland (1984), A Method for Constructing Local Monotone Piecewise Cubic
     Interpolants, SIAM Journal on Scientific and Statistical Computing 5(2): the slopes of
-    `scipy.interpolate.PchipInterpolator`.
+    ``scipy.interpolate.PchipInterpolator``.
 
     Examples
     --------
@@ -213,7 +213,7 @@ class MakimaImputer(_Interpolation):
     Procedures, Journal of the ACM 17(4).
 
     C. Moler and C. Ionita (2019), Makima Piecewise Cubic Interpolation, MathWorks: the weights of
-    `scipy.interpolate.Akima1DInterpolator` with ``method="makima"``.
+    ``scipy.interpolate.Akima1DInterpolator`` with ``method="makima"``.
 
     Examples
     --------

@@ -24,10 +24,16 @@ class KFAM(Clusterer, Aligner):
     ----------
     n_styles : int, default=4
         Number of clusters; the number of recordings, if that is smaller.
-    n_components, n_harmonics, smoothness, max_iter, tolerance
+    n_components, n_harmonics : int, default=3 and 6
+        As in `FAM`.
+    smoothness : float, default=0.1
         As in `FAM`.
     n_restarts : int, default=1
         Number of starts of FAM's alignment, and of K-means.
+    max_iter : int, default=30
+        As in `FAM`.
+    tolerance : float, default=1e-4
+        As in `FAM`.
     random_state : int, numpy.random.Generator or None, default=None
         Seed of the starts of both.
 

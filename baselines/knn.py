@@ -34,8 +34,8 @@ class KNN(Imputer, Inductive):
     If every frame of a recording is either visible or hidden as a whole, a transition model fills
     each gap: the path from one end of the gap to the other whose steps are nearest, in least
     squares, to the mean steps of the training frames near it
-    (`mocapbench.baselines.common.transitions`). Any other recording is filled by scikit-learn's
-    `KNNImputer` on the stacked frames of all recordings. Time is one more column, scaled to the
+    (``mocapbench.baselines.common.transitions``). Any other recording is filled by scikit-learn's
+    ``KNNImputer`` on the stacked frames of all recordings. Time is one more column, scaled to the
     median standard deviation of the channels.
 
     Both use the recordings given to `fit` and the visible entries of the recording to fill. There
@@ -54,7 +54,7 @@ class KNN(Imputer, Inductive):
     References
     ----------
     O. Troyanskaya et al. (2001), Missing Value Estimation Methods for DNA Microarrays,
-    Bioinformatics 17(6): the method of `KNNImputer`.
+    Bioinformatics 17(6): the method of ``KNNImputer``.
 
     J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical Models for Human
     Motion, IEEE TPAMI 30(2),
@@ -89,7 +89,8 @@ class KNN(Imputer, Inductive):
         Raises
         ------
         ValueError
-            If `n_neighbors` is below 1, there is no recording, channels differ, or a name repeats.
+            If ``n_neighbors`` is below 1, there is no recording, channels differ, or a name
+            repeats.
         """
         if self.n_neighbors < 1:
             raise ValueError(f"expected n_neighbors of at least 1, got {self.n_neighbors}")
@@ -119,7 +120,7 @@ class KNN(Imputer, Inductive):
 def _fill_entries(
     recording: Recording, pooled: Sequence[Recording], n_neighbors: int
 ) -> FrameByChannel:
-    """Return the recording filled by `KNNImputer`: nearest over entries visible in both frames."""
+    """Return the recording filled by scikit-learn: nearest over entries visible in both frames."""
     check_visible(pooled)
     _, variance = visible_moments(pooled)
     times = np.concatenate([other.times for other in pooled])

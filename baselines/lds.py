@@ -60,7 +60,7 @@ class LDS(Imputer, Inductive, Synthesiser):
         The learnt parameters, for standardised channels.
     n_states_ : int
         The number of states.
-    objective_ : ndarray of shape (n_iterations_,)
+    objective_ : ndarray of shape (n_iterations,)
         Log-likelihood plus log-prior before each iteration, for standardised channels.
     n_iterations_ : int
         Number of iterations.

@@ -55,7 +55,7 @@ class LGSSM(Clusterer):
         The cluster of each recording.
     mixture_ : Mixture
         The components, for standardised channels; its recordings are sorted by name.
-    objective_ : ndarray of shape (n_iterations_ + 1,)
+    objective_ : ndarray of shape (n_iterations + 1,)
         The objective of classification EM at the start and after each iteration.
     restart_objectives_ : ndarray of shape (n_restarts,)
         The final objective of each run.

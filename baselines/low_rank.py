@@ -36,9 +36,9 @@ class LowRank(Imputer, Inductive):
     entries of the recordings given to `fit`, by EM from the principal axes of the covariances of
     entries visible together. Complete frames are not needed.
 
-    The number q of components is the least that holds `explained_variance` of the start's variance;
-    there are at most one fewer than channels, and so few that ten visible entries stand behind each
-    loading.
+    The number q of components is the least that holds ``explained_variance`` of the start's
+    variance; there are at most one fewer than channels, and so few that ten visible entries stand
+    behind each loading.
 
     It learns nothing over time: frames that are hidden as a whole take the recording's own mean of
     each channel, and so do all hidden entries where q = 0. A channel never visible in a recording
@@ -64,7 +64,7 @@ class LowRank(Imputer, Inductive):
         W, in units of S.
     noise_variance_ : float
         σ², in units of S squared.
-    log_likelihood_ : ndarray of shape (n_iterations_ + 1,)
+    log_likelihood_ : ndarray of shape (n_iterations + 1,)
         Log-likelihood of the visible entries in units of S, at the start and after each iteration.
     n_iterations_, converged_ : int, bool
 

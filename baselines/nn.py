@@ -79,7 +79,7 @@ class NN(Imputer, Inductive):
         Raises
         ------
         ValueError
-            If there is no recording, channels differ, a name repeats, or `weights` has not one
+            If there is no recording, channels differ, a name repeats, or ``weights`` has not one
             number of at least 0 for each channel.
         """
         checked = check_recordings(recordings)

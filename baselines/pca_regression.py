@@ -28,19 +28,19 @@ class PCARegression(Imputer, Inductive):
     r"""Predict hidden channels of a frame from its visible ones, by principal components.
 
     Complete frames of all recordings, those of the recording to fill included, give the principal
-    axes :math:`V` of frames in which the hidden channels count little (`hidden_weight`), and the
+    axes :math:`V` of frames in which the hidden channels count little (``hidden_weight``), and the
     axes :math:`V_0` of the same frames with the hidden channels set to zero. A frame x with zeros
     at its hidden channels is then reconstructed as :math:`x V_0 (V_0^\top V) V^\top`. As the weight
     tends to 0 this is principal component regression on the visible channels.
 
     This is strategy R1 of Gløersen and Federolf (2016), applied by itself to every set of channels
-    that are hidden together. The number of components is theirs: the axes that hold `share` of the
-    sum of singular values, in whichever of both sets needs more. It differs in four ways, because
-    channels here need not be coordinates of markers. (1) Visible channels all count alike; theirs
-    count less the further the marker is from a gap. With equal weights, strategy R2 (one marker
-    after the other) has the same limit. (2) Every recording is centred on its own visible means,
-    in place of the mean position of its markers in each frame. (3) Recordings given to `fit` are
-    used besides the recording to fill, from which alone they learn. (4) There is at most one
+    that are hidden together. The number of components is theirs: the axes that hold ``share`` of
+    the sum of singular values, in whichever of both sets needs more. It differs in four ways,
+    because channels here need not be coordinates of markers. (1) Visible channels all count alike;
+    theirs count less the further the marker is from a gap. With equal weights, strategy R2 (one
+    marker after the other) has the same limit. (2) Every recording is centred on its own visible
+    means, in place of the mean position of its markers in each frame. (3) Recordings given to `fit`
+    are used besides the recording to fill, from which alone they learn. (4) There is at most one
     component for ten complete frames.
 
     It learns nothing over time: frames that are hidden as a whole, and all hidden entries where

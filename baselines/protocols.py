@@ -135,7 +135,7 @@ class Model(BaseEstimator, ABC):  # type: ignore[misc]
 
         What is learnt follows from the recordings, the parameters and the seed alone. Where
         problems have these in common, a benchmark fits once, and hands copies of the fitted model
-        (by `pickle`) to all of them.
+        (by ``pickle``) to all of them.
 
         Parameters
         ----------
@@ -163,7 +163,7 @@ class FrameImputer(Model):
 
     max_frames: ClassVar[int | None] = None
     """The most frames, all recordings together, that the model fills in some seconds; None is no
-    limit. `mocapbench fill` gives it windows of longer recordings, around their gaps."""
+    limit. ``mocapbench fill`` gives it windows of longer recordings, around their gaps."""
 
     @abstractmethod
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -211,7 +211,7 @@ class Imputer(FrameImputer):
 
 
 class Inductive(Model):
-    """Marks an imputer whose `impute` also takes recordings that were not given to `fit`.
+    """Marks an imputer whose ``impute`` also takes recordings that were not given to ``fit``.
 
     It adds no method. See `Imputer` for an example.
     """
@@ -275,7 +275,7 @@ class Synthesiser(Model):
 
 
 class Clusterer(Model):
-    """A model that groups the recordings given to `fit`.
+    """A model that groups the recordings given to ``fit``.
 
     Its constructor takes ``n_styles``, the largest number of clusters.
 
@@ -330,7 +330,7 @@ class Blender(Clusterer):
         ----------
         weights : array_like of shape (N, n_styles)
             Non-negative, with rows that sum to 1; column c is the weight of the style with label c
-            in `labels_`.
+            in ``labels_``.
 
         Returns
         -------

@@ -20,7 +20,7 @@ def archive_at(data_dir: Path | None) -> Archive:
     Parameters
     ----------
     data_dir : Path or None
-        A folder of recordings, or several separated by `os.pathsep`; None leaves it to each
+        A folder of recordings, or several separated by ``os.pathsep``; None leaves it to each
         library where to look.
 
     Raises
@@ -58,7 +58,7 @@ def require_recordings(data_dir: Path | None, archive: Archive) -> None:
     data_dir : Path or None
         As for `archive_at`; None names no folder, and is never refused.
     archive : Archive
-        Whose libraries say how recordings lie in a folder: `Library.layout`.
+        Whose libraries say how recordings lie in a folder: ``Library.layout``.
 
     Raises
     ------

@@ -175,7 +175,7 @@ def open_archive(
     Parameters
     ----------
     data_dir : path or None
-        Folder with the CMU database's ``subjects/``, or several separated by `os.pathsep`; None
+        Folder with the CMU database's ``subjects/``, or several separated by ``os.pathsep``; None
         stands for the environment's ``MOCAPBENCH_DATA``, if it is set.
     cache_dir : path or None
         Folder for downloads; None stands for the environment's ``MOCAPBENCH_CACHE``, else for the

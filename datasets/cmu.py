@@ -55,8 +55,9 @@ class CMULibrary(Library):
     Parameters
     ----------
     data_dir : path or None
-        A folder with the database's ``subjects/``, or several separated by `os.pathsep`, which are
-        read and never written; None stands for the environment's ``MOCAPBENCH_DATA``, if it is set.
+        A folder with the database's ``subjects/``, or several separated by ``os.pathsep``, which
+        are read and never written; None stands for the environment's ``MOCAPBENCH_DATA``, if it is
+        set.
     cache_dir : path or None
         Where downloads and the digests of unregistered files are kept; None stands for the
         environment's ``MOCAPBENCH_CACHE``, else for the user's cache.

@@ -39,9 +39,9 @@ THESIS_CHANNELS = (
 # fmt: on
 """The 39 channels of every motion task of the thesis.
 
-The thesis states their number and the criterion, not their names. They are the `thesis_candidates`
-without the five of least `smoothness`, averaged over the 90 resampled frames of 02_01, 02_02 and
-07_02.
+The thesis states their number and the criterion, not their names. They are the
+``thesis_candidates`` without the five of least ``smoothness``, averaged over the 90 resampled
+frames of 02_01, 02_02 and 07_02.
 """
 
 _THESIS_REJECTED = ("clavicle", "fingers", "wrist", "hand", "thumb", "toes")

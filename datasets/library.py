@@ -29,7 +29,7 @@ class Library(ABC):
     ----------
     data_dir : Path or None
         Folder of recordings that the user named, stored as ``self.data_dir``; a library may ignore
-        it. The user may name several, separated by `os.pathsep`: ``self.folders`` has them one by
+        it. The user may name several, separated by ``os.pathsep``: ``self.folders`` has them one by
         one.
 
     Attributes
@@ -133,7 +133,7 @@ class Library(ABC):
 
 
 def named_folders(data_dir: str | Path | None) -> tuple[Path, ...]:
-    """Return the folders that a user names, separated by `os.pathsep` as in ``PATH``.
+    """Return the folders that a user names, separated by ``os.pathsep`` as in ``PATH``.
 
     Parameters
     ----------

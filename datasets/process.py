@@ -165,7 +165,7 @@ class ToyProcess:
         Returns
         -------
         tuple of Recording
-            Named ``child-1``, ``child-2`` and so on, with channels ``output-1``, ``output-2`` …
+            Named ``child-1``, ``child-2`` and so on, with channels ``output-1``, ``output-2`` ….
         """
         return self.draw_family(rng, times, n_replicates)[1]
 

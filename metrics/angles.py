@@ -33,7 +33,7 @@ def root_mean_square_of_angles(outcome: Imputation) -> Score:
     Parameters
     ----------
     outcome : Imputation
-        With D outputs over N frames, and `scales`.
+        With D outputs over N frames, and ``scales``.
 
     Returns
     -------
@@ -80,7 +80,7 @@ def cumulative_error_of_scaled_angles(outcome: Imputation) -> Score:
     Parameters
     ----------
     outcome : Imputation
-        With D outputs over N frames, and `scales`.
+        With D outputs over N frames, and ``scales``.
 
     Returns
     -------

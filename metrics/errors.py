@@ -96,7 +96,7 @@ def standardised_error(outcome: Imputation) -> Score:
 
     See Also
     --------
-    pooled_standardised_error : One variance for all outputs.
+    smse_pooled : One variance for all outputs.
 
     References
     ----------
@@ -154,7 +154,7 @@ def pooled_standardised_error(outcome: Imputation) -> Score:
 
     See Also
     --------
-    standardised_error : One variance per output.
+    smse : One variance per output.
 
     Examples
     --------

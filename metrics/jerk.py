@@ -80,7 +80,7 @@ def sampled_jerk(outcome: Synthesis) -> Score:
     """Return the mean jerk of the samples over that of the references.
 
     The metric ``sample_jerk_ratio``, of all joints relative to the root; jerk as in
-    `imputed_jerk`. The target is 1, without unit.
+    `jerk_ratio`. The target is 1, without unit.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ def rms_error_per_frame(outcome: Imputation) -> Score:
 
     See Also
     --------
-    angle_error, root_error : Its two parts, each in one unit.
+    angle_error_per_frame, root_error_per_frame : Its two parts, each in one unit.
 
     References
     ----------
@@ -83,7 +83,7 @@ def rms_error_per_frame(outcome: Imputation) -> Score:
 def angle_error(outcome: Imputation) -> Score:
     """Return the mean over frames of the norm of the error of the hidden angles.
 
-    The metric ``angle_error_per_frame``: as `rms_error_per_frame`, over the outputs whose unit is
+    The metric ``angle_error_per_frame``: as `rms_per_frame`, over the outputs whose unit is
     ``deg`` and over the frames in which one of them is hidden. Lower is better; in degrees.
 
     Parameters
@@ -99,7 +99,7 @@ def angle_error(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        As `rms_error_per_frame`.
+        As `rms_per_frame`.
 
     Examples
     --------
@@ -124,7 +124,7 @@ def root_error(outcome: Imputation) -> Score:
     """Return the mean over frames of the norm of the error of the hidden outputs that are no angle.
 
     The metric ``root_error_per_frame``: of motions on a skeleton these are the root's translation,
-    or its steps from frame to frame. Otherwise as `rms_error_per_frame`, over the frames in which
+    or its steps from frame to frame. Otherwise as `rms_per_frame`, over the frames in which
     one of them is hidden. Lower is better; in the skeleton's unit of length, which is 5.64 cm in
     the CMU database.
 
@@ -141,7 +141,7 @@ def root_error(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        As `rms_error_per_frame`.
+        As `rms_per_frame`.
 
     Examples
     --------

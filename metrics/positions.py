@@ -53,7 +53,7 @@ def relative_joint_position_error(outcome: Imputation) -> Score:
 
     See Also
     --------
-    joint_position_error : The same in space, with the error of the root.
+    mpjpe_global : The same in space, with the error of the root.
 
     References
     ----------
@@ -107,7 +107,7 @@ def joint_position_error(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        As `relative_joint_position_error`.
+        As `mpjpe`.
 
     Examples
     --------
@@ -137,7 +137,7 @@ def joint_position_error(outcome: Imputation) -> Score:
 def bone_length_difference(outcome: Imputation) -> Score:
     """Return the mean absolute difference of the lengths of predicted and true bones.
 
-    The metric ``bone_length_error``: the mean of |ℓ̂_tj − ℓ_tj| over the bones and frames with a
+    The metric ``bone_length_error``: the mean of ``|ℓ̂_tj − ℓ_tj|`` over the bones and frames with a
     hidden joint at either end, with ℓ_tj the distance of joint j from its parent at frame t. It is
     defined where the outputs are positions; joint angles keep all lengths. Lower is better; in
     centimetres.
@@ -156,7 +156,7 @@ def bone_length_difference(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        As `relative_joint_position_error`.
+        As `mpjpe`.
 
     Examples
     --------

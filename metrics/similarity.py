@@ -44,7 +44,7 @@ def mean_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
     outcome : Synthesis
         With S samples and M references of D outputs over N frames.
     correlation : callable
-        `cross_correlation` (MCC) or `linear_correlation` (MLC).
+        ``cross_correlation`` (MCC) or ``linear_correlation`` (MLC).
 
     Returns
     -------
@@ -92,14 +92,14 @@ def best_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
 
     The metrics ``mcc_best`` and ``mlc_best``. The best-matched reference is the one with the
     greatest mean correlation over samples and outputs: one reference for all samples. Higher is
-    better; without unit. Outputs are left out as in `mean_similarity`.
+    better; without unit. Outputs are left out as in `mcc`.
 
     Parameters
     ----------
     outcome : Synthesis
         With S samples and M references of D outputs over N frames.
     correlation : callable
-        `cross_correlation` (MCC) or `linear_correlation` (MLC).
+        ``cross_correlation`` (MCC) or ``linear_correlation`` (MLC).
 
     Returns
     -------
@@ -114,7 +114,7 @@ def best_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
 
     References
     ----------
-    Gil López (2017), §A.4.2; see `mean_similarity`.
+    Gil López (2017), §A.4.2; see `mcc`.
 
     Examples
     --------

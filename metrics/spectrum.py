@@ -25,9 +25,9 @@ def imputed_spectrum(outcome: Imputation) -> Score:
 
     The metric ``npss`` (normalised power spectrum similarity). A sequence is a run of hidden
     entries of one output, four frames or longer. Its power spectrum is divided by its sum, and
-    Σ_f |F̂(f) − F(f)| compares the cumulative spectra (the earth mover's distance). The mean over
-    sequences is weighted by the true power, so that outputs that hardly vary hardly count. Lower
-    is better; in units of the lowest frequency. Phases do not matter.
+    ``Σ_f |F̂(f) − F(f)|`` compares the cumulative spectra (the earth mover's distance). The mean
+    over sequences is weighted by the true power, so that outputs that hardly vary hardly count.
+    Lower is better; in units of the lowest frequency. Phases do not matter.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def imputed_spectrum(outcome: Imputation) -> Score:
 def sampled_spectrum(outcome: Synthesis) -> Score:
     """Return the distance of the power spectra of samples and references.
 
-    The metric ``sample_npss``: that of `imputed_spectrum`, of every output of every sample with the
+    The metric ``sample_npss``: that of `npss`, of every output of every sample with the
     same output of every reference, weighted by the power of the reference. Lower is better; in
     units of the lowest frequency. A sample need not be in step with a reference.
 

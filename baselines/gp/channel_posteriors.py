@@ -69,7 +69,7 @@ class ChannelPosteriors(Imputer, Synthesiser, Generic[Single]):
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Return draws of new recordings, noise included, as `GaussianProcess.sample` does.
+        """Return draws of new recordings, noise included, as `MOHGP.sample` does.
 
         Parameters
         ----------

@@ -77,8 +77,10 @@ class ImputeProblem(Problem[FilledRecordings]):
         Places the joints in space, for metrics in centimetres and for figures.
     scales : ndarray of shape (D,) or None
         See `mocapbench.metrics.Imputation`.
-    process, parent
-        See `Problem`.
+    process : ToyProcess or None
+        The process that generated them, for informed models.
+    parent : Recording or None
+        The curves of the parent that a known process drew, which no model sees.
     """
 
     given: tuple[Recording, ...]

@@ -59,8 +59,10 @@ class SynthesiseProblem(Problem[Samples]):
         models.
     body : Body or None
         On which samples and references are placed in space, for metrics of positions.
-    process, parent
-        See `Problem`.
+    process : ToyProcess or None
+        The process that generated them, for informed models.
+    parent : Recording or None
+        The curves of the parent that a known process drew, which no model sees.
     """
 
     times: Frames

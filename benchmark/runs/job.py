@@ -24,7 +24,7 @@ class WorkerConfig:
     Parameters
     ----------
     data_dir : Path or None
-        A folder of recordings that the user names, or several separated by `os.pathsep`.
+        A folder of recordings that the user names, or several separated by ``os.pathsep``.
     plugins : tuple of Path
         The user's own files of models, tasks, metrics and libraries.
     timeout : float
@@ -73,7 +73,7 @@ class Job:
     missing : tuple of str
         Addresses of the recordings that it needs and that are not at hand.
     parts : mapping of str to str
-        What its keys cover, part by part; see `key_parts`.
+        What its keys cover, part by part; see ``key_parts``.
     """
 
     address: Address

@@ -34,7 +34,7 @@ class Request:
         ``smoke``, ``quick`` or ``paper``.
     tasks, models, cases, metrics : tuple of str
         Names. A model is an entrant's label or, where a task has no such label, the model of all
-        entrants that have it; a case is what `matching_cases` finds.
+        entrants that have it; a case is what ``matching_cases`` finds.
     folds : int or None
         How many folds of each case.
     seed : int

@@ -32,7 +32,7 @@ class Case:
         Unique within the task; part of keys, and of seeds unless there is a ``problem_name``.
     problem : callable
         ``problem(seeds, archive)`` poses the problem of the fold ``seeds.fold``: usually a
-        `functools.partial` of a function that several cases share. What it draws comes from
+        ``functools.partial`` of a function that several cases share. What it draws comes from
         ``seeds`` alone, and what it reads from ``archive`` alone.
     columns : mapping of str to str, int or float
         What the row varies, as columns of its table.

@@ -56,15 +56,15 @@ class TaskPage:
     ----------
     title, reference : str
         Heading, and place in the paper (``"thesis §5.1.1, Tables 1–3"``).
-    short : str
-        The title in a word or two, under the heading of the question; by default the title.
     description : str
         One or two sentences for readers.
     kind : str
         ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``.
     question : str
-        Name of what the task asks (`mocapbench.reports.bundle.questions`), under which the page
+        Name of what the task asks (``mocapbench.reports.bundle.questions``), under which the page
         shows it. By default that of its kind; for ``"impute"`` it is ``"hidden-frames"``.
+    short : str
+        The title in a word or two, under the heading of the question; by default the title.
     metrics : tuple of str
         The tables to show, in order. The headlines use the first.
     rows : mapping of str to RowNotes

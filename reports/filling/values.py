@@ -50,7 +50,7 @@ class RankedModel:
     error : float
         Weighted mean error over the trial gaps, relative to the spread of the channels.
     rmse : tuple of float
-        By unit, in the order of `FilledPage.units`.
+        By unit, in the order of ``FilledPage.units``.
     coverage : float or None
         The share of trial entries inside the model's 95 % bands, if it has any.
     seconds : float
