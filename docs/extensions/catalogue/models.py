@@ -1,0 +1,57 @@
+"""What the page of a model shows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from catalogue.docstrings import described_class
+from catalogue.places import Place
+from mocapbench.benchmark.catalogue import model_entry
+from mocapbench.benchmark.registry import MODELS, TASKS
+
+__all__ = ["model_page"]
+
+
+def model_page(name: str, found: Sequence[Place]) -> Mapping[str, Any]:
+    """Return the values of the template of the model called ``name``.
+
+    Parameters
+    ----------
+    name : str
+    found : sequence of Place
+        Where its entrants stand.
+    """
+    model, entry = MODELS.get(name), model_entry(name)
+    seconds = sorted(place.seconds for place in found if place.seconds is not None)
+    return {
+        "name": name,
+        "entry": entry,
+        "text": described_class(model),
+        "defaults": entry["parameters"],
+        "api": model.__qualname__,
+        "places": found,
+        "findings": _findings(found),
+        "fastest": _written(seconds[0]) if seconds else "",
+        "slowest": _written(seconds[-1]) if seconds else "",
+        "profiles": sorted({place.profile for place in found}),
+        "tasks": [task for task in TASKS.names() if TASKS.get(task).accepts(model)],
+    }
+
+
+def _findings(found: Sequence[Place]) -> Mapping[str, Sequence[Place]]:
+    """Return the places that say where the model wins and where it fails, by what they say."""
+    findings = {
+        "Best": [place for place in found if place.rank == 1],
+        "Within 10 % of the best": [place for place in found if place.near],
+        "Last": [place for place in found if place.last],
+    }
+    beaten: dict[str, list[Place]] = {}
+    for place in found:
+        if place.beaten_by:
+            beaten.setdefault(f"No better than {place.beaten_by}", []).append(place)
+    return {text: group for text, group in (findings | beaten).items() if group}
+
+
+def _written(seconds: float) -> str:
+    return f"{seconds:.2g}" if seconds < 10 else f"{seconds:.0f}"

@@ -1,0 +1,47 @@
+"""The ranking of a task as a table: a row for each entrant, a column for each metric."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.standings import standings
+from mocapbench.reports.figures.scores.best import mean_values
+from mocapbench.reports.front.board_cells import board_cells, first_metric
+from mocapbench.reports.scores.table import NO_SCORE
+from mocapbench.reports.text import FEWEST_DECIMALS, number
+
+__all__ = ["Ranked", "ranking_rows"]
+
+
+class Ranked(NamedTuple):
+    """A row: the place (empty for a reference), the entrant, its model and its means."""
+
+    place: str
+    label: str
+    model: str
+    means: Sequence[str]
+
+
+def ranking_rows(results: TaskResults) -> list[Ranked]:
+    """Return the rows: those that compete best first, then references."""
+    ranked = [standing.label for standing in standings(results, first_metric(results))]
+    cells, layout = board_cells(results), results.layout
+    others = [label for label in layout.labels if label in cells and label not in ranked]
+    means = [_means(results, metric) for metric in layout.page.metrics[1:]]
+    return [
+        Ranked(
+            str(1 + ranked.index(label)) if label in ranked else "",
+            label,
+            layout.model(label).name,
+            [cells[label].text, *(column.get(label, NO_SCORE.text) for column in means)],
+        )
+        for label in (*ranked, *others)
+    ]
+
+
+def _means(results: TaskResults, metric: str) -> dict[str, str]:
+    """Return the mean of each label that has a score in every case that counts."""
+    places = results.decimals.get(metric, FEWEST_DECIMALS)
+    return {label: number(mean, places) for label, mean in mean_values(results, metric).items()}
