@@ -62,9 +62,8 @@ class GPIndependent(Channelwise[LMCIndependent]):
 
     .. math::
 
-        y_d(t) = f_d(t) + \varepsilon_d, \qquad
-        f_d \sim \mathcal{GP}\Bigl(0, \sum_q b_{qd} k_{qd}\Bigr), \quad
-        \varepsilon_d \sim N(0, \beta_d)
+        f_d \sim \mathcal{GP}\Bigl(0, \sum_q b_{qd} k_{qd}\Bigr), \qquad
+        y_d(t) = f_d(t) + \varepsilon, \quad \varepsilon \sim N(0, \beta_d)
 
     ``docs/inference.md`` has the inference.
 

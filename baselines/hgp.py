@@ -81,8 +81,11 @@ class HGP(Channelwise[MOHGP], Trended):
     .. math::
 
         g_d \sim \mathcal{GP}(0, k_{g, d}), \qquad
-        f_{rd} \mid g_d \sim \mathcal{GP}(g_d, k_{f, d}), \qquad
-        y_{rd}(t) = f_{rd}(t) + \varepsilon, \quad \varepsilon \sim N(0, \beta_d)
+        f_{rd} \mid g_d \sim \mathcal{GP}(g_d, k_{f, d})
+
+    .. math::
+
+        y_{rd}(t) = f_{rd}(t) + \varepsilon, \qquad \varepsilon \sim N(0, \beta_d)
 
     ``docs/inference.md`` has the inference.
 

@@ -89,8 +89,11 @@ class MOA(TrendedProcess):
     .. math::
 
         f \sim \mathcal{GP}\Bigl(0, \sum_q B_q \otimes k_q\Bigr), \quad
-        B_q = W_q W_q^\top + \operatorname{diag}(\kappa_q), \qquad
-        y_{rd}(t) = f_d(t) + \varepsilon, \quad \varepsilon \sim N(0, \beta_d)
+        B_q = W_q W_q^\top + \operatorname{diag}(\kappa_q)
+
+    .. math::
+
+        y_{rd}(t) = f_d(t) + \varepsilon, \qquad \varepsilon \sim N(0, \beta_d)
 
     ``docs/inference.md`` has the inference.
 

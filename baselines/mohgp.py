@@ -99,8 +99,11 @@ class MOHGP(TrendedProcess):
 
     .. math::
 
-        g \sim \mathcal{GP}(0, K_g), \qquad f_r \mid g \sim \mathcal{GP}(g, K_f), \qquad
-        y_{rd}(t) = f_{rd}(t) + \varepsilon, \quad \varepsilon \sim N(0, \beta_d)
+        g \sim \mathcal{GP}(0, K_g), \qquad f_r \mid g \sim \mathcal{GP}(g, K_f)
+
+    .. math::
+
+        y_{rd}(t) = f_{rd}(t) + \varepsilon, \qquad \varepsilon \sim N(0, \beta_d)
 
     .. math::
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -52,8 +51,16 @@ def described_class(described: type) -> Described:
 
 
 def described_function(described: Any) -> Described:
-    """Return what the docstring of a function says, also of one with arguments bound to it."""
-    return _parts(FunctionDoc(described.func if isinstance(described, partial) else described))
+    """Return what the docstring of a function says of what it returns.
+
+    Parameters
+    ----------
+    described : callable
+        Arguments may be bound to it.
+    """
+    parts = _parts(FunctionDoc(getattr(described, "func", described)))
+    returned = parts.idea.removeprefix("Return ")
+    return replace(parts, idea=returned[:1].upper() + returned[1:])
 
 
 def _parts(doc: NumpyDocString) -> Described:

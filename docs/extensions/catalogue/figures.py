@@ -18,11 +18,17 @@ DARK = "html[data-theme=dark]"
 LAYOUT = f"""\
 {FIGURE} {{ margin: 1rem 0; }}
 {FIGURE} .plot {{ background: none; }}
-{FIGURE} .plot.plot {{ width: min(100%, 42rem); }}
+{FIGURE} .plot {{ width: min(100%, 36rem); font-family: system-ui, sans-serif; }}
+{FIGURE} .plot text.name {{ font-size: 10px; }}
+{FIGURE} g[class] {{ margin: 0; font: inherit; }}
+{FIGURE} figcaption {{ color: var(--pst-color-text-muted); font-size: .9rem; text-align: left; }}
 table.catalogue {{ width: auto; }}
 table.catalogue p {{ margin: 0; }}
-table.catalogue :is(th, td) {{ padding: .3rem .6rem; vertical-align: top; }}
-table.numbers :is(th, td):not(:nth-child(-n + 2)) {{ text-align: right; }}
+table.catalogue :is(th, td) {{ padding: .25rem .5rem; vertical-align: top; }}
+table.numbers tr > :nth-child(n + 3), table.published tr > :nth-child(2) {{ text-align: right; }}
+@media (min-width: 40rem) {{
+  table.numbers td, table.places td:not(:first-child) {{ white-space: nowrap; }}
+}}
 """
 """What pages add to the styles of the report."""
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from catalogue.docstrings import described_class
-from catalogue.places import Place
+from catalogue.places import Place, two_digits
 from mocapbench.benchmark.catalogue import model_entry
 from mocapbench.benchmark.registry import MODELS, TASKS
 
@@ -32,8 +32,8 @@ def model_page(name: str, found: Sequence[Place]) -> Mapping[str, Any]:
         "api": model.__qualname__,
         "places": found,
         "findings": _findings(found),
-        "fastest": _written(seconds[0]) if seconds else "",
-        "slowest": _written(seconds[-1]) if seconds else "",
+        "fastest": two_digits(seconds[0]) if seconds else "",
+        "slowest": two_digits(seconds[-1]) if seconds else "",
         "profiles": sorted({place.profile for place in found}),
         "tasks": [task for task in TASKS.names() if TASKS.get(task).accepts(model)],
     }
@@ -51,7 +51,3 @@ def _findings(found: Sequence[Place]) -> Mapping[str, Sequence[Place]]:
         if place.beaten_by:
             beaten.setdefault(f"No better than {place.beaten_by}", []).append(place)
     return {text: group for text, group in (findings | beaten).items() if group}
-
-
-def _written(seconds: float) -> str:
-    return f"{seconds:.2g}" if seconds < 10 else f"{seconds:.0f}"

@@ -9,12 +9,13 @@ from catalogue.reference import Stored, Today
 from mocapbench.benchmark.inspection.fit_seconds import alike, typical
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.reports.analysis.standings import Standing, standings
+from mocapbench.reports.front.answers import TESTED
 from mocapbench.reports.front.board import SHADES, BoardCell
 from mocapbench.reports.front.board_cells import board_cells, first_metric, reference_of
 
-__all__ = ["Place", "places"]
+__all__ = ["Place", "places", "two_digits"]
 
-BEST, NEAR = (name for _, name in SHADES[:2])
+_, (_, NEAR), *_ = SHADES
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class Place:
     shade : str
         How far from the best: ``"best"``, ``"within 10 %"``, …; empty for a reference.
     finding : str
-        Whether that is more than chance, or why it is not tested.
+        Whether that is more than chance, where it is tested.
     beaten_by : str
         The task's reference, where the entrant is no better; else empty.
     seconds : float or None
@@ -52,6 +53,11 @@ class Place:
     finding: str
     beaten_by: str
     seconds: float | None
+
+    @property
+    def seconds_text(self) -> str:
+        """The seconds to two digits."""
+        return "–" if self.seconds is None else two_digits(self.seconds)
 
     @property
     def near(self) -> bool:
@@ -99,7 +105,7 @@ def _metric(stored: Stored) -> str:
 
 
 def _finding(own: Standing | None) -> str:
-    return own.finding if own else "a reference, not ranked"
+    return own.standing.value if own and own.standing in TESTED else ""
 
 
 def _seconds(stored: Stored, label: str) -> float | None:
@@ -107,3 +113,8 @@ def _seconds(stored: Stored, label: str) -> float | None:
     durations = typical(stored.profile)
     kinds = alike(Address(stored.results.layout.name, 0, "", 0, label))[:1]
     return durations.expected(kinds) if durations.knows(kinds) else None
+
+
+def two_digits(seconds: float) -> str:
+    """Return a number as text of two digits, or more where it is above 100."""
+    return f"{seconds:.2g}" if seconds < 10 else f"{seconds:.0f}"

@@ -9,10 +9,11 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.front.board_cells import board_cells, first_metric
+from mocapbench.reports.scores.basis import basis
 from mocapbench.reports.scores.table import NO_SCORE
 from mocapbench.reports.text import FEWEST_DECIMALS, number
 
-__all__ = ["Ranked", "ranking_rows"]
+__all__ = ["Ranked", "ranking_basis", "ranking_rows"]
 
 
 class Ranked(NamedTuple):
@@ -45,3 +46,11 @@ def _means(results: TaskResults, metric: str) -> dict[str, str]:
     """Return the mean of each label that has a score in every case that counts."""
     places = results.decimals.get(metric, FEWEST_DECIMALS)
     return {label: number(mean, places) for label, mean in mean_values(results, metric).items()}
+
+
+def ranking_basis(results: TaskResults) -> str:
+    """Return what the means of the first metric are over, such as ``"6 cases, 12 folds each"``."""
+    metric = first_metric(results)
+    cases = results.representative_cases(metric)
+    generated = cases and all(case.synthetic for case in cases)
+    return basis(results, metric, cases) + (", of generated gait" if generated else "")

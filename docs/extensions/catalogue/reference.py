@@ -70,15 +70,14 @@ def _records(reference: Reference) -> list[Record]:
         for fold, value in folds.items():
             scores.setdefault(series.address._replace(fold=fold), {})[series.metric] = value
     models = {task: _models(task) for task in {address.task for address in scores}}
-    order = {task: [*labels] for task, labels in models.items()}
     return [
-        Record(
-            "", "", address, 0, models[address.task][address.label], {}, Status.OK, scores=values
-        )
-        for address, values in sorted(
-            scores.items(), key=lambda item: order[item[0].task].index(item[0].label)
-        )
+        Record("", "", address, 0, models[address.task][address.label], {}, Status.OK, scores=own)
+        for address, own in sorted(scores.items(), key=lambda item: _place(item[0], models))
     ]
+
+
+def _place(address: Address, models: Mapping[str, Mapping[str, str]]) -> int:
+    return [*models[address.task]].index(address.label)
 
 
 def _models(task: str) -> dict[str, str]:
