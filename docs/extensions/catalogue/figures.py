@@ -27,7 +27,7 @@ table.catalogue p {{ margin: 0; }}
 table.catalogue :is(th, td) {{ padding: .25rem .5rem; vertical-align: top; }}
 table.numbers tr > :nth-child(n + 3), table.published tr > :nth-child(2) {{ text-align: right; }}
 @media (min-width: 40rem) {{
-  table.numbers td, table.places td:not(:first-child) {{ white-space: nowrap; }}
+  table.numbers td, table.places td {{ white-space: nowrap; }}
 }}
 """
 """What pages add to the styles of the report."""

@@ -24,7 +24,7 @@ class Place:
 
     Parameters
     ----------
-    task, title, label, profile, metric : str
+    task, title, short, label, profile, metric : str
         Where the value is from; the metric is the task's first.
     mean : str
         Over the cases that count.
@@ -43,6 +43,7 @@ class Place:
 
     task: str
     title: str
+    short: str
     label: str
     profile: str
     metric: str
@@ -87,6 +88,7 @@ def _place(stored: Stored, label: str, cell: BoardCell, ranked: Sequence[Standin
     return Place(
         task=results.layout.name,
         title=results.layout.page.title,
+        short=results.layout.page.short,
         label=label,
         profile=stored.profile,
         metric=_metric(stored),

@@ -13,11 +13,11 @@ from mocapbench.reports.scores.basis import basis
 from mocapbench.reports.scores.table import NO_SCORE
 from mocapbench.reports.text import FEWEST_DECIMALS, number
 
-__all__ = ["Ranked", "ranking_basis", "ranking_rows"]
+__all__ = ["Ranked", "case_rows", "ranking_basis", "ranking_rows"]
 
 
 class Ranked(NamedTuple):
-    """A row: the place (empty for a reference), the entrant, its model and its means."""
+    """A row: the place or the case, the entrant, its model and its means."""
 
     place: str
     label: str
@@ -39,6 +39,26 @@ def ranking_rows(results: TaskResults) -> list[Ranked]:
             [cells[label].text, *(column.get(label, NO_SCORE.text) for column in means)],
         )
         for label in (*ranked, *others)
+    ]
+
+
+def case_rows(results: TaskResults) -> list[Ranked]:
+    """Return a row for each case and entrant, of a task in which nothing competes."""
+    layout = results.layout
+    return [
+        Ranked(case.name, label, layout.model(label).name, _cells(results, case.name, label))
+        for case in results.cases
+        for label in layout.labels
+    ]
+
+
+def _cells(results: TaskResults, case: str, label: str) -> list[str]:
+    """Return the means over folds by all metrics of the page."""
+    metrics = results.layout.page.metrics
+    found = [(metric, results.estimate(case, label, metric)) for metric in metrics]
+    return [
+        number(mean.mean, results.decimals[metric]) if mean else NO_SCORE.text
+        for metric, mean in found
     ]
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from catalogue.data import posed, recordings
 from catalogue.figures import ranking_figure
 from catalogue.published import beside, printed
-from catalogue.ranking import ranking_basis, ranking_rows
+from catalogue.ranking import case_rows, ranking_basis, ranking_rows
 from catalogue.reference import Today
 from mocapbench.benchmark.catalogue import task_entry
 from mocapbench.benchmark.registry import METRICS, TASKS
@@ -51,5 +51,6 @@ def task_page(name: str, today: Today, archive: Archive) -> Mapping[str, Any]:
         "stored": stored,
         "figure": ranking_figure(stored.results, today.styles) if stored else None,
         "ranking": ranking_rows(stored.results) if stored else [],
+        "single": case_rows(stored.results) if stored else [],
         "basis": ranking_basis(stored.results) if stored else "",
     }
