@@ -24,8 +24,8 @@ def test_every_name_has_a_page_and_a_place_in_the_index(texts, kind):
 
 
 def test_every_link_leads_to_a_page(texts):
-    for pages in texts.values():
-        for text in pages.values():
+    for of_kind in texts.values():
+        for text in of_kind.values():
             for kind, name in re.findall(r"</generated/(\w+)/([\w-]+)>", text):
                 assert name in texts[kind], (kind, name)
 
