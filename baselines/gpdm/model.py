@@ -105,7 +105,10 @@ class GPDM(DynamicalModel):
 
     .. math::
 
-        k_Y(x, x') = e^{-\frac{\beta_1}{2} \| x - x' \|^2} + \beta_2^{-1} \delta, \qquad
+        k_Y(x, x') = e^{-\frac{\beta_1}{2} \| x - x' \|^2} + \beta_2^{-1} \delta
+
+    .. math::
+
         k_X(x, x') = \alpha_1 e^{-\frac{\alpha_2}{2} \| x - x' \|^2} + \alpha_3 x^\top x'
         + \alpha_4^{-1} \delta
 

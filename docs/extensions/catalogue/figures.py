@@ -27,7 +27,8 @@ table.catalogue p {{ margin: 0; }}
 table.catalogue :is(th, td) {{ padding: .25rem .5rem; vertical-align: top; }}
 table.numbers tr > :nth-child(n + 3), table.published tr > :nth-child(2) {{ text-align: right; }}
 @media (min-width: 40rem) {{
-  table.numbers td, table.places td {{ white-space: nowrap; }}
+  :is(table.numbers, table.places) :is(th, td) {{ white-space: nowrap; }}
+  table.published th {{ white-space: normal; }}
 }}
 """
 """What pages add to the styles of the report."""

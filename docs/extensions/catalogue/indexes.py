@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from catalogue.rendering import plain
 from mocapbench.benchmark.docstrings import summary
@@ -84,7 +84,7 @@ _KINDS = (
 _BY_OUTCOME = {Imputation: 0, Synthesis: 3, Clustering: 4, Recovery: 5}
 
 
-def _kind(metric: Metric) -> str:
+def _kind(metric: Metric[Any]) -> str:
     """Return what a metric measures; imputations are scored in three ways."""
     if metric.outcome is not Imputation:
         return _KINDS[_BY_OUTCOME[metric.outcome]]

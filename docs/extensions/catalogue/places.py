@@ -11,11 +11,12 @@ from mocapbench.benchmark.tasks.address import Address
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.front.answers import TESTED
 from mocapbench.reports.front.board import SHADES, BoardCell
-from mocapbench.reports.front.board_cells import board_cells, first_metric, reference_of
+from mocapbench.reports.front.board_cells import WORSE, board_cells, first_metric, reference_of
 
 __all__ = ["Place", "places", "two_digits"]
 
-_, (_, NEAR), *_ = SHADES
+NEAR = SHADES[1][1]
+FAR = {WORSE: f"beyond {SHADES[-1][0]:g}×"}
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,11 @@ class Place:
     finding: str
     beaten_by: str
     seconds: float | None
+
+    @property
+    def distance(self) -> str:
+        """How far from the best, and whether that is more than chance."""
+        return ", ".join(filter(None, (FAR.get(self.shade, self.shade), self.finding))) or "–"
 
     @property
     def seconds_text(self) -> str:
