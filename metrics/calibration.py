@@ -41,8 +41,8 @@ def interval_coverage(outcome: Imputation, level: float) -> Score:
     r"""Return the share of hidden entries inside their central intervals of probability ``level``.
 
     The metrics ``coverage_50``, ``coverage_80``, ``coverage_90`` and ``coverage_95``. An entry is
-    inside where y is no further from μ than z σ, with z the (1 + level) / 2 quantile of the
-    standard normal distribution. The target is ``level``; without unit.
+    inside where y is at most z σ from μ, with z the (1 + level) / 2 quantile of the standard normal
+    distribution. The target is ``level``; without unit.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def interval_coverage(outcome: Imputation, level: float) -> Score:
 
 
 def pit_distance(outcome: Imputation) -> Score:
-    r"""Return the distance of the PIT histogram from uniform, half the sum of differences.
+    r"""Return the distance of the PIT histogram from uniform, ``½ Σ_b |f_b − 1/10|``.
 
     The metric ``pit``. f_b is the share of hidden entries whose probability integral transform
     (PIT) Φ((y − μ)/σ) falls in the b-th of ten equal bins of [0, 1]. The distance is the total

@@ -163,9 +163,10 @@ def joint_position_error(outcome: Imputation) -> Score:
 def bone_length_difference(outcome: Imputation) -> Score:
     r"""Return the mean absolute difference of the lengths of predicted and true bones.
 
-    The metric ``bone_length_error``: the mean over the bones and frames with a hidden joint at
-    either end. The length of a bone is the distance of its joint from the parent. It is defined
-    where the outputs are positions; joint angles keep all lengths. Lower is better; in centimetres.
+    The metric ``bone_length_error``: the mean of ``|ℓ̂_tj − ℓ_tj|`` over the bones and frames with a
+    hidden joint at either end, with ℓ_tj the distance of joint j from its parent at frame t. It is
+    defined where the outputs are positions; joint angles keep all lengths. Lower is better; in
+    centimetres.
 
     Parameters
     ----------

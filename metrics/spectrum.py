@@ -24,10 +24,10 @@ def imputed_spectrum(outcome: Imputation) -> Score:
     r"""Return the distance of the power spectra of prediction and truth, within gaps.
 
     The metric ``npss`` (normalised power spectrum similarity). A sequence is a run of hidden
-    entries of one output, four frames or longer. Its power spectrum is divided by its sum. The
-    distance is the sum of absolute differences of the cumulative spectra (the earth mover's
-    distance). The mean over sequences is weighted by the true power. Lower is better; in units of
-    the lowest frequency. Phases do not matter.
+    entries of one output, four frames or longer. Its power spectrum is divided by its sum, and
+    ``Σ_f |F̂(f) − F(f)|`` compares the cumulative spectra (the earth mover's distance). The mean
+    over sequences is weighted by the true power, so that outputs that hardly vary hardly count.
+    Lower is better; in units of the lowest frequency. Phases do not matter.
 
     Parameters
     ----------
