@@ -10,7 +10,7 @@ from catalogue.figures import style_sheet
 from catalogue.folder import write_folder
 from catalogue.reference import read_today
 
-from mocapbench.baselines import GPDM
+from mocapbench.baselines import GPDM, LinearImputer
 from mocapbench.metrics import mse
 
 
@@ -44,6 +44,15 @@ def test_a_task_that_quick_lacks_is_shown_by_smoke(goldens, tmp_path, lacking):
 
 def test_without_reference_values_there_are_no_results(tmp_path):
     assert not read_today(tmp_path).tasks
+
+
+def test_names_in_docstrings_of_ours_are_links_and_in_those_of_others_text():
+    assert "`~LinearImputer.fit`" in described_class(LinearImputer).idea
+
+    class Other(LinearImputer):
+        """Does as `LinearImputer`, and `fit` the same."""
+
+    assert described_class(Other).idea == "Does as ``LinearImputer``, and ``fit`` the same."
 
 
 def test_the_parts_of_docstrings():

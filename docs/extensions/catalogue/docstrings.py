@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from numpydoc.docscrape import ClassDoc, FunctionDoc, NumpyDocString
 
-__all__ = ["Described", "Setting", "described_class", "described_function"]
+from mocapbench import baselines
+
+__all__ = ["Described", "Setting", "api_name", "described_class", "described_function"]
 
 _PAGE = re.compile(r"``docs/([\w-]+)\.md``|\(docs/([\w-]+)\.md\)")
+_MENTION = re.compile(r"(?<![`:\w])`([\w.]+)`(?!`)")
 _DOCS = Path(__file__).parents[2]
 
 
@@ -46,8 +50,25 @@ class Described:
 
 
 def described_class(described: type) -> Described:
-    """Return what the docstring of a class says."""
-    return _parts(ClassDoc(described, config={"show_class_members": False}))
+    """Return what the docstring of a class says; what it names is linked to the API section."""
+    parts = _parts(ClassDoc(described, config={"show_class_members": False}))
+    linked = partial(_MENTION.sub, partial(_mentioned, described))
+    settings = tuple(replace(each, meaning=linked(each.meaning)) for each in parts.settings)
+    texts = {name: linked(getattr(parts, name)) for name in ("idea", "formula", "references")}
+    return replace(parts, settings=settings, **texts)
+
+
+def api_name(described: type) -> str:
+    """Return the name of a model in the API section; empty for a model of others."""
+    name = described.__name__
+    return name if getattr(baselines, name, None) is described else ""
+
+
+def _mentioned(described: type, match: re.Match[str]) -> str:
+    """Return a link to a member of the class; the API section has no others' classes."""
+    if not api_name(described):
+        return f"``{match[1]}``"
+    return f"`~{described.__name__}.{match[1]}`" if hasattr(described, match[1]) else match[0]
 
 
 def described_function(described: Any) -> Described:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from catalogue.docstrings import described_class
+from catalogue.docstrings import api_name, described_class
 from catalogue.places import Place, two_digits
 from mocapbench.benchmark.catalogue import model_entry
 from mocapbench.benchmark.registry import MODELS, TASKS
@@ -29,7 +29,7 @@ def model_page(name: str, found: Sequence[Place]) -> Mapping[str, Any]:
         "entry": entry,
         "text": described_class(model),
         "defaults": entry["parameters"],
-        "api": model.__qualname__,
+        "api": api_name(model),
         "places": found,
         "findings": _findings(found),
         "fastest": two_digits(seconds[0]) if seconds else "",
