@@ -103,3 +103,12 @@ def test_the_places_of_a_model_are_those_of_its_tasks(texts, tables):
         for task, label, place, _, mean, *_ in rows
     }
     assert in_models == in_tasks
+
+
+def test_wins_of_a_model_come_first(texts, tables):
+    for name in MODELS.names():
+        for _, (head, *rows) in tables(texts["models"][name]):
+            if head[:2] == ["task", "entrant"]:
+                places = [row[2].split(" of ") for row in rows if row[2] != "not ranked"]
+                shares = [int(place) / int(n) for place, n in places]
+                assert shares == sorted(shares)

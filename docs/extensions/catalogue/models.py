@@ -30,7 +30,7 @@ def model_page(name: str, found: Sequence[Place]) -> Mapping[str, Any]:
         "text": described_class(model),
         "defaults": entry["parameters"],
         "api": api_name(model),
-        "places": found,
+        "places": sorted(found, key=lambda place: place.order),
         "findings": _findings(found),
         "fastest": two_digits(seconds[0]) if seconds else "",
         "slowest": two_digits(seconds[-1]) if seconds else "",

@@ -57,6 +57,11 @@ class Place:
     seconds: float | None
 
     @property
+    def order(self) -> float:
+        """The share of entrants that are no worse, by which wins come first; references last."""
+        return 2.0 if self.rank is None else self.rank / self.n_ranked
+
+    @property
     def distance(self) -> str:
         """How far from the best, and whether that is more than chance."""
         return ", ".join(filter(None, (FAR.get(self.shade, self.shade), self.finding))) or "–"
