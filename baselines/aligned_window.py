@@ -62,7 +62,7 @@ class _Tempo:
 
 
 class AlignedWindow(FrameImputer, Inductive):
-    """Fill a gap with the mean of the training windows that match the frames beside it.
+    r"""Fill a gap with the mean of the training windows that match the frames beside it.
 
     A window spans the gap and up to three frames on each side. Windows start at every training
     frame, are read at 0.75, 0.80 … 1.35 training frames per frame, and are interpolated linearly.
@@ -83,6 +83,15 @@ class AlignedWindow(FrameImputer, Inductive):
         The channels of the recordings given to `fit`.
     runs_ : list of ndarray (n, D)
         The stretches of frames without hidden entries.
+
+    Notes
+    -----
+    With V the visible frames of the window, counted from its start, and Y(u) the training frames,
+    interpolated at u, a window that starts at frame s and is read at speed r has the error
+
+    .. math:: e(s, r) = \sum_{i \in V} \| y_i - Y(s + r i) \|^2
+
+    and the fill of frame i is the mean of :math:`Y(s + r i)` over the ``n_windows`` of least error.
 
     References
     ----------

@@ -23,12 +23,19 @@ __all__ = ["Control"]
 
 
 class Control(Synthesiser, Misinformed):
-    """Draw recordings of an unrelated process, which a useful synthesiser must surpass.
+    r"""Draw recordings of an unrelated process, which a useful synthesiser must surpass.
 
     Attributes
     ----------
     process_ : ToyProcess
         The process given to `misinform`.
+
+    Notes
+    -----
+    Every sample is a child of a parent of its own, of the unrelated process with the covariances
+    :math:`K_g` of the parent and :math:`K_f` of children around it:
+
+    .. math:: x_s \sim N(0, K_g + K_f + \sigma^2 I)
 
     References
     ----------

@@ -63,6 +63,18 @@ class CPM(CycleAligner):
     converged_ : bool
         Whether that run converged.
 
+    Notes
+    -----
+    With the trace :math:`z_m` of M states, counted modulo M, and the state :math:`\pi_i` of frame
+    i:
+
+    .. math::
+
+        p(\pi_i = m \mid \pi_{i-1} = m - j) = d_j, \quad j = 1 \ldots J, \qquad
+        x_{if} \sim N(z_{\pi_i f}, \sigma_f^2)
+
+    ``docs/alignment.md`` has the algorithm.
+
     References
     ----------
     J. Listgarten, R. M. Neal, S. T. Roweis and A. Emili (2005), Multiple Alignment of Continuous

@@ -104,6 +104,23 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
     converged_ : bool
         Whether that run converged.
 
+    Notes
+    -----
+    With the cycle :math:`z^c` of style c and its parent :math:`\bar z`, states counted modulo M,
+    and the state :math:`\pi_i` and the channel f of frame i of a recording of style c:
+
+    .. math::
+
+        p(z^c) \propto \exp\Bigl(-\tfrac12 \lambda_s \sum_m (z_m - z_{m-1})^2
+        - \tfrac12 \lambda_{\bar z} \sum_m (z_m - \bar z_m)^2\Bigr)
+
+    .. math::
+
+        p(\pi_i = m \mid \pi_{i-1} = m - j) = d_j, \quad j = 1 \ldots J, \qquad
+        x_{if} \sim N(z^c_{\pi_i f}, 1 / \lambda^c_f)
+
+    ``docs/alignment.md`` has the algorithm.
+
     References
     ----------
     W. Pan and L. Torresani (2009), Unsupervised Hierarchical Modeling of Locomotion Styles, ICML:

@@ -83,6 +83,17 @@ class FAM(Imputer, Inductive, Aligner):
     converged_ : bool
         Whether the fit converged.
 
+    Notes
+    -----
+    With the Fourier basis b(u) of the phase u, and scores :math:`s_j` of cycle j:
+
+    .. math::
+
+        x_{jd}(u) = b(u)^\top \Bigl(m_d + \sum_q s_{jq} w_{qd}\Bigr) + \varepsilon, \qquad
+        s_j \sim N(0, I), \quad \varepsilon \sim N(0, \sigma_d^2)
+
+    ``docs/functional.md`` has the algorithm.
+
     References
     ----------
     D. Ormoneit, M. J. Black, T. Hastie and H. Kjellström (2005), Representing cyclic human motion

@@ -14,7 +14,7 @@ __all__ = ["GPIndependent"]
 
 
 class GPIndependent(Channelwise[LMCIndependent]):
-    """A Gaussian process with noise for each channel on its own.
+    r"""A Gaussian process with noise for each channel on its own.
 
     Parameters
     ----------
@@ -54,6 +54,18 @@ class GPIndependent(Channelwise[LMCIndependent]):
         Totals over the channels.
     solver_ : str
         The solvers that were used.
+
+    Notes
+    -----
+    Channel d of every recording is a draw of its own of one process, with variances :math:`b_{qd}`
+    and kernels :math:`k_{qd}` of unit variance:
+
+    .. math::
+
+        f_d \sim \mathcal{GP}\Bigl(0, \sum_q b_{qd} k_{qd}\Bigr), \qquad
+        y_d(t) = f_d(t) + \varepsilon, \quad \varepsilon \sim N(0, \beta_d)
+
+    ``docs/inference.md`` has the inference.
 
     References
     ----------

@@ -12,7 +12,7 @@ __all__ = ["GPLVM"]
 
 
 class GPLVM(LatentVariableModel):
-    """Poses as smooth functions of latent positions that are independent of each other.
+    r"""Poses as smooth functions of latent positions that are independent of each other.
 
     It is `GPDM` without dynamics: the positions are independent standard normal, and hidden frames
     are filled in the same way.
@@ -51,6 +51,19 @@ class GPLVM(LatentVariableModel):
         The model from which the subject's offset is computed.
     frame_seconds_ : float
         The time between training frames.
+
+    Notes
+    -----
+    With one Gaussian process for each channel j, its scale :math:`w_j`, and the latent position
+    :math:`x_t` of frame t:
+
+    .. math::
+
+        y_{tj} = \frac{g_j(x_t) + n_{tj}}{w_j}, \qquad
+        g_j + n_j \sim \mathcal{GP}\bigl(0, e^{-\frac{\beta_1}{2} \| x - x' \|^2}
+        + \beta_2^{-1} \delta\bigr), \qquad x_t \sim N(0, I)
+
+    ``docs/gpdm.md`` has the learning and the filling.
 
     References
     ----------

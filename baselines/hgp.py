@@ -26,7 +26,7 @@ __all__ = ["HGP"]
 
 
 class HGP(Channelwise[MOHGP], Trended):
-    """Recordings vary around a common trend, a Gaussian process for each channel on its own.
+    r"""Recordings vary around a common trend, a Gaussian process for each channel on its own.
 
     Parameters
     ----------
@@ -72,6 +72,22 @@ class HGP(Channelwise[MOHGP], Trended):
         Totals over the channels.
     solver_ : str
         The solvers that were used.
+
+    Notes
+    -----
+    With the trend g and recording r, channel by channel, and variances and kernels of each layer as
+    in `GPIndependent`:
+
+    .. math::
+
+        g_d \sim \mathcal{GP}(0, k_{g, d}), \qquad
+        f_{rd} \mid g_d \sim \mathcal{GP}(g_d, k_{f, d})
+
+    .. math::
+
+        y_{rd}(t) = f_{rd}(t) + \varepsilon, \qquad \varepsilon \sim N(0, \beta_d)
+
+    ``docs/inference.md`` has the inference.
 
     References
     ----------

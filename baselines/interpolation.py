@@ -86,7 +86,7 @@ class _Interpolation(Interpolator, Inductive):
 
 
 class HoldImputer(_Interpolation):
-    """Hold each channel's last visible value until the next (last observation carried forward).
+    r"""Hold each channel's last visible value until the next (last observation carried forward).
 
     Before the first visible frame its value is held backwards. A channel without a visible frame
     takes its mean over the recordings given to `fit`. There is no predictive distribution.
@@ -97,6 +97,10 @@ class HoldImputer(_Interpolation):
         The channels of the recordings given to `fit`.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
+
+    Notes
+    -----
+    .. math:: \hat y(t) = y\bigl(\max\{a \le t : a\ \text{visible}\}\bigr)
 
     References
     ----------
@@ -120,7 +124,7 @@ class HoldImputer(_Interpolation):
 
 
 class LinearImputer(_Interpolation):
-    """Interpolate each channel linearly over time.
+    r"""Interpolate each channel linearly over time.
 
     Before the first and after the last visible frame the nearest visible value is held. A channel
     without a visible frame takes its mean over the recordings given to `fit`. There is no
@@ -132,6 +136,12 @@ class LinearImputer(_Interpolation):
         The channels of the recordings given to `fit`.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
+
+    Notes
+    -----
+    Between the visible frames a and b on either side of t:
+
+    .. math:: \hat y(t) = y(a) + \frac{t - a}{b - a} \bigl(y(b) - y(a)\bigr)
 
     References
     ----------
@@ -154,7 +164,7 @@ class LinearImputer(_Interpolation):
 
 
 class PchipImputer(_Interpolation):
-    """Interpolate each channel with a piecewise cubic that never overshoots.
+    r"""Interpolate each channel with a piecewise cubic that never overshoots.
 
     The curve is monotone wherever the visible values are (PCHIP); through two visible frames it is
     a line. Before the first and after the last visible frame the nearest visible value is held. A
@@ -167,6 +177,17 @@ class PchipImputer(_Interpolation):
         The channels of the recordings given to `fit`.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
+
+    Notes
+    -----
+    With :math:`h_i` the time from visible frame i to the next, and :math:`\delta_i` the slope of
+    the line between them, the slope of the curve at i is 0 where :math:`\delta_{i-1}` and
+    :math:`\delta_i` differ in sign or one is 0, and otherwise
+
+    .. math::
+
+        \frac{w_1 + w_2}{w_1 / \delta_{i-1} + w_2 / \delta_i}, \qquad
+        w_1 = 2 h_i + h_{i-1}, \quad w_2 = h_i + 2 h_{i-1}
 
     References
     ----------
@@ -192,7 +213,7 @@ class PchipImputer(_Interpolation):
 
 
 class MakimaImputer(_Interpolation):
-    """Interpolate each channel with a modified Akima piecewise cubic (makima).
+    r"""Interpolate each channel with a modified Akima piecewise cubic (makima).
 
     The slope at a visible frame is a weighted mean of those beside it, in which the flatter side
     counts more: the curve overshoots less than a cubic spline and bends more than PCHIP. Through
@@ -206,6 +227,17 @@ class MakimaImputer(_Interpolation):
         The channels of the recordings given to `fit`.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
+
+    Notes
+    -----
+    With :math:`\delta_i` the slope of the line from visible frame i to the next, the slope of the
+    curve at i is
+
+    .. math::
+
+        \frac{w_1 \delta_{i-1} + w_2 \delta_i}{w_1 + w_2}, \qquad
+        w_1 = |\delta_{i+1} - \delta_i| + \tfrac12 |\delta_{i+1} + \delta_i|, \quad
+        w_2 = |\delta_{i-1} - \delta_{i-2}| + \tfrac12 |\delta_{i-1} + \delta_{i-2}|
 
     References
     ----------
@@ -234,7 +266,7 @@ class MakimaImputer(_Interpolation):
 
 
 class CubicSplineImputer(_Interpolation):
-    """Interpolate each channel with a not-a-knot cubic spline over time.
+    r"""Interpolate each channel with a not-a-knot cubic spline over time.
 
     With fewer than four visible frames the order is lower: a parabola through three, a line
     through two, a constant at one. Before the first and after the last visible frame the nearest
@@ -247,6 +279,15 @@ class CubicSplineImputer(_Interpolation):
         The channels of the recordings given to `fit`.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
+
+    Notes
+    -----
+    The cubic pieces s between visible frames :math:`t_1 \ldots t_n` join with equal values and two
+    equal derivatives. Not-a-knot means that the third one is equal, too, at the second and the last
+    but one:
+
+    .. math:: s(t_i) = y(t_i), \qquad s'''(t_2^-) = s'''(t_2^+), \quad
+        s'''(t_{n-1}^-) = s'''(t_{n-1}^+)
 
     References
     ----------

@@ -19,7 +19,7 @@ __all__ = ["KCPM"]
 
 
 class KCPM(Clusterer, Aligner):
-    """Cluster recordings by their cycles as `CPM` aligns them (K-means).
+    r"""Cluster recordings by their cycles as `CPM` aligns them (K-means).
 
     Parameters
     ----------
@@ -53,6 +53,13 @@ class KCPM(Clusterer, Aligner):
         Number M of states.
     cpm_ : CPM
         The fitted model of the alignment.
+
+    Notes
+    -----
+    With the aligned cycle :math:`P_k` of recording k, in standard units, K-means chooses clusters c
+    and their means C:
+
+    .. math:: \min_{c, C} \sum_k \| P_k - C_{c(k)} \|^2
 
     References
     ----------

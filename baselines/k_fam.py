@@ -18,7 +18,7 @@ __all__ = ["KFAM"]
 
 
 class KFAM(Clusterer, Aligner):
-    """Cluster recordings by their cycles as `FAM` describes them (K-means).
+    r"""Cluster recordings by their cycles as `FAM` describes them (K-means).
 
     Parameters
     ----------
@@ -49,6 +49,13 @@ class KFAM(Clusterer, Aligner):
         Number M of states.
     fam_ : FAM
         The fitted model of the cycles.
+
+    Notes
+    -----
+    With the mean cycle :math:`P_k` of recording k, in standard units, K-means chooses clusters c
+    and their means C:
+
+    .. math:: \min_{c, C} \sum_k \| P_k - C_{c(k)} \|^2
 
     References
     ----------

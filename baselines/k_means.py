@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 
 class KMeans(Clusterer):
-    """Cluster recordings by the raw values of their first cycle (K-means).
+    r"""Cluster recordings by the raw values of their first cycle (K-means).
 
     The length of a cycle is estimated for each recording by its autocorrelation; a recording
     without a recurrence counts as one cycle. The cycle is resampled to a fixed number of frames by
@@ -47,6 +47,13 @@ class KMeans(Clusterer):
         The cluster of each recording.
     cycles_ : ndarray of shape (K, n_frames, D)
         The resampled cycles.
+
+    Notes
+    -----
+    With the resampled cycle :math:`P_k` of recording k, K-means chooses clusters c and their means
+    C:
+
+    .. math:: \min_{c, C} \sum_k \| P_k - C_{c(k)} \|^2
 
     References
     ----------

@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 
 class KNN(Imputer, Inductive):
-    """Fill hidden entries from the nearest frames of all recordings.
+    r"""Fill hidden entries from the nearest frames of all recordings.
 
     If every frame of a recording is either visible or hidden as a whole, a transition model fills
     each gap: the path from one end of the gap to the other whose steps are nearest, in least
@@ -50,6 +50,19 @@ class KNN(Imputer, Inductive):
     ----------
     recordings_ : tuple of Recording
         The recordings given to `fit`.
+
+    Notes
+    -----
+    With N(x) the nearest training frames of a frame x, a gap is filled by the path with given ends
+    that minimises
+
+    .. math::
+
+        \sum_t \| y_{t+1} - y_t - m(y_t) \|^2, \qquad
+        m(y) = \frac{1}{|N(y)|} \sum_{i \in N(y)} (Y_{i+1} - Y_i)
+
+    by turns with the steps m held fixed. Single entries take the mean of that channel over the
+    nearest frames in which it is visible.
 
     References
     ----------

@@ -23,7 +23,7 @@ __all__ = ["LGSSM"]
 
 
 class LGSSM(Clusterer):
-    """A linear dynamical system for each style; a recording joins the one that fits it best.
+    r"""A linear dynamical system for each style; a recording joins the one that fits it best.
 
     Each component has the model of `LDS`, which integrates hidden entries out. Learning clusters
     the recordings and fits the components at the same time. It follows Chiappa, Kober and Peters,
@@ -63,6 +63,13 @@ class LGSSM(Clusterer):
         Iterations of the run that was kept.
     converged_ : bool
         Whether that run converged.
+
+    Notes
+    -----
+    With the parameters :math:`\theta_c` of component c, each a model as of `LDS`, their priors p,
+    and the component :math:`c(k)` of recording :math:`Y_k`:
+
+    .. math:: \max_{c, \theta} \sum_k \log p(Y_k \mid \theta_{c(k)}) + \sum_c \log p(\theta_c)
 
     References
     ----------

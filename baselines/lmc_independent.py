@@ -23,7 +23,7 @@ __all__ = ["LMCIndependent"]
 
 
 class LMCIndependent(GaussianProcess):
-    """A Gaussian process over all channels, of which recordings are independent draws.
+    r"""A Gaussian process over all channels, of which recordings are independent draws.
 
     `impute` conditions each recording on its own visible entries. `sample` draws from the prior.
 
@@ -79,6 +79,22 @@ class LMCIndependent(GaussianProcess):
         The matrices B_q of each layer, in the outputs' own units.
     noise_ : ndarray of shape (D,)
         Noise variances, in the outputs' own units.
+
+    Notes
+    -----
+    Recording r is a draw of its own, in which kernels :math:`k_q` of unit variance are shared by
+    the channels:
+
+    .. math::
+
+        f_r \sim \mathcal{GP}\Bigl(0, \sum_q B_q \otimes k_q\Bigr), \quad
+        B_q = W_q W_q^\top + \operatorname{diag}(\kappa_q)
+
+    .. math::
+
+        y_{rd}(t) = f_{rd}(t) + \varepsilon, \qquad \varepsilon \sim N(0, \beta_d)
+
+    ``docs/inference.md`` has the inference.
 
     References
     ----------

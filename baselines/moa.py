@@ -23,7 +23,7 @@ __all__ = ["MOA"]
 
 
 class MOA(TrendedProcess):
-    """A Gaussian process over all channels; recordings are noisy copies of one function.
+    r"""A Gaussian process over all channels; recordings are noisy copies of one function.
 
     `impute` and `trend` give the posterior of that function. `sample` takes its posterior mean as
     the trend and draws with the prior covariance around it.
@@ -81,6 +81,21 @@ class MOA(TrendedProcess):
         The matrices B_q of each layer, in the outputs' own units.
     noise_ : ndarray of shape (D,)
         Noise variances, in the outputs' own units.
+
+    Notes
+    -----
+    All recordings r are of one function f:
+
+    .. math::
+
+        f \sim \mathcal{GP}\Bigl(0, \sum_q B_q \otimes k_q\Bigr), \quad
+        B_q = W_q W_q^\top + \operatorname{diag}(\kappa_q)
+
+    .. math::
+
+        y_{rd}(t) = f_d(t) + \varepsilon, \qquad \varepsilon \sim N(0, \beta_d)
+
+    ``docs/inference.md`` has the inference.
 
     References
     ----------

@@ -28,7 +28,7 @@ __all__ = ["MOHGP"]
 
 
 class MOHGP(TrendedProcess):
-    """A Gaussian process over all channels, in which recordings vary around a common trend.
+    r"""A Gaussian process over all channels, in which recordings vary around a common trend.
 
     `impute` gives the posterior of each child. `sample` follows the thesis: new children are
     drawn from K_f around the trend's posterior mean, or around a draw of the trend with
@@ -92,6 +92,25 @@ class MOHGP(TrendedProcess):
         The matrices B_q of each layer, in the outputs' own units.
     noise_ : ndarray of shape (D,)
         Noise variances, in the outputs' own units.
+
+    Notes
+    -----
+    With the trend g, recording r, and kernels :math:`k_{\tau q}` of unit variance in each layer τ:
+
+    .. math::
+
+        g \sim \mathcal{GP}(0, K_g), \qquad f_r \mid g \sim \mathcal{GP}(g, K_f)
+
+    .. math::
+
+        y_{rd}(t) = f_{rd}(t) + \varepsilon, \qquad \varepsilon \sim N(0, \beta_d)
+
+    .. math::
+
+        K_\tau = \sum_q B_{\tau q} \otimes k_{\tau q}, \qquad
+        B_{\tau q} = W_{\tau q} W_{\tau q}^\top + \operatorname{diag}(\kappa_{\tau q})
+
+    ``docs/inference.md`` has the inference.
 
     References
     ----------

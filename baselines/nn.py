@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 
 class NN(Imputer, Inductive):
-    """Copy hidden entries from the training frame that is nearest over the visible entries.
+    r"""Copy hidden entries from the training frame that is nearest over the visible entries.
 
     The distance is the mean squared difference over the entries that are visible in both frames.
     An entry is copied from the nearest training frame in which it is visible, so that partly hidden
@@ -43,6 +43,16 @@ class NN(Imputer, Inductive):
         All training frames, NaN where hidden.
     weights_ : ndarray of shape (D,)
         The weight of each channel.
+
+    Notes
+    -----
+    With :math:`V_{ti}` the channels visible both in frame t and in training frame i, and weights
+    :math:`w_d`, channel d is copied from
+
+    .. math::
+
+        \arg\min_{i :\, Y_{id}\ \text{visible}} \frac{1}{|V_{ti}|}
+        \sum_{e \in V_{ti}} w_e^2 (y_{te} - Y_{ie})^2
 
     References
     ----------

@@ -64,7 +64,7 @@ class _Pattern:
 
 
 class Oracle(Imputer, Synthesiser, Trended, Informed):
-    """The true process itself, given all visible entries; the limit that models can reach.
+    r"""The true process itself, given all visible entries; the limit that models can reach.
 
     The recordings given to `fit` are children of one parent. `impute` gives the exact mean and
     variance of hidden observations, noise included, and `sample` exact draws of new children, both
@@ -76,6 +76,16 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
         The generating process, given to `inform`.
     times_ : ndarray of shape (N,)
         All times of the recordings; a curve on this grid is a vector (D N,), outputs slowest.
+
+    Notes
+    -----
+    With the true covariance K of all entries, noise included, visible entries v and hidden entries
+    h:
+
+    .. math::
+
+        E[y_h \mid y_v] = K_{hv} K_{vv}^{-1} y_v, \qquad
+        \operatorname{cov}[y_h \mid y_v] = K_{hh} - K_{hv} K_{vv}^{-1} K_{vh}
 
     References
     ----------

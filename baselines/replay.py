@@ -16,7 +16,7 @@ __all__ = ["Replay"]
 
 
 class Replay(Synthesiser):
-    """Repeat the training recordings as samples, which are real motion but not new.
+    r"""Repeat the training recordings as samples, which are real motion but not new.
 
     The scores of a synthesiser are best read beside those of real recordings, which this model
     provides. Hidden entries, and times between frames, are interpolated linearly; before the first
@@ -26,6 +26,12 @@ class Replay(Synthesiser):
     ----------
     recordings_ : tuple of Recording
         The recordings given to `fit`.
+
+    Notes
+    -----
+    A sample is recording k, drawn with replacement, read at the times t:
+
+    .. math:: x_s(t) = y_{k_s}(t), \qquad k_s \sim U\{1, \ldots, K\}
 
     References
     ----------

@@ -23,7 +23,7 @@ _LEAST_VARIANCE = 1e-12
 
 
 class Trivial(Imputer, Inductive):
-    """Predict the mean and variance of each channel’s visible entries, whatever the time.
+    r"""Predict the mean and variance of each channel’s visible entries, whatever the time.
 
     They are those of the visible entries of all recordings given to `fit` and `impute` (ddof 0).
     The mean standardised log loss (MSLL) is defined relative to this Gaussian, so that this model
@@ -33,6 +33,15 @@ class Trivial(Imputer, Inductive):
     ----------
     recordings_ : tuple of Recording
         The recordings given to `fit`.
+
+    Notes
+    -----
+    With V the visible entries (k, t) of channel d:
+
+    .. math::
+
+        \mu_d = \frac{1}{|V|} \sum_{(k, t) \in V} y_{ktd}, \qquad
+        \sigma_d^2 = \frac{1}{|V|} \sum_{(k, t) \in V} (y_{ktd} - \mu_d)^2
 
     References
     ----------

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 
 def root_mean_square_of_angles(outcome: Imputation) -> Score:
-    """Return √(mean of (y − μ)²) over the hidden entries of joint angles.
+    r"""Return √(mean of (y − μ)²) over the hidden entries of joint angles.
 
     The metric ``rms_angle``. Joint angles are the outputs that have a scale; the mean is over all
     their hidden entries together. Lower is better; in degrees.
@@ -45,6 +45,17 @@ def root_mean_square_of_angles(outcome: Imputation) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or there
         are no scales.
+
+    Warnings
+    --------
+    A few large errors decide it. A degree counts the same at the hip, where it moves the whole leg,
+    and at the wrist.
+
+    Notes
+    -----
+    With H the hidden entries (t, d) of joint angles:
+
+    .. math:: \mathrm{RMS} = \sqrt{\frac{1}{|H|} \sum_{(t, d) \in H} (y_{td} - \mu_{td})^2}
 
     References
     ----------
@@ -71,7 +82,7 @@ def root_mean_square_of_angles(outcome: Imputation) -> Score:
 
 
 def cumulative_error_of_scaled_angles(outcome: Imputation) -> Score:
-    """Return Σ over frames of (s_d (y − μ))², the mean over hidden joint angles d.
+    r"""Return Σ over frames of (s_d (y − μ))², the mean over hidden joint angles d.
 
     The metric ``cumulative_scaled_error``. Joint angles are the outputs that have a scale s_d; an
     angle counts if any of its entries is hidden, and the sum is over these. Lower is better,
@@ -92,6 +103,17 @@ def cumulative_error_of_scaled_angles(outcome: Imputation) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or there
         are no scales.
+
+    Warnings
+    --------
+    It is a sum over frames: values of gaps of different lengths cannot be compared.
+
+    Notes
+    -----
+    With A the joint angles of which an entry is hidden, and :math:`H_d` the hidden frames of angle
+    d:
+
+    .. math:: \frac{1}{|A|} \sum_{d \in A} \sum_{t \in H_d} s_d^2 \, (y_{td} - \mu_{td})^2
 
     References
     ----------

@@ -38,7 +38,7 @@ def _z_scores(outcome: Imputation) -> Array:
 
 
 def interval_coverage(outcome: Imputation, level: float) -> Score:
-    """Return the share of hidden entries inside their central intervals of probability ``level``.
+    r"""Return the share of hidden entries inside their central intervals of probability ``level``.
 
     The metrics ``coverage_50``, ``coverage_80``, ``coverage_90`` and ``coverage_95``. An entry is
     inside where y is at most z σ from μ, with z the (1 + level) / 2 quantile of the standard normal
@@ -61,6 +61,21 @@ def interval_coverage(outcome: Imputation, level: float) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
         variance is missing or not positive.
+
+    Warnings
+    --------
+    Intervals that are too wide here and too narrow there can cover the right share, and very wide
+    ones cover everything: read it beside ``sharpness``. Entries of one gap miss together, so that a
+    few gaps say little.
+
+    Notes
+    -----
+    With H the hidden entries (t, d):
+
+    .. math::
+
+        \frac{1}{|H|} \sum_{(t, d) \in H} \mathbf{1}\bigl[ |y_{td} - \mu_{td}| \le z \, \sigma_{td}
+        \bigr], \qquad z = \Phi^{-1}\Bigl(\frac{1 + \mathrm{level}}{2}\Bigr)
 
     Examples
     --------
@@ -105,6 +120,18 @@ def pit_distance(outcome: Imputation) -> Score:
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
         variance is missing or not positive.
 
+    Warnings
+    --------
+    It does not tell too wide from too narrow, nor either from a bias. Chance alone keeps it above 0
+    where entries are few.
+
+    Notes
+    -----
+    With H the hidden entries (t, d), and :math:`f_b` the share of them with :math:`\Phi((y_{td} -
+    \mu_{td}) / \sigma_{td})` in bin b:
+
+    .. math:: \frac12 \sum_{b = 1}^{10} \Bigl| f_b - \frac{1}{10} \Bigr|
+
     References
     ----------
     Gneiting, Balabdaoui and Raftery (2007), Probabilistic forecasts, calibration and sharpness,
@@ -134,7 +161,7 @@ def pit_distance(outcome: Imputation) -> Score:
 
 
 def mean_deviation(outcome: Imputation) -> Score:
-    """Return the mean predictive standard deviation of the hidden entries.
+    r"""Return the mean predictive standard deviation of the hidden entries.
 
     The metric ``sharpness``. Lower is sharper, and better among models whose coverage is right; in
     the unit of the outputs.
@@ -156,6 +183,17 @@ def mean_deviation(outcome: Imputation) -> Score:
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
         variance is missing or not positive.
 
+    Warnings
+    --------
+    By itself it rewards a model for being too sure: read it beside coverage. It never looks at the
+    truth.
+
+    Notes
+    -----
+    With H the hidden entries (t, d):
+
+    .. math:: \frac{1}{|H|} \sum_{(t, d) \in H} \sigma_{td}
+
     Examples
     --------
     >>> import numpy as np
@@ -175,7 +213,7 @@ def mean_deviation(outcome: Imputation) -> Score:
 
 
 def gaussian_crps(outcome: Imputation) -> Score:
-    """Return the mean continuous ranked probability score of the hidden entries.
+    r"""Return the mean continuous ranked probability score of the hidden entries.
 
     The metric ``crps``. For a Gaussian it is σ [z (2Φ(z) − 1) + 2φ(z) − 1/√π] with z = (y − μ)/σ.
     Lower is better; in the unit of the outputs.
@@ -196,6 +234,21 @@ def gaussian_crps(outcome: Imputation) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
         variance is missing or not positive.
+
+    Warnings
+    --------
+    It is in the unit of the outputs, so that outputs with large values decide it. It forgives too
+    small a variance more than ``msll`` does.
+
+    Notes
+    -----
+    With H the hidden entries (t, d), φ and Φ the density and the distribution function of the
+    standard normal distribution, and :math:`z = (y - \mu) / \sigma` of each entry:
+
+    .. math::
+
+        \mathrm{CRPS} = \frac{1}{|H|} \sum_{(t, d) \in H} \sigma_{td} \Bigl[
+        z_{td} \bigl(2 \Phi(z_{td}) - 1\bigr) + 2 \varphi(z_{td}) - \frac{1}{\sqrt{\pi}} \Bigr]
 
     References
     ----------

@@ -13,7 +13,7 @@ __all__ = ["adjusted_rand", "adjusted_rand_index", "average_purity", "purity"]
 
 
 def average_purity(outcome: Clustering) -> Score:
-    """Return Σ_c max_t n_ct / K, with n_ct recordings of class t in cluster c.
+    r"""Return Σ_c max_t n_ct / K, with n_ct recordings of class t in cluster c.
 
     The metric ``purity``: the mean of the clusters' purities, each the share of its most frequent
     class, weighted by their sizes. Higher is better, at most 1; without unit. It never falls when a
@@ -33,6 +33,17 @@ def average_purity(outcome: Clustering) -> Score:
     ------
     ValueError
         If there is no recording, or not one class and one cluster for each.
+
+    Warnings
+    --------
+    More clusters are never worse, and clusters of one recording are pure: compare only at equal
+    numbers of clusters. Where one class is frequent, one cluster of everything scores its share.
+
+    Notes
+    -----
+    With :math:`n_{ct}` recordings of class t in cluster c, of K recordings in all:
+
+    .. math:: \frac{1}{K} \sum_c \max_t n_{ct}
 
     References
     ----------
@@ -54,7 +65,7 @@ def average_purity(outcome: Clustering) -> Score:
 
 
 def adjusted_rand_index(outcome: Clustering) -> Score:
-    """Return how far clusters and classes agree on pairs of recordings, corrected for chance.
+    r"""Return how far clusters and classes agree on pairs of recordings, corrected for chance.
 
     The metric ``adjusted_rand``: (RI − E[RI]) / (1 − E[RI]), where RI is the share of pairs of
     recordings that are together, or apart, in both. Higher is better; without unit. 1 if clusters
@@ -74,6 +85,18 @@ def adjusted_rand_index(outcome: Clustering) -> Score:
     ------
     ValueError
         If there is no recording, or not one class and one cluster for each.
+
+    Warnings
+    --------
+    With more clusters than classes even a perfect split of classes scores below 1. It can be
+    negative, and of few recordings one that moves changes it much.
+
+    Notes
+    -----
+    With RI the share of pairs of recordings on which clusters and classes agree, and E its mean
+    over random clusters of the same sizes:
+
+    .. math:: \mathrm{ARI} = \frac{\mathrm{RI} - E[\mathrm{RI}]}{1 - E[\mathrm{RI}]}
 
     References
     ----------

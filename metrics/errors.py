@@ -31,7 +31,7 @@ def _squared_error(outcome: Imputation) -> Array:
 
 
 def mean_squared_error(outcome: Imputation) -> Score:
-    """Return the mean of (y − μ)² over the hidden entries.
+    r"""Return the mean of (y − μ)² over the hidden entries.
 
     The metric ``mse``. Lower is better; in the squared unit of the outputs.
 
@@ -50,6 +50,17 @@ def mean_squared_error(outcome: Imputation) -> Score:
     ------
     ValueError
         If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
+
+    Warnings
+    --------
+    Outputs with large values decide it, and its size depends on the outputs: compare it only
+    between models of one task.
+
+    Notes
+    -----
+    With H the set of hidden entries (t, d):
+
+    .. math:: \mathrm{MSE} = \frac{1}{|H|} \sum_{(t, d) \in H} (y_{td} - \mu_{td})^2
 
     Examples
     --------
@@ -72,7 +83,7 @@ def mean_squared_error(outcome: Imputation) -> Score:
 
 
 def standardised_error(outcome: Imputation) -> Score:
-    """Return the mean over outputs of MSE_d / var_d.
+    r"""Return the mean over outputs of MSE_d / var_d.
 
     The metric ``smse``. MSE_d is the mean of (y − μ)² over the hidden entries of output d, and
     var_d the variance (ddof 0) of its true values there. Lower is better, without unit; predicting
@@ -94,9 +105,24 @@ def standardised_error(outcome: Imputation) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
 
+    Warnings
+    --------
+    Every output counts alike: one that hardly varies while it is hidden, and is missed by little,
+    can outweigh all others. As a rule that variance is small in short gaps.
+
     See Also
     --------
     smse_pooled : One variance for all outputs.
+
+    Notes
+    -----
+    With :math:`H_d` the hidden frames of output d, and :math:`\bar y_d` the mean of its true values
+    there, over the D′ outputs that are kept:
+
+    .. math::
+
+        \mathrm{SMSE} = \frac{1}{D'} \sum_d
+        \frac{\sum_{t \in H_d} (y_{td} - \mu_{td})^2}{\sum_{t \in H_d} (y_{td} - \bar y_d)^2}
 
     References
     ----------
@@ -129,7 +155,7 @@ def standardised_error(outcome: Imputation) -> Score:
 
 
 def pooled_standardised_error(outcome: Imputation) -> Score:
-    """Return MSE / var, both over the hidden entries of all outputs together.
+    r"""Return MSE / var, both over the hidden entries of all outputs together.
 
     The metric ``smse_pooled``: one variance (ddof 0) around one mean. The thesis (J. D. Gil López,
     *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc thesis, Universidad
@@ -152,9 +178,25 @@ def pooled_standardised_error(outcome: Imputation) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
 
+    Warnings
+    --------
+    Where outputs lie at different levels, these differences are part of the variance, and the ratio
+    is small even for a model that predicts no more than each output's mean. It is not comparable
+    with ``smse``.
+
     See Also
     --------
     smse : One variance per output.
+
+    Notes
+    -----
+    With H the hidden entries (t, d) of the outputs that are kept, and :math:`\bar y` the mean of
+    all their true values:
+
+    .. math::
+
+        \mathrm{SMSE} = \frac{\sum_{(t, d) \in H} (y_{td} - \mu_{td})^2}
+        {\sum_{(t, d) \in H} (y_{td} - \bar y)^2}
 
     Examples
     --------

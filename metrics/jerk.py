@@ -18,7 +18,7 @@ _WIDTH = 4
 
 
 def imputed_jerk(outcome: Imputation) -> Score:
-    """Return the jerk of the prediction over that of the truth, within gaps.
+    r"""Return the jerk of the prediction over that of the truth, within gaps.
 
     The metric ``jerk_ratio``: Σ‖ĵ‖ / Σ‖j‖, with j the jerk of a joint's position relative to the
     root over four frames in a row, 6 times the third divided difference over their times. The sums
@@ -42,6 +42,22 @@ def imputed_jerk(outcome: Imputation) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or the
         outcome has no poses.
+
+    Warnings
+    --------
+    A value of 1 does not make a fill right: a jump at the end of a gap can make up for a fill that
+    is too smooth within. A third difference amplifies the noise of the recording, which a smooth
+    fill rightly lacks.
+
+    Notes
+    -----
+    With H the joints j and fours of frames t that count, and :math:`p_{tj}` positions relative to
+    the root:
+
+    .. math::
+
+        \frac{\sum_{(t, j) \in H} \| \dddot{\hat p}_{tj} \|}
+        {\sum_{(t, j) \in H} \| \dddot p_{tj} \|}
 
     Examples
     --------
@@ -77,7 +93,7 @@ def imputed_jerk(outcome: Imputation) -> Score:
 
 
 def sampled_jerk(outcome: Synthesis) -> Score:
-    """Return the mean jerk of the samples over that of the references.
+    r"""Return the mean jerk of the samples over that of the references.
 
     The metric ``sample_jerk_ratio``, of all joints relative to the root; jerk as in
     `jerk_ratio`. The target is 1, without unit.
@@ -97,6 +113,21 @@ def sampled_jerk(outcome: Synthesis) -> Score:
     ------
     ValueError
         If the outcome has no poses.
+
+    Warnings
+    --------
+    Samples are drawn with the noise that the model found, which a third difference amplifies: a
+    model with little more noise than the recording looks much too rough. Faster motion has more
+    jerk, too.
+
+    Notes
+    -----
+    With S samples s and M references m, sums over all joints j and fours of frames t:
+
+    .. math::
+
+        \frac{\frac{1}{S} \sum_s \sum_{t, j} \| \dddot p^{\,s}_{tj} \|}
+        {\frac{1}{M} \sum_m \sum_{t, j} \| \dddot p^{\,m}_{tj} \|}
 
     Examples
     --------

@@ -19,7 +19,7 @@ def _log_loss(values: Array, mean: Array, variance: Array) -> Array:
 
 
 def mean_standardised_log_loss(outcome: Imputation) -> Score:
-    """Return the mean log loss of the hidden entries less that of a trivial model.
+    r"""Return the mean log loss of the hidden entries less that of a trivial model.
 
     The metric ``msll``. The loss of an entry is ½ log(2πσ²) + (y − μ)² / (2σ²), with σ² the
     predictive variance of an observation, noise included. The trivial model is a Gaussian with the
@@ -42,6 +42,21 @@ def mean_standardised_log_loss(outcome: Imputation) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
         variance is missing or not positive.
+
+    Warnings
+    --------
+    It has no upper bound: a few entries with far too small a variance can decide the mean of all
+    others.
+
+    Notes
+    -----
+    With H the hidden entries (t, d), and :math:`m_d` and :math:`v_d` the mean and variance of the
+    visible entries of output d:
+
+    .. math::
+
+        \mathrm{MSLL} = \frac{1}{|H|} \sum_{(t, d) \in H} \Bigl[
+        - \log N(y_{td}; \mu_{td}, \sigma_{td}^2) + \log N(y_{td}; m_d, v_d) \Bigr]
 
     References
     ----------

@@ -29,7 +29,7 @@ def _has_angles_and_path(outcome: Imputation) -> bool:
 
 
 def rms_error_per_frame(outcome: Imputation) -> Score:
-    """Return the mean over hidden frames of ‖y_t − μ_t‖.
+    r"""Return the mean over hidden frames of ‖y_t − μ_t‖.
 
     The metric ``rms_per_frame``. The norm is Euclidean, over the hidden entries of frame t; a frame
     counts if any of its entries is hidden. It is no root of a mean square: the name is that of the
@@ -51,9 +51,20 @@ def rms_error_per_frame(outcome: Imputation) -> Score:
     ValueError
         If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
 
+    Warnings
+    --------
+    It adds squared degrees and squared root steps, and grows with the number of hidden channels:
+    values from other sets of channels cannot be compared.
+
     See Also
     --------
     angle_error_per_frame, root_error_per_frame : Its two parts, each in one unit.
+
+    Notes
+    -----
+    With T the frames in which an entry is hidden, and :math:`H_t` the hidden outputs of frame t:
+
+    .. math:: \frac{1}{|T|} \sum_{t \in T} \sqrt{\sum_{d \in H_t} (y_{td} - \mu_{td})^2}
 
     References
     ----------
@@ -81,7 +92,7 @@ def rms_error_per_frame(outcome: Imputation) -> Score:
 
 
 def angle_error(outcome: Imputation) -> Score:
-    """Return the mean over frames of the norm of the error of the hidden angles.
+    r"""Return the mean over frames of the norm of the error of the hidden angles.
 
     The metric ``angle_error_per_frame``: as `rms_per_frame`, over the outputs whose unit is
     ``deg`` and over the frames in which one of them is hidden. Lower is better; in degrees.
@@ -100,6 +111,17 @@ def angle_error(outcome: Imputation) -> Score:
     ------
     ValueError
         As `rms_per_frame`.
+
+    Warnings
+    --------
+    It grows with the number of hidden angles, and a degree counts the same at the hip, where it
+    moves the whole leg, and at the wrist.
+
+    Notes
+    -----
+    With T the frames in which an angle is hidden, and :math:`A_t` the hidden angles of frame t:
+
+    .. math:: \frac{1}{|T|} \sum_{t \in T} \sqrt{\sum_{d \in A_t} (y_{td} - \mu_{td})^2}
 
     Examples
     --------
@@ -121,7 +143,7 @@ def angle_error(outcome: Imputation) -> Score:
 
 
 def root_error(outcome: Imputation) -> Score:
-    """Return the mean over frames of the norm of the error of the hidden outputs that are no angle.
+    r"""Return the mean over frames of the error norm of the hidden outputs that are no angle.
 
     The metric ``root_error_per_frame``: of motions on a skeleton these are the root's translation,
     or its steps from frame to frame. Otherwise as `rms_per_frame`, over the frames in which
@@ -142,6 +164,17 @@ def root_error(outcome: Imputation) -> Score:
     ------
     ValueError
         As `rms_per_frame`.
+
+    Warnings
+    --------
+    Where the outputs are steps, it says nothing of where the steps lead: small errors that all
+    point the same way add up to a wrong path, which ``mpjpe_global`` shows.
+
+    Notes
+    -----
+    With T the frames in which such an output is hidden, and :math:`R_t` those hidden in frame t:
+
+    .. math:: \frac{1}{|T|} \sum_{t \in T} \sqrt{\sum_{d \in R_t} (y_{td} - \mu_{td})^2}
 
     Examples
     --------

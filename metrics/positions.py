@@ -27,7 +27,7 @@ def _are_positions(outcome: Imputation) -> bool:
 
 
 def relative_joint_position_error(outcome: Imputation) -> Score:
-    """Return the mean distance of predicted from true joints, both relative to the root.
+    r"""Return the mean distance of predicted from true joints, both relative to the root.
 
     The metric ``mpjpe`` (mean per joint position error). With p_tj the position of joint j at frame
     t, it is the mean of ‖(p̂_tj − p̂_t,root) − (p_tj − p_t,root)‖ over the joints and frames whose
@@ -51,9 +51,24 @@ def relative_joint_position_error(outcome: Imputation) -> Score:
         If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or the
         outcome has no poses.
 
+    Warnings
+    --------
+    A fill that averages many motions can have a small error and still look stiff or slide: read it
+    beside ``jerk_ratio`` and ``foot_skate``. Where the root's rotation is hidden, its error moves
+    every joint.
+
     See Also
     --------
     mpjpe_global : The same in space, with the error of the root.
+
+    Notes
+    -----
+    With H the joints and frames that count, and r the root:
+
+    .. math::
+
+        \mathrm{MPJPE} = \frac{1}{|H|} \sum_{(t, j) \in H}
+        \bigl\| (\hat p_{tj} - \hat p_{tr}) - (p_{tj} - p_{tr}) \bigr\|
 
     References
     ----------
@@ -87,7 +102,7 @@ def relative_joint_position_error(outcome: Imputation) -> Score:
 
 
 def joint_position_error(outcome: Imputation) -> Score:
-    """Return the mean distance of predicted from true joints in space.
+    r"""Return the mean distance of predicted from true joints in space.
 
     The metric ``mpjpe_global``: the mean of ‖p̂_tj − p_tj‖ over the joints and frames whose position
     depends on a hidden entry. Where the root's translation is given as differences, it is summed
@@ -108,6 +123,17 @@ def joint_position_error(outcome: Imputation) -> Score:
     ------
     ValueError
         As `mpjpe`.
+
+    Warnings
+    --------
+    One wrong step of the root shifts all that follows in the gap, so that the root's path can hide
+    how well the pose is filled: ``mpjpe`` leaves the root's path out.
+
+    Notes
+    -----
+    With H the joints and frames that count:
+
+    .. math:: \frac{1}{|H|} \sum_{(t, j) \in H} \| \hat p_{tj} - p_{tj} \|
 
     Examples
     --------
@@ -135,7 +161,7 @@ def joint_position_error(outcome: Imputation) -> Score:
 
 
 def bone_length_difference(outcome: Imputation) -> Score:
-    """Return the mean absolute difference of the lengths of predicted and true bones.
+    r"""Return the mean absolute difference of the lengths of predicted and true bones.
 
     The metric ``bone_length_error``: the mean of ``|ℓ̂_tj − ℓ_tj|`` over the bones and frames with a
     hidden joint at either end, with ℓ_tj the distance of joint j from its parent at frame t. It is
@@ -157,6 +183,19 @@ def bone_length_difference(outcome: Imputation) -> Score:
     ------
     ValueError
         As `mpjpe`.
+
+    Warnings
+    --------
+    Right lengths are not a right pose: a limb that points the wrong way can have an error of 0.
+
+    Notes
+    -----
+    With π(j) the joint that j hangs from, and H the bones and frames that count:
+
+    .. math::
+
+        \frac{1}{|H|} \sum_{(t, j) \in H}
+        \Bigl| \| \hat p_{tj} - \hat p_{t \pi(j)} \| - \| p_{tj} - p_{t \pi(j)} \| \Bigr|
 
     Examples
     --------

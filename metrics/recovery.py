@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 
 def relative_frobenius(outcome: Recovery, layer: str) -> Score:
-    """Return ‖K̂ − K‖ / ‖K‖ in the Frobenius norm, for the covariance K of ``layer``.
+    r"""Return ‖K̂ − K‖ / ‖K‖ in the Frobenius norm, for the covariance K of ``layer``.
 
     The metrics ``frobenius_child`` and ``frobenius_parent``. Noise is in neither matrix. Lower is
     better, without unit: 0 for the truth, 1 for K̂ = 0.
@@ -48,6 +48,17 @@ def relative_frobenius(outcome: Recovery, layer: str) -> Score:
     ------
     ValueError
         If the matrices are not square and of the same size.
+
+    Warnings
+    --------
+    Large entries decide it. A single parent was drawn, so that an estimate of the parent's
+    covariance is poor however good the model is.
+
+    Notes
+    -----
+    With K the true and K̂ the estimated covariance of the layer, (n, n):
+
+    .. math:: \frac{\| \hat K - K \|_F}{\| K \|_F}
 
     Examples
     --------
@@ -87,6 +98,17 @@ def log_det_divergence(outcome: Recovery, layer: str) -> Score:
     ------
     ValueError
         If the noise variance is not positive, or the matrices are not square and of the same size.
+
+    Warnings
+    --------
+    It grows with the number n of values, and it is harsher on variance that the estimate lacks than
+    on variance that it has too much.
+
+    Notes
+    -----
+    With A = K + σ² I of the true and B = K̂ + σ² I of the estimated covariance, (n, n):
+
+    .. math:: \operatorname{tr}(A B^{-1}) - \log \det (A B^{-1}) - n
 
     Examples
     --------

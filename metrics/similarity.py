@@ -33,7 +33,7 @@ Correlation = Callable[[Synthesis], SampleByReferenceByOutput]
 
 
 def mean_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
-    """Return the mean correlation over samples, references and outputs.
+    r"""Return the mean correlation over samples, references and outputs.
 
     The metrics ``mcc`` (maximum cross-correlation; the thesis calls it mean cross correlation) and
     ``mlc`` (mean linear correlation). Higher is better; without unit. An output that is constant in
@@ -58,6 +58,23 @@ def mean_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
     ------
     ValueError
         If shapes disagree, there is no sample or no reference, or a value is not finite.
+
+    Warnings
+    --------
+    The MCC is no correlation: sequences are not centred, so that two without anything in common
+    still score high, and it grows with the number of frames. The MLC knows no lag: a sample out of
+    step scores low. Neither sees levels and sizes. Copies of the training recordings (``replay``)
+    score well without being new.
+
+    Notes
+    -----
+    With S samples x, M references y and the D′ outputs that are kept:
+
+    .. math:: \frac{1}{S M D'} \sum_{s, m, d} c(x_{sd}, y_{md})
+
+    For the MCC, :math:`c(x, y) = \max_n \sum_t \tilde y_t \tilde x_{t + n}` over all lags n, with
+    x̃ and ỹ scaled to [0, 1] by their own minimum and maximum. For the MLC, c is Pearson's
+    correlation over the frames.
 
     References
     ----------
@@ -88,7 +105,7 @@ def mean_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
 
 
 def best_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
-    """Return the mean correlation with the best-matched reference.
+    r"""Return the mean correlation with the best-matched reference.
 
     The metrics ``mcc_best`` and ``mlc_best``. The best-matched reference is the one with the
     greatest mean correlation over samples and outputs: one reference for all samples. Higher is
@@ -111,6 +128,17 @@ def best_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
     ------
     ValueError
         If shapes disagree, there is no sample or no reference, or a value is not finite.
+
+    Warnings
+    --------
+    Samples that all repeat one recording score best: it rewards no variety. The more references
+    there are, the higher is the best match: compare at equal numbers of references.
+
+    Notes
+    -----
+    With S samples x, references y and the D′ outputs that are kept, and c as in ``mcc`` or ``mlc``:
+
+    .. math:: \max_m \frac{1}{S D'} \sum_{s, d} c(x_{sd}, y_{md})
 
     References
     ----------
@@ -147,7 +175,7 @@ def _deviation(pairs: Array) -> Array:
 
 
 def marginal_variance_ratio(outcome: Synthesis) -> Score:
-    """Return the marginal variance of the samples over that of the references.
+    r"""Return the marginal variance of the samples over that of the references.
 
     The metric ``variance_ratio``. The variance (ddof 1) is taken over sequences, at each frame of
     each output, around the sequences' mean there; it is averaged over frames and outputs before the
@@ -168,6 +196,20 @@ def marginal_variance_ratio(outcome: Synthesis) -> Score:
     ValueError
         If shapes disagree, there is no sample or no reference, a value is not finite, or the
         references are equal.
+
+    Warnings
+    --------
+    Too much variance in some frames or outputs can make up for too little in others, and noise
+    counts as variance. Outputs with large values decide it. References that differ much, as those
+    of several persons do, set a target that no model is told.
+
+    Notes
+    -----
+    With the variances over sequences at frame t of output d:
+
+    .. math::
+
+        \frac{\sum_{t, d} \operatorname{var}_s x_{std}}{\sum_{t, d} \operatorname{var}_m y_{mtd}}
 
     Examples
     --------

@@ -21,7 +21,7 @@ SHORTEST = 4
 
 
 def imputed_spectrum(outcome: Imputation) -> Score:
-    """Return the distance of the power spectra of prediction and truth, within gaps.
+    r"""Return the distance of the power spectra of prediction and truth, within gaps.
 
     The metric ``npss`` (normalised power spectrum similarity). A sequence is a run of hidden
     entries of one output, four frames or longer. Its power spectrum is divided by its sum, and
@@ -43,6 +43,21 @@ def imputed_spectrum(outcome: Imputation) -> Score:
     ------
     ValueError
         If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
+
+    Warnings
+    --------
+    Phases do not count: a fill in step and one out of step score the same. The level of a sequence
+    is its power at frequency 0, so that channels far from zero weigh much, and their level hides
+    their movement. Runs shorter than four frames are left out.
+
+    Notes
+    -----
+    With F and F̂ the cumulative normalised power spectra of sequence i, and :math:`P_i` the power
+    of its truth:
+
+    .. math::
+
+        \mathrm{NPSS} = \frac{\sum_i P_i \sum_f | \hat F_i(f) - F_i(f) |}{\sum_i P_i}
 
     References
     ----------
@@ -82,7 +97,7 @@ def imputed_spectrum(outcome: Imputation) -> Score:
 
 
 def sampled_spectrum(outcome: Synthesis) -> Score:
-    """Return the distance of the power spectra of samples and references.
+    r"""Return the distance of the power spectra of samples and references.
 
     The metric ``sample_npss``: that of `npss`, of every output of every sample with the
     same output of every reference, weighted by the power of the reference. Lower is better; in
@@ -102,6 +117,20 @@ def sampled_spectrum(outcome: Synthesis) -> Score:
     ------
     ValueError
         If shapes disagree, there is no sample or no reference, or a value is not finite.
+
+    Warnings
+    --------
+    Channels are compared one by one: samples whose channels do not belong together score as well.
+    The level of a channel is its power at frequency 0, so that channels far from zero weigh much.
+
+    Notes
+    -----
+    With F the cumulative normalised power spectra of output d of sample s and reference m, and
+    :math:`P_{md}` the power of the reference; the value is the mean over samples:
+
+    .. math::
+
+        \frac{\sum_{m, d} P_{md} \sum_f | F_{sd}(f) - F_{md}(f) |}{\sum_{m, d} P_{md}}
 
     Examples
     --------

@@ -99,6 +99,21 @@ class GPDM(DynamicalModel):
     frame_seconds_ : float
         The time between training frames.
 
+    Notes
+    -----
+    With the default dynamics, the kernels of the poses and of the dynamics are
+
+    .. math::
+
+        k_Y(x, x') = e^{-\frac{\beta_1}{2} \| x - x' \|^2} + \beta_2^{-1} \delta
+
+    .. math::
+
+        k_X(x, x') = \alpha_1 e^{-\frac{\alpha_2}{2} \| x - x' \|^2} + \alpha_3 x^\top x'
+        + \alpha_4^{-1} \delta
+
+    ``docs/gpdm.md`` has the learning and the filling.
+
     References
     ----------
     J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical Models for Human

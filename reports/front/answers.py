@@ -13,7 +13,7 @@ from mocapbench.reports.bundle.questions import QUESTIONS, Question
 from mocapbench.reports.front.board_cells import board_cells, first_metric, reference_of
 from mocapbench.reports.text import counted, number, slug
 
-__all__ = ["Answer", "Finding", "answers"]
+__all__ = ["TESTED", "Answer", "Finding", "answers"]
 
 TESTED = (Place.BEHIND, Place.INSEPARABLE)
 OF_TOYS = "recover"

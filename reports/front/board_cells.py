@@ -14,7 +14,7 @@ from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.front.board import SHADES, BoardCell
 from mocapbench.reports.text import cell_anchor, number
 
-__all__ = ["board_cells", "first_metric", "reference_of"]
+__all__ = ["WORSE", "board_cells", "first_metric", "reference_of"]
 
 WORSE = "worse"
 NEXT = 1.0 + 1e-9

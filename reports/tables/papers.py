@@ -15,7 +15,7 @@ from mocapbench.reports.paper.citations import CITATIONS
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.text import slug
 
-__all__ = ["papers_table"]
+__all__ = ["papers_table", "readable"]
 
 PAPERS = {name.lower(): name for name in CITATIONS}
 VERDICTS = tuple(verdict.value for verdict in PublishedVerdict)
@@ -43,7 +43,7 @@ def papers_table(tasks: Iterable[TaskResults]) -> Table | None:
         columns=(*headings(["published in"]), *headings(["task"], "text"), *headings(COUNTS)),
         rows=tuple(
             (
-                Cell(_readable(str(row["source"]))),
+                Cell(readable(str(row["source"]))),
                 _task_cell(str(row["task"])),
                 *(Cell(str(row[name])) if row[name] else ABSENT for name in COUNTS),
             )
@@ -68,7 +68,7 @@ def _task_cell(task: str) -> Cell:
     return Cell(task, kind="text", link=slug("task", task)) if task else Cell("", kind="text")
 
 
-def _readable(source: str) -> str:
+def readable(source: str) -> str:
     """Return "thesis table 1" for ``thesis-table-01``, "GPDM table 2" for ``gpdm-table-2``."""
     if source == ALL:
         return ALL
