@@ -1,0 +1,191 @@
+"""
+Add a model and see where it stands
+===================================
+
+You have an idea of how to fill gaps. You write it as a model in twenty lines, check that it keeps the
+rules, run it beside others on the same gaps, and read where it stands.
+"""
+
+# %%
+# The idea
+# --------
+#
+# People move smoothly: reaching hands follow the path of `least jerk
+# <https://doi.org/10.1523/JNEUROSCI.05-07-01688.1985>`_, which is the third derivative of position. So
+# let each channel go through a gap with the least sum of squared third differences. That is one
+# least-squares problem for each channel.
+#
+# The model
+# ---------
+#
+# A model is a class that inherits what it can do. This one is
+#
+# - an `Interpolator`: it fills any set of hidden entries, each channel from its own course alone;
+# - `Inductive`: it also fills recordings that it has not seen in `fit`.
+
+import numpy as np
+
+from mocapbench.baselines import Inductive, Interpolator, Prediction
+
+
+class LeastJerk(Interpolator, Inductive):
+    """Fill each channel with the course of least jerk."""
+
+    def fit(self, recordings):
+        return self  # there is nothing to learn
+
+    def impute(self, recordings):
+        return [
+            Prediction.around(recording, np.apply_along_axis(self._fill, 0, recording.values))
+            for recording in recordings
+        ]
+
+    @staticmethod
+    def _fill(course):
+        """Return the values (N,) of a channel without gaps; hidden ones are NaN."""
+        hidden = np.isnan(course)
+        jerk = np.diff(np.eye(len(course)), 3, axis=0)  # (N - 3, N), third differences
+        filled = course.copy()
+        filled[hidden] = np.linalg.lstsq(jerk[:, hidden], -jerk[:, ~hidden] @ course[~hidden])[0]
+        return filled
+
+
+# %%
+# `Prediction.around` keeps what is seen, and takes the filled values for the rest. A model with a
+# predictive variance would give it as a third argument.
+#
+# Does it keep the rules?
+# -----------------------
+#
+# The conformance kit feeds a model short recordings, channels without a value, shuffled recordings and
+# more. It raises a `ConformanceError` that says what was expected. First a model with a mistake: it
+# forgets to keep what is seen.
+
+from mocapbench.benchmark.testing import ConformanceError, check_model
+
+
+class Forgetful(LeastJerk):
+    """Fill everything with zeros, also what is seen."""
+
+    def impute(self, recordings):
+        return [Prediction(np.zeros(recording.values.shape)) for recording in recordings]
+
+
+for model in (Forgetful, LeastJerk):
+    try:
+        check_model(model)
+        print(f"{model.__name__} conforms")
+    except ConformanceError as error:
+        print(error)
+
+# %%
+# Run it beside others
+# --------------------
+#
+# The command line reads models from a Python file: the imports, the class, and a dictionary ``MODELS``
+# that gives it a name. Here is a function to run a command, and the file.
+
+import inspect
+import os
+import subprocess
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+folder = TemporaryDirectory()
+
+
+def run(command: str) -> str:
+    """Return what a command prints."""
+    wide = os.environ | {"COLUMNS": "110"}
+    done = subprocess.run(
+        command, shell=True, cwd=folder.name, env=wide, check=True, capture_output=True, text=True
+    )
+    return done.stdout
+
+
+Path(folder.name, "my_model.py").write_text(
+    "import numpy as np\n"
+    "from mocapbench.baselines import Inductive, Interpolator, Prediction\n\n"
+    + inspect.getsource(LeastJerk)
+    + '\nMODELS = {"least-jerk": LeastJerk}\n'
+)
+
+# %%
+# The task :doc:`/generated/tasks/marker-gaps` hides an arm or a leg for 0.1 to 2 seconds. We take its
+# generated walks, four folds (each with another gap), and three interpolations to compare with. Each
+# job runs in a process of its own and never sees the truth.
+
+output = run(
+    "mocapbench run --plugin my_model.py --out results --offline --no-report"
+    " --tasks marker-gaps --cases 'synthetic*alone' --folds 4"
+    " --models least-jerk,linear,makima,cubic-spline"
+)
+print(output.splitlines()[-2])
+
+# %%
+# Where it stands
+# ---------------
+#
+# Without ``--no-report``, the run ends with a page, ``results/report.html``, which begins with a
+# scoreboard. Here we draw our own from the table of all scores.
+
+import matplotlib.pyplot as plt
+import pandas as pd
+
+run("mocapbench export --out results")
+scores = pd.read_csv(Path(folder.name, "results", "scores.csv"))
+errors = scores[scores.metric == "mpjpe"]
+errors = errors.assign(gap=errors.case.str.extract(r"([\d.]+) s")[0].astype(float))
+board = errors.pivot_table(index="label", columns="gap", values="value")
+board = board.loc[board.rank().mean(axis=1).sort_values().index]
+
+plt.style.use("tableau-colorblind10")
+figure, axis = plt.subplots(figsize=(6.4, 2.8), layout="constrained")
+times_worse = (board / board.min()).to_numpy()
+axis.imshow(np.log(times_worse), cmap="cividis_r", aspect="auto", vmin=0.0, vmax=np.log(4.0))
+for (row, column), worse in np.ndenumerate(times_worse):
+    color, weight = ("white" if worse > 2.0 else "black"), ("bold" if worse == 1.0 else "normal")
+    text = f"{board.iat[row, column]:.2f}"
+    axis.text(column, row, text, ha="center", va="center", color=color, weight=weight)
+axis.set_xticks(range(len(board.columns)), [f"{gap:g} s" for gap in board.columns])
+axis.set_yticks(range(len(board)), board.index)
+axis.set(xlabel="length of the gap", title="Mean error of joint positions (cm); bold: the best")
+plt.show()
+
+# %%
+# **Look at** one row at a time, from left to right. Below each length of gap, the darker a cell, the
+# more times its error is that of the best. A smooth course is a good guess for as long as a movement
+# goes on; over a longer gap, a leg has taken a step that no curve between the two ends shows.
+
+best = board.idxmin()
+for length, label in best.items():
+    worst = times_worse[:, board.columns.get_loc(length)].max()
+    print(f"gaps of {length:g} s: {label} is best, the last one is {worst:.1f} times worse")
+
+# %%
+# Is that more than chance?
+# -------------------------
+#
+# Four gaps of each length are few. ``mocapbench compare`` pairs the two models gap by gap. We take the
+# interpolation that stands highest in the picture.
+
+rival = next(label for label in board.index if label != "least-jerk")
+command = f"mocapbench compare results --models least-jerk,{rival} --metrics mpjpe"
+print("$", command)
+print(run(command + " --plugin my_model.py"))
+folder.cleanup()
+
+# %%
+# **Look at** the column *better by* and its interval in brackets: an interval that holds 0 leaves open
+# which of the two is better. The last column says the same in words. *All cases* has each length of gap
+# as one value. :doc:`plot_4_is_the_difference_real` says what the other columns mean, and how many folds
+# it takes.
+#
+# Where next
+# ----------
+#
+# - :doc:`plot_4_is_the_difference_real`: from a difference to a claim.
+# - :doc:`/compare`: the guide to models, tasks and metrics of your own, and how to publish them.
+# - :doc:`/own-recordings`: the same contest on your recordings.
+# - :doc:`/ci`: have a test fail when your model gets worse.
+# - :doc:`/generated/tasks/index`: more to take part in.
