@@ -2,9 +2,9 @@
 Fill a recording and look at its bands
 ======================================
 
-Eight people walk, and each recording has a gap of two thirds of a second in which nothing was seen.
-Three models fill the gaps. You learn to look at three things: the *curve* that is filled in, the
-*band* around it, and the *coverage*, which tells whether the bands can be believed.
+Eight people walk, and each recording has a gap of two thirds of a second in which nothing was
+seen. Three models fill the gaps. You learn to look at three things: the *curve* that is filled
+in, the *band* around it, and the *coverage*, which tells whether the bands can be believed.
 """
 
 # %%
@@ -12,8 +12,8 @@ Three models fill the gaps. You learn to look at three things: the *curve* that 
 # ---------------
 #
 # The walks are generated. They have the joint angles of the CMU Motion Capture Database. We keep 30
-# of 120 frames a second, and eight joints that swing. Four more people have no gap: models may learn
-# from them.
+# of 120 frames a second, and eight joints that swing. Four more people have no gap: models may
+# learn from them.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -79,8 +79,8 @@ answers = {
 # The curve and its band
 # ----------------------
 #
-# **Look at** the dashed line, which is the truth. Does the filled curve follow it? Do the bands hold
-# it? The dark band should hold half of the hidden values, the light one 95 % of them.
+# **Look at** the dashed line, which is the truth. Does the filled curve follow it? Do the bands
+# hold it? The dark band should hold half of the hidden values, the light one 95 % of them.
 
 plt.style.use(["seaborn-v0_8-whitegrid", "tableau-colorblind10"])
 BLUE, ORANGE, _, GREY, *_ = plt.rcParams["axes.prop_cycle"].by_key()["color"]
@@ -90,7 +90,9 @@ times, knee = truth[PERSON].times, truth[PERSON].values[:, KNEE]
 hidden = ~given[PERSON].visible[:, KNEE]
 gap = times[hidden][[0, -1]]
 
-figure, axes = plt.subplots(3, 1, figsize=(6.4, 6.6), sharex=True, sharey=True, layout="constrained")
+figure, axes = plt.subplots(
+    3, 1, figsize=(6.4, 6.6), sharex=True, sharey=True, layout="constrained"
+)
 for axis, (name, answer) in zip(axes, answers.items(), strict=True):
     prediction = answer.predictions[PERSON]
     mean = prediction.mean[:, KNEE]
@@ -116,15 +118,15 @@ axes[-1].set_xlabel("time (s)")
 plt.show()
 
 # %%
-# ``makima`` says nothing of its doubt. ``gp-independent`` does, and its bands widen towards the middle
-# of the gap, where the nearest seen frame is far away.
+# ``makima`` says nothing of its doubt. ``gp-independent`` does, and its bands widen towards the
+# middle of the gap, where the nearest seen frame is far away.
 #
 # Can the bands be believed?
 # --------------------------
 #
 # One gap in one joint is an anecdote. Over all gaps and joints, **coverage** counts how many hidden
-# values lie within a band. A 95 % band with a coverage of 60 % is too narrow: the model is surer than
-# it should be. With more than 95 % it is wider than it need be.
+# values lie within a band. A 95 % band with a coverage of 60 % is too narrow: the model is surer
+# than it should be. With more than 95 % it is wider than it need be.
 
 from mocapbench.metrics import coverage_50, coverage_80, coverage_90, coverage_95, mse, sharpness
 
@@ -141,8 +143,8 @@ for name, answer in answers.items():
     print(line)
 
 # %%
-# The error is the root of the mean squared error over all hidden values. **Look at** which points lie
-# below the diagonal in the picture: those bands hold fewer values than they promise.
+# The error is the root of the mean squared error over all hidden values. **Look at** which points
+# lie below the diagonal in the picture: those bands hold fewer values than they promise.
 
 figure, axis = plt.subplots(figsize=(5.2, 4.6), layout="constrained")
 promised = 100 * np.array(list(COVERAGES))
@@ -164,8 +166,8 @@ plt.show()
 # The same from the command line
 # ------------------------------
 #
-# Your own recordings are files. Here we write a walk with its gap and two walks to learn from as CSV
-# files, whose columns name the unit in brackets.
+# Your own recordings are files. Here we write a walk with its gap and two walks to learn from as
+# CSV files, whose columns name the unit in brackets.
 
 import subprocess
 from pathlib import Path
@@ -189,7 +191,8 @@ write_csv(others[0], "other-1.csv")
 write_csv(others[1], "other-2.csv")
 
 command = (
-    "mocapbench fill walk.csv --train other-1.csv --train other-2.csv --model pose-kriging --out filled"
+    "mocapbench fill walk.csv --train other-1.csv --train other-2.csv"
+    " --model pose-kriging --out filled"
 )
 done = subprocess.run(command.split(), cwd=folder.name, check=True, capture_output=True, text=True)
 print("$", command)
@@ -204,14 +207,15 @@ print(entries.head(8).to_string(index=False))
 folder.cleanup()
 
 # %%
-# Without ``--model``, every model that can fill these gaps is tried on gaps like them, and the best one
-# fills. That is the better choice for motions that nobody has tried before.
+# Without ``--model``, every model that can fill these gaps is tried on gaps like them, and the best
+# one fills. That is the better choice for motions that nobody has tried before.
 #
 # Where next
 # ----------
 #
 # - :doc:`/filling`: all options of ``mocapbench fill``, and how well it chooses a model.
 # - :doc:`/calibration`: the bands of models on real recordings.
-# - :doc:`/generated/models/pose-kriging` and :doc:`/generated/models/gp-independent`: how they work.
+# - :doc:`/generated/models/pose-kriging` and :doc:`/generated/models/gp-independent`: how they
+#   work.
 # - :doc:`plot_2_add_a_model`: a model of your own.
 # - :doc:`plot_3_what_a_hierarchy_buys`: why other people's walks help.

@@ -2,8 +2,8 @@
 Add a model and see where it stands
 ===================================
 
-You have an idea of how to fill gaps. You write it as a model in twenty lines, check that it keeps the
-rules, run it beside others on the same gaps, and read where it stands.
+You have an idea of how to fill gaps. You write it as a model in twenty lines, check that it keeps
+the rules, run it beside others on the same gaps, and read where it stands.
 """
 
 # %%
@@ -11,8 +11,8 @@ rules, run it beside others on the same gaps, and read where it stands.
 # --------
 #
 # People move smoothly: reaching hands follow the path of `least jerk
-# <https://doi.org/10.1523/JNEUROSCI.05-07-01688.1985>`_, which is the third derivative of position. So
-# let each channel go through a gap with the least sum of squared third differences. That is one
+# <https://doi.org/10.1523/JNEUROSCI.05-07-01688.1985>`_, which is the third derivative of position.
+# So let each channel go through a gap with the least sum of squared third differences. That is one
 # least-squares problem for each channel.
 #
 # The model
@@ -57,9 +57,9 @@ class LeastJerk(Interpolator, Inductive):
 # Does it keep the rules?
 # -----------------------
 #
-# The conformance kit feeds a model short recordings, channels without a value, shuffled recordings and
-# more. It raises a `ConformanceError` that says what was expected. First a model with a mistake: it
-# forgets to keep what is seen.
+# The conformance kit feeds a model short recordings, channels without a value, shuffled recordings
+# and more. It raises a `ConformanceError` that says what was expected. First a model with a
+# mistake: it forgets to keep what is seen.
 
 from mocapbench.benchmark.testing import ConformanceError, check_model
 
@@ -82,8 +82,8 @@ for model in (Forgetful, LeastJerk):
 # Run it beside others
 # --------------------
 #
-# The command line reads models from a Python file: the imports, the class, and a dictionary ``MODELS``
-# that gives it a name. Here is a function to run a command, and the file.
+# The command line reads models from a Python file: the imports, the class, and a dictionary
+# ``MODELS`` that gives it a name. Here is a function to run a command, and the file.
 
 import inspect
 import os
@@ -111,9 +111,9 @@ Path(folder.name, "my_model.py").write_text(
 )
 
 # %%
-# The task :doc:`/generated/tasks/marker-gaps` hides an arm or a leg for 0.1 to 2 seconds. We take its
-# generated walks, four folds (each with another gap), and three interpolations to compare with. Each
-# job runs in a process of its own and never sees the truth.
+# The task :doc:`/generated/tasks/marker-gaps` hides an arm or a leg for 0.1 to 2 seconds. We take
+# its generated walks, four folds (each with another gap), and three interpolations to compare with.
+# Each job runs in a process of its own and never sees the truth.
 
 output = run(
     "mocapbench run --plugin my_model.py --out results --offline --no-report"
@@ -153,9 +153,10 @@ axis.set(xlabel="length of the gap", title="Mean error of joint positions (cm); 
 plt.show()
 
 # %%
-# **Look at** one row at a time, from left to right. Below each length of gap, the darker a cell, the
-# more times its error is that of the best. A smooth course is a good guess for as long as a movement
-# goes on; over a longer gap, a leg has taken a step that no curve between the two ends shows.
+# **Look at** one row at a time, from left to right. Below each length of gap, the darker a cell,
+# the more times its error is that of the best. A smooth course is a good guess for as long as a
+# movement goes on; over a longer gap, a leg has taken a step that no curve between the two ends
+# shows.
 
 best = board.idxmin()
 for length, label in best.items():
@@ -166,8 +167,8 @@ for length, label in best.items():
 # Is that more than chance?
 # -------------------------
 #
-# Four gaps of each length are few. ``mocapbench compare`` pairs the two models gap by gap. We take the
-# interpolation that stands highest in the picture.
+# Four gaps of each length are few. ``mocapbench compare`` pairs the two models gap by gap. We take
+# the interpolation that stands highest in the picture.
 
 rival = next(label for label in board.index if label != "least-jerk")
 command = f"mocapbench compare results --models least-jerk,{rival} --metrics mpjpe"
@@ -176,10 +177,10 @@ print(run(command + " --plugin my_model.py"))
 folder.cleanup()
 
 # %%
-# **Look at** the column *better by* and its interval in brackets: an interval that holds 0 leaves open
-# which of the two is better. The last column says the same in words. *All cases* has each length of gap
-# as one value. :doc:`plot_4_is_the_difference_real` says what the other columns mean, and how many folds
-# it takes.
+# **Look at** the column *better by* and its interval in brackets: an interval that holds 0 leaves
+# open which of the two is better. The last column says the same in words. *All cases* has each
+# length of gap as one value. :doc:`plot_4_is_the_difference_real` says what the other columns mean,
+# and how many folds it takes.
 #
 # Where next
 # ----------

@@ -2,18 +2,18 @@
 What a hierarchy buys
 =====================
 
-Six people walk. Each walks in a way of their own, and yet all walks are alike. A *hierarchical* model
-says just that: there is a trend, and each recording varies around it. You see the trend, what it does
-for a recording with a gap, and when it does not help.
+Six people walk. Each walks in a way of their own, and yet all walks are alike. A *hierarchical*
+model says just that: there is a trend, and each recording varies around it. You see the trend,
+what it does for a recording with a gap, and when it does not help.
 """
 
 # %%
 # Six replicates
 # --------------
 #
-# We cut one cycle out of each walk, from the moment at which the left thigh is farthest forward to the
-# next such moment, and stretch all cycles to the same forty frames. Time is then the share of the cycle.
-# Gaps lie around the swing of the leg, where the knee bends most.
+# We cut one cycle out of each walk, from the moment at which the left thigh is farthest forward to
+# the next such moment, and stretch all cycles to the same forty frames. Time is then the share of
+# the cycle. Gaps lie around the swing of the leg, where the knee bends most.
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -54,14 +54,15 @@ walks = [cycle(f"{person:02d}_01", f"person {person}") for person in range(1, 7)
 #
 # The first walk loses 16 of its 40 frames. Both models get all six recordings.
 #
-# - ``gp-independent`` learns from all of them *how fast* each joint moves. Each recording is then a draw
-#   of its own: what the others do in the gap does not matter.
-# - ``mohgp``, the multiple-output hierarchical Gaussian process, has a trend :math:`g` and recordings
-#   :math:`f_r` that vary around it, and joints that vary together:
+# - ``gp-independent`` learns from all of them *how fast* each joint moves. Each recording is then a
+#   draw of its own: what the others do in the gap does not matter.
+# - ``mohgp``, the multiple-output hierarchical Gaussian process, has a trend :math:`g` and
+#   recordings :math:`f_r` that vary around it, and joints that vary together:
 #
 # .. math::
 #
-#    g \sim \mathcal{GP}(0, K_g), \qquad f_r \sim \mathcal{GP}(g, K_f), \qquad y_r = f_r + \varepsilon_r.
+#    g \sim \mathcal{GP}(0, K_g), \qquad f_r \sim \mathcal{GP}(g, K_f), \qquad
+#    y_r = f_r + \varepsilon_r.
 
 from mocapbench.baselines import MOHGP, GPIndependent
 
@@ -73,8 +74,8 @@ independent, hierarchical = GPIndependent().fit(given), MOHGP().fit(given)
 # The trend and its replicates
 # ----------------------------
 #
-# **Look at** how the trend runs through the middle of the thin lines. Its band says where the trend may
-# lie; it promises nothing about single recordings.
+# **Look at** how the trend runs through the middle of the thin lines. Its band says where the trend
+# may lie; it promises nothing about single recordings.
 
 plt.style.use(["seaborn-v0_8-whitegrid", "tableau-colorblind10"])
 BLUE, ORANGE, _, GREY, *_ = plt.rcParams["axes.prop_cycle"].by_key()["color"]
@@ -97,14 +98,16 @@ plt.show()
 # What the gap may have held
 # --------------------------
 #
-# A posterior is more than a curve with a band: it gives whole courses. Each thin line below is one that
-# the model holds possible, given all that was seen.
+# A posterior is more than a curve with a band: it gives whole courses. Each thin line below is one
+# that the model holds possible, given all that was seen.
 #
-# **Look at** the thin lines inside the gap. Which of the two models knows that the leg stays straight
-# until its swing begins?
+# **Look at** the thin lines inside the gap. Which of the two models knows that the leg stays
+# straight until its swing begins?
 
 hidden_times = incomplete.times[~incomplete.visible[:, KNEE]]
-figure, axes = plt.subplots(2, 1, figsize=(6.4, 5.6), sharex=True, sharey=True, layout="constrained")
+figure, axes = plt.subplots(
+    2, 1, figsize=(6.4, 5.6), sharex=True, sharey=True, layout="constrained"
+)
 for axis, model, name, color in zip(
     axes,
     (independent, hierarchical),
@@ -126,8 +129,8 @@ plt.show()
 # How much it buys
 # ----------------
 #
-# That depends on the gap. We hide 2 to 24 frames of three of the walkers in turn, fit both models anew,
-# and take the error over all three joints.
+# That depends on the gap. We hide 2 to 24 frames of three of the walkers in turn, fit both models
+# anew, and take the error over all three joints.
 
 
 def filled(model: MOHGP | GPIndependent, recordings: Sequence[Recording], test: Recording):
@@ -161,8 +164,8 @@ axis.legend(frameon=True)
 plt.show()
 
 # %%
-# **Look at** where the two curves part. In a short gap, the frames on either side say enough. In a long
-# one, only the trend knows what comes.
+# **Look at** where the two curves part. In a short gap, the frames on either side say enough. In a
+# long one, only the trend knows what comes.
 
 shortest, longest = (curves["gp-independent"][i] / curves["mohgp"][i] for i in (0, -1))
 print(f"gap of {share[0]:.0f} % of a cycle: the hierarchy divides the error by {shortest:.1f}")
@@ -172,11 +175,12 @@ print(f"gap of {share[-1]:.0f} % of a cycle: the hierarchy divides the error by 
 # When it buys less
 # -----------------
 #
-# A trend is a promise that recordings do the same *at the same time*. What if one does not keep it? We
-# try the same walk, cut half a cycle late, and a run of the same person. The five other walks stay.
+# A trend is a promise that recordings do the same *at the same time*. What if one does not keep it?
+# We try the same walk, cut half a cycle late, and a run of the same person. The five other walks
+# stay.
 #
-# **Look at** the errors of both models in each pair of rows. Then look at the last column: far below
-# 95 %, the model is surer than it should be.
+# **Look at** the errors of both models in each pair of rows. Then look at the last column: far
+# below 95 %, the model is surer than it should be.
 
 tests = {
     "walk": walks[0],
@@ -195,15 +199,15 @@ for what, recording in tests.items():
 # So align recordings first: cut them at the same event, as here, or let a model do it
 # (:doc:`/alignment`).
 #
-# Where recordings fall into groups, a deeper hierarchy is the better model:
-# ``MOHGP(tree={"person 1": ("run",), "person 2": ("walk",), ...})`` puts a trend of each group between the
-# common trend and the recordings.
+# Where recordings fall into groups, a deeper hierarchy is the better model: ``MOHGP(tree={"person
+# 1": ("run",), "person 2": ("walk",), ...})`` puts a trend of each group between the common trend
+# and the recordings.
 #
 # Where next
 # ----------
 #
 # - :doc:`/generated/models/mohgp`: the model's parameters, and where it wins and fails.
-# - :doc:`/inference`: how the posterior is computed without the matrix of all recordings, joints and
-#   frames.
+# - :doc:`/inference`: how the posterior is computed without the matrix of all recordings, joints
+#   and frames.
 # - :doc:`/thesis`: the same question on the tables of the thesis that introduced the model.
 # - :doc:`plot_4_is_the_difference_real`: three walkers are few; how many would do?

@@ -2,16 +2,17 @@
 Is the difference real?
 =======================
 
-One model has an error of 3.8 cm, another one of 4.1 cm. Is the first one better, or was it lucky with
-the gaps? You compare models gap by gap, several at once, and find out how many gaps a claim needs.
+The error of one model is a tenth below that of another. Is it better, or was it lucky with its
+gaps? You compare models gap by gap, then several at once, and find out how many gaps a claim
+needs.
 """
 
 # %%
 # A run
 # -----
 #
-# Five models fill an arm or a leg that is hidden for half a second. Each of twelve *folds* hides another
-# one. The walks are generated (:doc:`/generated/tasks/marker-gaps` has the real ones).
+# Five models fill an arm or a leg that is hidden for half a second. Each of twelve *folds* hides
+# another one. The walks are generated (:doc:`/generated/tasks/marker-gaps` has the real ones).
 
 import os
 import subprocess
@@ -33,13 +34,13 @@ def run(command: str) -> str:
 output = run(
     "mocapbench run --out results --offline --no-report --tasks marker-gaps"
     " --cases 'synthetic a limb 0.5 s*others*' --folds 12"
-    " --models knn,low-rank,pca-regression,cubic-spline,makima"
+    " --models low-rank,pca-regression,cubic-spline,makima,linear"
 )
 print(output.splitlines()[-2])
 
 # %%
-# The scores of a run are a table: a row for each fold, a column for each model. These are mean errors of
-# joint positions in centimetres.
+# The scores of a run are a table: a row for each fold, a column for each model. These are mean
+# errors of joint positions in centimetres.
 
 from mocapbench.benchmark import Store, score_table
 
@@ -49,32 +50,32 @@ errors = errors[errors.mean().sort_values().index]  # the best first
 print(errors.round(2).to_string())
 
 # %%
-# **Look down** a column: some folds are hard for everybody. Two models must therefore be compared on the
-# *same* fold, and what counts is the difference.
+# **Look down** a column: some folds are hard for everybody. Two models must therefore be compared
+# on the *same* fold, and what counts is the difference.
 #
 # Two models
 # ----------
 #
-# ``mocapbench compare`` does so. **Look at** *better by* and the 95 % interval in brackets. If it holds 0,
-# these folds do not tell which of the two is better.
+# ``mocapbench compare`` does so. **Look at** *better by* and the 95 % interval in brackets. If it
+# holds 0, these folds do not tell which of the two is better.
 
-second, third = errors.columns[1:3]
-command = f"mocapbench compare results --models {second},{third} --metrics mpjpe"
+best, second = errors.columns[:2]
+command = f"mocapbench compare results --models {best},{second} --metrics mpjpe"
 print("$", command)
 print(run(command))
 folder.cleanup()
 
 # %%
-# "Not separable" does not mean "equal". It means that nobody knows yet. The column *P better / equal /
-# worse* says how probable each is, where *equal* is a difference of less than 2 %.
+# An outcome of "not separable" does not mean "equal". It means that nobody knows yet. The column *P
+# better / equal / worse* says how probable each is, where *equal* is a difference of less than 2 %.
 #
 # All against the best
 # --------------------
 #
-# With five models there are four such comparisons, and each may err. **Holm's correction** widens the
-# intervals so that all four together err in at most 5 % of runs.
+# With five models there are four such comparisons, and each may err. **Holm's correction** widens
+# the intervals so that all four together err in at most 5 % of runs.
 #
-# **Look at** which bars reach the dashed line: those models may be as good as the best.
+# **Look at** the dashed line. A model whose bar reaches it may be as good as the best.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -84,7 +85,7 @@ from mocapbench.metrics.statistics import compare_ranks, holm_tests
 plt.style.use(["seaborn-v0_8-whitegrid", "tableau-colorblind10"])
 BLUE, ORANGE, _, GREY, *_ = plt.rcParams["axes.prop_cycle"].by_key()["color"]
 
-best, *rest = errors.columns
+rest = errors.columns[1:]
 behind = np.array([errors[label] - errors[best] for label in rest])  # (models, folds)
 tests = holm_tests(behind)
 
@@ -111,8 +112,8 @@ for label, mean, p in zip(rest, tests.mean, tests.p, strict=True):
 # Ranks
 # -----
 #
-# A mean is moved by one bad fold. A rank is not: 1 for the best of a fold, 5 for the worst. Mean ranks
-# that differ by less than the *critical difference* are not separable.
+# A mean is moved by one bad fold. A rank is not: 1 for the best of a fold, 5 for the worst. Mean
+# ranks that differ by less than the *critical difference* are not separable.
 #
 # **Look at** the bars: each joins models that nobody can tell apart by their ranks.
 
@@ -132,10 +133,11 @@ plt.show()
 # False alarms
 # ------------
 #
-# What if all models were equally good? We draw differences that are nothing but chance, a thousand times,
-# and count how often a test claims that somebody is behind.
+# What if all models were equally good? We draw differences that are nothing but chance, a thousand
+# times, and count how often a test claims that somebody is behind.
 #
-# **Look at** the two curves where ten models are compared. Without a correction, false claims are normal.
+# **Look at** the two curves on the right. Without a correction, somebody is often called behind for
+# no reason.
 
 rng = np.random.default_rng(0)
 NUMBERS = (1, 2, 4, 6, 9)
@@ -157,23 +159,25 @@ plt.show()
 # How many folds does it take?
 # ----------------------------
 #
-# That depends on how much folds scatter, which the run has shown. We take the differences of the two
-# models of the first comparison, move their mean to a true lead of 10, 20 or 40 % of the error, draw new
-# sets of folds from them, and count how often the test sees the lead.
+# That depends on how much folds scatter, which the run has shown. We take the differences of the
+# two best models, move their mean to a true lead of 10, 20 or 40 % of the error, draw new sets of
+# folds from them, and count how often the test sees the lead.
 #
 # **Look at** where a curve crosses 80 %, which is the usual aim.
 
-scatter = (errors[second] - errors[third]).to_numpy()
-scatter -= scatter.mean()
+differences = (errors[second] - errors[best]).to_numpy()
+scatter = differences - differences.mean()
 N_FOLDS = np.array([3, 5, 8, 12, 20, 30, 50, 80, 120])
 
 figure, axis = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
 for lead, marker, color in zip((0.1, 0.2, 0.4), "os^", (BLUE, ORANGE, GREY), strict=True):
     power = []
     for n_folds in N_FOLDS:
-        drawn = rng.choice(scatter, size=(1000, n_folds)) + lead * errors[second].mean()
+        drawn = rng.choice(scatter, size=(1000, n_folds)) + lead * errors[best].mean()
         power.append(np.mean(holm_tests(drawn).uncorrected_p < 0.05))
-    axis.plot(N_FOLDS, 100 * np.array(power), marker=marker, color=color, label=f"lead of {lead:.0%}")
+    axis.plot(
+        N_FOLDS, 100 * np.array(power), marker=marker, color=color, label=f"lead of {lead:.0%}"
+    )
     enough = N_FOLDS[np.array(power) >= 0.8]
     answer = f"{enough[0]} folds" if len(enough) else f"more than {N_FOLDS[-1]} folds"
     print(f"a lead of {lead:.0%} is seen in four of five runs with {answer}")
@@ -185,9 +189,9 @@ axis.legend(frameon=True)
 plt.show()
 
 # %%
-# Two warnings. Folds must be *independent*: many windows of one recording are one witness who is asked
-# many times. And the number of folds is chosen before the run: who adds folds until a test agrees will
-# have it agree.
+# Two warnings. Folds must be *independent*: many windows of one recording are one witness who is
+# asked many times. And the number of folds is chosen before the run: who adds folds until a test
+# agrees will have it agree.
 #
 # Where next
 # ----------
