@@ -54,7 +54,7 @@ given = [with_gap(recording, rng) for recording in truth]
 #   nothing of other joints or other people.
 # - ``pose-kriging`` looks for similar poses in the walks of other people, and corrects them.
 #
-# An `ImputeProblem` holds what models see, and apart from it the truth, for the scores.
+# An ``ImputeProblem`` holds what models see, and apart from it the truth, for the scores.
 
 from mocapbench.baselines import GPIndependent, MakimaImputer, PoseKriging
 from mocapbench.benchmark import ImputeProblem, Unit

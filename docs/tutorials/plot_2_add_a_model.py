@@ -20,48 +20,37 @@ the rules, run it beside others on the same gaps, and read where it stands.
 #
 # A model is a class that inherits what it can do. This one is
 #
-# - an `Interpolator`: it fills any set of hidden entries, each channel from its own course alone;
-# - `Inductive`: it also fills recordings that it has not seen in `fit`.
-
-import numpy as np
-
-from mocapbench.baselines import Inductive, Interpolator, Prediction
-
-
-class LeastJerk(Interpolator, Inductive):
-    """Fill each channel with the course of least jerk."""
-
-    def fit(self, recordings):
-        return self  # there is nothing to learn
-
-    def impute(self, recordings):
-        return [
-            Prediction.around(recording, np.apply_along_axis(self._fill, 0, recording.values))
-            for recording in recordings
-        ]
-
-    @staticmethod
-    def _fill(course):
-        """Return the values (N,) of a channel without gaps; hidden ones are NaN."""
-        hidden = np.isnan(course)
-        jerk = np.diff(np.eye(len(course)), 3, axis=0)  # (N - 3, N), third differences
-        filled = course.copy()
-        filled[hidden] = np.linalg.lstsq(jerk[:, hidden], -jerk[:, ~hidden] @ course[~hidden])[0]
-        return filled
-
-
-# %%
-# `Prediction.around` keeps what is seen, and takes the filled values for the rest. A model with a
+# - an ``Interpolator``: it fills any set of hidden entries, each channel from its own course alone;
+# - ``Inductive``: it also fills recordings that it has not seen in ``fit``.
+#
+# It stands in a file (:download:`my_model.py </tutorials/code/my_model.py>`) with a dictionary
+# ``MODELS``, which gives it a name.
+#
+# .. literalinclude:: /tutorials/code/my_model.py
+#    :language: python
+#    :caption: my_model.py
+#
+# ``Prediction.around`` keeps what is seen, and takes the filled values for the rest. A model with a
 # predictive variance would give it as a third argument.
 #
 # Does it keep the rules?
 # -----------------------
 #
-# The conformance kit feeds a model short recordings, channels without a value, shuffled recordings
-# and more. It raises a `ConformanceError` that says what was expected. First a model with a
-# mistake: it forgets to keep what is seen.
+# The conformance kit feeds a model short recordings, channels without a value, recordings in
+# another order and more. It raises a ``ConformanceError`` that says what was expected and what to do.
+# We try it on a model with a mistake, which forgets to keep what is seen, and on ours.
 
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from mocapbench.baselines import Prediction
 from mocapbench.benchmark.testing import ConformanceError, check_model
+
+PLUGIN = Path("code", "my_model.py").resolve()
+sys.path.append(str(PLUGIN.parent))
+from my_model import LeastJerk
 
 
 class Forgetful(LeastJerk):
@@ -82,13 +71,12 @@ for model in (Forgetful, LeastJerk):
 # Run it beside others
 # --------------------
 #
-# The command line reads models from a Python file: the imports, the class, and a dictionary
-# ``MODELS`` that gives it a name. Here is a function to run a command, and the file.
+# The task :doc:`/generated/tasks/marker-gaps` hides an arm or a leg for 0.1 to 2 seconds. We take
+# its generated walks, four folds (each with another gap), and three interpolations to compare with.
+# Each job runs in a process of its own and never sees the truth.
 
-import inspect
 import os
 import subprocess
-from pathlib import Path
 from tempfile import TemporaryDirectory
 
 folder = TemporaryDirectory()
@@ -103,20 +91,8 @@ def run(command: str) -> str:
     return done.stdout
 
 
-Path(folder.name, "my_model.py").write_text(
-    "import numpy as np\n"
-    "from mocapbench.baselines import Inductive, Interpolator, Prediction\n\n"
-    + inspect.getsource(LeastJerk)
-    + '\nMODELS = {"least-jerk": LeastJerk}\n'
-)
-
-# %%
-# The task :doc:`/generated/tasks/marker-gaps` hides an arm or a leg for 0.1 to 2 seconds. We take
-# its generated walks, four folds (each with another gap), and three interpolations to compare with.
-# Each job runs in a process of its own and never sees the truth.
-
 output = run(
-    "mocapbench run --plugin my_model.py --out results --offline --no-report"
+    f"mocapbench run --plugin {PLUGIN} --out results --offline --no-report"
     " --tasks marker-gaps --cases 'synthetic*alone' --folds 4"
     " --models least-jerk,linear,makima,cubic-spline"
 )
@@ -173,7 +149,7 @@ for length, label in best.items():
 rival = next(label for label in board.index if label != "least-jerk")
 command = f"mocapbench compare results --models least-jerk,{rival} --metrics mpjpe"
 print("$", command)
-print(run(command + " --plugin my_model.py"))
+print(run(f"{command} --plugin {PLUGIN}"))
 folder.cleanup()
 
 # %%
