@@ -1,4 +1,4 @@
-"""A model in a file of its own, for `mocapbench run --plugin my_model.py`."""
+"""A model for `mocapbench run --plugin my_model.py`."""
 
 import numpy as np
 
@@ -13,7 +13,10 @@ class LeastJerk(Interpolator, Inductive):
 
     def impute(self, recordings):
         return [
-            Prediction.around(recording, np.apply_along_axis(least_jerk, 0, recording.values))
+            Prediction.around(
+                recording,
+                np.apply_along_axis(least_jerk, 0, recording.values),
+            )
             for recording in recordings
         ]
 
@@ -21,9 +24,13 @@ class LeastJerk(Interpolator, Inductive):
 def least_jerk(course):
     """Return the values (N,) of one channel with its NaN filled in."""
     hidden = np.isnan(course)
-    jerk = np.diff(np.eye(len(course)), 3, axis=0)  # (N - 3, N) takes third differences
+    jerk = np.diff(
+        np.eye(len(course)), 3, axis=0
+    )  # (N - 3, N) takes third differences
     filled = course.copy()
-    filled[hidden] = np.linalg.lstsq(jerk[:, hidden], -jerk[:, ~hidden] @ course[~hidden])[0]
+    filled[hidden] = np.linalg.lstsq(
+        jerk[:, hidden], -jerk[:, ~hidden] @ course[~hidden]
+    )[0]
     return filled
 
 
