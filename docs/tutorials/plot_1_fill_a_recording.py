@@ -106,9 +106,10 @@ answers = {
 # follow it? Do the bands hold it? The dark band should hold half of the
 # hidden values, the light one 95 % of them.
 
+PERSON, KNEE = 0, JOINTS.index("ltibia")
+
 # sphinx_gallery_start_ignore
 plt.style.use(["seaborn-v0_8-whitegrid", "tableau-colorblind10"])
-PERSON, KNEE = 0, JOINTS.index("ltibia")
 
 times, knee = truth[PERSON].times, truth[PERSON].values[:, KNEE]
 hidden = ~given[PERSON].visible[:, KNEE]
@@ -194,9 +195,10 @@ for name, answer in answers.items():
 # values. **Look at** which points lie below the diagonal in the
 # picture: those bands hold fewer values than they promise.
 
+promised = 100 * np.array(list(COVERAGES))
+
 # sphinx_gallery_start_ignore
 figure, axis = plt.subplots(figsize=(5.2, 4.6), layout="constrained")
-promised = 100 * np.array(list(COVERAGES))
 axis.plot([40, 100], [40, 100], color="C3", lw=1, label="as promised")
 for (name, shares), marker, color in zip(
     covered.items(), "os", ("C1", "C0"), strict=True
@@ -220,7 +222,7 @@ plt.show()
 # %%
 # The values of one gap go together: where a curve goes astray, it does
 # so for many frames. So eight gaps tell less than their many values
-# suggest. A coverage of 93 % here is no different from 97 %.
+# suggest: 93 % and 97 % would be no different here.
 #
 # The same from the command line
 # ------------------------------

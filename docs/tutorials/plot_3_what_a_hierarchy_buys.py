@@ -250,9 +250,7 @@ plt.show()
 
 ratios = np.divide(curves["gp-independent"], curves["mohgp"])
 for length, ratio in zip(share, ratios, strict=True):
-    print(
-        f"gap of {length:2.0f} % of a cycle: error divided by {ratio:.1f}"
-    )
+    print(f"gap of {length:2.0f} % of a cycle: error ÷ {ratio:.1f}")
 
 # %%
 # When it buys less

@@ -15,7 +15,6 @@ several at once, and find out how many gaps a claim needs.
 # Each of twelve *folds* hides another one. The walks are generated
 # (:doc:`/generated/tasks/marker-gaps` has the real ones).
 
-import os
 import subprocess
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -25,12 +24,10 @@ folder = TemporaryDirectory()
 
 def run(command: str) -> str:
     """Return what a command prints."""
-    narrow = os.environ | {"COLUMNS": "72"}
     done = subprocess.run(
         command,
         shell=True,
         cwd=folder.name,
-        env=narrow,
         check=True,
         capture_output=True,
         text=True,
@@ -50,6 +47,8 @@ print(output.splitlines()[-2])
 # The scores of a run are a table: a row for each fold, a column for
 # each model. These are mean errors of joint positions in centimetres.
 
+import pandas as pd
+
 from mocapbench.benchmark import Store, score_table
 
 scores = score_table(Store.open(Path(folder.name, "results")).planned())
@@ -67,21 +66,28 @@ print(errors.round(2).to_string())
 # Two models
 # ----------
 #
-# ``mocapbench compare`` does so. **Look at** *better by* and the 95 %
-# interval in brackets. If it holds 0, these folds do not tell which of
-# the two is better.
+# ``mocapbench compare`` does so. **Look at** the *advantage*, in
+# centimetres, and its 95 % interval from *low* to *high*. If it holds
+# 0, these folds do not tell which of the two is better.
 
 best, second = errors.columns[:2]
 pair = f"{best},{second}"
 command = f"mocapbench compare results --models {pair} --metrics mpjpe"
 print("$", command)
-print(run(command))
+run(f"{command} --csv compared.csv")
+
+compared = pd.read_csv(Path(folder.name, "compared.csv"))
+columns = ["n", "first", "second", "advantage", "low", "high"]
+columns += ["t_p", "better", "equivalent", "worse"]
+print(compared[columns].round(2).T.to_string(header=False))
 folder.cleanup()
 
 # %%
-# An outcome of "not separable" does not mean "equal". It means that
-# nobody knows yet. The column *P better / equal / worse* says how
-# probable each is, where *equal* is a difference of less than 2 %.
+# Without ``--csv`` the same stands in the terminal. ``t_p`` is the
+# p-value of the paired t-test. One above 0.05 does not mean that the
+# models are equal. It means that nobody knows yet. The last three rows
+# say how probable it is that the first is better, that both are
+# equivalent (less than 2 % apart), and that it is worse.
 #
 # All against the best
 # --------------------
