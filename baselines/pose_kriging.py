@@ -84,8 +84,11 @@ class PoseKriging(FrameImputer, Inductive):
     ----------
     channels_ : tuple of D str
         The channels of the recordings given to `fit`.
+    names_ : tuple of str
+        The names of the training recordings with two consecutive complete frames.
     matchers_ : list of PoseViterbi
-        One for each training recording with two consecutive complete frames.
+        One for each of these. A recording that is filled is not matched with itself, unless there
+        is no other.
     total_variance_ : float
         The sum S of the channels' variances in training.
 
@@ -149,6 +152,7 @@ class PoseKriging(FrameImputer, Inductive):
         usable = [recording for recording in checked if _has_step(recording)]
         if not usable:
             raise ValueError("expected two consecutive complete frames in training, got none")
+        self.names_ = tuple(recording.name for recording in usable)
         self.matchers_ = [PoseViterbi(self.smoothness).fit([recording]) for recording in usable]
         frames = np.concatenate([matcher.frames_ for matcher in self.matchers_])
         self.total_variance_ = float(frames.var(axis=0).sum()) or 1.0
@@ -169,7 +173,7 @@ class PoseKriging(FrameImputer, Inductive):
     def _filled(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the mean and variance (N, D) of all frames given the visible ones."""
         visible, least = ~hidden_frames(recording), _LEAST_VARIANCE * self.total_variance_
-        paths = MatchedPaths.of(recording, self.matchers_)
+        paths = MatchedPaths.of(recording, self._matchers_of_others(recording.name))
         if paths.explained < self.least_explained:
             return own_course(recording.values, visible, least)
         given = ConditionedFrames(self._covariance(paths.mean), _NOISE, visible)
@@ -178,6 +182,11 @@ class PoseKriging(FrameImputer, Inductive):
         scales = given.doubt_of_scale * given.scales(residuals, least)
         variance = np.outer(given.variance, scales) + paths.doubt(np.array(corrected))
         return paths.mean + given.mean(residuals), variance
+
+    def _matchers_of_others(self, name: str) -> list[PoseViterbi]:
+        """Leave out the recording to fill, which matches itself exactly, if there are others."""
+        pairs = zip(self.names_, self.matchers_, strict=True)
+        return [matcher for other, matcher in pairs if other != name] or self.matchers_
 
     def _covariance(self, matched: FrameByChannel) -> Array:
         """Return the prior covariance (N, N) of a channel's residual without noise, up to scale."""

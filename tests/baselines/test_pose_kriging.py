@@ -47,6 +47,15 @@ def test_a_style_that_repeats_with_the_pose_is_carried_into_the_gap():
     assert with_poses < 0.7 * error(PoseKriging(pose_variance=0.0), truth, 26, 38)
 
 
+def test_a_recording_among_its_training_is_filled_as_if_it_were_not():
+    incomplete = gap(walk("new", 2, 44, style=0.2), 26, 38)
+    (without,) = PoseKriging().fit(TRAINING).impute([incomplete])
+    (among,) = PoseKriging().fit([incomplete, *TRAINING]).impute([incomplete])
+    # What it learns of the scale of all channels includes the recording's own frames.
+    np.testing.assert_allclose(among.mean, without.mean, atol=5e-3)
+    np.testing.assert_allclose(among.variance, without.variance, rtol=0.1)
+
+
 def test_the_fill_moves_with_a_constant_offset():
     model = PoseKriging().fit(TRAINING)
     truth = walk("new", 5, 40)

@@ -1,6 +1,0 @@
-"""
-Fill a recording
-================
-"""
-
-print("to be written")
