@@ -3,9 +3,10 @@
 A new subject differs from the training subjects, but by similar amounts whenever the pose is
 similar. Every training recording is therefore matched with the new one by its cheapest path
 (`PoseViterbi`), and the paths are averaged. A Gaussian process over the matched pose and time then
-predicts the residuals at hidden frames from those at visible frames (kriging). How far the paths
-lie apart says how sure the average is. A motion that no path explains is filled from its own
-course.
+predicts the residuals at hidden frames from those at visible frames (kriging). Where left and right
+take turns, as in a walk, mirror images of recordings are matched too, and what is seen of one side
+tells about the other. How far the paths lie apart says how sure the average is. A motion that no
+path explains is filled from its own course.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from mocapbench.baselines.common.validation import (
 from mocapbench.baselines.kriging.conditioned import ConditionedFrames
 from mocapbench.baselines.kriging.own_course import own_course
 from mocapbench.baselines.kriging.paths import MatchedPaths
+from mocapbench.baselines.kriging.symmetry import symmetries
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
@@ -38,6 +40,8 @@ Array = NDArray[np.float64]
 
 _CONSTANT, _DRIFT, _NOISE = 10.0, 1.0, 0.05
 """Prior variances of the residual's constant, its drift in time and its noise, up to scale."""
+_STEPS = 4
+"""States of a training frame in a path."""
 _LEAST_VARIANCE = 1e-12
 """Least scale of a channel's residual, as a fraction of the total variance in training."""
 
@@ -52,6 +56,11 @@ class PoseKriging(FrameImputer, Inductive):
     Gaussian process then corrects it: each channel of :math:`y - m` has covariance
     :math:`\sigma_d^2 (10 + e^{-|t - t'| / \tau} + v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2 S} + 0.05\,
     \delta)`, with S the total variance of training frames.
+
+    If the training motion looks like its own mirror image (`kriging.symmetry`), the mirror image of
+    each recording is a further one, and the residuals of a mirrored recording count as further
+    observations at the mirrored poses. The constant and the part that depends on pose correlate
+    between a channel and its mirror image by ``symmetry``.
 
     The predictive variance is that of this process, with the scale :math:`\sigma_d^2` integrated
     out, plus the doubt about the path. Each path, corrected in the same way, is a prediction
@@ -76,6 +85,8 @@ class PoseKriging(FrameImputer, Inductive):
         The prior variance v of the part that depends on pose; not negative.
     time_lengthscale : float, default=4.0
         The lengthscale τ over time, in frames; positive.
+    symmetry : float, default=0.8
+        The correlation of a residual with that of the mirror image in the same pose, from 0 to 1.
     least_explained : float, default=1/3
         The least share of a recording's variance that its best path explains, between 0 and 1. With
         0, a path must be better than a pose that never changes.
@@ -84,8 +95,10 @@ class PoseKriging(FrameImputer, Inductive):
     ----------
     channels_ : tuple of D str
         The channels of the recordings given to `fit`.
+    symmetries_ : tuple of Image
+        The motion itself, and its mirror image where training looks like it.
     matchers_ : list of PoseViterbi
-        One for each training recording with two consecutive complete frames.
+        One for each symmetry and training recording with two consecutive complete frames.
     total_variance_ : float
         The sum S of the channels' variances in training.
 
@@ -123,12 +136,14 @@ class PoseKriging(FrameImputer, Inductive):
         pose_lengthscale: float = 1.0,
         pose_variance: float = 3.0,
         time_lengthscale: float = 4.0,
+        symmetry: float = 0.8,
         least_explained: float = 1.0 / 3.0,
     ) -> None:
         self.smoothness = smoothness
         self.pose_lengthscale = pose_lengthscale
         self.pose_variance = pose_variance
         self.time_lengthscale = time_lengthscale
+        self.symmetry = symmetry
         self.least_explained = least_explained
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
@@ -143,13 +158,19 @@ class PoseKriging(FrameImputer, Inductive):
         for name in ("pose_lengthscale", "time_lengthscale"):
             check_positive(name, getattr(self, name))
         check_not_negative("pose_variance", self.pose_variance)
+        check_share("symmetry", self.symmetry)
         check_share("least_explained", self.least_explained)
         checked = check_recordings(recordings)
         self.channels_ = checked[0].channels
         usable = [recording for recording in checked if _has_step(recording)]
         if not usable:
             raise ValueError("expected two consecutive complete frames in training, got none")
-        self.matchers_ = [PoseViterbi(self.smoothness).fit([recording]) for recording in usable]
+        self.symmetries_ = symmetries(usable)
+        self.matchers_ = [
+            PoseViterbi(self.smoothness, steps=_STEPS).fit([image.of_recording(recording)])
+            for image in self.symmetries_
+            for recording in usable
+        ]
         frames = np.concatenate([matcher.frames_ for matcher in self.matchers_])
         self.total_variance_ = float(frames.var(axis=0).sum()) or 1.0
         return self
@@ -172,20 +193,34 @@ class PoseKriging(FrameImputer, Inductive):
         paths = MatchedPaths.of(recording, self.matchers_)
         if paths.explained < self.least_explained:
             return own_course(recording.values, visible, least)
-        given = ConditionedFrames(self._covariance(paths.mean), _NOISE, visible)
-        residuals = (recording.values - paths.mean)[visible]
-        corrected = [path + given.mean((recording.values - path)[visible]) for path in paths.paths]
-        scales = given.doubt_of_scale * given.scales(residuals, least)
-        variance = np.outer(given.variance, scales) + paths.doubt(np.array(corrected))
-        return paths.mean + given.mean(residuals), variance
+        every = np.tile(visible, len(self.symmetries_))
+        given = ConditionedFrames(self._covariance(paths.mean), _NOISE, every)
+        residuals = [self._images(recording.values - path)[every] for path in paths.paths]
+        residual = np.tensordot(paths.weights, residuals, axes=1)
+        n_frames = len(visible)
+        corrected = paths.paths + [given.mean(each)[:n_frames] for each in residuals]
+        scales = given.doubt_of_scale * given.scales(residual, least)
+        variance = np.outer(given.variance[:n_frames], scales) + paths.doubt(corrected)
+        return np.tensordot(paths.weights, corrected, axes=1), variance
+
+    def _images(self, frames: FrameByChannel) -> FrameByChannel:
+        """Return the frames' images under all symmetries, one below the other."""
+        return np.concatenate([image.of(frames) for image in self.symmetries_])
 
     def _covariance(self, matched: FrameByChannel) -> Array:
-        """Return the prior covariance (N, N) of a channel's residual without noise, up to scale."""
-        times = np.arange(len(matched))
+        """Return the prior covariance of a channel's residual without noise, up to scale.
+
+        It is that of the images of all frames, one symmetry after the other.
+        """
+        n_frames, n_images = len(matched), len(self.symmetries_)
+        times = np.arange(n_frames)
         drift = np.exp(-np.abs(np.subtract.outer(times, times)) / self.time_lengthscale)
-        distances = euclidean_distances(matched, squared=True) / self.total_variance_
+        distances = euclidean_distances(self._images(matched), squared=True) / self.total_variance_
         poses = np.exp(-0.5 * distances / self.pose_lengthscale**2)
-        return np.asarray(_CONSTANT + _DRIFT * drift + self.pose_variance * poses)
+        alike = np.where(np.eye(n_images, dtype=bool), 1.0, self.symmetry)
+        shared = np.kron(alike, np.ones((n_frames, n_frames)))
+        within = np.kron(np.eye(n_images), drift)
+        return np.asarray(shared * (_CONSTANT + self.pose_variance * poses) + _DRIFT * within)
 
 
 def _has_step(recording: Recording) -> bool:
