@@ -40,8 +40,6 @@ Array = NDArray[np.float64]
 
 _CONSTANT, _DRIFT, _NOISE = 10.0, 1.0, 0.05
 """Prior variances of the residual's constant, its drift in time and its noise, up to scale."""
-_STEPS = 4
-"""States of a training frame in a path."""
 _LEAST_VARIANCE = 1e-12
 """Least scale of a channel's residual, as a fraction of the total variance in training."""
 
@@ -79,6 +77,8 @@ class PoseKriging(FrameImputer, Inductive):
     ----------
     smoothness : float, default=10.0
         The weight λ of jumps in `PoseViterbi`; positive.
+    steps : int, default=4
+        The number of states of a training frame in `PoseViterbi`; at least 1.
     pose_lengthscale : float, default=1.0
         The lengthscale h over poses, in units of the total standard deviation √S; positive.
     pose_variance : float, default=3.0
@@ -133,6 +133,7 @@ class PoseKriging(FrameImputer, Inductive):
         self,
         smoothness: float = 10.0,
         *,
+        steps: int = 4,
         pose_lengthscale: float = 1.0,
         pose_variance: float = 3.0,
         time_lengthscale: float = 4.0,
@@ -140,6 +141,7 @@ class PoseKriging(FrameImputer, Inductive):
         least_explained: float = 1.0 / 3.0,
     ) -> None:
         self.smoothness = smoothness
+        self.steps = steps
         self.pose_lengthscale = pose_lengthscale
         self.pose_variance = pose_variance
         self.time_lengthscale = time_lengthscale
@@ -167,7 +169,7 @@ class PoseKriging(FrameImputer, Inductive):
             raise ValueError("expected two consecutive complete frames in training, got none")
         self.symmetries_ = symmetries(usable)
         self.matchers_ = [
-            PoseViterbi(self.smoothness, steps=_STEPS).fit([image.of_recording(recording)])
+            PoseViterbi(self.smoothness, steps=self.steps).fit([image.of_recording(recording)])
             for image in self.symmetries_
             for recording in usable
         ]
