@@ -109,19 +109,15 @@ def _outcome(problem: ImputeProblem, model: FrameImputer) -> Imputation:
 
 
 HALVES: Sequence[dict[str, float]] = (
-    *(
-        {"lengthscale": length, "noise": noise, "time_lengthscale": lasting}
-        for length, lasting, noise in product((1.0, 1.4), (4.0, 8.0), (0.02, 0.05, 0.1))
-    ),
-    {"own": 0.0},
-    {"own": 0.03},
-    {"own": 0.3},
-    {"drift": 0.0, "noise": 0.12},
-    {"drift": 0.05},
-    {"drift": 0.2},
-    {"lengthscale": 0.5},
-    {"lengthscale": 2.0},
+    {},
+    *({"noise": noise} for noise in (0.02, 0.1, 0.2)),
+    *({"lengthscale": length} for length in (0.5, 1.4, 2.0)),
+    *({"time_lengthscale": lasting} for lasting in (4.0, 16.0)),
+    *({"own": own} for own in (0.0, 0.03, 0.3)),
+    *({"drift": drift} for drift in (0.05, 0.2)),
+    {"drift": 0.0, "noise": 0.15},
 )
+"""Changes of the defaults."""
 
 
 def halves() -> None:
