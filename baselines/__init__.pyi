@@ -1,5 +1,6 @@
 from .aligned_window import AlignedWindow
 from .best_of import BestOf
+from .channel_kriging import ChannelKriging
 from .control import Control
 from .cpm import CPM
 from .cyclic_alignment import CyclicAlignment
@@ -73,6 +74,7 @@ __all__ = [
     "Aligner",
     "BestOf",
     "Blender",
+    "ChannelKriging",
     "Clusterer",
     "Control",
     "Coregionalised",

@@ -3,14 +3,16 @@
 A new subject differs from the training subjects, but by similar amounts whenever the pose is
 similar. Every training recording is therefore matched with the new one by its cheapest path
 (`PoseViterbi`), and the paths are averaged. A Gaussian process over the matched pose and time then
-predicts the residuals at hidden frames from those at visible frames (kriging). How far the paths
-lie apart says how sure the average is. A motion that no path explains is filled from its own
-course.
+predicts the residuals at hidden frames from those at visible frames (kriging). Where left and right
+take turns, as in a walk, mirror images of recordings are matched too, and what is seen of one side
+tells about the other. How far the paths lie apart says how sure the average is. A motion that no
+path explains is filled from its own course.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import cycle
 from typing import ClassVar, Self
 
 import numpy as np
@@ -28,6 +30,7 @@ from mocapbench.baselines.common.validation import (
 from mocapbench.baselines.kriging.conditioned import ConditionedFrames
 from mocapbench.baselines.kriging.own_course import own_course
 from mocapbench.baselines.kriging.paths import MatchedPaths
+from mocapbench.baselines.kriging.symmetry import symmetries
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
@@ -53,6 +56,11 @@ class PoseKriging(FrameImputer, Inductive):
     :math:`\sigma_d^2 (10 + e^{-|t - t'| / \tau} + v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2 S} + 0.05\,
     \delta)`, with S the total variance of training frames.
 
+    If the training motion looks like its own mirror image (`kriging.symmetry`), the mirror image of
+    each recording is a further one, and the residuals of a mirrored recording count as further
+    observations at the mirrored poses. The constant and the part that depends on pose correlate
+    between a channel and its mirror image by ``symmetry``.
+
     The predictive variance is that of this process, with the scale :math:`\sigma_d^2` integrated
     out, plus the doubt about the path. Each path, corrected in the same way, is a prediction
     :math:`\mu_k(t)`, and their weighted mean is the prediction :math:`\mu(t)`. A new subject counts
@@ -70,12 +78,16 @@ class PoseKriging(FrameImputer, Inductive):
     ----------
     smoothness : float, default=10.0
         The weight λ of jumps in `PoseViterbi`; positive.
+    steps : int, default=4
+        The number of states of a training frame in `PoseViterbi`; at least 1.
     pose_lengthscale : float, default=1.0
         The lengthscale h over poses, in units of the total standard deviation √S; positive.
     pose_variance : float, default=3.0
         The prior variance v of the part that depends on pose; not negative.
     time_lengthscale : float, default=4.0
         The lengthscale τ over time, in frames; positive.
+    symmetry : float, default=0.8
+        The correlation of a residual with that of the mirror image in the same pose, from 0 to 1.
     least_explained : float, default=1/3
         The least share of a recording's variance that its best path explains, between 0 and 1. With
         0, a path must be better than a pose that never changes.
@@ -84,11 +96,13 @@ class PoseKriging(FrameImputer, Inductive):
     ----------
     channels_ : tuple of D str
         The channels of the recordings given to `fit`.
+    symmetries_ : tuple of Image
+        The motion itself, and its mirror image where training looks like it.
     names_ : tuple of str
         The names of the training recordings with two consecutive complete frames.
     matchers_ : list of PoseViterbi
-        One for each of these. A recording that is filled is not matched with itself, unless there
-        is no other.
+        One for each symmetry and each of these. A recording that is filled is not matched with
+        itself, unless there is no other.
     total_variance_ : float
         The sum S of the channels' variances in training.
 
@@ -123,15 +137,19 @@ class PoseKriging(FrameImputer, Inductive):
         self,
         smoothness: float = 10.0,
         *,
+        steps: int = 4,
         pose_lengthscale: float = 1.0,
         pose_variance: float = 3.0,
         time_lengthscale: float = 4.0,
+        symmetry: float = 0.8,
         least_explained: float = 1.0 / 3.0,
     ) -> None:
         self.smoothness = smoothness
+        self.steps = steps
         self.pose_lengthscale = pose_lengthscale
         self.pose_variance = pose_variance
         self.time_lengthscale = time_lengthscale
+        self.symmetry = symmetry
         self.least_explained = least_explained
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
@@ -146,6 +164,7 @@ class PoseKriging(FrameImputer, Inductive):
         for name in ("pose_lengthscale", "time_lengthscale"):
             check_positive(name, getattr(self, name))
         check_not_negative("pose_variance", self.pose_variance)
+        check_share("symmetry", self.symmetry)
         check_share("least_explained", self.least_explained)
         checked = check_recordings(recordings)
         self.channels_ = checked[0].channels
@@ -153,7 +172,12 @@ class PoseKriging(FrameImputer, Inductive):
         if not usable:
             raise ValueError("expected two consecutive complete frames in training, got none")
         self.names_ = tuple(recording.name for recording in usable)
-        self.matchers_ = [PoseViterbi(self.smoothness).fit([recording]) for recording in usable]
+        self.symmetries_ = symmetries(usable)
+        self.matchers_ = [
+            PoseViterbi(self.smoothness, steps=self.steps).fit([image.of_recording(recording)])
+            for image in self.symmetries_
+            for recording in usable
+        ]
         frames = np.concatenate([matcher.frames_ for matcher in self.matchers_])
         self.total_variance_ = float(frames.var(axis=0).sum()) or 1.0
         return self
@@ -176,25 +200,39 @@ class PoseKriging(FrameImputer, Inductive):
         paths = MatchedPaths.of(recording, self._matchers_of_others(recording.name))
         if paths.explained < self.least_explained:
             return own_course(recording.values, visible, least)
-        given = ConditionedFrames(self._covariance(paths.mean), _NOISE, visible)
-        residuals = (recording.values - paths.mean)[visible]
-        corrected = [path + given.mean((recording.values - path)[visible]) for path in paths.paths]
-        scales = given.doubt_of_scale * given.scales(residuals, least)
-        variance = np.outer(given.variance, scales) + paths.doubt(np.array(corrected))
-        return paths.mean + given.mean(residuals), variance
+        every = np.tile(visible, len(self.symmetries_))
+        given = ConditionedFrames(self._covariance(paths.mean), _NOISE, every)
+        residuals = [self._images(recording.values - path)[every] for path in paths.paths]
+        residual = np.tensordot(paths.weights, residuals, axes=1)
+        n_frames = len(visible)
+        corrected = paths.paths + [given.mean(each)[:n_frames] for each in residuals]
+        scales = given.doubt_of_scale * given.scales(residual, least)
+        variance = np.outer(given.variance[:n_frames], scales) + paths.doubt(corrected)
+        return np.tensordot(paths.weights, corrected, axes=1), variance
 
     def _matchers_of_others(self, name: str) -> list[PoseViterbi]:
         """Leave out the recording to fill, which matches itself exactly, if there are others."""
-        pairs = zip(self.names_, self.matchers_, strict=True)
+        pairs = zip(cycle(self.names_), self.matchers_, strict=False)
         return [matcher for other, matcher in pairs if other != name] or self.matchers_
 
+    def _images(self, frames: FrameByChannel) -> FrameByChannel:
+        """Return the frames' images under all symmetries, one below the other."""
+        return np.concatenate([image.of(frames) for image in self.symmetries_])
+
     def _covariance(self, matched: FrameByChannel) -> Array:
-        """Return the prior covariance (N, N) of a channel's residual without noise, up to scale."""
-        times = np.arange(len(matched))
+        """Return the prior covariance of a channel's residual without noise, up to scale.
+
+        It is that of the images of all frames, one symmetry after the other.
+        """
+        n_frames, n_images = len(matched), len(self.symmetries_)
+        times = np.arange(n_frames)
         drift = np.exp(-np.abs(np.subtract.outer(times, times)) / self.time_lengthscale)
-        distances = euclidean_distances(matched, squared=True) / self.total_variance_
+        distances = euclidean_distances(self._images(matched), squared=True) / self.total_variance_
         poses = np.exp(-0.5 * distances / self.pose_lengthscale**2)
-        return np.asarray(_CONSTANT + _DRIFT * drift + self.pose_variance * poses)
+        alike = np.where(np.eye(n_images, dtype=bool), 1.0, self.symmetry)
+        shared = np.kron(alike, np.ones((n_frames, n_frames)))
+        within = np.kron(np.eye(n_images), drift)
+        return np.asarray(shared * (_CONSTANT + self.pose_variance * poses) + _DRIFT * within)
 
 
 def _has_step(recording: Recording) -> bool:

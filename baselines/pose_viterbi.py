@@ -13,13 +13,14 @@ from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import complete_stretches, hidden_frames
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.shortest_path import cheapest_path
-from mocapbench.baselines.common.validation import check_positive, check_share
+from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -30,10 +31,12 @@ class PoseViterbi(FrameImputer, Inductive):
     r"""Fill frames from the cheapest path through the training frames.
 
     The cost of a path :math:`s_1 \ldots s_T` is :math:`\sum_{t\ \text{visible}}
-    \|y_t - Y_{s_t}\|^2 + \lambda \sum_t \|Y_{s_t + 1} - Y_{s_{t+1}}\|^2`. Going on to the next
-    training frame is free; a jump costs the squared difference between the frame that would follow
-    and the frame jumped to. No jump leaves the last frame of a stretch. Time is counted in frames,
-    so that all recordings should have the same frame rate. There is no predictive distribution.
+    \|y_t - Y_{s_t}\|^2 + \lambda \sum_t \|Y_{s_t + u} - Y_{s_{t+1}}\|^2`, where every frame counts
+    as u states, interpolated by a cubic spline. Going on to the next training frame is free; a jump
+    costs the squared difference between the frame that would follow and the frame jumped to. With
+    several states a frame, a motion a little slower or faster than training costs little. No jump
+    leaves the last frame of a stretch. Time is counted in frames, so that all recordings should
+    have the same frame rate. There is no predictive distribution.
 
     Parameters
     ----------
@@ -42,15 +45,17 @@ class PoseViterbi(FrameImputer, Inductive):
     subject_offset : float, default=1.0
         The fraction, from 0 to 1, of the mean residual at the visible frames that is added to the
         fill: 1 shifts the training poses to the new subject's mean, 0 leaves them unchanged.
+    steps : int, default=1
+        The number u of states of a training frame; at least 1.
 
     Attributes
     ----------
     channels_ : tuple of D str
         The channels of the recordings given to `fit`.
     frames_ : ndarray of shape (S, D)
-        The complete training frames.
+        The complete training frames, and the states between them.
     transition_ : ndarray of shape (S, S)
-        The cost of going from frame (row) to frame (column); infinite where it is not allowed.
+        The cost of going from state (row) to state (column); infinite where it is not allowed.
 
     References
     ----------
@@ -79,9 +84,12 @@ class PoseViterbi(FrameImputer, Inductive):
 
     max_frames = 1000
 
-    def __init__(self, smoothness: float = 10.0, subject_offset: float = 1.0) -> None:
+    def __init__(
+        self, smoothness: float = 10.0, subject_offset: float = 1.0, *, steps: int = 1
+    ) -> None:
         self.smoothness = smoothness
         self.subject_offset = subject_offset
+        self.steps = steps
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the complete frames of the recordings, and the costs of jumps between them.
@@ -94,12 +102,13 @@ class PoseViterbi(FrameImputer, Inductive):
         """
         check_positive("smoothness", self.smoothness)
         check_share("subject_offset", self.subject_offset)
+        check_count("steps", self.steps, 1)
         checked = check_recordings(recordings)
         self.channels_ = checked[0].channels
-        stretches = complete_stretches(checked)
+        stretches = [_refined(each, self.steps) for each in complete_stretches(checked)]
         self.frames_ = np.concatenate(stretches)
-        ends = np.cumsum([len(stretch) for stretch in stretches]) - 1
-        self.transition_ = self.smoothness * _jumps(self.frames_, ends)
+        following = np.concatenate([_follows(len(each), self.steps) for each in stretches])
+        self.transition_ = self.smoothness * _jumps(self.frames_, following, self.steps)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -149,9 +158,22 @@ def _mean_residual(recording: Recording, match: FrameByChannel) -> NDArray[np.fl
     return np.asarray(np.nanmean(recording.values - match, axis=0))
 
 
-def _jumps(frames: FrameByChannel, ends: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Return ‖Y_{s+1} − Y_{s'}‖² from frame s to s'; infinite where s ends a stretch."""
+def _refined(stretch: FrameByChannel, steps: int) -> FrameByChannel:
+    """Return a stretch with ``steps`` states a frame, by a cubic spline through its frames."""
+    if steps == 1 or len(stretch) == 1:
+        return stretch
+    places = np.arange((len(stretch) - 1) * steps + 1) / steps
+    return np.asarray(CubicSpline(np.arange(len(stretch)), stretch)(places))
+
+
+def _follows(n_states: int, steps: int) -> NDArray[np.bool_]:
+    """Return at which states of a stretch another frame follows."""
+    return np.arange(n_states) < n_states - steps
+
+
+def _jumps(frames: FrameByChannel, following: NDArray[np.bool_], steps: int) -> NDArray[np.float64]:
+    """Return ‖Y_{s+u} − Y_{s'}‖² from state s to s'; infinite where no frame follows s."""
     costs = np.full((len(frames), len(frames)), np.inf)
-    inner = np.setdiff1d(np.arange(len(frames)), ends)
-    costs[inner] = euclidean_distances(frames[inner + 1], frames, squared=True)
+    inner = np.flatnonzero(following)
+    costs[inner] = euclidean_distances(frames[inner + steps], frames, squared=True)
     return costs

@@ -1,15 +1,15 @@
-"""Frames that are hidden as a whole, and runs of consecutive frames."""
+"""Frames that are hidden as a whole, channels hidden together, and runs of frames."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.datasets import FrameByChannel, Recording
+from mocapbench.datasets import FrameByChannel, Mask, Recording
 
-__all__ = ["complete_stretches", "hidden_frames", "runs"]
+__all__ = ["complete_stretches", "hidden_frames", "hidden_together", "runs"]
 
 
 def hidden_frames(recording: Recording) -> NDArray[np.bool_]:
@@ -29,6 +29,15 @@ def hidden_frames(recording: Recording) -> NDArray[np.bool_]:
             f"got {partial} hidden in part; use a model that imputes any mask"
         )
     return whole
+
+
+def hidden_together(hidden: Mask) -> Iterator[NDArray[np.intp]]:
+    """Yield the channels that are hidden at the same frames, those without a gap left out."""
+    _, group = np.unique(hidden, axis=1, return_inverse=True)
+    for number in range(int(group.max(initial=-1)) + 1):
+        columns = np.flatnonzero(group.ravel() == number)
+        if hidden[:, columns[0]].any():
+            yield columns
 
 
 def runs(frames: NDArray[np.bool_]) -> list[NDArray[np.intp]]:

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.gaps import runs
+from mocapbench.baselines.common.gaps import hidden_together, runs
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["N_TRIALS", "trial_masks"]
@@ -26,8 +26,6 @@ _SHARES = (1.0, 0.5, 0.25, 0.125, 0.0625)
 _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 """Successive multiples of it, modulo 1, are spread evenly."""
 
-Columns = NDArray[np.intp]
-
 
 def trial_masks(recording: Recording) -> list[Mask]:
     """Return what each trial hides besides the gaps: masks (N, D), True where visible entries go.
@@ -37,20 +35,11 @@ def trial_masks(recording: Recording) -> list[Mask]:
     """
     hidden = ~recording.visible
     masks = [np.zeros_like(hidden) for _ in range(N_TRIALS)]
-    for columns in _groups(hidden):
+    for columns in hidden_together(hidden):
         for number, mask in enumerate(masks):
             for frames in _copies(hidden[:, columns[0]], (number + 0.5) / N_TRIALS):
                 mask[np.ix_(frames, columns)] = True
     return [mask for mask in masks if mask.any()]
-
-
-def _groups(hidden: Mask) -> Iterator[Columns]:
-    """Yield the channels that are hidden at the same frames, those without a gap left out."""
-    _, group = np.unique(hidden, axis=1, return_inverse=True)
-    for number in range(int(group.max(initial=-1)) + 1):
-        columns = np.flatnonzero(group.ravel() == number)
-        if hidden[:, columns[0]].any():
-            yield columns
 
 
 def _copies(hidden: NDArray[np.bool_], place: float) -> Iterator[NDArray[np.intp]]:

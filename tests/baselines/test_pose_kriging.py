@@ -94,6 +94,37 @@ def test_the_mean_is_the_weighted_mean_of_what_each_path_predicts():
     np.testing.assert_allclose(prediction.mean[~visible], expected[~visible], atol=1e-9)
 
 
+def limping(name, start, n_frames, style):
+    """Return a walk on two legs, which take turns; ``style`` is what both do alike."""
+    phases = STEP * (start + np.arange(n_frames)), STEP * (start + 10.15 + np.arange(n_frames))
+    legs = [[np.sin(p) + style * np.exp(2 * np.cos(p - 1)), np.cos(p)] for p in phases]
+    values = np.column_stack(legs[0] + legs[1])
+    channels = ("lfemur.rx", "ltibia.rx", "rfemur.rx", "rtibia.rx")
+    return Recording(name, np.arange(n_frames) / 30, values, channels, ("deg",) * 4)
+
+
+def test_what_one_leg_does_before_the_gap_tells_what_the_other_does_in_it():
+    training = [limping("one", 0, 50, 0.0), limping("two", 3, 45, 0.0)]
+    truth = limping("new", 0, 30, 0.15)
+    hidden = slice(13, 23)
+    errors = []
+    for symmetry in (0.0, 0.8):
+        model = PoseKriging(symmetry=symmetry).fit(training)
+        assert len(model.symmetries_) == 2
+        (filled,) = model.impute([gap(truth, hidden.start, hidden.stop)])
+        errors.append(np.sqrt(np.mean((filled.mean - truth.values)[hidden] ** 2)))
+    assert errors[1] < 0.8 * errors[0]
+
+
+def test_images_do_not_correlate_without_symmetry():
+    model = PoseKriging(symmetry=0.0).fit([limping("one", 0, 50, 0.0)])
+    covariance = model._covariance(limping("new", 0, 20, 0.1).values)
+    np.testing.assert_array_equal(covariance[:20, 20:], 0.0)
+    together = PoseKriging().fit([limping("one", 0, 50, 0.0)])
+    covariance = together._covariance(limping("new", 0, 20, 0.1).values)
+    assert np.linalg.eigvalsh(covariance).min() > -1e-9
+
+
 def standing(n_frames=40):
     values = np.random.default_rng(0).normal(scale=0.01, size=(n_frames, 3)).cumsum(axis=0)
     return Recording("still", np.arange(n_frames) / 30, values, ("a", "b", "c"), ("",) * 3)
@@ -133,6 +164,7 @@ def test_neither_the_order_of_training_nor_company_matters():
         ({"pose_lengthscale": 0.0}, "pose_lengthscale to be a finite positive"),
         ({"time_lengthscale": -1.0}, "time_lengthscale to be a finite positive"),
         ({"pose_variance": -1.0}, "pose_variance to be a finite number of at least 0"),
+        ({"symmetry": 1.5}, "symmetry to be a number from 0 to 1"),
         ({"least_explained": 2.0}, "least_explained to be a number from 0 to 1"),
         ({"smoothness": "1"}, "smoothness to be a finite positive"),
     ],

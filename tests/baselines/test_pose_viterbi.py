@@ -85,3 +85,23 @@ def test_what_cannot_be_filled_is_refused():
     partly[2, 0] = np.nan
     with pytest.raises(ValueError, match="hidden in part"):
         model.impute([recording("new", partly)])
+
+
+def test_states_between_frames_follow_a_slower_motion():
+    """A motion at three quarters of the pace stays near the path with four states a frame."""
+    train = recording("train", circle(0, 60))
+    angle = 0.225 * np.arange(40)
+    truth = np.column_stack([np.cos(angle), np.sin(angle)])
+    given = recording("new", truth).hide(gap(40, 10, 25))
+    errors = [
+        np.abs(PoseViterbi(steps=steps).fit([train]).impute([given])[0].mean - truth).max()
+        for steps in (1, 4)
+    ]
+    assert errors[1] < 0.6 * errors[0]
+
+
+def test_the_states_of_a_frame_pass_through_it():
+    train = recording("train", circle(0, 20))
+    one, four = (PoseViterbi(steps=steps).fit([train]) for steps in (1, 4))
+    np.testing.assert_allclose(four.frames_[::4], one.frames_, atol=1e-12)
+    np.testing.assert_allclose(four.transition_[::4, ::4], one.transition_, atol=1e-9)

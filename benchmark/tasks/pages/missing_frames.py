@@ -12,7 +12,7 @@ __all__ = ["NOTHING_OVER_TIME", "PAGE"]
 
 NOTHING_OVER_TIME = (
     "pca-regression and low-rank learn nothing over time: on whole hidden frames they give each "
-    "channel’s mean in the recording."
+    "channel’s mean in the recording, to which channel-kriging tends too."
 )
 """A remark of every task that hides whole frames; the page shows it once."""
 
@@ -62,8 +62,9 @@ PAGE = TaskPage(
         "chosen on the training walkers, each left out in turn.",
         "Two-stage learning draws 25 samples a round here and 50 in the paper; the windows of a "
         "recording share one fit.",
-        "The constants of pose-kriging have the least error when each training walker is left out "
-        "in turn.",
+        "The constants of pose-kriging have about the least error when each training walker is "
+        "left out in turn. It alone uses that left and right take turns: it also learns from "
+        "mirror images of walkers, by the names of channels.",
         NOTHING_OVER_TIME,
         "The GPDM family knows no difference between persons, so that by itself it claims too "
         "little variance for a new one. Its variances, and those of lds, fam and low-rank, are "

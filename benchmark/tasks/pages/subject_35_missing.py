@@ -36,6 +36,8 @@ PAGE = TaskPage(
         "root’s path (Taylor 2006, without errors in degrees).",
         "One recording is filled, so there is one fold and no interval: a difference between two "
         "models says little about other recordings.",
+        "The constants of channel-kriging were chosen where the second half of either part was "
+        "left out in each training recording in turn.",
         "From five root seeds, cyclic-alignment, in full, had cumulative scaled errors of 7 to 12 "
         "for the leg and of 10 to 30 for the upper body.",
         "Copies of 35_13, 14, 19 and 23 to 26 in use hold every fourth frame and interpolate the "

@@ -1,0 +1,193 @@
+"""Figures that `docs/frontier/imputation.md` reports, all from training recordings but the last.
+
+::
+
+    python docs/evidence/imputation.py walkers # pose-kriging, each training walker left out in turn
+    python docs/evidence/imputation.py halves  # channel-kriging, halves of training recordings
+    python docs/evidence/imputation.py tasks   # both on the tasks themselves, with seconds
+
+Only `tasks` uses the tests of `missing-frames` and `subject-35-missing`, which choose nothing.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench import benchmark as bench
+from mocapbench.baselines import ChannelKriging, FrameImputer, PoseKriging
+from mocapbench.baselines.common.scaling import Standardisation
+from mocapbench.baselines.kriging.stacked import StackedFrames
+from mocapbench.benchmark import METRICS, TASKS, Address, ImputeProblem, Seeds
+from mocapbench.benchmark.problems.impute import FilledRecordings
+from mocapbench.benchmark.tasks.missing_frames import (
+    FIRST_HIDDEN,
+    GROUPS,
+    N_HIDDEN,
+    N_TEST_FRAMES,
+    TRAINING,
+)
+from mocapbench.datasets import Recording, RecordingUnavailable, gpdm_features, one_based_frames
+from mocapbench.metrics import Imputation, coverage_95, rms_per_frame
+
+Array = NDArray[np.float64]
+
+STARTS, WINDOWS = (0, 10, 20), (0, 3, 6, 9, 11)
+"""Where fifty frames of a training walker begin, and which of the task's gaps are hidden there."""
+
+
+def plain(model: PoseKriging) -> PoseKriging:
+    """Return a fitted model without mirror images."""
+    n_walkers = len(model.matchers_) // len(model.symmetries_)
+    model.symmetries_, model.matchers_ = model.symmetries_[:1], model.matchers_[:n_walkers]
+    return model
+
+
+def whole(model: PoseKriging) -> PoseKriging:
+    """Return a fitted model as it is."""
+    return model
+
+
+WALKERS: Mapping[str, tuple[Callable[[PoseKriging], PoseKriging], dict[str, float]]] = {
+    "one state a frame, no mirror image": (plain, {"steps": 1}),
+    "four states a frame": (plain, {}),
+    "... and mirror images of walkers": (whole, {"symmetry": 0.0}),
+    "... and of residuals, 0.5": (whole, {"symmetry": 0.5}),
+    "... 0.8, the default": (whole, {}),
+    "... 0.9": (whole, {"symmetry": 0.9}),
+    "default, one state a frame": (whole, {"steps": 1}),
+    "default, two states a frame": (whole, {"steps": 2}),
+    "default, smoothness 5": (whole, {"smoothness": 5.0}),
+    "default, smoothness 20": (whole, {"smoothness": 20.0}),
+    "default, pose_variance 1": (whole, {"pose_variance": 1.0}),
+    "default, pose_variance 6": (whole, {"pose_variance": 6.0}),
+    "default, pose_lengthscale 0.7": (whole, {"pose_lengthscale": 0.7}),
+    "default, pose_lengthscale 1.4": (whole, {"pose_lengthscale": 1.4}),
+    "default, time_lengthscale 2": (whole, {"time_lengthscale": 2.0}),
+    "default, time_lengthscale 8": (whole, {"time_lengthscale": 8.0}),
+}
+
+
+def left_out() -> Iterator[tuple[list[Recording], list[ImputeProblem]]]:
+    """Yield the other training walkers, and gaps in the one that is left out."""
+    archive = bench.archive_at(None)
+    walks = [
+        gpdm_features(one_based_frames(archive.recording(uri), *TRAINING[uri]))
+        for uri in GROUPS["three-walkers"]
+    ]
+    for test in walks:
+        train = [walk for walk in walks if walk is not test]
+        problems = []
+        for start, window in product(STARTS, WINDOWS):
+            part = test.frames(np.arange(start, start + N_TEST_FRAMES))
+            mask = np.zeros(part.values.shape, dtype=bool)
+            mask[FIRST_HIDDEN + window : FIRST_HIDDEN + window + N_HIDDEN] = True
+            problems.append(ImputeProblem.of_one(part, mask, train, seen_in_fit=False))
+        yield train, problems
+
+
+def walkers() -> None:
+    """Print error and coverage of `pose-kriging` and its variants."""
+    turns = list(left_out())
+    for name, (change, parameters) in WALKERS.items():
+        rows = []
+        for train, problems in turns:
+            model = change(PoseKriging(**parameters).fit(train))
+            outcomes = [_outcome(problem, model) for problem in problems]
+            rows.append([[m(o).value for m in (rms_per_frame, coverage_95)] for o in outcomes])
+        each, coverage = np.mean(rows, axis=(1,))[:, 0], np.mean(rows, axis=(0, 1))[1]
+        print(f"{name:36} {each.mean():6.2f} {np.round(each, 1)} {coverage:.3f}", flush=True)
+
+
+def _outcome(problem: ImputeProblem, model: FrameImputer) -> Imputation:
+    return problem.outcome(FilledRecordings(tuple(model.impute(problem.given))))
+
+
+HALVES: Sequence[dict[str, float]] = (
+    {},
+    *({"noise": noise} for noise in (0.02, 0.1, 0.2)),
+    *({"lengthscale": length} for length in (0.5, 1.4, 2.0)),
+    *({"time_lengthscale": lasting} for lasting in (4.0, 16.0)),
+    *({"own": own} for own in (0.0, 0.03, 0.3)),
+    *({"drift": drift} for drift in (0.05, 0.2)),
+    {"drift": 0.0, "noise": 0.15},
+)
+"""Changes of the defaults."""
+
+
+def halves() -> None:
+    """Print errors where the second half of a part is left out in each recording in turn.
+
+    They follow from the inverse of one covariance of all frames (Rasmussen and Williams 2006, eq.
+    5.12, for blocks). Columns: RMS of angles in degrees and cumulative scaled error, as if 62
+    frames were hidden, of the leg and of the upper body; their geometric mean.
+    """
+    problems = [_posed("subject-35-missing", part, 0) for part in ("right leg", "upper body")]
+    for parameters in HALVES:
+        errors = np.ravel([_halves(problem, ChannelKriging(**parameters)) for problem in problems])
+        print(
+            np.round(errors, 2),
+            round(float(np.exp(np.log(errors).mean())), 3),
+            parameters,
+            flush=True,
+        )
+
+
+def _halves(problem: ImputeProblem, model: ChannelKriging) -> tuple[float, float]:
+    channels = np.flatnonzero(np.isnan(problem.given[0].values[-1]))
+    scaling = Standardisation.of(problem.train)
+    frames = StackedFrames.of([scaling.apply(recording) for recording in problem.train])
+    every = np.arange(len(frames.values))
+    others = np.setdiff1d(np.arange(frames.values.shape[1]), channels)
+    prior = model._covariance(frames, every, every, others)
+    precision = np.linalg.inv(prior + model.noise * np.eye(len(every)))
+    dual = precision @ frames.values[:, channels]
+    squares, scaled = [], []
+    for number in range(len(problem.train)):
+        rows = np.flatnonzero(frames.recording == number)
+        rows = rows[len(rows) // 2 :]
+        errors = np.linalg.solve(precision[np.ix_(rows, rows)], dual[rows])
+        degrees = errors * (scaling.scale / problem.unit.scale)[channels]
+        squares.append(np.mean(degrees**2))
+        scaled.append(62 * np.mean((degrees * problem.scales[channels]) ** 2))
+    return float(np.sqrt(np.mean(squares))), float(np.mean(scaled))
+
+
+def tasks() -> None:
+    """Print the scores of both models on the tasks, and seconds of this process."""
+    for task, model, names, n_folds in (
+        ("missing-frames", PoseKriging, ("rms_per_frame", "mpjpe"), 12),
+        ("golf-swings", PoseKriging, ("rms_per_frame", "mpjpe"), 8),
+        ("subject-35-missing", ChannelKriging, ("rms_angle", "cumulative_scaled_error"), 1),
+    ):
+        for case in TASKS.get(task).cases:
+            if not case.synthetic and "four-walkers" not in case.name:
+                _score(task, case.name, model(), names, n_folds)
+
+
+def _score(task: str, case: str, model: FrameImputer, names: Sequence[str], n_folds: int) -> None:
+    try:
+        problems = [_posed(task, case, fold) for fold in range(n_folds)]
+    except RecordingUnavailable:
+        return
+    began = time.process_time()
+    outcomes = [_outcome(problem, model.fit(problem.train)) for problem in problems]
+    seconds = (time.process_time() - began) / n_folds
+    metrics = [METRICS.get(name) for name in (*names, "coverage_95")]
+    means = [np.mean([metric(outcome).value for outcome in outcomes]) for metric in metrics]
+    print(f"{task:20} {case:24} {np.round(means, 3)} {seconds:.2f} s", flush=True)
+
+
+def _posed(task: str, case: str, fold: int) -> ImputeProblem:
+    found = TASKS.get(task).case(case)
+    address = Address(task, TASKS.get(task).version, found.problem_name, fold)
+    return found.problem(Seeds(0, address), bench.archive_at(None))
+
+
+if __name__ == "__main__":
+    {"walkers": walkers, "halves": halves, "tasks": tasks}[sys.argv[1]]()
