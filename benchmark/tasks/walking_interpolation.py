@@ -85,7 +85,7 @@ walking_interpolation = Task(
         "quick": Profile(
             ("observed 40", "synthetic observed 40"),
             folds=1,
-            budget={"max_iter": 200},
+            budget={"max_iter": 150},
             # Longer than all others together.
             opt_in=("mohgp-1+5", "mohgp-1+5-registered", "cyclic-alignment"),
         ),
