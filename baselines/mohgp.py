@@ -12,17 +12,21 @@ thesis, Universidad Tecnológica de Pereira, 2017, is cited as the thesis.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Self
 
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.validation import check_choice
 from mocapbench.baselines.gp.prior.parameters import CHILD
 from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow
+from mocapbench.baselines.gp.registration import REGISTRATIONS
 from mocapbench.baselines.gp.trended import TrendedProcess
-from mocapbench.datasets import FrameByChannel, Frames
+from mocapbench.datasets import FrameByChannel, Frames, Recording
 
 __all__ = ["MOHGP"]
 
@@ -44,12 +48,18 @@ class MOHGP(TrendedProcess):
     n_components : int or mapping of str to int, default=1
         Number Q of components of every layer, or of each layer by its name, such as
         ``{"parent": 3, "child": 1}``.
+    registration : {"none", "affine"}, default="none"
+        Whether complete recordings are first moved in time by an affine map, to where they are most
+        like the visible entries of the recording with the most hidden ones (or like the first, if
+        none has any). It suits repetitions of one movement that do not begin with the same phase.
+        Times are then those of that recording.
     rank : int, default=1
         Number of columns of each factor W_q; 0 makes the outputs independent.
     kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
         The kernel of every component.
-    n_restarts : int, default=1
-        Number of searches; the first starts from the data, the others at random around it.
+    n_restarts : int, default=2
+        Number of searches. The first starts from the data, the second with half the lengthscales,
+        the others at random around the first.
     max_iter : int, default=1000
         Largest number of iterations of a search.
     tol : float, default=1e-7
@@ -145,9 +155,10 @@ class MOHGP(TrendedProcess):
         *,
         tree: Mapping[str, Path] | None = None,
         n_components: int | Mapping[str, int] = 1,
+        registration: str = "none",
         rank: int = 1,
         kernel: str = "matern32",
-        n_restarts: int = 1,
+        n_restarts: int = 2,
         max_iter: int = 1000,
         tol: float = 1e-7,
         max_seconds: float | None = None,
@@ -174,6 +185,36 @@ class MOHGP(TrendedProcess):
             random_state=random_state,
         )
         self.tree = tree
+        self.registration = registration
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Register the recordings, and find the parameters of largest likelihood.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+            Recordings with the same channels and different names; NaN marks a hidden entry. Times
+            may differ and be irregular.
+
+        Returns
+        -------
+        MOHGP
+            The model itself.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of range, there is no recording, channels differ, a name
+            repeats, a channel is nowhere visible, or a warm start has parameters of other shapes.
+        SingularCovarianceError
+            If the covariance is singular at a start.
+        """
+        check_choice("registration", self.registration, REGISTRATIONS)
+        given = check_recordings(recordings)
+        super().fit(REGISTRATIONS[self.registration](given))
+        # What `impute` takes. Only complete recordings have moved, of which nothing is to fill.
+        self.recordings_ = {recording.name: recording for recording in given}
+        return self
 
     def grow(self, names: Sequence[str]) -> Tree:
         """Return for each layer the draw that each recording depends on.

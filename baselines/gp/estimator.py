@@ -33,7 +33,7 @@ from mocapbench.baselines.gp.training.bounds import bounds
 from mocapbench.baselines.gp.training.coordinates import Coordinates
 from mocapbench.baselines.gp.training.maximum_likelihood import maximise
 from mocapbench.baselines.gp.training.search import Budget, Iteration, SearchSpace, Training
-from mocapbench.baselines.gp.training.start import data_driven, perturbed
+from mocapbench.baselines.gp.training.start import data_driven, starts
 from mocapbench.datasets import Recording
 
 __all__ = ["GaussianProcess"]
@@ -55,7 +55,8 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
     kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
         The kernel of every component.
     n_restarts : int, default=1
-        Number of searches; the first starts from the data, the others at random around it.
+        Number of searches. The first starts from the data, the second with half the lengthscales,
+        the others at random around the first.
     max_iter : int, default=1000
         Largest number of iterations of a search.
     tol : float, default=1e-7
@@ -183,7 +184,6 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
         reduction = self.reduction_
         start = self._start(replicates)
         rng = np.random.default_rng(self.random_state)
-        others = [perturbed(start, rng) for _ in range(self.n_restarts - 1)]
         kernel = KERNELS[self.kernel]
         solvers = PLANS[self.solver](kernel, reduction, start)
         draws = {layer: len(set(nodes)) for layer, nodes in self.tree_.items()}
@@ -192,7 +192,7 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
             threaded = with_mapper(solvers, mapper)
             self.training_: Training = maximise(
                 lambda parameters: reduction.evaluate(threaded, parameters),
-                [start, *others],
+                starts(start, self.n_restarts, rng),
                 space,
                 Budget(self.tol, self.max_iter, self.max_seconds),
                 self._print if self.verbose else _report_nothing,

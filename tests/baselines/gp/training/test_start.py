@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.gp.training.bounds import bounds
-from mocapbench.baselines.gp.training.start import data_driven, perturbed
+from mocapbench.baselines.gp.training.start import data_driven, perturbed, starts
 
 
 def _start(example, n_components=2, rank=1):
@@ -44,3 +44,23 @@ def test_random_starts_have_the_same_shapes_and_differ(case):
     assert one.shapes == two.shapes == start.shapes
     assert (one.flat != two.flat).all()
     assert (perturbed(start, np.random.default_rng(0)).flat == one.flat).all()
+
+
+@pytest.mark.parametrize("n", [1, 2, 4])
+def test_starts_are_the_first_one_of_half_its_lengthscales_and_random_ones(n, case):
+    first = _start(case(np.random.default_rng(5), n_times=9))
+    listed = starts(first, n, np.random.default_rng(0))
+    assert len(listed) == n
+    assert listed[0] is first
+    for second in listed[1:2]:
+        for name, layer in second.layers.items():
+            np.testing.assert_allclose(
+                layer.lengthscales, 0.5 * first.layers[name].lengthscales, rtol=1e-12
+            )
+            np.testing.assert_array_equal(
+                layer.coregionalisation.matrices, first.layers[name].coregionalisation.matrices
+            )
+        np.testing.assert_array_equal(second.log_noise, first.log_noise)
+    rng = np.random.default_rng(0)
+    for random in listed[2:]:
+        np.testing.assert_array_equal(random.flat, perturbed(first, rng).flat)
