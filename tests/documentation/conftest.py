@@ -1,9 +1,12 @@
 """The folder in which the blocks of a page are tried."""
 
 import shutil
+import sys
+from types import SimpleNamespace
 
 import pytest
 from code_desk import lay_out
+from distributed import LocalCluster
 from filelock import FileLock
 
 
@@ -21,14 +24,19 @@ def small_files(tmp_path_factory, worker_id):
 
 @pytest.fixture
 def desk(small_files, tmp_path, monkeypatch):
-    """Enter a copy of the small files, with no recordings besides, and return its path."""
+    """Enter a copy of the small files, with no recordings besides, and return its path.
+
+    A cluster on this machine stands for SLURM's, of which scripts are imported, not run.
+    """
     _alone(monkeypatch, tmp_path)
     folder = shutil.copytree(small_files, tmp_path / "desk")
     monkeypatch.chdir(folder)
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=LocalCluster))
     return folder
 
 
 def _alone(patch, cache):
     patch.delenv("MOCAPBENCH_DATA", raising=False)
     patch.setenv("MOCAPBENCH_CACHE", str(cache))
+    patch.setenv("HOME", str(cache))
     patch.setenv("COLUMNS", "100")

@@ -26,6 +26,7 @@ from sybil.document import Document
 from sybil.evaluators.python import PythonEvaluator
 from sybil.parsers.markdown.lexers import FencedCodeBlockLexer
 
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.gate.environment import Environment
 from mocapbench.benchmark.gate.tolerances import read_tolerances
 from mocapbench.benchmark.task_files.checking import open_task_file
@@ -53,7 +54,7 @@ def _blocks(document):
 
 
 def _python(example):
-    _write(example.parsed)
+    written(example.parsed)
     example.namespace["__name__"] = "page"
     PythonEvaluator()(example)
 
@@ -77,13 +78,22 @@ def _console(example):
 
 def _toml(example):
     """Read a task file, tolerances or the entry points of a package, by the name of the file."""
-    path = _write(example.parsed)
+    path = written(example.parsed)
     path = path or _kept(Path("block.toml"), example.parsed)
     READERS.get(path.name, _task_file)(path)
 
 
 def _task_file(path):
     open_task_file(path, RECORDINGS)
+
+
+def _wrong_task_file(path):
+    """Be refused, since the page shows the error."""
+    try:
+        _task_file(path)
+    except UsageError:
+        return
+    raise AssertionError(f"{path} is to show an error, and has none")
 
 
 def _tolerances(path):
@@ -101,7 +111,7 @@ def _entry_points(path):
 
 
 def _yaml(example):
-    _write(example.parsed)
+    written(example.parsed)
     for job in yaml.safe_load(example.parsed)["jobs"].values():
         for step in job["steps"]:
             for line in _lines(step.get("run", "")):
@@ -127,7 +137,7 @@ def _shell(example):
     return example.namespace.setdefault("__shell__", Shell(Path(example.path).parent))
 
 
-def _write(source):
+def written(source):
     """Write a block that names its file in a comment, and return the path."""
     named = re.match(r"# ([\w.-]+\.\w+)\s", source)
     return _kept(Path(named[1]), source) if named else None
@@ -139,5 +149,9 @@ def _kept(path, source):
 
 
 GROUPS = ("models", "tasks", "metrics", "libraries", "formats")
-READERS = {"tolerances.toml": _tolerances, "pyproject.toml": _entry_points}
+READERS = {
+    "pyproject.toml": _entry_points,
+    "tolerances.toml": _tolerances,
+    "wrong.toml": _wrong_task_file,
+}
 WAYS = {"python": _python, "sh": _sh, "console": _console, "toml": _toml, "yaml": _yaml}

@@ -6,15 +6,17 @@ In blocks of `sh`, a command shows what can be written, and is tried as follows.
 mocapbench run      as a dry run of one fold, and of one task unless it names tasks or cases
 mocapbench fill     by `linear`, unless it names a model
 … data fetch        is parsed by the command line's own parser, since it needs a network
+… --OPTION          is an option of the command line
 other mocapbench    runs as it stands, and ends with exit code 0
 pip install         names packages, and extras that we have
 tox run             names environments of the nearest `tox.ini`; options of `bench` are parsed
 python FILE         names a file of the page's folder or of the source tree
+cat FILE >> …       names files that there are
 dask …              is parsed by dask's own parsers, since it needs a cluster
 ==================  ==============================================================================
 
-In blocks of `console`, `mocapbench` runs as it stands, whatever its exit code, which `echo $?` shows.
-Any other command fails, and so does an option that a parser does not know.
+In blocks of `console`, `mocapbench` runs as it stands, whatever its exit code, which `echo $?`
+shows. Any other command fails, and so does an option that a parser does not know.
 """
 
 import contextlib
@@ -74,7 +76,7 @@ class Shell:
         """Yield the words of every command, and take up variables that are set."""
         known = {**self.variables, "?": str(self.code)}
         line = line.replace("$?", "${?}").replace("${?}", known["?"])
-        words = shlex.split(string.Template(line).substitute(known), comments=True)
+        words = shlex.split(string.Template(line).safe_substitute(known), comments=True)
         for command in _split(words, "&&"):
             setting = re.fullmatch(r"([A-Z]+)=(.*)", command[0])
             if setting:
@@ -89,6 +91,7 @@ class Shell:
 
 
 def _split(words, separator):
+    """Yield the words between separators."""
     command = []
     for word in [*words, separator]:
         if word != separator:
@@ -116,10 +119,14 @@ def _mocapbench(words):
 
 def _attempt_mocapbench(shell, words):
     del shell
-    if tuple(words[:2]) == NETWORK or words[0].startswith("--"):
+    if words[0].startswith("-"):  # these change the user's shell
+        return _require_option(words)
+    if tuple(words[:2]) == NETWORK:
         return parse(words)
     code, printed = _mocapbench([*words, *_lessened(words)])
-    assert code in GOOD.get(words[0], {0}), f"`mocapbench {shlex.join(words)}` ended with {code}:\n{printed}"
+    assert code in GOOD.get(words[0], {0}), (
+        f"`mocapbench {shlex.join(words)}` ended with {code}:\n{printed}"
+    )
     return None
 
 
@@ -132,13 +139,17 @@ def _lessened(words):
     return ["--model=linear"] if words[0] == "fill" and "--model" not in named else []
 
 
+def _require_option(words):
+    known = [name for parameter in get_command(app).params for name in parameter.opts]
+    assert set(words) <= set(known), f"unknown options: {words}"
+
+
 def parse(words):
     """Parse a command of ours without running it; an unknown option is an error."""
-    command = get_command(app)
-    context = command.make_context("mocapbench", list(words), resilient_parsing=not words)
-    while isinstance(command, TyperGroup) and context._protected_args:
+    context = get_command(app).make_context("mocapbench", list(words))
+    while isinstance(context.command, TyperGroup):
         rest = [*context._protected_args, *context.args]
-        name, command, rest = command.resolve_command(context, rest)
+        name, command, rest = context.command.resolve_command(context, rest)
         context = command.make_context(name, rest, parent=context)
 
 
@@ -168,7 +179,10 @@ def _attempt_tox(shell, words):
 
 
 def _environments(text):
-    return [*re.findall(r"^\[testenv:(.*)\]", text, re.M), *re.findall(r"^env_list = (.*)", text, re.M)]
+    return [
+        *re.findall(r"^\[testenv:(.*)\]", text, re.M),
+        *re.findall(r"^env_list = (.*)", text, re.M),
+    ]
 
 
 def _attempt_python(shell, words):
@@ -177,9 +191,15 @@ def _attempt_python(shell, words):
         assert Path(words[0]).is_file() or (ROOT / words[0]).is_file(), f"no file {words[0]}"
 
 
+def _attempt_cat(shell, words):
+    """The files are there; what they are added to is the workflow's."""
+    del shell
+    assert all(Path(word).is_file() for word in next(_split(words, ">>"))), words
+
+
 def _attempt_dask(shell, words):
     del shell
-    DASK[words[0]].make_context(words[0], words[1:])
+    DASK[words[0]].make_context(words[0], words[1:], ignore_unknown_options=False)
 
 
 ATTEMPTS = {
@@ -188,4 +208,5 @@ ATTEMPTS = {
     "tox": _attempt_tox,
     "python": _attempt_python,
     "dask": _attempt_dask,
+    "cat": _attempt_cat,
 }
