@@ -67,7 +67,7 @@ def _sh(example):
 
 def _console(example):
     """Run the commands after `$`, and compare what follows each with what it prints."""
-    head, *rest = re.split(r"^\$ ", example.parsed, flags=re.MULTILINE)
+    head, *rest = re.split(r"^\$ ", _joined(example.parsed), flags=re.MULTILINE)
     assert not head, "expected a command after `$`"
     for command, shown in (part.split("\n", 1) for part in rest):
         printed = _shell(example).run(command)
@@ -128,8 +128,12 @@ def _other(example):
 
 
 def _lines(text):
-    """Return the lines of a script, those that a backslash continues as one."""
-    return text.replace("\\\n", " ").splitlines()
+    return _joined(text).splitlines()
+
+
+def _joined(text):
+    """Return a script with lines that a backslash continues as one."""
+    return text.replace("\\\n", " ")
 
 
 def _shell(example):
