@@ -3,6 +3,8 @@
 import pytest
 from code_blocks import code_blocks
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def tried(desk):

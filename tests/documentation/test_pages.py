@@ -23,6 +23,7 @@ def test_no_block_goes_unseen(page):
     assert not any(token.type == "code_block" for token in tokens)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", [page for page in PAGES if "```" in page.read_text()], ids=name_of)
 def test_the_code_blocks_of_a_page_work(page, desk):
     for example in code_blocks(page):
