@@ -29,7 +29,7 @@ def holding_modules():
 
 def on_the_page():
     """Return the folders of the page's tree, whose depth is two blanks a level."""
-    (tree,) = re.findall(r"^## The tree\n\n```\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
+    (tree,) = re.findall(r"^## The tree\n\n```text\n(.*?)^```", PAGE, re.DOTALL | re.MULTILINE)
     above, folders = [], []
     for line in tree.splitlines():
         indent, name, about = re.fullmatch(r"( *)([a-z_]+)/ +(\S.*)", line).groups()
