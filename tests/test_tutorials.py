@@ -20,8 +20,8 @@ FRONT_DOORS = {
 def imports(tutorial):
     """Return the module and the name of everything imported from mocapbench."""
     nodes = ast.walk(ast.parse(tutorial.read_text(encoding="utf-8")))
-    froms = [node for node in nodes if isinstance(node, ast.ImportFrom)]
-    pairs = {(node.module, alias.name) for node in froms for alias in node.names}
+    sources = [node for node in nodes if isinstance(node, ast.ImportFrom)]
+    pairs = {(node.module, alias.name) for node in sources for alias in node.names}
     return {pair for pair in pairs if pair[0].startswith("mocapbench")}
 
 
