@@ -57,6 +57,7 @@ def test_what_is_right_passes(tried, block):
         ("sh", "tox run -e bench -- --no-such-option"),
         ("sh", "python no_such_file.py"),
         ("sh", "dask worker --no-such-option"),
+        ("sh", "git pusch"),
         ("sh", "curl https://example.org"),
         ("console", "mocapbench info"),
         ("console", "$ mocapbench list libraries", "something else"),

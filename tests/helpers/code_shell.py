@@ -12,6 +12,7 @@ pip install         names packages, and extras that we have
 tox run             names environments of the nearest `tox.ini`; options of `bench` are parsed
 python FILE         names a file of the page's folder or of the source tree
 cat FILE >> …       names files that there are
+git …, twine …      name a command of theirs; they publish, so nothing more is tried
 dask …              is parsed by dask's own parsers, since it needs a cluster
 ==================  ==============================================================================
 
@@ -40,6 +41,7 @@ EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["option
 NETWORK = ("data", "fetch")
 GOOD = {"check": {0, 5}}  # in a small run, controls are undecided
 NARROWING = {"--tasks", "--cases", "--task-file"}
+PUBLISHING = {"tag", "push", "upload"}
 DASK = {"scheduler": dask_scheduler.main, "worker": dask_worker.main}
 
 
@@ -197,6 +199,11 @@ def _attempt_cat(shell, words):
     assert all(Path(word).is_file() for word in next(_split(words, ">>"))), words
 
 
+def _attempt_publishing(shell, words):
+    del shell
+    assert words[0] in PUBLISHING, f"none of {sorted(PUBLISHING)}: {words}"
+
+
 def _attempt_dask(shell, words):
     del shell
     DASK[words[0]].make_context(words[0], words[1:], ignore_unknown_options=False)
@@ -209,4 +216,6 @@ ATTEMPTS = {
     "python": _attempt_python,
     "dask": _attempt_dask,
     "cat": _attempt_cat,
+    "git": _attempt_publishing,
+    "twine": _attempt_publishing,
 }
