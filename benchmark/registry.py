@@ -106,14 +106,14 @@ class Registry(Generic[T]):
 
 
 MODELS: Registry[type[Model]] = Registry("model", "mocapbench.models")
-"""The models, as classes that are registered, by name."""
+"""The classes of models that are registered, by name."""
 TASKS: Registry[Task] = Registry("task", "mocapbench.tasks")
 """The tasks that are registered, by name."""
 METRICS: Registry[Metric[Any]] = Registry("metric", "mocapbench.metrics")
 """The metrics that are registered, by name."""
 LIBRARIES: Registry[type[Library]] = Registry("library", "mocapbench.libraries")
-"""The libraries of recordings, as classes that are registered, by name."""
+"""The classes of libraries of recordings that are registered, by name."""
 FORMATS: Registry[type[Format]] = Registry("format", "mocapbench.formats")
-"""The formats of files, as classes that are registered, by name."""
+"""The classes of formats of files that are registered, by name."""
 
 REGISTRIES = (MODELS, TASKS, METRICS, LIBRARIES, FORMATS)
