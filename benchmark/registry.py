@@ -106,9 +106,14 @@ class Registry(Generic[T]):
 
 
 MODELS: Registry[type[Model]] = Registry("model", "mocapbench.models")
+"""The classes of models that are registered, by name."""
 TASKS: Registry[Task] = Registry("task", "mocapbench.tasks")
+"""The tasks that are registered, by name."""
 METRICS: Registry[Metric[Any]] = Registry("metric", "mocapbench.metrics")
+"""The metrics that are registered, by name."""
 LIBRARIES: Registry[type[Library]] = Registry("library", "mocapbench.libraries")
+"""The classes of libraries of recordings that are registered, by name."""
 FORMATS: Registry[type[Format]] = Registry("format", "mocapbench.formats")
+"""The classes of formats of files that are registered, by name."""
 
 REGISTRIES = (MODELS, TASKS, METRICS, LIBRARIES, FORMATS)

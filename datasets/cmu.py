@@ -34,6 +34,7 @@ from mocapbench.datasets.recording import Recording
 __all__ = ["CMU_ACKNOWLEDGEMENT", "CMU_URL", "CMULibrary", "registered_digests"]
 
 CMU_URL = "http://mocap.cs.cmu.edu/"
+"""Where the CMU Motion Capture Database is found."""
 
 _DIVERSE = frozenset(f"subjects/35/35_{trial}.amc" for trial in (13, 14, 19, 23, 24, 25, 26))
 """Recordings of which there are copies that hold every 4th frame and interpolate the others."""
