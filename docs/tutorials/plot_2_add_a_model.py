@@ -27,9 +27,10 @@ the same gaps, and read where it stands.
 # - ``Inductive``: it also fills recordings that it has not seen in
 #   ``fit``.
 #
-# It stands in a file (:download:`my_model.py
-# </tutorials/code/my_model.py>`) with a dictionary ``MODELS``, which
-# gives it a name.
+# It stands in a file,
+# :download:`my_model.py </tutorials/code/my_model.py>`, with a
+# dictionary ``MODELS``, which gives it a name. If you run this tutorial
+# as a script, put the file into a folder ``code`` beside it.
 #
 # .. literalinclude:: /tutorials/code/my_model.py
 #    :language: python

@@ -94,7 +94,8 @@ folder.cleanup()
 #
 # With five models there are four such comparisons, and each may err.
 # **Holm's correction** widens the intervals so that all four together
-# err in at most 5 % of runs.
+# raise a false alarm in about 5 % of runs. (It is a little more, since
+# the best is chosen on the same folds: :doc:`/statistics` counts it.)
 #
 # **Look at** the dashed line. A model whose bar reaches it may be as
 # good as the best.
