@@ -131,7 +131,7 @@ class PoseKriging(FrameImputer, Inductive):
 
     family: ClassVar[str] = "Alignment"
 
-    max_frames = 1000
+    max_frames = 500
 
     def __init__(
         self,

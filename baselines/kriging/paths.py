@@ -18,6 +18,9 @@ __all__ = ["MatchedPaths"]
 
 Array = NDArray[np.float64]
 
+_EXACT = 1e-12
+"""Error of a path, as a fraction of the largest, below which it counts as exact."""
+
 
 @dataclass(frozen=True, eq=False)
 class MatchedPaths:
@@ -59,7 +62,8 @@ class MatchedPaths:
     @cached_property
     def weights(self) -> Array:
         """(K,) weights of the paths by their errors; they sum to 1."""
-        errors = self.errors + np.finfo(float).tiny
+        # A floor keeps the ratio finite where a path is exact.
+        errors = np.maximum(self.errors, _EXACT * self.errors.max()) + np.finfo(float).tiny
         weights = np.exp(-errors / errors.min())
         return np.asarray(weights / weights.sum())
 

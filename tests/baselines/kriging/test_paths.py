@@ -43,3 +43,9 @@ def test_the_doubt_is_that_of_one_more_draw():
 def test_the_share_explained_is_that_of_the_best_path(errors, moved, explained):
     matched = MatchedPaths(np.zeros((len(errors), 3, 1)), np.array(errors), moved)
     assert matched.explained == pytest.approx(explained)
+
+
+def test_an_exact_path_has_all_the_weight():
+    paths = MatchedPaths(np.zeros((2, 3, 1)), np.array([0.0, 5.0]), 1.0)
+    with np.errstate(all="raise", under="ignore"):
+        np.testing.assert_array_equal(paths.weights, [1.0, 0.0])

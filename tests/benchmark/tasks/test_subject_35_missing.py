@@ -86,3 +86,14 @@ def test_nearest_neighbours_err_as_published(real, label):
     outcome = problem.outcome(problem.solve(problem.fit(model), 0))
     errors = [METRICS.get(m)(outcome).value for m in ("cumulative_scaled_error", "rms_angle")]
     assert [f"{error:.2f}" for error in errors] == [f"{p:.2f}" for p in PRINTED[case, label]]
+
+
+@pytest.mark.recordings
+def test_kriging_over_channels_is_ahead_of_all_that_is_published(real):
+    part, problem = real
+    model = problem.fit(MODELS.get("channel-kriging")())
+    outcome = problem.outcome(problem.solve(model, 0))
+    angle, cumulative = {"right leg": (2.40, 5.38), "upper body": (1.41, 8.28)}[part]
+    assert abs(METRICS.get("rms_angle")(outcome).value - angle) <= 0.01
+    assert abs(METRICS.get("cumulative_scaled_error")(outcome).value - cumulative) <= 0.01
+    assert 0.93 <= METRICS.get("coverage_95")(outcome).value <= 0.98
