@@ -75,6 +75,10 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
     prior : {"normalised", "centred", "paper"}, default="normalised"
         The prior of a cycle: HLM's with the normaliser of a Gaussian; one whose deviations from the
         parent are smooth; or HLM's as printed, which is not normalised.
+    grouping : {"random", "similar"}, default="random"
+        The first styles: random groups of equal size, which vary more between runs and so gain more
+        from averaging, or groups of recordings that are alike once aligned to a common cycle, which
+        EM keeps, for finding styles.
     refine_iter : int, default=10
         Iterations of EM, continued from `fit`, that `impute` runs on a recording together with the
         fitted ones.
@@ -164,6 +168,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         learn_closeness: bool = False,
         smoothness: float = 0.1,
         prior: str = "normalised",
+        grouping: str = "random",
         refine_iter: int = 10,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
@@ -179,6 +184,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         self.learn_closeness = learn_closeness
         self.smoothness = smoothness
         self.prior = prior
+        self.grouping = grouping
         self.refine_iter = refine_iter
         self.random_state = random_state
 
@@ -247,6 +253,7 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
             hyper=self.hyper_,
             n_inner=self.n_inner,
             tolerance=self.tolerance,
+            grouping=self.grouping,
         )
         self.runs_ = restarts(
             self.sequences_,

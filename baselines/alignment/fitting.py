@@ -26,7 +26,7 @@ from mocapbench.baselines.alignment.updates import (
     update_smoothness,
     update_weights,
 )
-from mocapbench.baselines.alignment.warping import similar_styles
+from mocapbench.baselines.alignment.warping import GROUPINGS
 
 __all__ = ["EMSettings", "random_cycle", "random_start", "restarts", "run", "split"]
 
@@ -56,6 +56,7 @@ class EMSettings:
     hyper: Hyperparameters
     n_inner: int
     tolerance: float
+    grouping: str = "random"
 
 
 def restarts(
@@ -88,11 +89,10 @@ def run(state: State, sequences: Sequences, settings: EMSettings, max_iter: int)
 
 
 def random_start(sequences: Sequences, settings: EMSettings, rng: np.random.Generator) -> State:
-    """Return a start: all sequences aligned to one cycle, then styles of those alike on it.
+    """Return a start: all sequences aligned to one cycle, then styles by the grouping.
 
     The first cycle is that of a random sequence, as in HLM §4. HLM starts with nearly uniform
-    labels instead. EM moves few sequences between styles later on, because the cycle of a style
-    adapts to those that it has: from random groups it ends in styles that mix motions.
+    labels instead, so that styles differ by noise alone and each style aligns separately.
     """
     common = start(
         random_cycle(sequences, settings.n_states, rng),
@@ -103,7 +103,8 @@ def random_start(sequences: Sequences, settings: EMSettings, rng: np.random.Gene
         hyper=settings.hyper,
     )
     aligned = run(common, sequences, settings, _COMMON_ITER).state
-    styles = similar_styles(aligned, sequences, settings.n_styles, rng)
+    group = GROUPINGS[settings.grouping]
+    styles = group(aligned, sequences, settings.n_styles, rng)
     return split(aligned, np.eye(settings.n_styles)[styles])
 
 

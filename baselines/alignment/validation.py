@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 from mocapbench.baselines.alignment.priors import PRIORS
+from mocapbench.baselines.alignment.warping import GROUPINGS
 from mocapbench.baselines.common.validation import (
     check_choice,
     check_count,
@@ -26,6 +27,7 @@ _CHECKS: dict[str, Callable[[str, object], None]] = {
     **dict.fromkeys(("regularisation", "closeness", "smoothness", "tolerance"), check_positive),
     "learn_closeness": check_flag,
     "prior": partial(check_choice, choices=PRIORS),
+    "grouping": partial(check_choice, choices=GROUPINGS),
     "random_state": check_seed,
 }
 

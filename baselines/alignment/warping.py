@@ -1,6 +1,8 @@
-"""Sequences warped onto a common cycle, and groups of those that are alike there."""
+"""Sequences warped onto a common cycle, and the groups of them that styles start from."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +13,16 @@ from mocapbench.baselines.alignment.model import State
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.common.prototypes import cluster_cycles
 
-__all__ = ["best_paths", "prototype", "prototypes", "similar_styles"]
+__all__ = [
+    "GROUPINGS",
+    "best_paths",
+    "prototype",
+    "prototypes",
+    "random_styles",
+    "similar_styles",
+]
+
+Grouping = Callable[[State, Sequences, int, np.random.Generator], NDArray[np.intp]]
 
 _N_STARTS = 10  # of K-means, which costs little beside an iteration of EM
 
@@ -49,6 +60,13 @@ def prototype(frames: Array, path: NDArray[np.intp], trace: Array) -> Array:
     return cycle
 
 
+def random_styles(
+    _: State, sequences: Sequences, n_styles: int, rng: np.random.Generator
+) -> NDArray[np.intp]:
+    """Return a style (K,) for each sequence: random groups of equal size."""
+    return rng.permutation(len(sequences.lengths)) % n_styles
+
+
 def similar_styles(
     state: State, sequences: Sequences, n_styles: int, rng: np.random.Generator
 ) -> NDArray[np.intp]:
@@ -56,10 +74,13 @@ def similar_styles(
 
     Every sequence has a style of its own, in random order, if there are enough styles.
     """
-    n_sequences = len(sequences.lengths)
-    if n_sequences <= n_styles:
-        return rng.permutation(n_sequences)
+    if len(sequences.lengths) <= n_styles:
+        return random_styles(state, sequences, n_styles, rng)
     trace = state.cycles.mean[:, 0]
     cycles = prototypes(best_paths(state, sequences), sequences, trace)
     unit = np.ones(trace.shape[1])  # sequences are standardised
     return cluster_cycles(cycles, unit, n_styles, _N_STARTS, rng)[0]
+
+
+GROUPINGS: dict[str, Grouping] = {"random": random_styles, "similar": similar_styles}
+"""How the first styles are made, by name."""

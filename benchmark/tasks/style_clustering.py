@@ -56,7 +56,7 @@ style_clustering = Task(
     requires=(Clusterer,),
     cases=_CASES,
     entrants=(
-        Entrant("cyclic-alignment", "cyclic-alignment", {"n_restarts": 1}),
+        Entrant("cyclic-alignment", "cyclic-alignment", {"n_restarts": 1, "grouping": "similar"}),
         Entrant("k-cpm", "k-cpm", {"n_restarts": 1}),
         Entrant("k-fam", "k-fam", {"n_restarts": 1}),
         Entrant("lgssm", "lgssm", {"n_restarts": 1}),

@@ -42,7 +42,11 @@ def styles(n_restarts: int = 5) -> None:
         rows = []
         for seed in range(n_restarts):
             model = CyclicAlignment(
-                n_styles=n_styles, n_restarts=1, max_iter=1, random_state=seed
+                n_styles=n_styles,
+                n_restarts=1,
+                max_iter=1,
+                grouping="similar",
+                random_state=seed,
             ).fit(recordings)
             rng = np.random.default_rng(seed)
             one = model.settings_.__class__(**{**vars(model.settings_), "n_styles": 1})

@@ -1,5 +1,7 @@
 """EM from random starts."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,7 @@ from mocapbench.baselines.alignment.fitting import (
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.alignment.warping import GROUPINGS
 
 SETTINGS = EMSettings(
     n_styles=2,
@@ -42,8 +45,10 @@ def test_no_run_ever_lowers_the_bound(sequences):
         assert (np.diff(run.bounds) >= -1e-9 * np.abs(run.bounds[1:])).all()
 
 
-def test_a_start_has_styles_that_are_all_in_use_with_one_cycle(sequences):
-    state = random_start(sequences, SETTINGS, np.random.default_rng(0))
+@pytest.mark.parametrize("grouping", GROUPINGS)
+def test_a_start_has_styles_that_are_all_in_use_with_one_cycle(sequences, grouping):
+    settings = replace(SETTINGS, grouping=grouping)
+    state = random_start(sequences, settings, np.random.default_rng(0))
     assert (state.labels.sum(axis=0) >= 1).all()
     assert set(state.labels.ravel()) == {0.0, 1.0}
     assert state.cycles.mean.shape == (8, 2, 2)

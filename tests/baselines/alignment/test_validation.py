@@ -28,6 +28,7 @@ REFUSED = {
     **dict.fromkeys(("tolerance", "regularisation", "closeness", "smoothness"), NOT_POSITIVE),
     "learn_closeness": (0, 1, "yes", None, np.nan),
     "prior": ("flat", "", None, 1, np.nan, ["paper"]),
+    "grouping": ("alike", "", None, 1, np.nan, ["random"]),
     "random_state": (-1, 0.5, np.nan, "0", True, np.random.RandomState),
 }
 WRONG = [
