@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
@@ -72,6 +72,8 @@ class BestOf(Imputer, Inductive):
     >>> bool(np.abs(prediction.mean - values).max() < 1e-3)
     True
     """
+
+    family: ClassVar[str] = "Several models"
 
     max_frames = 1000
 

@@ -26,7 +26,7 @@ def imputed_spectrum(outcome: Imputation) -> Score:
     The metric ``npss`` (normalised power spectrum similarity). A sequence is a run of hidden
     entries of one output, four frames or longer. Its power spectrum is divided by its sum, and
     ``Σ_f |F̂(f) − F(f)|`` compares the cumulative spectra (the earth mover's distance). The mean
-    over sequences is weighted by the true power, so that outputs that hardly vary hardly count.
+    over sequences is weighted by the true power, in which a constant level counts too.
     Lower is better; in units of the lowest frequency. Phases do not matter.
 
     Parameters

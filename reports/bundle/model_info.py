@@ -16,6 +16,7 @@ FAMILIES = (
     "Across channels",
     "Neighbours",
     "Interpolation",
+    "Several models",
     "Your models",
     "References",
 )
