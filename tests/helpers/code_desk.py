@@ -8,8 +8,9 @@ runs are copies of it.
 
 import shutil
 
+from code_attempts import ROOT
 from code_blocks import code_blocks, written
-from code_shell import ROOT, Shell
+from code_shell import Shell
 from format_files import markers, sample, walk, with_gap, write_acclaim, write_c3d, write_csv
 from own_files import write_csv as write_waves
 
