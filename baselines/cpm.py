@@ -12,7 +12,7 @@ from mocapbench.baselines.alignment.fitting import random_cycle
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.profile import fit_profile
-from mocapbench.baselines.alignment.warping import prototypes
+from mocapbench.baselines.alignment.start import prototypes
 
 __all__ = ["CPM"]
 

@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.em import Run
-from mocapbench.baselines.alignment.errors import corrected
 from mocapbench.baselines.alignment.estimator import CycleAligner
+from mocapbench.baselines.alignment.expectations import moments
 from mocapbench.baselines.alignment.fitting import EMSettings, restarts
-from mocapbench.baselines.alignment.inference import moments, refine
+from mocapbench.baselines.alignment.inference import corrected, refine
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Array

@@ -7,10 +7,9 @@ mathematics. One idea a module:
 * `sequences`: padded arrays; `ring`: Gaussians on a cycle; `chain`: the hidden Markov chain;
 * `priors`: the prior of a cycle; `model`: the variables; `expectations`, `updates`, `bound`: the
   quantities of variational EM;
-* `period`: the length of a cycle; `start`: initial states; `warping`: sequences on a common cycle;
-  `em`: the algorithm; `fitting`: EM with restarts;
-* `inference`: new sequences and hidden entries; `errors`: correlated errors of a frame;
-  `synthesis`: new motion;
+* `period`: the length of a cycle; `start`: initial states and styles; `em`: the algorithm;
+  `fitting`: EM with restarts; `inference`: new sequences and hidden entries; `synthesis`: new
+  motion;
 * `profile`: the continuous profile model; `estimator`: what all estimators share; `validation`:
   checks of their parameters.
 """

@@ -14,8 +14,8 @@ from mocapbench.baselines.alignment.inference import infer
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.period import default_states
 from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.start import best_paths
 from mocapbench.baselines.alignment.validation import check_settings
-from mocapbench.baselines.alignment.warping import best_paths
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.protocols import Aligner, StatePath

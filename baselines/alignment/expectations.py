@@ -12,7 +12,7 @@ from mocapbench.baselines.alignment.model import State
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 
-__all__ = ["distance", "emission", "log_likelihood", "residuals", "roughness"]
+__all__ = ["distance", "emission", "log_likelihood", "moments", "residuals", "roughness"]
 
 _LOG_2PI = np.log(2.0 * np.pi)
 
@@ -60,6 +60,18 @@ def distance(cycles: Ring, parent: Array) -> float:
     return float(((cycles.mean - parent[:, None]) ** 2 + cycles.variance).sum())
 
 
+def moments(state: State) -> tuple[Array, Array]:
+    """Return the mean and variance of every entry, noise included: (K, N, F) each.
+
+    These are the moments of the mixture over states and styles. HLM eq. (18) weights styles by
+    their precision instead.
+    """
+    cycles, noise = state.cycles, 1.0 / state.parameters.precisions
+    mean = _expected(state, cycles.mean)
+    second = _expected(state, cycles.mean**2 + cycles.variance + noise)
+    return mean, second - mean**2
+
+
 def _over_states(evidence: Array, statistic: Array) -> Array:
     """Sum (K, M, F) times (M, C, F) over the states, one matrix product a channel: (K, C, F)."""
     left = np.ascontiguousarray(evidence.transpose(2, 0, 1))
@@ -72,3 +84,8 @@ def _mixed(labels: Array, statistic: Array) -> Array:
     n_states, n_styles, n_channels = statistic.shape
     flat = labels @ statistic.transpose(1, 2, 0).reshape(n_styles, -1)
     return np.asarray(flat.reshape(-1, n_channels, n_states))
+
+
+def _expected(state: State, statistic: Array) -> Array:
+    """Average (M, C, F) over the styles and states of each frame: (K, N, F)."""
+    return np.asarray(state.paths.occupancy @ np.einsum("kc,mcf->kmf", state.labels, statistic))

@@ -14,7 +14,7 @@ from mocapbench.baselines.alignment.em import Run, Update, expectation_maximisat
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Array, Sequences
-from mocapbench.baselines.alignment.start import first_cycle, start
+from mocapbench.baselines.alignment.start import GROUPINGS, first_cycle, start
 from mocapbench.baselines.alignment.updates import (
     update_closeness,
     update_cycles,
@@ -26,7 +26,6 @@ from mocapbench.baselines.alignment.updates import (
     update_smoothness,
     update_weights,
 )
-from mocapbench.baselines.alignment.warping import GROUPINGS
 
 __all__ = ["EMSettings", "random_cycle", "random_start", "restarts", "run", "split"]
 

@@ -1,4 +1,8 @@
-"""Inference given a fitted model: posteriors of new sequences and moments of hidden entries.
+"""Inference given a fitted model: posteriors of new sequences, and hidden entries.
+
+In the model, the noise of a frame is independent between channels. In recordings it is not: a leg
+that swings further than its cycle goes with an arm that does. The covariance of the errors of
+visible entries corrects the hidden ones, frame by frame, by Gaussian regression.
 
 Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
 as HLM.
@@ -9,6 +13,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
+from sklearn.covariance import ledoit_wolf
 
 from mocapbench.baselines.alignment.bound import sequence_bounds
 from mocapbench.baselines.alignment.em import Update, expectation_maximisation
@@ -23,10 +29,11 @@ from mocapbench.baselines.alignment.updates import (
     update_precisions,
 )
 
-__all__ = ["infer", "moments", "refine"]
+__all__ = ["corrected", "error_correlation", "infer", "refine"]
 
 _MAX_ITER = 30
 _TOLERANCE = 1e-8
+_OWN = 1e-3  # least variance of a channel's own error, so that channels without errors do no harm
 _EMPTY = 0.5  # a style with fewer expected sequences counts as empty
 
 
@@ -71,21 +78,41 @@ def refine(
     return max(runs, key=lambda attempt: attempt.bounds[-1]).state
 
 
-def moments(state: State) -> tuple[Array, Array]:
-    """Return the mean and variance of every entry, noise included: (K, N, F) each.
+def error_correlation(errors: Array) -> Array:
+    """Return the correlations of errors (N, F) between channels, shrunk after Ledoit and Wolf.
 
-    These are the moments of the mixture over states and styles. HLM eq. (18) weights styles by
-    their precision instead.
+    An entry that is hidden has error 0, which pulls correlations towards zero.
     """
-    cycles, noise = state.cycles, 1.0 / state.parameters.precisions
-    mean = _expected(state, cycles.mean)
-    second = _expected(state, cycles.mean**2 + cycles.variance + noise)
-    return mean, second - mean**2
+    shrunk = ledoit_wolf(errors, assume_centered=True)[0]
+    return np.asarray(shrunk + _OWN * np.eye(len(shrunk)))
 
 
-def _expected(state: State, statistic: Array) -> Array:
-    """Average (M, C, F) over the styles and states of each frame: (K, N, F)."""
-    return np.asarray(state.paths.occupancy @ np.einsum("kc,mcf->kmf", state.labels, statistic))
+def corrected(mean: Array, sequences: Sequences) -> Array:
+    """Return the means (N, F) of the last sequence, corrected by the visible errors of its frames.
+
+    Variances are left as they are: errors of style and state are not Gaussian, and variances that
+    shrink with the correction would claim too much.
+
+    Parameters
+    ----------
+    mean : ndarray of shape (K, N, F)
+        The mean of every entry by style and state alone.
+    sequences : Sequences
+        The K sequences.
+    """
+    errors = (sequences.values - mean) * sequences.visible
+    seen = errors[sequences.frames]
+    unit = np.sqrt((seen**2).mean(axis=0)) + np.finfo(float).tiny
+    correlation = error_correlation(seen / unit)
+    n_frames = sequences.lengths[-1]
+    filled = mean[-1, :n_frames].copy()
+    last, visible = errors[-1, :n_frames] / unit, sequences.visible[-1, :n_frames] > 0
+    for frames, known in _patterns(visible):
+        gain = np.linalg.solve(
+            correlation[np.ix_(known, known)], correlation[np.ix_(known, ~known)]
+        )
+        filled[np.ix_(frames, ~known)] += last[np.ix_(frames, known)] @ gain * unit[~known]
+    return filled
 
 
 def _with(state: State, labels: Array, jumps: Array) -> State:
@@ -114,3 +141,13 @@ def _in_empty_style(state: State, sequences: Sequences, hyper: Hyperparameters) 
     for update in steps:
         alone = update(alone, sequences, hyper)
     return [alone]
+
+
+def _patterns(visible: NDArray[np.bool_]) -> list[tuple[NDArray[np.intp], NDArray[np.bool_]]]:
+    """Return frames that show the same channels, with those channels, if some but not all."""
+    shown, which = np.unique(visible, axis=0, return_inverse=True)
+    return [
+        (np.flatnonzero(which.ravel() == index), known)
+        for index, known in enumerate(shown)
+        if known.any() and not known.all()
+    ]

@@ -1,4 +1,6 @@
-"""The initial state of EM: HLM §4, "Comparison".
+"""The initial state of EM, and the groups of aligned sequences that styles start from.
+
+HLM §4, "Comparison".
 
 Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
 as HLM.
@@ -6,15 +8,33 @@ as HLM.
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Callable
 
-from mocapbench.baselines.alignment.chain import Paths
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.alignment.chain import Paths, viterbi
+from mocapbench.baselines.alignment.expectations import emission
 from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hyperparameters, State
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.alignment.updates import update_paths
+from mocapbench.baselines.common.prototypes import cluster_cycles
 
-__all__ = ["first_cycle", "start"]
+__all__ = [
+    "GROUPINGS",
+    "best_paths",
+    "first_cycle",
+    "prototype",
+    "prototypes",
+    "random_styles",
+    "similar_styles",
+    "start",
+]
+
+Grouping = Callable[[State, Sequences, int, np.random.Generator], NDArray[np.intp]]
+
+_N_STARTS = 10  # of K-means, which costs little beside an iteration of EM
 
 
 def start(
@@ -68,3 +88,62 @@ def first_cycle(frames: Array, n_frames: int, n_states: int) -> Array:
         if len(known):
             channel[:] = np.interp(positions, known, column[known])
     return cycle
+
+
+def best_paths(state: State, sequences: Sequences) -> tuple[NDArray[np.intp], ...]:
+    """Return the most likely path (N_k,) of each sequence."""
+    theta = state.parameters
+    expected = emission(sequences, state.cycles, theta.precisions, state.labels)
+    return viterbi(expected, theta.jumps, sequences.frames)
+
+
+def prototypes(paths: tuple[NDArray[np.intp], ...], sequences: Sequences, trace: Array) -> Array:
+    """Return the `prototype` of each sequence: (K, M, F)."""
+    pairs = zip(sequences.arrays(), paths, strict=True)
+    return np.stack([prototype(frames, path, trace) for frames, path in pairs])
+
+
+def prototype(frames: Array, path: NDArray[np.intp], trace: Array) -> Array:
+    """Return a sequence warped onto the cycle by its path and averaged over its cycles: (M, F).
+
+    Between the states of its visible frames (N, F) it is interpolated linearly. At states that the
+    sequence does not reach it equals the trace (M, F).
+    """
+    n_states = len(trace)
+    position = path[0] + np.concatenate([[0], np.cumsum(np.diff(path) % n_states)])
+    cycle = trace.copy()
+    for channel, values in zip(cycle.T, frames.T, strict=True):
+        known = np.flatnonzero(~np.isnan(values))
+        if len(known):
+            reached = np.arange(position[known[0]], position[known[-1]] + 1)
+            warped = np.interp(reached, position[known], values[known])
+            visits = np.bincount(reached % n_states, minlength=n_states)
+            totals = np.bincount(reached % n_states, warped, minlength=n_states)
+            np.divide(totals, visits, out=channel, where=visits > 0)
+    return cycle
+
+
+def random_styles(
+    _: State, sequences: Sequences, n_styles: int, rng: np.random.Generator
+) -> NDArray[np.intp]:
+    """Return a style (K,) for each sequence: random groups of equal size."""
+    return rng.permutation(len(sequences.lengths)) % n_styles
+
+
+def similar_styles(
+    state: State, sequences: Sequences, n_styles: int, rng: np.random.Generator
+) -> NDArray[np.intp]:
+    """Return a style (K,) for each sequence aligned to one cycle, by K-means on the prototypes.
+
+    Every sequence has a style of its own, in random order, if there are enough styles.
+    """
+    if len(sequences.lengths) <= n_styles:
+        return random_styles(state, sequences, n_styles, rng)
+    trace = state.cycles.mean[:, 0]
+    cycles = prototypes(best_paths(state, sequences), sequences, trace)
+    unit = np.ones(trace.shape[1])  # sequences are standardised
+    return cluster_cycles(cycles, unit, n_styles, _N_STARTS, rng)[0]
+
+
+GROUPINGS: dict[str, Grouping] = {"random": random_styles, "similar": similar_styles}
+"""How the first styles are made, by name."""

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.warping import GROUPINGS
+from mocapbench.baselines.alignment.start import GROUPINGS
 from mocapbench.baselines.common.validation import (
     check_choice,
     check_count,

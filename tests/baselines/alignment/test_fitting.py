@@ -15,7 +15,7 @@ from mocapbench.baselines.alignment.fitting import (
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.warping import GROUPINGS
+from mocapbench.baselines.alignment.start import GROUPINGS
 
 SETTINGS = EMSettings(
     n_styles=2,

@@ -1,7 +1,8 @@
 import numpy as np
 
+from mocapbench.baselines.alignment.expectations import moments
 from mocapbench.baselines.alignment.fitting import EMSettings, restarts
-from mocapbench.baselines.alignment.inference import infer, moments, refine
+from mocapbench.baselines.alignment.inference import infer, refine
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Sequences

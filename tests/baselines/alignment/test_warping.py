@@ -7,7 +7,7 @@ from mocapbench.baselines.alignment.fitting import EMSettings, random_start
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.warping import (
+from mocapbench.baselines.alignment.start import (
     best_paths,
     prototype,
     prototypes,

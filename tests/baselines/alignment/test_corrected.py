@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.alignment.errors import corrected, error_correlation
+from mocapbench.baselines.alignment.inference import corrected, error_correlation
 from mocapbench.baselines.alignment.sequences import Sequences
 
 LOST, KNOWN = [0, 1], [2, 3]
