@@ -12,7 +12,7 @@ SOURCE = METADATA["urls"]["Source"]
 RAW = SOURCE.replace("github.com", "raw.githubusercontent.com") + "/main/"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
-PAGES += sorted((ROOT / "docs").glob("*.md"))
+PAGES += sorted([*(ROOT / "docs").glob("*.md"), *(ROOT / "docs/frontier").glob("*.md")])
 
 
 def links(text):
