@@ -2,9 +2,9 @@ r"""Where the searches for parameters start.
 
 The first start follows from the data in standard units (docs/inference.md, section 10, "Start").
 The leading directions of the mean curves start :math:`W` of the parent, those of the deviations
-from them :math:`W` of the child, with a quarter of the variance there. :math:`\kappa` starts at
-a tenth of the layer's variance, and lengthscales below the estimate of `moments`. The second start
-has half the lengthscales of the first; further starts are random around it.
+from them :math:`W` of the child. :math:`\kappa` starts at a tenth of the layer's variance, and
+noise and lengthscales at the estimates of `moments`. The second start has half the first one's
+:math:`W`, and shorter lengthscales; further starts are random around the first.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ Array = NDArray[np.float64]
 
 KAPPA_SHARE = 0.1
 """Share of a layer's variance that κ starts with."""
-SHARED_SHARE = 0.25
-"""Share of the variance in a direction that W starts with. A start at all of it settles too early
-for the directions of the data, which mix those of the components."""
-SCALE_FACTOR = 0.5**0.5
-"""The first start's lengthscales, relative to the estimate of `shared_lengthscale`."""
+SECOND_WEIGHTS = 0.5
+"""The second start's W, relative to the first. All of the variance settles too early for the
+directions of the data, which mix those of the components."""
+SECOND_LENGTHSCALES = 0.5**1.5
+"""The second start's lengthscales, relative to the first."""
 MIN_VARIANCE = 1e-2
 """Least variance that a direction of a layer starts with: at 0 the gradient vanishes."""
 
@@ -79,11 +79,11 @@ def data_driven(
 
 
 def starts(first: Parameters, n: int, rng: np.random.Generator) -> list[Parameters]:
-    """Return ``n`` starts: the given one, one of half its lengthscales, and random ones near it."""
+    """Return ``n`` starts: the given one, one on another scale, and random ones near the first."""
 
     def endless() -> Iterator[Parameters]:
         yield first
-        yield _halved(first)
+        yield _rescaled(first)
         while True:
             yield perturbed(first, rng)
 
@@ -114,19 +114,26 @@ def perturbed(start: Parameters, rng: np.random.Generator) -> Parameters:
     )
 
 
-def _halved(start: Parameters) -> Parameters:
-    """Return the start with half the lengthscales in every layer."""
+def _rescaled(start: Parameters) -> Parameters:
+    """Return the start with less of the variance in W, and shorter lengthscales, in every layer."""
     layers = {
-        name: replace(layer, log_lengthscales=layer.log_lengthscales - np.log(2.0))
+        name: replace(
+            layer,
+            coregionalisation=replace(
+                layer.coregionalisation,
+                weights=SECOND_WEIGHTS * layer.coregionalisation.weights,
+            ),
+            log_lengthscales=layer.log_lengthscales + np.log(SECOND_LENGTHSCALES),
+        )
         for name, layer in start.layers.items()
     }
     return replace(start, layers=layers)
 
 
 def _log_lengthscales(lengthscale: float, n_components: int) -> Array:
-    """Return (Q,) logarithms of lengthscales around a given one, a factor of two apart."""
+    """Return (Q,) logarithms of lengthscales around the given one, a factor of two apart."""
     octaves = np.arange(n_components) - 0.5 * (n_components - 1)
-    return np.asarray(np.log(SCALE_FACTOR * lengthscale) + np.log(2.0) * octaves)
+    return np.asarray(np.log(lengthscale) + np.log(2.0) * octaves)
 
 
 def _coregionalisation(curves: Array, n_components: int, rank: int) -> Coregionalisation:
@@ -141,10 +148,9 @@ def _coregionalisation(curves: Array, n_components: int, rank: int) -> Coregiona
     n_columns = n_components * rank
     chosen = np.arange(n_columns) % len(singular)
     repeats = np.bincount(chosen, minlength=len(singular))[chosen]
-    shared = SHARED_SHARE * singular[chosen] ** 2
-    size = np.sqrt(np.maximum(shared, MIN_VARIANCE) / repeats)
+    size = np.sqrt(np.maximum(singular[chosen] ** 2, MIN_VARIANCE) / repeats)
     weights = directions[:, chosen] * size
-    # √κ: a share of the output's variance, divided between the components.
+    # √κ: a tenth of the output's variance, divided between the components.
     variance = np.maximum(np.square(scaled).sum(axis=1), MIN_VARIANCE)
     return Coregionalisation(
         weights.reshape(n_outputs, rank, n_components).transpose(2, 0, 1),

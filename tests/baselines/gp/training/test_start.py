@@ -47,7 +47,7 @@ def test_random_starts_have_the_same_shapes_and_differ(case):
 
 
 @pytest.mark.parametrize("n", [1, 2, 4])
-def test_starts_are_the_first_one_of_half_its_lengthscales_and_random_ones(n, case):
+def test_starts_are_the_first_one_on_another_scale_and_random_ones(n, case):
     first = _start(case(np.random.default_rng(5), n_times=9))
     listed = starts(first, n, np.random.default_rng(0))
     assert len(listed) == n
@@ -55,11 +55,11 @@ def test_starts_are_the_first_one_of_half_its_lengthscales_and_random_ones(n, ca
     for second in listed[1:2]:
         for name, layer in second.layers.items():
             np.testing.assert_allclose(
-                layer.lengthscales, 0.5 * first.layers[name].lengthscales, rtol=1e-12
+                layer.lengthscales, 0.5**1.5 * first.layers[name].lengthscales, rtol=1e-12
             )
-            np.testing.assert_array_equal(
-                layer.coregionalisation.matrices, first.layers[name].coregionalisation.matrices
-            )
+            mine, others = layer.coregionalisation, first.layers[name].coregionalisation
+            np.testing.assert_allclose(mine.weights, 0.5 * others.weights, rtol=1e-12)
+            np.testing.assert_array_equal(mine.kappa, others.kappa)
         np.testing.assert_array_equal(second.log_noise, first.log_noise)
     rng = np.random.default_rng(0)
     for random in listed[2:]:
