@@ -175,11 +175,12 @@ class _Content:
     def _models(able: Sequence[str]) -> Iterator[str]:
         if not able:
             return
-        quick = [name for name in _QUICK if name in able]
-        slower = [name for name in able if name not in quick]
-        yield "# Leave this out for every model that can fill such gaps. Besides these quick ones:"
+        own = [name for name in able if not MODELS.is_installed(name)]
+        named = [name for name in _QUICK if name in able] + own
+        slower = [name for name in able if name not in named]
+        yield "# Leave this out for every model that can fill such gaps. Besides these:"
         yield from (f"# {line}" for line in wrap(", ".join(slower), 96))
-        lines = wrap(", ".join(map(_quoted, quick)), 96)
+        lines = wrap(", ".join(map(_quoted, named)), 96)
         yield from ("models = [", *(f"    {line}" for line in lines), "]", "")
 
 

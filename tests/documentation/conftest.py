@@ -31,6 +31,8 @@ def desk(small_files, tmp_path, monkeypatch):
     _alone(monkeypatch, tmp_path)
     folder = shutil.copytree(small_files, tmp_path / "desk")
     monkeypatch.chdir(folder)
+    monkeypatch.syspath_prepend(folder)
+    monkeypatch.delitem(sys.modules, "channel_mean", raising=False)
     monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=LocalCluster))
     return folder
 

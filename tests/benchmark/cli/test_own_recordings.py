@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import tomllib
 
 import numpy as np
 import pytest
@@ -213,6 +214,18 @@ def test_a_wrong_request_ends_with_its_reason(cli, own, task_file, recordings, t
     assert own(task_file("fraction = 0.2"), more=["--cases", "walk 9"]) == 2
     assert own(task_file('frames = "1:9"'), more=["--folds", "2"]) == 2
     assert not (tmp_path / "run").exists()
+
+
+def test_the_first_task_file_names_the_models_of_a_plug_in(cli, recordings, tmp_path):
+    plugin, path = tmp_path / "mine.py", tmp_path / "mine.toml"
+    plugin.write_text(
+        "from mocapbench.baselines import LinearImputer\n"
+        "MODELS = {'straight-lines': type('Mine', (LinearImputer,), {'__doc__': 'Lines.'})}\n"
+    )
+    assert cli("init", path, "--recordings", recordings, "--plugin", plugin) == 0
+    models = tomllib.loads(path.read_text())["models"]
+    assert {"linear", "straight-lines"} <= set(models)
+    assert "best-of" not in models
 
 
 def test_the_first_task_file_runs_as_it_stands(cli, own, records, recordings, tmp_path):
