@@ -30,8 +30,9 @@ def test_two_stage_learning_is_seeded(learning, posterior, start):
     def learn(seed):
         return learning.learn(posterior, start, np.random.default_rng(seed)).x
 
-    np.testing.assert_array_equal(learn(1), learn(1))
-    assert not np.array_equal(learn(1), learn(2))
+    # NumPy's sums depend on where an array begins in memory, which sampling amplifies.
+    np.testing.assert_allclose(learn(1), learn(1), rtol=1e-4)
+    assert not np.allclose(learn(1), learn(2), rtol=1e-2)
 
 
 def test_optimised_positions_lower_the_objective_and_keep_the_rest(posterior, start):
