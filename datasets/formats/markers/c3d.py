@@ -75,7 +75,7 @@ def _points(path: Path) -> Mapping[str, NDArray[Any]]:
     memory = C3DFormat.memory_per_byte * size + _MEMORY
     timeout = _SECONDS + _SECONDS_PER_BYTE * size
     try:
-        points = call_isolated(_READER, str(path), timeout=timeout, memory=memory)
+        points = call_isolated(_READER, str(path.absolute()), timeout=timeout, memory=memory)
     except IsolatedCallError as error:
         advice = "export the recording again as C3D"
         raise FormatError(path.name, "a C3D file that ezc3d reads", str(error), advice) from error

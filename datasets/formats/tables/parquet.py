@@ -49,7 +49,8 @@ def _read(path: Path) -> tuple[list[str], TableColumns, FrameByChannel]:
     memory = ParquetFormat.memory_per_byte * size + _MEMORY
     timeout = _SECONDS + _SECONDS_PER_BYTE * size
     try:
-        read = call_isolated(f"{_COLUMNS}:read_columns", str(path), timeout=timeout, memory=memory)
+        name = str(path.absolute())  # the reading process may be in another folder
+        read = call_isolated(f"{_COLUMNS}:read_columns", name, timeout=timeout, memory=memory)
     except IsolatedCallError as error:
         advice = "export the recording again as Parquet"
         raise FormatError(path.name, "a Parquet file", str(error), advice) from error

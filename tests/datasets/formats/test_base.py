@@ -28,6 +28,19 @@ def test_what_is_not_filled_stays_a_gap(name, tmp_path):
 
 
 @pytest.mark.parametrize("name", NAMES)
+def test_a_relative_path_is_one_from_the_folder_of_now(name, tmp_path, monkeypatch):
+    """Also where a process reads that was started in another folder."""
+    kind, values = FORMATS.get(name)(), []
+    for folder in ("first", "second"):
+        (tmp_path / folder).mkdir()
+        monkeypatch.chdir(tmp_path / folder)
+        path = sample(name, tmp_path / folder)
+        values.append(kind.read(path.relative_to(tmp_path / folder)).values)
+        path.unlink()
+    np.testing.assert_array_equal(*values)
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_a_file_that_is_not_there(name, tmp_path):
     kind = FORMATS.get(name)()
     path = tmp_path / f"absent{kind.suffixes[0]}"
