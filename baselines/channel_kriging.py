@@ -49,7 +49,7 @@ class ChannelKriging(Imputer, Inductive):
     what the process is conditioned on. Channels hidden in the same frames are filled together;
     where others are hidden besides, these are interpolated over time for the comparison.
 
-    Variances are widened by trials (``common.widening``). What is hidden as a whole has nothing to be
+    Variances are widened by trials. What is hidden as a whole has nothing to be
     predicted from, and tends to the recording's mean. The defaults had the least error, of values a
     factor of two or more apart, where the second half of a leg or of the upper body was left out in
     each training recording of ``subject-35-missing`` in turn. Time is counted in frames.

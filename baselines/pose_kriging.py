@@ -56,7 +56,7 @@ class PoseKriging(FrameImputer, Inductive):
     :math:`\sigma_d^2 (10 + e^{-|t - t'| / \tau} + v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2 S} + 0.05\,
     \delta)`, with S the total variance of training frames.
 
-    If the training motion looks like its own mirror image (``kriging.symmetry``), the mirror image of
+    If the training motion looks like its own mirror image, the mirror image of
     each recording is a further one, and the residuals of a mirrored recording count as further
     observations at the mirrored poses. The constant and the part that depends on pose correlate
     between a channel and its mirror image by ``symmetry``.
