@@ -9,9 +9,8 @@ noise and lengthscales at the estimates of `moments`. The second start has half 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,14 +79,8 @@ def data_driven(
 
 def starts(first: Parameters, n: int, rng: np.random.Generator) -> list[Parameters]:
     """Return ``n`` starts: the given one, one on another scale, and random ones near the first."""
-
-    def endless() -> Iterator[Parameters]:
-        yield first
-        yield _rescaled(first)
-        while True:
-            yield perturbed(first, rng)
-
-    return list(islice(endless(), n))
+    others = [perturbed(first, rng) for _ in range(n - 2)]
+    return [first, _rescaled(first), *others][:n]
 
 
 def perturbed(start: Parameters, rng: np.random.Generator) -> Parameters:
