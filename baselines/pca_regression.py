@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.gaps import frames_alike
 from mocapbench.baselines.common.own_means import OwnMeans
 from mocapbench.baselines.common.recordings import check_recordings, pool
 from mocapbench.baselines.common.validation import check_positive, check_share
@@ -124,9 +125,7 @@ class PCARegression(Imputer, Inductive):
         frames = np.concatenate([own_means.apply(other) for other in pooled])
         complete = frames[~np.isnan(frames).any(axis=1)]
         deviations = np.nan_to_num(own_means.apply(recording))
-        patterns, pattern = np.unique(~recording.visible, axis=0, return_inverse=True)
-        for number, hidden in enumerate(patterns):
-            rows = pattern.ravel() == number  # NumPy 2.0 returned a column
+        for rows, hidden in frames_alike(~recording.visible):
             deviations[rows] = deviations[rows] @ self._regression(complete, hidden)
         return own_means.restore(recording, deviations)
 

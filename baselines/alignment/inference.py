@@ -13,7 +13,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.covariance import ledoit_wolf
 
 from mocapbench.baselines.alignment.bound import sequence_bounds
@@ -28,6 +27,7 @@ from mocapbench.baselines.alignment.updates import (
     update_paths,
     update_precisions,
 )
+from mocapbench.baselines.common.gaps import frames_alike
 
 __all__ = ["corrected", "error_correlation", "infer", "refine"]
 
@@ -107,7 +107,9 @@ def corrected(mean: Array, sequences: Sequences) -> Array:
     n_frames = sequences.lengths[-1]
     filled = mean[-1, :n_frames].copy()
     last, visible = errors[-1, :n_frames] / unit, sequences.visible[-1, :n_frames] > 0
-    for frames, known in _patterns(visible):
+    for frames, known in frames_alike(visible):
+        if known.all() or not known.any():
+            continue
         gain = np.linalg.solve(
             correlation[np.ix_(known, known)], correlation[np.ix_(known, ~known)]
         )
@@ -141,13 +143,3 @@ def _in_empty_style(state: State, sequences: Sequences, hyper: Hyperparameters) 
     for update in steps:
         alone = update(alone, sequences, hyper)
     return [alone]
-
-
-def _patterns(visible: NDArray[np.bool_]) -> list[tuple[NDArray[np.intp], NDArray[np.bool_]]]:
-    """Return frames that show the same channels, with those channels, if some but not all."""
-    shown, which = np.unique(visible, axis=0, return_inverse=True)
-    return [
-        (np.flatnonzero(which.ravel() == index), known)
-        for index, known in enumerate(shown)
-        if known.any() and not known.all()
-    ]

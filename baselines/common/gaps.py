@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets import FrameByChannel, Mask, Recording
 
-__all__ = ["complete_stretches", "hidden_frames", "hidden_together", "runs"]
+__all__ = ["complete_stretches", "frames_alike", "hidden_frames", "hidden_together", "runs"]
 
 
 def hidden_frames(recording: Recording) -> NDArray[np.bool_]:
@@ -29,6 +29,13 @@ def hidden_frames(recording: Recording) -> NDArray[np.bool_]:
             f"got {partial} hidden in part; use a model that imputes any mask"
         )
     return whole
+
+
+def frames_alike(mask: Mask) -> Iterator[tuple[NDArray[np.intp], NDArray[np.bool_]]]:
+    """Yield the frames that have one row of a mask (N, D), with that row (D,)."""
+    rows, which = np.unique(mask, axis=0, return_inverse=True)
+    for number, row in enumerate(rows):
+        yield np.flatnonzero(which.ravel() == number), row  # NumPy 2.0 returned a column
 
 
 def hidden_together(hidden: Mask) -> Iterator[NDArray[np.intp]]:
