@@ -7,12 +7,14 @@ parent's end plus ``length * direction`` so turned (Acclaim ASF/AMC specificatio
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from mocapbench.datasets.acclaim.skeleton import Segment, Skeleton
-from mocapbench.datasets.recording import Frames, Recording
+from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
 
 __all__ = ["FrameByJointBy3", "joint_positions", "joint_trajectories", "position_channels"]
 
@@ -20,7 +22,7 @@ FrameByJointBy3 = NDArray[np.float64]
 """(N, J, 3) centimetres."""
 
 
-def joint_positions(skeleton: Skeleton, recording: Recording) -> FrameByJointBy3:
+def joint_positions(skeleton: Skeleton, *recordings: Recording) -> FrameByJointBy3:
     """Return the end of every segment in centimetres, in the order of ``skeleton.segments``.
 
     The root's end is the root joint itself. ``skeleton.parents`` gives the joint at the other end
@@ -30,32 +32,32 @@ def joint_positions(skeleton: Skeleton, recording: Recording) -> FrameByJointBy3
     ----------
     skeleton : Skeleton
         Its degrees of freedom are the names of the channels.
-    recording : Recording
-        N complete frames. Degrees of freedom without a channel are zero: the rest pose.
+    *recordings : Recording
+        N complete frames in all. Degrees of freedom without a channel are zero: the rest pose.
 
     Returns
     -------
     ndarray of shape (N, J, 3)
+        The recordings one below the other. One call for many is faster than a call for each.
 
     Raises
     ------
     ValueError
         If a channel is not a degree of freedom of the skeleton, or an entry is hidden.
     """
-    curves = _curves(skeleton, recording)
+    names = tuple(f"{segment.name}.{dof}" for segment in skeleton.segments for dof in segment.dof)
+    stacked = np.concatenate([_curves(names, recording) for recording in recordings])
+    curves = dict(zip(names, stacked.T, strict=True))
     root, *segments = skeleton.segments
-    n_frames = len(recording.times)
     translation = np.column_stack([curves[f"{root.name}.{dof}"] for dof in ("tx", "ty", "tz")])
     ends = {root.name: translation}
     rotations = {root.name: _rotation(root, curves)}
     for segment in segments:
-        rotation = rotations[segment.parent] * _rotation(segment, curves)
+        rotation = rotations[segment.parent] @ _rotation(segment, curves)
         bone = segment.length * np.asarray(segment.direction)
         rotations[segment.name] = rotation
-        ends[segment.name] = ends[segment.parent] + rotation.apply(bone)
-    return np.stack(list(ends.values()), axis=1).reshape(n_frames, -1, 3) * (
-        skeleton.centimetres_per_unit
-    )
+        ends[segment.name] = ends[segment.parent] + rotation @ bone
+    return np.stack(list(ends.values()), axis=1) * skeleton.centimetres_per_unit
 
 
 def position_channels(skeleton: Skeleton) -> tuple[str, ...]:
@@ -98,9 +100,8 @@ def joint_trajectories(skeleton: Skeleton, recording: Recording) -> Recording:
     return Recording(recording.name, recording.times, values, channels, ("cm",) * len(channels))
 
 
-def _curves(skeleton: Skeleton, recording: Recording) -> dict[str, Frames]:
-    """Return the curve of every degree of freedom."""
-    names = [f"{segment.name}.{dof}" for segment in skeleton.segments for dof in segment.dof]
+def _curves(names: Sequence[str], recording: Recording) -> FrameByChannel:
+    """Return the curves of the degrees of freedom of these names."""
     unknown = [name for name in recording.channels if name not in names]
     if unknown or not recording.visible.all():
         raise ValueError(
@@ -108,17 +109,18 @@ def _curves(skeleton: Skeleton, recording: Recording) -> dict[str, Frames]:
             f"freedom, got {np.count_nonzero(~recording.visible)} hidden entries and "
             f"the unknown channels {unknown}"
         )
-    rest = dict.fromkeys(names, np.zeros(len(recording.times)))
-    return rest | dict(zip(recording.channels, recording.values.T, strict=True))
+    curves = np.zeros((len(recording.times), len(names)))
+    curves[:, [names.index(name) for name in recording.channels]] = recording.values
+    return curves
 
 
-def _rotation(segment: Segment, curves: dict[str, Frames]) -> Rotation:
-    """Return C M C⁻¹ at every frame."""
+def _rotation(segment: Segment, curves: dict[str, Frames]) -> NDArray[np.float64]:
+    """Return C M C⁻¹ at every frame: (N, 3, 3)."""
     rest = np.zeros_like(curves["root.tx"])
     angles = np.column_stack(
         [curves.get(f"{segment.name}.r{axis.lower()}", rest) for axis in segment.order]
     )
     # Lower case: about fixed axes, in the order of their names, as in the Acclaim format.
-    moved = Rotation.from_euler(segment.order.lower(), angles, degrees=True)
-    axis = Rotation.from_euler("xyz", segment.axis, degrees=True)
-    return axis * moved * axis.inv()
+    moved = Rotation.from_euler(segment.order.lower(), angles, degrees=True).as_matrix()
+    axis = Rotation.from_euler("xyz", segment.axis, degrees=True).as_matrix()
+    return np.asarray(axis @ moved @ axis.T)

@@ -30,8 +30,11 @@ class Body(Protocol):
     def skeleton(self) -> Skeleton:
         """The joints, the root first, and what connects them."""
 
-    def positions(self, recording: Recording) -> FrameByJointBy3:
-        """Return the joints (N, J, 3) of complete frames, in centimetres; the y axis points up."""
+    def positions(self, *recordings: Recording) -> FrameByJointBy3:
+        """Return the joints (N, J, 3) of complete frames, in centimetres; the y axis points up.
+
+        N counts the frames of all recordings, which are one below the other.
+        """
 
     def dependence(self, channels: Sequence[str]) -> JointByChannel:
         """Return which of the channels (D,) the position of each joint depends on, (J, D)."""
@@ -51,7 +54,7 @@ class JointAngles:
 
     skeleton: Skeleton
 
-    def positions(self, recording: Recording) -> FrameByJointBy3:
+    def positions(self, *recordings: Recording) -> FrameByJointBy3:
         """Return the joints of complete frames; see `Body`.
 
         Raises
@@ -59,9 +62,11 @@ class JointAngles:
         ValueError
             If a channel is none of the skeleton's, or an entry is hidden.
         """
-        stepwise = "root.dtx" in recording.channels
-        motion = integrate_root(recording) if stepwise else recording
-        return joint_positions(self.skeleton, motion)
+        paths = [
+            integrate_root(recording) if "root.dtx" in recording.channels else recording
+            for recording in recordings
+        ]
+        return joint_positions(self.skeleton, *paths)
 
     def dependence(self, channels: Sequence[str]) -> JointByChannel:
         """Return True where the channel is of the joint's segment or of one that carries it."""
@@ -89,7 +94,7 @@ class JointPositions:
 
     skeleton: Skeleton
 
-    def positions(self, recording: Recording) -> FrameByJointBy3:
+    def positions(self, *recordings: Recording) -> FrameByJointBy3:
         """Return the joints of complete frames; see `Body`.
 
         Raises
@@ -97,8 +102,9 @@ class JointPositions:
         ValueError
             If a coordinate of a joint is missing.
         """
-        ordered = recording.select(position_channels(self.skeleton))
-        return ordered.values.reshape(len(recording.times), -1, 3)
+        channels = position_channels(self.skeleton)
+        ordered = [recording.select(channels).values for recording in recordings]
+        return np.concatenate(ordered).reshape(-1, len(self.skeleton.segments), 3)
 
     def dependence(self, channels: Sequence[str]) -> JointByChannel:
         """Return True where the channel is a coordinate of the joint."""

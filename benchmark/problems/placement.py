@@ -83,8 +83,7 @@ def _placed(
     body: Body, recordings: Sequence[Recording], values: Sequence[FrameByChannel]
 ) -> FrameByJointBy3:
     """Return the joints of the recordings with other values, one below the other."""
-    pairs = zip(recordings, values, strict=True)
-    return np.concatenate([body.positions(recording.with_values(own)) for recording, own in pairs])
+    return body.positions(*map(Recording.with_values, recordings, values))
 
 
 def _joints(body: Body) -> tuple[str, ...]:
