@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 from mocapbench.baselines import Model
+from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.problems.internals import internals_of
 from mocapbench.benchmark.runs.fitting.fit import Fit
@@ -28,10 +29,11 @@ class FitCosts(NamedTuple):
 
 
 class Fitted(NamedTuple):
-    """A fitted model, and what its fit cost."""
+    """A fitted model, what its fit cost, and its `Internals` as arrays."""
 
     model: Model
     costs: FitCosts
+    internals: Arrays
 
 
 def build_model(model: type[Model], parameters: Mapping[str, Any], random_state: int) -> Model:
@@ -60,7 +62,9 @@ def train(
         started = time.perf_counter()
         problem.fit(model)
         seconds = time.perf_counter() - started
-    return Fitted(model, FitCosts(seconds, _peak_memory_mb(), _texts(caught)))
+        peak_memory_mb = _peak_memory_mb()
+        internals = internals_of(model, problem.train).to_arrays()
+    return Fitted(model, FitCosts(seconds, peak_memory_mb, _texts(caught)), internals)
 
 
 def solve(problem: Problem[Any], fitted: Fitted, random_state: int) -> Fit:
@@ -74,17 +78,16 @@ def solve(problem: Problem[Any], fitted: Fitted, random_state: int) -> Fit:
     random_state : int
         The seed of what it draws.
     """
-    model, costs = fitted
+    model, costs, internals = fitted
     with _warnings() as caught:
         started = time.perf_counter()
         answer = problem.solve(model, random_state)
         seconds = time.perf_counter() - started
-        internals = internals_of(model, problem.train)
     iterations, converged = (
         getattr(model, f"{name}_", None) for name in ("n_iterations", "converged")
     )
     return Fit(
-        {**answer.to_arrays(), **internals.to_arrays()},
+        {**answer.to_arrays(), **internals},
         fit_seconds=costs.seconds,
         predict_seconds=seconds,
         peak_memory_mb=max(costs.peak_memory_mb, _peak_memory_mb()),

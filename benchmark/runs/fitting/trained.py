@@ -14,6 +14,7 @@ from typing import Any, Self
 import joblib
 
 from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.runs.fitting.solve import FitCosts, Fitted
 
@@ -34,12 +35,15 @@ class Trained:
         Digest of what it was fitted to.
     costs : FitCosts
         Of its fit.
+    internals : mapping of str to ndarray
+        Of the model.
     """
 
     key: str
     state: bytes
     learnt_from: str
     costs: FitCosts
+    internals: Arrays
 
     @classmethod
     def of(cls, key: str, fitted: Fitted, problem: Problem[Any]) -> Self | None:
@@ -48,7 +52,7 @@ class Trained:
             state = pickle.dumps(fitted.model, protocol=pickle.HIGHEST_PROTOCOL)
         except Exception:  # a user's class raises what it likes
             return None
-        return cls(key, state, _digest(problem), fitted.costs)
+        return cls(key, state, _digest(problem), fitted.costs, fitted.internals)
 
     def suits(self, problem: Problem[Any]) -> bool:
         """Return whether ``problem`` trains on the same recordings."""
@@ -56,7 +60,7 @@ class Trained:
 
     def load(self) -> Fitted:
         """Return a copy of the model, which the caller may change."""
-        return Fitted(pickle.loads(self.state), self.costs)
+        return Fitted(pickle.loads(self.state), self.costs, self.internals)
 
 
 def _digest(problem: Problem[Any]) -> str:
