@@ -18,7 +18,8 @@ from mocapbench.baselines.common.gaps import hidden_together
 from mocapbench.baselines.common.recordings import check_recordings, pool
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_not_negative, check_positive
-from mocapbench.baselines.common.widening import widened
+from mocapbench.baselines.common.widening import Widened, widened
+from mocapbench.baselines.kriging.left_out import left_out_scales
 from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import Recording
@@ -32,7 +33,7 @@ _LEAST_SCALE = 1e-12
 """Least variance of a channel, as a fraction of its variance over all recordings."""
 
 
-class ChannelKriging(Imputer, Inductive):
+class ChannelKriging(Widened, Imputer, Inductive):
     r"""Predict hidden channels from the visible ones around a frame, by a Gaussian process.
 
     A frame x of recording r at time t is described by the visible channels in it and in the frames
@@ -44,15 +45,16 @@ class ChannelKriging(Imputer, Inductive):
 
     where the squared distance is the mean over the values that describe a frame, in units of the
     channels' standard deviations. The first term is what all recordings share; a is the part of it
-    in which recordings differ, and b that of a drift over time. The scale has its
-    maximum-likelihood value. Frames of all recordings, those of the recording to fill included, are
-    what the process is conditioned on. Channels hidden in the same frames are filled together;
-    where others are hidden besides, these are interpolated over time for the comparison.
+    in which recordings differ, and b that of a drift over time. The scale is such that variances
+    are right on average where each recording in turn is predicted from the others. Frames of all
+    recordings, those of the recording to fill included, are what the process is conditioned on.
+    Channels hidden in the same frames are filled together; where others are hidden besides, these
+    are interpolated over time for the comparison.
 
-    Variances are widened by trials. What is hidden as a whole has nothing to be
-    predicted from, and tends to the recording's mean. The defaults had the least error, of values a
-    factor of two or more apart, where the second half of a leg or of the upper body was left out in
-    each training recording of ``subject-35-missing`` in turn. Time is counted in frames.
+    Variances are widened by trials. What is hidden as a whole has nothing to be predicted from, and
+    tends to the recording's mean. The defaults had the least error, of values a factor of two or
+    more apart, where the second half of a leg or of the upper body was left out in each training
+    recording of ``subject-35-missing`` in turn. Time is counted in frames.
 
     Parameters
     ----------
@@ -141,7 +143,11 @@ class ChannelKriging(Imputer, Inductive):
             `fit`.
         """
         check_is_fitted(self)
-        return widened(recordings, lambda given: [self._filled(recording) for recording in given])
+        return widened(recordings, self.as_claimed)
+
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute`, with the variances that the model itself claims."""
+        return [self._filled(recording) for recording in recordings]
 
     def _filled(self, recording: Recording) -> Prediction:
         pooled = pool(self.recordings_, [recording])
@@ -165,20 +171,26 @@ class ChannelKriging(Imputer, Inductive):
         known = np.flatnonzero(~np.isnan(values).any(axis=1))
         others = np.setdiff1d(np.arange(frames.values.shape[1]), channels)
         prior = self._covariance(frames, known, known, others)
-        factor = cho_factor(prior + self.noise * np.eye(len(known)), lower=True, overwrite_a=True)
-        dual = cho_solve(factor, values[known])
+        prior[np.diag_indices_from(prior)] += self.noise
+        factor, lower = cho_factor(prior, lower=True, overwrite_a=True)
+        dual = cho_solve((factor, lower), values[known])
         cross = self._covariance(frames, wanted, known, others)
-        explained = (cross * cho_solve(factor, cross.T).T).sum(axis=1)
+        explained = (cross * cho_solve((factor, lower), cross.T).T).sum(axis=1)
         total = (1.0 + self.own) * 2.0 + self.drift + self.noise
-        scales = np.maximum((values[known] * dual).mean(axis=0), _LEAST_SCALE)
-        return cross @ dual, np.outer(total - explained, scales)
+        scales = left_out_scales(factor, dual, frames.recording[known])
+        return cross @ dual, np.outer(total - explained, np.maximum(scales, _LEAST_SCALE))
 
     def _covariance(
         self, frames: StackedFrames, one: Index, other: Index, channels: Index
     ) -> Array:
         """Return the prior covariance (n, m) of frames without noise, up to scale."""
-        squares = frames.distances(one, other, channels) / self.lengthscale**2
-        together = frames.together(one, other)
-        drift = np.exp(-frames.lags(one, other) / self.time_lengthscale)
-        shared = (1.0 + 1.0 / np.sqrt(1.0 + squares)) * (1.0 + self.own * together)
-        return np.asarray(shared + self.drift * together * drift)
+        covariance = frames.distances(one, other, channels)
+        covariance /= self.lengthscale**2
+        covariance += 1.0
+        np.sqrt(covariance, out=covariance)
+        np.reciprocal(covariance, out=covariance)
+        covariance += 1.0
+        for place, lags in frames.together(one, other):
+            drift = self.drift * np.exp(-lags / self.time_lengthscale)
+            covariance[place] = (1.0 + self.own) * covariance[place] + drift
+        return covariance

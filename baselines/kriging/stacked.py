@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Self
 
@@ -65,13 +65,15 @@ class StackedFrames:
         squares = euclidean_distances(wide[one], wide[other], squared=True)
         return np.asarray(squares / wide.shape[1])
 
-    def together(self, one: Index, other: Index) -> Array:
-        """Return 1 where both frames are of the same recording, else 0: (n, m)."""
-        return np.asarray(self.recording[one][:, None] == self.recording[other], dtype=np.float64)
+    def together(self, one: Index, other: Index) -> Iterator[tuple[tuple[Index, ...], Array]]:
+        """Yield, for each recording, where in an array (n, m) both frames are of it.
 
-    def lags(self, one: Index, other: Index) -> Array:
-        """Return the number of frames (n, m) between frames, as if of one recording."""
-        return np.abs(np.subtract.outer(self.place[one], self.place[other])).astype(np.float64)
+        With each place comes the number of frames between those frames.
+        """
+        for number in np.intersect1d(self.recording[one], self.recording[other]):
+            rows, columns = (np.flatnonzero(self.recording[of] == number) for of in (one, other))
+            lags = np.subtract.outer(self.place[one[rows]], self.place[other[columns]])
+            yield np.ix_(rows, columns), np.abs(lags).astype(np.float64)
 
 
 def _interpolated(recording: Recording) -> FrameByChannel:

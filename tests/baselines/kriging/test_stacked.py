@@ -36,6 +36,8 @@ def test_distances_are_means_of_squared_differences():
 
 
 def test_frames_know_their_recording_and_their_place():
-    rows = np.array([0, 8, 9])
-    np.testing.assert_array_equal(FRAMES.together(rows, rows), [[1, 1, 0], [1, 1, 0], [0, 0, 1]])
-    np.testing.assert_array_equal(FRAMES.lags(rows, rows), [[0, 8, 0], [8, 0, 8], [0, 8, 0]])
+    lags = np.full((3, 4), np.nan)
+    for place, between in FRAMES.together(np.array([0, 9, 8]), np.array([8, 10, 0, 3])):
+        lags[place] = between
+    expected = [[8, NAN, 0, 3], [NAN, 1, NAN, NAN], [0, NAN, 8, 5]]
+    np.testing.assert_array_equal(lags, expected)
