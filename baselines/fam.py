@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.widening import widened
+from mocapbench.baselines.common.widening import Widened, widened
 from mocapbench.baselines.functional.basis import Array
 from mocapbench.baselines.functional.components import infer_scores, principal_axes
 from mocapbench.baselines.functional.cycles import Cycles
@@ -28,7 +28,7 @@ from mocapbench.datasets import Recording
 __all__ = ["FAM"]
 
 
-class FAM(Imputer, Inductive, Aligner):
+class FAM(Widened, Imputer, Inductive, Aligner):
     r"""A smooth mean cycle, and a few components by which single cycles differ from it.
 
     A recording is folded at the length of cycle with the highest signal-to-noise ratio, and shifted
@@ -185,7 +185,7 @@ class FAM(Imputer, Inductive, Aligner):
         ValueError
             If channels differ, or a recording has no frame.
         """
-        return widened(self._checked(recordings), self._imputed)
+        return widened(self._checked(recordings), self.as_claimed)
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
         """Return the state of each frame of recordings, which are placed as by `impute`.
@@ -247,7 +247,8 @@ class FAM(Imputer, Inductive, Aligner):
     def _placed(self, recording: Recording) -> Array:
         return place(self.scaling_.apply(recording), self.reference_, self.periods_)
 
-    def _imputed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute`, with the variances that the model itself claims."""
         return [self._predicted(recording) for recording in recordings]
 
     def _predicted(self, recording: Recording) -> Prediction:

@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive
-from mocapbench.baselines.common.widening import widened
+from mocapbench.baselines.common.widening import Widened, widened
 from mocapbench.baselines.protocols import (
     Imputer,
     Inductive,
@@ -30,7 +30,7 @@ from mocapbench.datasets import Frames, Recording
 __all__ = ["LDS"]
 
 
-class LDS(Imputer, Inductive, Synthesiser):
+class LDS(Widened, Imputer, Inductive, Synthesiser):
     r"""A few hidden states that move linearly over time, and channels linear in them.
 
     .. math:: x_{t+1} = A x_t + w_t, \qquad y_t = C x_t + d + v_t,
@@ -144,9 +144,10 @@ class LDS(Imputer, Inductive, Synthesiser):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
-        return widened(recordings, self._smoothed)
+        return widened(recordings, self.as_claimed)
 
-    def _smoothed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute`, with the variances that the model itself claims."""
         data = self._observations(recordings)
         mean, variance = moments(self.parameters_, smoothed(self.parameters_, data))
         means = map(self.scaling_.restore, data.unpad(mean))

@@ -13,7 +13,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.own_means import OwnMeans
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
-from mocapbench.baselines.common.widening import widened
+from mocapbench.baselines.common.widening import Widened, widened
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -27,7 +27,7 @@ _LEAST_NOISE = 1e-6
 """Least variance of the noise, in units of the variance within recordings."""
 
 
-class LowRank(Imputer, Inductive):
+class LowRank(Widened, Imputer, Inductive):
     r"""Fill hidden channels of a frame along the main directions in which poses vary (PPCA).
 
     A frame is :math:`y = m + S (W x + \varepsilon)` with latent :math:`x \sim N(0, I_q)` and noise
@@ -148,9 +148,10 @@ class LowRank(Imputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
-        return widened(recordings, self._by_frame)
+        return widened(recordings, self.as_claimed)
 
-    def _by_frame(self, recordings: Sequence[Recording]) -> list[Prediction]:
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute`, with the variances that the model itself claims."""
         return [self._filled(recording) for recording in recordings]
 
     def _filled(self, recording: Recording) -> Prediction:

@@ -10,6 +10,8 @@ from functools import partial
 from typing import Self
 
 from mocapbench.baselines.aligned_window import AlignedWindow
+from mocapbench.baselines.channel_kriging import ChannelKriging
+from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.fam import FAM
 from mocapbench.baselines.interpolation import (
     CubicSplineImputer,
@@ -23,9 +25,11 @@ from mocapbench.baselines.nn import NN
 from mocapbench.baselines.pca_regression import PCARegression
 from mocapbench.baselines.pose_kriging import PoseKriging
 from mocapbench.baselines.protocols import FrameImputer, Prediction
-from mocapbench.datasets import Recording
+from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["CANDIDATES", "LAST_RESORT", "Panel"]
+
+Fill = Callable[[Sequence[Recording]], list[Prediction]]
 
 LAST_RESORT = "pchip"
 """What fills where no rehearsal has room: it never overshoots."""
@@ -42,8 +46,9 @@ CANDIDATES: Mapping[str, Callable[[], FrameImputer]] = {
     "nn": NN,
     "aligned-window": AlignedWindow,
     "pose-kriging": PoseKriging,
+    "channel-kriging": ChannelKriging,
 }
-"""All are inductive, and take a second at most."""
+"""All are inductive, and take a few seconds at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +70,22 @@ class Panel:
 
     def impute(self, recording: Recording) -> dict[str, Prediction]:
         """Return the prediction of each model that can fill the recording."""
+        return self._filled(recording, lambda model: model.impute)
+
+    def means(self, recording: Recording) -> dict[str, FrameByChannel]:
+        """Return the means of `impute`, without the trials that only widen variances."""
+        filled = self._filled(recording, _without_trials)
+        return {name: prediction.mean for name, prediction in filled.items()}
+
+    def _filled(
+        self, recording: Recording, how: Callable[[FrameImputer], Fill]
+    ) -> dict[str, Prediction]:
         predictions = {}
         for name, model in self.models.items():
             with suppress(ValueError):
-                (predictions[name],) = model.impute([recording])
+                (predictions[name],) = how(model)([recording])
         return predictions
+
+
+def _without_trials(model: FrameImputer) -> Fill:
+    return model.as_claimed if isinstance(model, Widened) else model.impute

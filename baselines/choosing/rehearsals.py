@@ -101,8 +101,8 @@ class Rehearsals:
             return {}
         values = (truth or given).values
         return {
-            name: float(np.mean(((answer.mean - values) / self.scale)[known] ** 2))
-            for name, answer in panel.impute(given.hide(mask)).items()
+            name: float(np.mean(((mean - values) / self.scale)[known] ** 2))
+            for name, mean in panel.means(given.hide(mask)).items()
         }
 
     @property

@@ -8,6 +8,7 @@ they are, and no variance becomes smaller.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -17,13 +18,21 @@ from mocapbench.baselines.common.trials import trial_masks
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["widened"]
+__all__ = ["Widened", "widened"]
 
 Array = NDArray[np.float64]
 Impute = Callable[[Sequence[Recording]], list[Prediction]]
 
 _PRIOR_ENTRIES = 10
 """Trial entries that count in each channel as having the mean ratio over all channels."""
+
+
+class Widened(ABC):
+    """A model whose variances `widened` checks when it fills recordings."""
+
+    @abstractmethod
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute`, with the variances that the model itself claims."""
 
 
 def widened(recordings: Sequence[Recording], impute: Impute) -> list[Prediction]:

@@ -22,7 +22,7 @@ from mocapbench.baselines.common.validation import (
     check_seed,
     check_share,
 )
-from mocapbench.baselines.common.widening import widened
+from mocapbench.baselines.common.widening import Widened, widened
 from mocapbench.baselines.gpdm.conditional import Conditional, Query
 from mocapbench.baselines.gpdm.dynamics import Dynamics
 from mocapbench.baselines.gpdm.kernels import RBFKernel
@@ -40,7 +40,7 @@ __all__ = ["LatentVariableModel"]
 Array = NDArray[np.float64]
 
 
-class LatentVariableModel(FrameImputer, Inductive, Embedded):
+class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
     """Poses as smooth functions of latent positions, which have a prior.
 
     A subclass provides the prior and the learning algorithm. Its constructor stores ``n_latent``,
@@ -126,9 +126,10 @@ class LatentVariableModel(FrameImputer, Inductive, Embedded):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
-        return widened(recordings, self._given_latents)
+        return widened(recordings, self.as_claimed)
 
-    def _given_latents(self, recordings: Sequence[Recording]) -> list[Prediction]:
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute`, with the variances that the model itself claims."""
         return [self._filled(recording) for recording in recordings]
 
     def _filled(self, recording: Recording) -> Prediction:

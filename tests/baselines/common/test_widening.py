@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines import LDS, Prediction
+from mocapbench.baselines import FAM, LDS, ChannelKriging, LowRank, Prediction
 from mocapbench.baselines.common.widening import widened
 from mocapbench.datasets import Recording
 
@@ -26,6 +26,15 @@ def claiming(variance):
         return [Prediction.around(recording, 0.0, variance) for recording in recordings]
 
     return impute
+
+
+@pytest.mark.parametrize("model", [LDS, LowRank, ChannelKriging, FAM])
+def test_a_model_claims_the_means_that_it_fills_with(model):
+    recording = noise("r", np.array([1.0, 3.0]), 150)
+    fitted = model().fit([recording, noise("other", np.array([2.0, 1.0]), 150)])
+    (filled,), (claimed,) = fitted.impute([recording]), fitted.as_claimed([recording])
+    np.testing.assert_array_equal(filled.mean, claimed.mean)
+    assert (filled.variance >= claimed.variance).all()
 
 
 @settings(max_examples=30, deadline=None)
