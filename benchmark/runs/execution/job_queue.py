@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections import defaultdict, deque
+from collections import Counter, defaultdict, deque
 from collections.abc import Hashable, Iterable
 from typing import NamedTuple
 
@@ -24,10 +24,14 @@ class _Kind(NamedTuple):
     @property
     def alike(self) -> tuple[Hashable, ...]:
         """Among what jobs to look for alike ones, the most alike first."""
-        return self, self.label, ()
+        return self, (self.label, self.left), self.left, ()
 
 
 _FIT, _PREDICT, _SCORE = "fit", "predict", "score"
+
+
+def _kind(job: Job, left: str) -> _Kind:
+    return _Kind(job.address.task, job.address.label, left)
 
 
 class JobQueue:
@@ -45,6 +49,7 @@ class JobQueue:
     def __init__(self, jobs: Iterable[Job]) -> None:
         self._waiting: dict[_Kind, deque[Job]] = defaultdict(deque)
         self._followers: dict[str, list[Job]] = defaultdict(list)
+        self._following: Counter[_Kind] = Counter()
         self._leads: dict[str, Job] = {}
         self._running: dict[str, tuple[_Kind, float]] = {}
         self._untried: deque[_Kind] = deque()
@@ -54,12 +59,27 @@ class JobQueue:
             for key in {job.fit_key, job.training_key} - {"", *shared}:
                 self._leads[key] = job
             if shared:
-                self._followers[shared[0]].append(job)
+                self._hold(shared[0], job)
             else:
                 self._append(job, _FIT)
 
+    def _hold(self, key: str, job: Job) -> None:
+        self._followers[key].append(job)
+        self._following[self._after(key, job)] += 1
+
+    @staticmethod
+    def _after(key: str, job: Job) -> _Kind:
+        """Return what is left of a job once what it shares under ``key`` is there."""
+        return _kind(job, _SCORE if key == job.fit_key else _PREDICT)
+
+    def _freed(self, key: str) -> list[Job]:
+        """Return the jobs that wait for ``key``, which no longer do."""
+        followers = self._followers.pop(key, [])
+        self._following.subtract(self._after(key, job) for job in followers)
+        return followers
+
     def _append(self, job: Job, left: str) -> None:
-        kind = _Kind(job.address.task, job.address.label, left)
+        kind = _kind(job, left)
         if kind not in self._waiting:
             self._untried.append(kind)
         self._waiting[kind].append(job)
@@ -91,20 +111,23 @@ class JobQueue:
         """
         kind, _ = self._running.pop(job.key)
         self._durations.learn(kind.alike, seconds)
-        for follower in self._followers.pop(job.fit_key, ()):
+        for follower in self._freed(job.fit_key):
             self._append(follower, _SCORE)
         if self._leads.get(job.training_key) is job:
             self._release(job.training_key, fitted=not rescored)
 
     def _release(self, training_key: str, *, fitted: bool) -> None:
         """Let all jobs go that wait for a fitted model, or the next that is to fit it."""
-        followers = self._followers.pop(training_key, [])
+        followers = self._freed(training_key)
         if fitted or not followers:
             for follower in followers:
                 self._append(follower, _PREDICT)
             return
-        self._leads[training_key], *self._followers[training_key] = followers
-        self._append(followers[0], _FIT)
+        lead, *others = followers
+        self._leads[training_key] = lead
+        self._append(lead, _FIT)
+        for other in others:
+            self._hold(training_key, other)
 
     def _expected(self, kind: _Kind) -> float:
         return self._durations.expected(kind.alike)
@@ -116,7 +139,9 @@ class JobQueue:
             max(self._expected(kind) - (now - started), 0.0)
             for kind, started in self._running.values()
         ]
-        waiting = [(self._expected(kind), len(jobs)) for kind, jobs in self._waiting.items()]
+        counts = Counter({kind: len(jobs) for kind, jobs in self._waiting.items()})
+        counts.update(self._following)
+        waiting = [(self._expected(kind), count) for kind, count in counts.items()]
         work = sum(running) + sum(seconds * count for seconds, count in waiting)
         longest = max([*running, *(seconds for seconds, count in waiting if count)], default=0.0)
         return max(work / n_workers, longest)

@@ -87,6 +87,22 @@ def test_the_time_left_follows_from_the_jobs_most_alike(monkeypatch):
     assert queue.time_left(100) == pytest.approx(10)  # no less than the longest of them
 
 
+def test_jobs_that_wait_for_what_they_share_count_too(monkeypatch):
+    monkeypatch.setattr(time, "monotonic", lambda: 0.0)
+    fits = [f"fit {n // 2}" for n in range(6)]
+    queue = JobQueue([_job(n, "a", fit, "model") for n, fit in enumerate(fits)])
+    assert queue.time_left(1) == 0  # nothing is known yet
+    queue.ended(queue.take(), 10.0)  # frees a job to score and two to predict
+    assert queue.time_left(1) == pytest.approx(5 * 10)
+    queue.ended(queue.take(), 1.0)
+    queue.ended(queue.take(), 3.0)
+    left = queue.time_left(1)
+    assert 0 < left < 3 * 10
+    while job := queue.take():
+        queue.ended(job, 1.0)
+    assert queue.time_left(1) == 0
+
+
 def test_a_running_job_counts_for_what_is_left_of_it(monkeypatch):
     now = 0.0
     monkeypatch.setattr(time, "monotonic", lambda: now)
