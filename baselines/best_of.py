@@ -33,9 +33,9 @@ class BestOf(Imputer, Inductive):
     expect and the ``power`` p. The prediction is the mixture of the candidates' distributions: its
     variance includes how far they lie apart. The variance of a candidate that has none is
     :math:`E_i^2`. Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``,
-    ``pca-regression``, ``nn``, ``aligned-window`` and ``pose-kriging``; those that cannot fill a
-    mask, or not learn from the recordings, are left out. The seed of ``fam`` is fixed, so that
-    nothing is random.
+    ``pca-regression``, ``nn``, ``aligned-window``, ``pose-kriging`` and ``channel-kriging``; those
+    that cannot fill a mask, or not learn from the recordings, are left out. The seed of ``fam`` is
+    fixed, so that nothing is random.
 
     Parameters
     ----------

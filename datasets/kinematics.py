@@ -53,10 +53,10 @@ def joint_positions(skeleton: Skeleton, *recordings: Recording) -> FrameByJointB
     ends = {root.name: translation}
     rotations = {root.name: _rotation(root, curves)}
     for segment in segments:
-        rotation = rotations[segment.parent] @ _rotation(segment, curves)
+        rotation = rotations[segment.parent] * _rotation(segment, curves)
         bone = segment.length * np.asarray(segment.direction)
         rotations[segment.name] = rotation
-        ends[segment.name] = ends[segment.parent] + rotation @ bone
+        ends[segment.name] = ends[segment.parent] + rotation.apply(bone)
     return np.stack(list(ends.values()), axis=1) * skeleton.centimetres_per_unit
 
 
@@ -114,13 +114,17 @@ def _curves(names: Sequence[str], recording: Recording) -> FrameByChannel:
     return curves
 
 
-def _rotation(segment: Segment, curves: dict[str, Frames]) -> NDArray[np.float64]:
-    """Return C M C⁻¹ at every frame: (N, 3, 3)."""
+def _rotation(segment: Segment, curves: dict[str, Frames]) -> Rotation:
+    """Return C M C⁻¹ at every frame.
+
+    Matrices would multiply faster, but by BLAS, whose last bits depend on the machine: generated
+    recordings are the same on all.
+    """
     rest = np.zeros_like(curves["root.tx"])
     angles = np.column_stack(
         [curves.get(f"{segment.name}.r{axis.lower()}", rest) for axis in segment.order]
     )
     # Lower case: about fixed axes, in the order of their names, as in the Acclaim format.
-    moved = Rotation.from_euler(segment.order.lower(), angles, degrees=True).as_matrix()
-    axis = Rotation.from_euler("xyz", segment.axis, degrees=True).as_matrix()
-    return np.asarray(axis @ moved @ axis.T)
+    moved = Rotation.from_euler(segment.order.lower(), angles, degrees=True)
+    axis = Rotation.from_euler("xyz", segment.axis, degrees=True)
+    return axis * moved * axis.inv()

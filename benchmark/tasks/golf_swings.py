@@ -97,7 +97,7 @@ golf_swings = Task(
         "smoke": Profile(
             ("synthetic",),
             folds=1,
-            budget={"max_iter": 2, "fill_iter": 10},
+            budget={"max_iter": 2, "fill_iter": 10, "n_restarts": 1},
             opt_in=(*SLOW, "best-of"),
         ),
         "quick": Profile(

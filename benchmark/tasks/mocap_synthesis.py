@@ -44,7 +44,10 @@ _OTHERS = (
     *_WITH_RBF,
 )
 _SECOND_KERNEL = tuple(entrant.label for entrant in _WITH_RBF)
-_NOT_SMOKE = ("gpdm", "hgp", "gp-independent", "cyclic-alignment")
+_NOT_SMOKE = (
+    *("gpdm", "hgp", "gp-independent", "cyclic-alignment"),
+    *("moa-3", "lmc-independent-3"),
+)
 """The smoke profile tries these in one of the tasks of synthesis."""
 
 

@@ -1,5 +1,8 @@
 """The synthetic walker: deterministic, on the database's channels, and walking."""
 
+import os
+import subprocess
+import sys
 from itertools import product
 
 import numpy as np
@@ -139,3 +142,24 @@ def test_a_malformed_key_is_refused():
     for method in (library.where, library.recording, library.motion, library.digest, library.fetch):
         with pytest.raises(ValueError, match="SUBJECT_TRIAL"):
             method("1_1")
+
+
+@pytest.mark.slow
+def test_recordings_do_not_depend_on_the_kernels_of_blas():
+    """They have the name of a version in the place of a digest."""
+    code = "from mocapbench.datasets import open_archive as a;" + (
+        "import hashlib as h; print(*(h.sha256(a().recording(f'gait:{key}').values.tobytes())"
+        f".hexdigest() for key in {KEYS}))"
+    )
+    digests = [
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "OPENBLAS_CORETYPE": kernel},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for kernel in ("Prescott", "Haswell")
+    ]
+    assert len(digests[0].split()) == len(KEYS)
+    assert digests[0] == digests[1]

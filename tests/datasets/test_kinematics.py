@@ -29,6 +29,15 @@ def test_segments_keep_their_length(skeleton, values):
     np.testing.assert_allclose(lengths, np.broadcast_to(expected, lengths.shape))
 
 
+@given(angles, st.integers(1, 3))
+def test_recordings_are_placed_together_as_each_by_itself(skeleton, values, cut):
+    first, second = posed(skeleton, values[:cut]), posed(skeleton, values[cut:])
+    second = second.select(second.channels[:5])
+    together = joint_positions(skeleton, first, second)
+    apart = [joint_positions(skeleton, recording) for recording in (first, second)]
+    np.testing.assert_allclose(together, np.concatenate(apart), rtol=1e-12, atol=1e-9)
+
+
 @given(angles)
 def test_the_root_is_at_its_translation_in_centimetres(skeleton, values):
     joints = joint_positions(skeleton, posed(skeleton, values))

@@ -7,7 +7,7 @@ import time
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from mocapbench.baselines import Model
 from mocapbench.benchmark.problems.arrays import Arrays
@@ -29,11 +29,21 @@ class FitCosts(NamedTuple):
 
 
 class Fitted(NamedTuple):
-    """A fitted model, what its fit cost, and its `Internals` as arrays."""
+    """A fitted model, and what its fit cost."""
 
     model: Model
     costs: FitCosts
-    internals: Arrays
+    internals: Arrays | None = None
+    """Its `Internals`, where they are known."""
+
+    def with_internals(self, problem: Problem[Any]) -> Self:
+        """Return the same with internals; to compute them may change the model's state."""
+        if self.internals is not None:
+            return self
+        with _warnings() as caught:
+            internals = internals_of(self.model, problem.train).to_arrays()
+        costs = self.costs._replace(warnings=(*self.costs.warnings, *_texts(caught)))
+        return self._replace(costs=costs, internals=internals)
 
 
 def build_model(model: type[Model], parameters: Mapping[str, Any], random_state: int) -> Model:
@@ -62,9 +72,7 @@ def train(
         started = time.perf_counter()
         problem.fit(model)
         seconds = time.perf_counter() - started
-        peak_memory_mb = _peak_memory_mb()
-        internals = internals_of(model, problem.train).to_arrays()
-    return Fitted(model, FitCosts(seconds, peak_memory_mb, _texts(caught)), internals)
+    return Fitted(model, FitCosts(seconds, _peak_memory_mb(), _texts(caught)))
 
 
 def solve(problem: Problem[Any], fitted: Fitted, random_state: int) -> Fit:
@@ -78,16 +86,17 @@ def solve(problem: Problem[Any], fitted: Fitted, random_state: int) -> Fit:
     random_state : int
         The seed of what it draws.
     """
-    model, costs, internals = fitted
+    model = fitted.model
     with _warnings() as caught:
         started = time.perf_counter()
         answer = problem.solve(model, random_state)
         seconds = time.perf_counter() - started
+    _, costs, internals = fitted.with_internals(problem)
     iterations, converged = (
         getattr(model, f"{name}_", None) for name in ("n_iterations", "converged")
     )
     return Fit(
-        {**answer.to_arrays(), **internals},
+        {**answer.to_arrays(), **(internals or {})},
         fit_seconds=costs.seconds,
         predict_seconds=seconds,
         peak_memory_mb=max(costs.peak_memory_mb, _peak_memory_mb()),

@@ -52,7 +52,9 @@ class Trained:
             state = pickle.dumps(fitted.model, protocol=pickle.HIGHEST_PROTOCOL)
         except Exception:  # a user's class raises what it likes
             return None
-        return cls(key, state, _digest(problem), fitted.costs, fitted.internals)
+        # After the model has been pickled, so that predictions do not depend on them.
+        _, costs, internals = fitted.with_internals(problem)
+        return cls(key, state, _digest(problem), costs, internals or {})
 
     def suits(self, problem: Problem[Any]) -> bool:
         """Return whether ``problem`` trains on the same recordings."""
