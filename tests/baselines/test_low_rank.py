@@ -74,7 +74,7 @@ def test_complete_frames_have_their_maximum_in_closed_form():
 def test_predictions_are_conditional_gaussians():
     given = scattered("r", 1)
     model = fitted(given, motion("other", 2))
-    (prediction,) = model._by_frame([given])
+    (prediction,) = model.as_claimed([given])
     own_mean, scale = np.nanmean(given.values, axis=0), model.own_means_.scale
     for n in np.flatnonzero(~given.visible.all(axis=1)):
         seen = given.visible[n]
@@ -104,7 +104,7 @@ def test_frames_hidden_as_a_whole_take_the_recordings_own_mean_and_all_the_varia
     gap = np.repeat((np.arange(N_FRAMES) // 10 == 2)[:, None], N_CHANNELS, axis=1)
     given = motion("r", 3).hide(gap)
     model = fitted(given, motion("other", 2, offset=30.0))
-    (prediction,) = model._by_frame([given])
+    (prediction,) = model.as_claimed([given])
     own_mean = np.nanmean(given.values, axis=0)
     np.testing.assert_allclose(prediction.mean[20:30], np.tile(own_mean, (10, 1)), atol=1e-12)
     variance = np.diag(covariance(model)) * model.own_means_.scale**2
