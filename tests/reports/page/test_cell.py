@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from playwright.sync_api import expect
 
 from mocapbench.reports import Origin, render
 from mocapbench.reports.text import cell_anchor
@@ -18,8 +19,9 @@ def page(bundle):
     return render(replace(bundle, origins={(TASK, CASE, LABEL): origin}))
 
 
-def title(tab):
-    return tab.locator("#cell-title").inner_text()
+def expect_title(tab, title):
+    """The dialog opens, or changes, after the address has."""
+    expect(tab.locator("#cell-title")).to_have_text(title)
 
 
 def is_open(tab):
@@ -29,7 +31,7 @@ def is_open(tab):
 @pytest.mark.parametrize("width", [390, 1280])
 def test_an_address_opens_its_cell(visit, bundle, width):
     tab = visit(width=width, fragment=ANCHOR)
-    assert title(tab) == f"{LABEL} · {CASE}"
+    expect_title(tab, f"{LABEL} · {CASE}")
     scores = bundle.scores
     here = scores[(scores["task"] == TASK) & (scores["case"] == CASE) & (scores["label"] == LABEL)]
     shown = tab.locator("[data-cell=folds] tr td:nth-child(4)").all_inner_texts()
@@ -50,7 +52,7 @@ def test_every_score_opens_its_own_cell(visit, bundle):
     assert set(links) <= {f"#{cell_anchor(*names)}" for names in (*known, *of_means)}
     assert len(set(links)) > 100
     tab.locator("#toy-interpolation-1-mse tr[data-model=moa-3] a[href^='#cell=']").nth(2).click()
-    assert title(tab) == "moa-3 · test 2"
+    expect_title(tab, "moa-3 · test 2")
 
 
 @pytest.mark.parametrize("table", ["#scoreboard", "#toy-interpolation-1-mse"])
@@ -60,11 +62,11 @@ def test_a_mean_opens_the_first_case_of_its_model_and_leads_to_the_others(
     tab = visit()
     mean = f"{table} a[href='#{cell_anchor(TASK, '', LABEL)}']"
     tab.locator(mean).click()
-    assert title(tab) == f"{LABEL} · {CASE}"
+    expect_title(tab, f"{LABEL} · {CASE}")
     cases = tab.get_by_role("navigation", name="Cases of this model").get_by_role("link")
     assert cases.all_inner_texts() == [case.name for case in bundle.layouts[0].cases]
     cases.nth(3).click()
-    assert title(tab) == f"{LABEL} · test 4"
+    expect_title(tab, f"{LABEL} · test 4")
     assert cases.nth(3).get_attribute("aria-current") == "true"
     tab.keyboard.press("Escape")
     until(tab, "!document.getElementById('cell').open")
@@ -107,7 +109,7 @@ def test_closing_a_page_that_began_with_a_cell_leaves_no_address(visit):
 )
 def test_an_unknown_cell_is_told(visit, fragment):
     tab = visit(fragment=fragment)
-    assert title(tab) == "No such cell"
+    expect_title(tab, "No such cell")
     assert not tab.locator("[data-cell=command]").is_visible()
     assert tab.complaints == []
 
