@@ -3,10 +3,11 @@
 from dataclasses import replace
 
 import pytest
-from playwright.sync_api import expect
 
 from mocapbench.reports import Origin, render
 from mocapbench.reports.text import cell_anchor
+
+expect = pytest.importorskip("playwright.sync_api", reason="playwright is not installed").expect
 
 TASK, CASE, LABEL = "toy-interpolation-1", "test 1", "mohgp-3"
 ANCHOR = f"#{cell_anchor(TASK, CASE, LABEL)}"
