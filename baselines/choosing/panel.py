@@ -11,7 +11,7 @@ from typing import Self
 
 from mocapbench.baselines.aligned_window import AlignedWindow
 from mocapbench.baselines.channel_kriging import ChannelKriging
-from mocapbench.baselines.common.widening import Widened
+from mocapbench.baselines.common.widening import Impute, Widened
 from mocapbench.baselines.fam import FAM
 from mocapbench.baselines.interpolation import (
     CubicSplineImputer,
@@ -28,8 +28,6 @@ from mocapbench.baselines.protocols import FrameImputer, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["CANDIDATES", "LAST_RESORT", "Panel"]
-
-Fill = Callable[[Sequence[Recording]], list[Prediction]]
 
 LAST_RESORT = "pchip"
 """What fills where no rehearsal has room: it never overshoots."""
@@ -78,7 +76,7 @@ class Panel:
         return {name: prediction.mean for name, prediction in filled.items()}
 
     def _filled(
-        self, recording: Recording, how: Callable[[FrameImputer], Fill]
+        self, recording: Recording, how: Callable[[FrameImputer], Impute]
     ) -> dict[str, Prediction]:
         predictions = {}
         for name, model in self.models.items():
@@ -87,5 +85,5 @@ class Panel:
         return predictions
 
 
-def _without_trials(model: FrameImputer) -> Fill:
+def _without_trials(model: FrameImputer) -> Impute:
     return model.as_claimed if isinstance(model, Widened) else model.impute

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,7 +44,7 @@ class Rehearsals:
     panel: Panel
     given: Recording
 
-    @property
+    @cached_property
     def trials(self) -> list[Mask]:
         """What each rehearsal in the recording itself hides."""
         return trial_masks(self.given)
@@ -105,7 +106,7 @@ class Rehearsals:
             for name, mean in panel.means(given.hide(mask)).items()
         }
 
-    @property
+    @cached_property
     def scale(self) -> Array:
         """(D,) the mean spread of the channels of each channel's unit: units count alike."""
         stacked = np.concatenate([recording.values for recording in (*self.fitted, self.given)])

@@ -18,7 +18,7 @@ from mocapbench.baselines.common.trials import trial_masks
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["Widened", "widened"]
+__all__ = ["Impute", "Widened", "widened"]
 
 Array = NDArray[np.float64]
 Impute = Callable[[Sequence[Recording]], list[Prediction]]
