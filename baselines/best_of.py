@@ -10,7 +10,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
 from mocapbench.baselines.choosing.rehearsals import Errors, Rehearsals
-from mocapbench.baselines.choosing.weights import expected_errors, weights_of
+from mocapbench.baselines.choosing.weights import evidence, expected_errors, weights_of
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
@@ -29,10 +29,11 @@ class BestOf(Imputer, Inductive):
     the one to fill, in turn and left out of training: by what a candidate's error grows there from
     the copies to the gaps, its error is multiplied.
 
-    The weights are :math:`w_i \propto E_i^{-p}` with the root mean squared error :math:`E_i` to
-    expect and the ``power`` p. The prediction is the mixture of the candidates' distributions: its
-    variance includes how far they lie apart. The variance of a candidate that has none is
-    :math:`E_i^2`. Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``,
+    The weights are :math:`w_i \propto \prod_s E_{is}^{-p}` with the root mean squared error
+    :math:`E_{is}` to expect by each of these two sources of evidence and the ``power`` p. The
+    prediction is the mixture of the candidates' distributions: its variance includes how far they
+    lie apart. The variance of a candidate that has none is :math:`\prod_s E_{is}^{2/S}`, with S
+    sources. Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``,
     ``pca-regression``, ``nn``, ``aligned-window``, ``pose-kriging`` and ``channel-kriging``; those
     that cannot fill a mask, or not learn from the recordings, are left out. The seed of ``fam`` is
     fixed, so that nothing is random.
@@ -106,7 +107,7 @@ class BestOf(Imputer, Inductive):
             If channels differ.
         """
         checked = self._checked(recordings)
-        return [weights_of(self._errors(recording), self.power) for recording in checked]
+        return [weights_of(self._evidence(recording), self.power) for recording in checked]
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the weighted mean of the candidates, and the variance of their mixture.
@@ -127,15 +128,16 @@ class BestOf(Imputer, Inductive):
     def _rehearsals(self, recording: Recording) -> Rehearsals:
         return Rehearsals(self.recordings_, self.panel_, recording)
 
-    def _errors(self, recording: Recording) -> Errors:
-        return expected_errors(self._rehearsals(recording))
+    def _evidence(self, recording: Recording) -> Sequence[Errors]:
+        return evidence(self._rehearsals(recording))
 
     def _mixture(self, recording: Recording) -> Prediction:
-        errors, scale = self._errors(recording), self._rehearsals(recording).scale
         answers = self.panel_.impute(recording)
         if LAST_RESORT not in answers:  # it says what nothing can fill
             return self.panel_.models[LAST_RESORT].impute([recording])[0]
-        weights = weights_of({n: e for n, e in errors.items() if n in answers}, self.power)
+        scale = self._rehearsals(recording).scale
+        sources = [{n: e for n, e in s.items() if n in answers} for s in self._evidence(recording)]
+        errors, weights = expected_errors(sources), weights_of(sources, self.power)
         means = {name: answers[name].mean for name in weights}
         mean = np.sum([weights[name] * means[name] for name in weights], axis=0)
         variance = np.zeros_like(mean)

@@ -87,7 +87,9 @@ class Rehearsals:
         return [self._in_place_of_given(panel, recording) for recording in recordings]
 
     def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Errors, Errors]:
-        gaps, *trials = _aligned(recording, [~self.given.visible, *self.trials[1:2]])
+        middle = len(self.trials) // 2
+        masks = [~self.given.visible, *self.trials[middle : middle + 1]]
+        gaps, *trials = _aligned(recording, masks)
         cut, hidden = gaps
         full = self._errors(panel, cut, hidden)
         short = [self._errors(panel, cut.hide(hidden), mask, cut) for _, mask in trials]

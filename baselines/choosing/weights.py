@@ -9,30 +9,31 @@ import numpy as np
 from mocapbench.baselines.choosing.panel import LAST_RESORT
 from mocapbench.baselines.choosing.rehearsals import Errors, Rehearsals
 
-__all__ = ["expected_errors", "weights_of"]
+__all__ = ["evidence", "expected_errors", "weights_of"]
 
 _LEAST = 1e-12
 """Least squared error, in units of the channels' scales."""
 
 
-def expected_errors(rehearsals: Rehearsals) -> Errors:
-    """Return the squared error to expect of each model in the gaps.
+def evidence(rehearsals: Rehearsals) -> Sequence[Errors]:
+    """Return the squared error to expect of each model in the gaps, by each source there is.
 
-    It is the geometric mean of the errors in the recording itself and in training recordings that
-    take its place: the first knows the person, the second knows such gaps in such motions. Where
-    copies of the gaps in the recording had to be shorter, the first is multiplied by how much
-    larger the model's error is in training with the gaps than with such copies. Where one of the
-    two is missing the other counts alone; without a gap there is no error to expect.
+    The sources are copies of the gaps in the recording itself, which knows the person, and training
+    recordings that take its place, which know such gaps in such motions. Where copies had to be
+    shorter than the gaps, the first is multiplied by how much larger the model's error is in
+    training with the gaps than with such copies; where that is not known, training counts alone.
+    Without a gap there is no source.
     """
     if rehearsals.given.visible.all():
-        return {}
+        return []
     own, in_training = _means(rehearsals.own()), rehearsals.in_training()
     gaps = _means(with_gaps for with_gaps, _ in in_training)
     copies = _means(with_copies for _, with_copies in in_training) if rehearsals.are_short else gaps
-    if not own or not gaps:
-        return own or gaps
     both = [name for name in own if name in gaps and name in copies]
-    return {name: gaps[name] * float(np.sqrt(own[name] / copies[name])) for name in both} or own
+    if not both:
+        return [alone for alone in [gaps or own] if alone]
+    grown = {name: own[name] * gaps[name] / copies[name] for name in both}
+    return [grown, {name: gaps[name] for name in both}]
 
 
 def _means(errors: Iterable[Errors]) -> Errors:
@@ -42,13 +43,23 @@ def _means(errors: Iterable[Errors]) -> Errors:
     return {name: _LEAST + float(np.mean([found[name] for found in every])) for name in names}
 
 
-def weights_of(errors: Errors, power: float) -> Mapping[str, float]:
-    """Return the weights of models, which sum to one: ∝ error^(−power) of the root error.
+def expected_errors(sources: Sequence[Errors]) -> Errors:
+    """Return the geometric mean over the sources of the error to expect of each model."""
+    names = sources[0] if sources else ()
+    return {
+        name: float(np.exp(np.mean([np.log(errors[name]) for errors in sources]))) for name in names
+    }
 
-    Without any error the last resort has all the weight.
+
+def weights_of(sources: Sequence[Errors], power: float) -> Mapping[str, float]:
+    """Return the weights of models, which sum to one: ∝ error^(−power) of the root errors.
+
+    The factors of the sources are multiplied, so that two of them decide more than one. Without any
+    source the last resort has all the weight.
     """
+    errors = expected_errors(sources)
     if not errors:
         return {LAST_RESORT: 1.0}
-    least = min(errors.values())
-    raw = {name: (least / error) ** (0.5 * power) for name, error in errors.items()}
+    least, exponent = min(errors.values()), 0.5 * power * len(sources)
+    raw = {name: (least / error) ** exponent for name, error in errors.items()}
     return {name: weight / sum(raw.values()) for name, weight in raw.items()}

@@ -2,7 +2,9 @@
 
 A trial hides copies of the gaps elsewhere: of the same lengths, in the same channels. The real gaps
 stay hidden. Places are spread evenly over the visible frames and draw no random numbers, so that a
-recording has the same trials wherever it is filled.
+recording has the same trials wherever it is filled. A gap that reaches an end of the recording has
+visible frames on one side only, and so have its copies: they hide the first frames that are
+visible, or the last ones.
 """
 
 from __future__ import annotations
@@ -30,8 +32,8 @@ _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 def trial_masks(recording: Recording) -> list[Mask]:
     """Return what each trial hides besides the gaps: masks (N, D), True where visible entries go.
 
-    There are fewer than `N_TRIALS` where gaps are too many or too long to have a copy, and none
-    without a gap.
+    There are fewer than `N_TRIALS` where gaps are too many or too long to have a copy, or where
+    trials would be alike, and none without a gap.
     """
     hidden = ~recording.visible
     masks = [np.zeros_like(hidden) for _ in range(N_TRIALS)]
@@ -39,30 +41,50 @@ def trial_masks(recording: Recording) -> list[Mask]:
         for number, mask in enumerate(masks):
             for frames in _copies(hidden[:, columns[0]], (number + 0.5) / N_TRIALS):
                 mask[np.ix_(frames, columns)] = True
-    return [mask for mask in masks if mask.any()]
+    unlike = {mask.tobytes(): mask for mask in masks}
+    return [mask for mask in unlike.values() if mask.any()]
 
 
 def _copies(hidden: NDArray[np.bool_], place: float) -> Iterator[NDArray[np.intp]]:
     """Yield the frames of copies of a channel's gaps, the first at ``place`` (0 to 1)."""
     blocked, room = hidden.copy(), _MOST_HIDDEN * np.count_nonzero(~hidden)
     taken = 0
-    for length in sorted(map(len, runs(hidden)), reverse=True):
-        if taken and taken + length > room:
+    for gap in sorted(runs(hidden), key=len, reverse=True):
+        if taken and taken + len(gap) > room:
             continue
-        frames = _placed(blocked, length, place % 1.0)
+        frames = _placed(blocked, gap, place % 1.0)
         if len(frames):
-            blocked[frames[0] - 1 : frames[-1] + 2] = True
+            blocked[max(frames[0] - 1, 0) : frames[-1] + 2] = True
             taken, place = taken + len(frames), place + _GOLDEN
             yield frames
 
 
-def _placed(blocked: NDArray[np.bool_], length: int, place: float) -> NDArray[np.intp]:
-    """Return a stretch of free frames with a free one on both sides; shorter if need be."""
-    counts = np.concatenate([[0], np.cumsum(blocked)])
+def _placed(blocked: NDArray[np.bool_], gap: NDArray[np.intp], place: float) -> NDArray[np.intp]:
+    """Return the frames of a copy at one of the places it may have; shorter if need be."""
+    at_an_end = gap[0] == 0 or gap[-1] == len(blocked) - 1
+    starts_of = _outer_starts if at_an_end else _inner_starts
     for share in _SHARES:
-        n_hidden = max(round(share * length), 1)
-        starts = np.arange(1, len(blocked) - n_hidden)
-        free = starts[counts[starts + n_hidden + 1] == counts[starts - 1]]
-        if len(free) and 2 * n_hidden <= np.count_nonzero(~blocked):
-            return np.asarray(free[int(place * len(free))] + np.arange(n_hidden))
+        n_hidden = max(round(share * len(gap)), 1)
+        starts = starts_of(blocked, n_hidden)
+        if len(starts) and 2 * n_hidden <= np.count_nonzero(~blocked):
+            return np.asarray(starts[int(place * len(starts))] + np.arange(n_hidden))
     return np.empty(0, dtype=np.intp)
+
+
+def _inner_starts(blocked: NDArray[np.bool_], length: int) -> NDArray[np.intp]:
+    """Return where stretches of free frames begin that have a free one on both sides."""
+    counts = np.concatenate([[0], np.cumsum(blocked)])
+    starts = np.arange(1, len(blocked) - length)
+    return np.asarray(starts[counts[starts + length + 1] == counts[starts - 1]])
+
+
+def _outer_starts(blocked: NDArray[np.bool_], length: int) -> NDArray[np.intp]:
+    """Return where the first and the last free frames begin that have a free one on one side."""
+    free = np.flatnonzero(~blocked)
+    first, last = free[: length + 1], free[-(length + 1) :]
+    starts = [run[side] for side, run in enumerate((first, last)) if _unbroken(run, length + 1)]
+    return np.array(starts, dtype=np.intp)
+
+
+def _unbroken(frames: NDArray[np.intp], length: int) -> bool:
+    return len(frames) == length and int(np.ptp(frames)) == length - 1

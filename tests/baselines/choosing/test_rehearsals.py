@@ -68,6 +68,14 @@ def test_training_recordings_take_the_place_of_the_one_to_fill(n_frames):
         assert set(with_gaps) == set(with_copies) >= {"linear", "lds", "pose-kriging"}
 
 
+def test_a_copy_that_fits_in_one_place_only_is_compared_with_the_gap_in_training():
+    fitted = [walk("one"), walk("two", phase=1.0)]
+    rehearsals = Rehearsals(fitted, Panel.of(fitted), gap(walk("new"), 8, 56))
+    assert len(rehearsals.trials) == 1
+    assert rehearsals.are_short
+    assert all(with_copies for _, with_copies in rehearsals.in_training())
+
+
 def test_one_training_recording_cannot_be_left_out():
     fitted = [walk("one")]
     assert Rehearsals(fitted, Panel.of(fitted), gap(walk("new"), 20, 40)).in_training() == []

@@ -40,15 +40,30 @@ def test_a_trial_hides_visible_entries_of_the_channels_with_gaps_and_leaves_most
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10_000))
-def test_no_copy_is_longer_than_the_longest_gap_or_touches_a_real_one(seed):
+def test_no_copy_is_longer_than_the_longest_gap_or_touches_one_between_visible_frames(seed):
     given = with_gaps(seed)
     hidden = ~given.visible
     for mask in trial_masks(given):
         for d in range(4):
-            lengths = [len(run) for run in runs(mask[:, d])]
-            assert max(lengths, default=0) <= max(map(len, runs(hidden[:, d])), default=0)
-            assert not (mask[1:, d] & hidden[:-1, d]).any()
-            assert not (mask[:-1, d] & hidden[1:, d]).any()
+            gaps, copies = runs(hidden[:, d]), runs(mask[:, d])
+            assert max(map(len, copies), default=0) <= max(map(len, gaps), default=0)
+            for gap in gaps:
+                if gap[0] > 0 and gap[-1] < len(hidden) - 1:
+                    assert not mask[[gap[0] - 1, gap[-1] + 1], d].any()
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(1, 45), st.booleans())
+def test_copies_of_a_gap_that_reaches_an_end_have_visible_frames_on_one_side_only(length, at_start):
+    hidden = np.zeros((60, 2), dtype=bool)
+    hidden[slice(0, length) if at_start else slice(60 - length, 60)] = True
+    masks = trial_masks(recording(hidden))
+    assert len(masks) == 2
+    for mask in masks:
+        visible = np.flatnonzero(~(hidden | mask)[:, 0])
+        (copy,) = runs(mask[:, 0])
+        assert copy[-1] < visible[0] or visible[-1] < copy[0]
+        assert len(copy) == length or 4 * len(copy) > 60 - length
 
 
 def test_frames_hidden_as_a_whole_have_whole_frames_as_copies():
