@@ -9,7 +9,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
-from mocapbench.baselines.choosing.rehearsals import Errors, Rehearsals
+from mocapbench.baselines.choosing.rehearsals import Rehearsals
 from mocapbench.baselines.choosing.weights import evidence, expected_errors, weights_of
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import check_positive
@@ -107,7 +107,8 @@ class BestOf(Imputer, Inductive):
             If channels differ.
         """
         checked = self._checked(recordings)
-        return [weights_of(self._evidence(recording), self.power) for recording in checked]
+        sources = [evidence(self._rehearsals(recording)) for recording in checked]
+        return [weights_of(found, self.power) for found in sources]
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the weighted mean of the candidates, and the variance of their mixture.
@@ -128,22 +129,19 @@ class BestOf(Imputer, Inductive):
     def _rehearsals(self, recording: Recording) -> Rehearsals:
         return Rehearsals(self.recordings_, self.panel_, recording)
 
-    def _evidence(self, recording: Recording) -> Sequence[Errors]:
-        return evidence(self._rehearsals(recording))
-
     def _mixture(self, recording: Recording) -> Prediction:
         answers = self.panel_.impute(recording)
         if LAST_RESORT not in answers:  # it says what nothing can fill
             return self.panel_.models[LAST_RESORT].impute([recording])[0]
-        scale = self._rehearsals(recording).scale
-        sources = [{n: e for n, e in s.items() if n in answers} for s in self._evidence(recording)]
+        rehearsals = self._rehearsals(recording)
+        sources = [{n: e for n, e in s.items() if n in answers} for s in evidence(rehearsals)]
         errors, weights = expected_errors(sources), weights_of(sources, self.power)
         means = {name: answers[name].mean for name in weights}
         mean = np.sum([weights[name] * means[name] for name in weights], axis=0)
         variance = np.zeros_like(mean)
         for name, weight in weights.items():
             claimed = answers[name].variance
-            expected = errors.get(name, 1.0) * scale**2
+            expected = errors.get(name, 1.0) * rehearsals.scale**2
             own = np.broadcast_to(expected, mean.shape) if claimed is None else claimed
             variance += weight * (own + (means[name] - mean) ** 2)
         return Prediction.around(recording, mean, variance)
