@@ -7,11 +7,11 @@ parent's end plus ``length * direction`` so turned (Acclaim ASF/AMC specificatio
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from mocapbench.datasets.acclaim.skeleton import Segment, Skeleton
 from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
@@ -20,6 +20,10 @@ __all__ = ["FrameByJointBy3", "joint_positions", "joint_trajectories", "position
 
 FrameByJointBy3 = NDArray[np.float64]
 """(N, J, 3) centimetres."""
+Rotations = NDArray[np.float64]
+"""(3, 3, N) matrices, the frames last, so that products of all of them are fast."""
+
+_REST = np.zeros(1)
 
 
 def joint_positions(skeleton: Skeleton, *recordings: Recording) -> FrameByJointBy3:
@@ -49,15 +53,14 @@ def joint_positions(skeleton: Skeleton, *recordings: Recording) -> FrameByJointB
     stacked = np.concatenate([_curves(names, recording) for recording in recordings])
     curves = dict(zip(names, stacked.T, strict=True))
     root, *segments = skeleton.segments
-    translation = np.column_stack([curves[f"{root.name}.{dof}"] for dof in ("tx", "ty", "tz")])
-    ends = {root.name: translation}
+    ends = {root.name: np.stack([curves[f"{root.name}.{dof}"] for dof in ("tx", "ty", "tz")])}
     rotations = {root.name: _rotation(root, curves)}
     for segment in segments:
-        rotation = rotations[segment.parent] * _rotation(segment, curves)
+        rotation = _then(_rotation(segment, curves), rotations[segment.parent])
         bone = segment.length * np.asarray(segment.direction)
         rotations[segment.name] = rotation
-        ends[segment.name] = ends[segment.parent] + rotation.apply(bone)
-    return np.stack(list(ends.values()), axis=1) * skeleton.centimetres_per_unit
+        ends[segment.name] = ends[segment.parent] + np.einsum("ijn,j->in", rotation, bone)
+    return np.stack(list(ends.values())).transpose(2, 0, 1) * skeleton.centimetres_per_unit
 
 
 def position_channels(skeleton: Skeleton) -> tuple[str, ...]:
@@ -114,17 +117,29 @@ def _curves(names: Sequence[str], recording: Recording) -> FrameByChannel:
     return curves
 
 
-def _rotation(segment: Segment, curves: dict[str, Frames]) -> Rotation:
-    """Return C M C⁻¹ at every frame.
+def _rotation(segment: Segment, curves: Mapping[str, Frames]) -> Rotations:
+    """Return C M C⁻¹ at every frame; at one frame if the segment stays at rest."""
+    angles = [curves.get(f"{segment.name}.r{axis.lower()}", _REST) for axis in segment.order]
+    moved = reduce(_then, map(_about, segment.order, angles))
+    axis = reduce(_then, map(_about, "XYZ", np.reshape(segment.axis, (3, 1))))
+    return _then(_then(axis.transpose(1, 0, 2), moved), axis)
 
-    Matrices would multiply faster, but by BLAS, whose last bits depend on the machine: generated
-    recordings are the same on all.
+
+def _about(axis: str, degrees: Frames) -> Rotations:
+    """Return the rotations about a fixed axis."""
+    radians, about = np.deg2rad(degrees), "XYZ".index(axis)
+    first, second = (about + 1) % 3, (about + 2) % 3
+    rotations = np.zeros((3, 3, len(radians)))
+    rotations[about, about] = 1.0
+    rotations[first, first] = rotations[second, second] = np.cos(radians)
+    rotations[second, first] = np.sin(radians)
+    rotations[first, second] = -rotations[second, first]
+    return rotations
+
+
+def _then(first: Rotations, second: Rotations) -> Rotations:
+    """Return the rotations that turn by ``first``, and then by ``second``, about fixed axes.
+
+    Without BLAS, whose last bits depend on the machine: generated recordings follow from them.
     """
-    rest = np.zeros_like(curves["root.tx"])
-    angles = np.column_stack(
-        [curves.get(f"{segment.name}.r{axis.lower()}", rest) for axis in segment.order]
-    )
-    # Lower case: about fixed axes, in the order of their names, as in the Acclaim format.
-    moved = Rotation.from_euler(segment.order.lower(), angles, degrees=True)
-    axis = Rotation.from_euler("xyz", segment.axis, degrees=True)
-    return axis * moved * axis.inv()
+    return np.asarray(np.einsum("ijn,jkn->ikn", second, first))

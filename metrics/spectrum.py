@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 
 import numpy as np
@@ -87,13 +88,13 @@ def imputed_spectrum(outcome: Imputation) -> Score:
     >>> round(npss(outcome).value, 6)
     2.0
     """
-    pairs = [
-        (outcome.truth[run], outcome.mean[run])
-        for run in _runs(hidden_entries(outcome), outcome.poses.starts)
+    runs = _runs(hidden_entries(outcome), outcome.poses.starts)
+    pairs = [(outcome.truth[run], outcome.mean[run]) for run in runs]
+    distances = [
+        np.abs(_cumulative(mean) - _cumulative(truth)).sum(axis=0) for truth, mean in pairs
     ]
-    distances = [np.abs(_cumulative(mean) - _cumulative(truth)).sum() for truth, mean in pairs]
-    powers = [_power(truth).sum() for truth, _ in pairs]
-    return Score(_weighted_mean(np.array(distances), np.array(powers)))
+    powers = [_power(truth) for truth, _ in pairs]
+    return Score(_weighted_mean(np.concatenate([[], *distances]), np.concatenate([[], *powers])))
 
 
 def sampled_spectrum(outcome: Synthesis) -> Score:
@@ -157,15 +158,18 @@ def sampled_spectrum(outcome: Synthesis) -> Score:
     return Score(float(by_sample.mean()), {"sample": by_sample})
 
 
-def _runs(hidden: NDArray[np.bool_], starts: tuple[int, ...]) -> Iterator[tuple[slice, slice]]:
-    """Yield the frames and the output of every run of hidden entries that is long enough."""
+def _runs(hidden: NDArray[np.bool_], starts: tuple[int, ...]) -> Iterator[tuple[slice, list[int]]]:
+    """Yield the frames of the runs of hidden entries that are long enough, with their outputs."""
     for start, stop in zip(starts, (*starts[1:], len(hidden)), strict=True):
         padded = np.pad(hidden[start:stop].astype(np.int8), ((1, 1), (0, 0)))
         steps = np.diff(padded, axis=0).T
         begins, ends = np.argwhere(steps == 1), np.argwhere(steps == -1)
+        outputs: dict[tuple[int, int], list[int]] = defaultdict(list)
         for (output, begin), (_, end) in zip(begins.tolist(), ends.tolist(), strict=True):
+            outputs[begin, end].append(output)
+        for (begin, end), those in outputs.items():
             if end - begin >= SHORTEST:
-                yield slice(start + begin, start + end), slice(output, output + 1)
+                yield slice(start + begin, start + end), those
 
 
 def _power(values: Array) -> Array:

@@ -180,7 +180,8 @@ class ConditionedProcess:
         mean, covariance, pull = self.moments(inputs)
         rows = np.flatnonzero(visible)
         inverse, log_determinant = invert(covariance)
-        inverse_visible, _ = invert(covariance[np.ix_(rows, rows)])
+        some = len(rows) < len(visible)
+        inverse_visible = invert(covariance[np.ix_(rows, rows)])[0] if some else inverse
         residual = (targets - mean)[rows]
         dual = np.zeros_like(mean)
         dual[rows] = inverse_visible @ residual

@@ -99,6 +99,8 @@ def run(
     What the run directory holds already is not computed again, so that the same command resumes.
     """
     require_log(log_json, out)
+    if not (dry_run or scheduler or cluster):
+        bench.load_libraries_ahead()
     console, plugins = LiteralConsole(), load_plugins(plugin)
     task_files = bench.open_task_files(task_file or (), recordings)
     own = bench.add_tasks(task_files)

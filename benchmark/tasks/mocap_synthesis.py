@@ -121,7 +121,7 @@ def _profiles(
         "smoke": Profile(
             ("synthetic",),
             folds=1,
-            budget={"max_iter": 5, "n_restarts": 1},
+            budget={"max_iter": 2, "n_restarts": 1},
             opt_in=(*slow_in_smoke, *_SECOND_KERNEL),
         ),
         "quick": Profile(

@@ -37,7 +37,7 @@ N_POINTS = 50
 RBF = {"kernel": "rbf"}
 THREE = {"n_components": 3, **RBF}
 
-SMOKE_BUDGET = {"max_iter": 25, "n_restarts": 1}
+SMOKE_BUDGET = {"max_iter": 5, "n_restarts": 1}
 
 
 @dataclass(frozen=True, kw_only=True)

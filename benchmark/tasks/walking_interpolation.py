@@ -79,8 +79,11 @@ walking_interpolation = Task(
         "smoke": Profile(
             ("synthetic observed 40",),
             folds=1,
-            budget={"max_iter": 5, "n_restarts": 1},
-            opt_in=("mohgp-1+5", "mohgp-1+5-registered", "mohgp-1", "hgp", "best-of"),
+            budget={"max_iter": 2, "n_restarts": 1},
+            opt_in=(
+                *("mohgp-1+5", "mohgp-1+5-registered", "mohgp-1", "hgp", "best-of"),
+                *("cyclic-alignment", "channel-kriging"),
+            ),
         ),
         "quick": Profile(
             ("observed 40", "synthetic observed 40"),

@@ -63,6 +63,31 @@ def test_turning_the_root_turns_the_body_rigidly(skeleton, values):
     )
 
 
+def chained(skeleton, recording):
+    """Return the positions, with every segment turned by C M C⁻¹ as scipy composes rotations."""
+    curves = dict(zip(recording.channels, recording.values.T, strict=True))
+    rest = np.zeros(len(recording.times))
+    ends, turned = [], []
+    for segment, parent in zip(skeleton.segments, skeleton.parents, strict=True):
+        by_axis = [curves.get(f"{segment.name}.r{axis.lower()}", rest) for axis in segment.order]
+        moved = Rotation.from_euler(segment.order.lower(), np.transpose(by_axis), degrees=True)
+        axis = Rotation.from_euler("xyz", segment.axis, degrees=True)
+        own = axis * moved * axis.inv()
+        turned.append(turned[parent] * own if parent >= 0 else own)
+        bone = turned[-1].apply(segment.length * np.asarray(segment.direction))
+        root = np.transpose([curves[f"root.t{axis}"] for axis in "xyz"])
+        ends.append(ends[parent] + bone if parent >= 0 else root)
+    return np.stack(ends, axis=1) * skeleton.centimetres_per_unit
+
+
+@given(angles)
+def test_segments_are_turned_as_scipy_composes_rotations(skeleton, values):
+    recording = posed(skeleton, values)
+    np.testing.assert_allclose(
+        joint_positions(skeleton, recording), chained(skeleton, recording), atol=1e-9
+    )
+
+
 def test_at_rest_segments_point_in_their_directions(skeleton):
     joints = joint_positions(skeleton, posed(skeleton, np.zeros((1, 12))))
     expected = [
