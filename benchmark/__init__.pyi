@@ -43,7 +43,7 @@ from .results.solved_problems import solved_problem
 from .runs.directory.plan_file import plan_document, planned_task_files
 from .runs.execution.base import Site
 from .runs.execution.choice import open_site
-from .runs.execution.fork_server import load_libraries_ahead
+from .runs.execution.fork_server import fork_server
 from .runs.execution.this_machine import ThisMachine
 from .runs.job import Job, WorkerConfig
 from .runs.machine import memory_share, n_cores
@@ -127,6 +127,7 @@ __all__ = [
     "explanation_table",
     "fetch_command",
     "forecast_text",
+    "fork_server",
     "format_entry",
     "format_for",
     "full_paths",
@@ -139,7 +140,6 @@ __all__ = [
     "lacking_line",
     "last_drawn",
     "library_entry",
-    "load_libraries_ahead",
     "load_plugin",
     "memory_share",
     "merge",

@@ -100,7 +100,7 @@ def run(
     """
     require_log(log_json, out)
     if not (dry_run or scheduler or cluster):
-        bench.load_libraries_ahead()
+        bench.fork_server()  # which loads the libraries while the run is planned
     console, plugins = LiteralConsole(), load_plugins(plugin)
     task_files = bench.open_task_files(task_file or (), recordings)
     own = bench.add_tasks(task_files)

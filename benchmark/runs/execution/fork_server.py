@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from multiprocessing import forkserver
 from multiprocessing.context import BaseContext
 
-__all__ = ["fork_server", "load_libraries_ahead"]
+__all__ = ["fork_server"]
 
 _PRELOAD = [
     "mocapbench.benchmark.runs.execution.worker",
@@ -14,16 +17,29 @@ _PRELOAD = [
     "scipy.optimize",
     "sklearn.impute",
 ]
+_ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+"""Workers compute with one thread; a pool of threads that never work would slow every fork."""
 
 
 def fork_server() -> BaseContext:
-    """Return the context of processes forked from the server."""
+    """Start the server unless it runs, and return the context of processes forked from it.
+
+    It takes a second or two to load the libraries, while this process goes on.
+    """
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(_PRELOAD)
+    with _environment(_ONE_THREAD):
+        forkserver.ensure_running()
     return context
 
 
-def load_libraries_ahead() -> None:
-    """Start the server, which takes a second or two, while this process goes on."""
-    fork_server()
-    forkserver.ensure_running()
+@contextmanager
+def _environment(variables: dict[str, str]) -> Iterator[None]:
+    """Let processes that start within the context have these environment variables."""
+    before = dict(os.environ)
+    os.environ.update(variables)
+    try:
+        yield
+    finally:
+        os.environ.clear()
+        os.environ.update(before)

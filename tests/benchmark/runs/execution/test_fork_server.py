@@ -1,17 +1,29 @@
-"""The server of workers: it starts ahead of them, and they are its children."""
+"""The server of workers: it starts ahead of them, and computes with one thread."""
 
 import os
 
 import psutil
+from threadpoolctl import threadpool_info
 
 from mocapbench import benchmark as bench
 from mocapbench.benchmark.runs.execution.worker_pool import worker_pool
 
 
 def test_workers_come_from_the_server_that_was_started_ahead():
-    bench.load_libraries_ahead()
+    bench.fork_server()
     servers = {child.pid for child in psutil.Process().children()}
-    bench.load_libraries_ahead()
+    bench.fork_server()
     assert {child.pid for child in psutil.Process().children()} == servers
     with worker_pool(1) as pool:
         assert pool.schedule(os.getppid).result() in servers
+
+
+def test_workers_have_one_thread_and_this_process_keeps_its_environment(monkeypatch):
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
+    with worker_pool(1) as pool:
+        libraries = pool.schedule(threadpool_info).result()
+        asked = pool.schedule(os.getenv, ("OMP_NUM_THREADS",)).result()
+    assert libraries
+    assert {library["num_threads"] for library in libraries} == {1}
+    assert asked == "1"
+    assert os.environ["OPENBLAS_NUM_THREADS"] == "2"
