@@ -158,18 +158,21 @@ def sampled_spectrum(outcome: Synthesis) -> Score:
     return Score(float(by_sample.mean()), {"sample": by_sample})
 
 
-def _runs(hidden: NDArray[np.bool_], starts: tuple[int, ...]) -> Iterator[tuple[slice, list[int]]]:
-    """Yield the frames of the runs of hidden entries that are long enough, with their outputs."""
+def _runs(
+    hidden: NDArray[np.bool_], starts: tuple[int, ...]
+) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """Yield the frames (N, n) and outputs (n,) of all runs of hidden entries of one length N."""
+    runs: dict[int, list[tuple[int, int]]] = defaultdict(list)
     for start, stop in zip(starts, (*starts[1:], len(hidden)), strict=True):
         padded = np.pad(hidden[start:stop].astype(np.int8), ((1, 1), (0, 0)))
         steps = np.diff(padded, axis=0).T
         begins, ends = np.argwhere(steps == 1), np.argwhere(steps == -1)
-        outputs: dict[tuple[int, int], list[int]] = defaultdict(list)
         for (output, begin), (_, end) in zip(begins.tolist(), ends.tolist(), strict=True):
-            outputs[begin, end].append(output)
-        for (begin, end), those in outputs.items():
-            if end - begin >= SHORTEST:
-                yield slice(start + begin, start + end), those
+            runs[end - begin].append((start + begin, output))
+    for length, places in runs.items():
+        if length >= SHORTEST:
+            firsts, outputs = np.transpose(places)
+            yield firsts + np.arange(length)[:, None], outputs
 
 
 def _power(values: Array) -> Array:
