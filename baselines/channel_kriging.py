@@ -143,7 +143,7 @@ class ChannelKriging(Widened, Imputer, Inductive):
             `fit`.
         """
         check_is_fitted(self)
-        return widened(recordings, self.as_claimed)
+        return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.widening import Widened, widened
+from mocapbench.baselines.common.widening import Relearning, widened
 from mocapbench.baselines.functional.basis import Array
 from mocapbench.baselines.functional.components import infer_scores, principal_axes
 from mocapbench.baselines.functional.cycles import Cycles
@@ -28,7 +28,7 @@ from mocapbench.datasets import Recording
 __all__ = ["FAM"]
 
 
-class FAM(Widened, Imputer, Inductive, Aligner):
+class FAM(Relearning, Imputer, Inductive, Aligner):
     r"""A smooth mean cycle, and a few components by which single cycles differ from it.
 
     A recording is folded at the length of cycle with the highest signal-to-noise ratio, and shifted
@@ -62,6 +62,8 @@ class FAM(Widened, Imputer, Inductive, Aligner):
 
     Attributes
     ----------
+    learnt_from_ : tuple of Recording
+        The recordings given to `fit`.
     periods_ : ndarray of shape (K,)
         Length of a cycle of each recording, in seconds.
     offsets_ : ndarray of shape (K,)
@@ -153,7 +155,7 @@ class FAM(Widened, Imputer, Inductive, Aligner):
         check_settings(**self.get_params())
         checked = check_recordings(recordings)
         check_frames(checked)
-        self.channels_ = checked[0].channels
+        self.learnt_from_, self.channels_ = tuple(checked), checked[0].channels
         # Recordings are sorted by name, so that their order does not affect results.
         order = np.argsort([recording.name for recording in checked], kind="stable")
         ordered = [checked[k] for k in order]
@@ -185,7 +187,7 @@ class FAM(Widened, Imputer, Inductive, Aligner):
         ValueError
             If channels differ, or a recording has no frame.
         """
-        return widened(self._checked(recordings), self.as_claimed)
+        return widened(self, self._checked(recordings))
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
         """Return the state of each frame of recordings, which are placed as by `impute`.

@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive
-from mocapbench.baselines.common.widening import Widened, widened
+from mocapbench.baselines.common.widening import Relearning, widened
 from mocapbench.baselines.protocols import (
     Imputer,
     Inductive,
@@ -30,7 +30,7 @@ from mocapbench.datasets import Frames, Recording
 __all__ = ["LDS"]
 
 
-class LDS(Widened, Imputer, Inductive, Synthesiser):
+class LDS(Relearning, Imputer, Inductive, Synthesiser):
     r"""A few hidden states that move linearly over time, and channels linear in them.
 
     .. math:: x_{t+1} = A x_t + w_t, \qquad y_t = C x_t + d + v_t,
@@ -56,6 +56,8 @@ class LDS(Widened, Imputer, Inductive, Synthesiser):
 
     Attributes
     ----------
+    learnt_from_ : tuple of Recording
+        The recordings given to `fit`.
     parameters_ : Parameters
         The learnt parameters, for standardised channels.
     n_states_ : int
@@ -119,6 +121,7 @@ class LDS(Widened, Imputer, Inductive, Synthesiser):
         check_positive("tolerance", self.tolerance)
         # In the order of names, so that the order given does not affect results.
         ordered = sorted(check_recordings(recordings), key=lambda recording: recording.name)
+        self.learnt_from_ = tuple(ordered)
         self.channels_ = ordered[0].channels
         self.scaling_ = Standardisation.of(ordered)
         data = self._observations(ordered)
@@ -144,7 +147,7 @@ class LDS(Widened, Imputer, Inductive, Synthesiser):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
-        return widened(recordings, self.as_claimed)
+        return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

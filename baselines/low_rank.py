@@ -13,7 +13,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.own_means import OwnMeans
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
-from mocapbench.baselines.common.widening import Widened, widened
+from mocapbench.baselines.common.widening import Relearning, widened
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -27,7 +27,7 @@ _LEAST_NOISE = 1e-6
 """Least variance of the noise, in units of the variance within recordings."""
 
 
-class LowRank(Widened, Imputer, Inductive):
+class LowRank(Relearning, Imputer, Inductive):
     r"""Fill hidden channels of a frame along the main directions in which poses vary (PPCA).
 
     A frame is :math:`y = m + S (W x + \varepsilon)` with latent :math:`x \sim N(0, I_q)` and noise
@@ -56,6 +56,8 @@ class LowRank(Widened, Imputer, Inductive):
 
     Attributes
     ----------
+    learnt_from_ : tuple of Recording
+        The recordings given to `fit`.
     channels_ : tuple of D str
         The channels of the recordings given to `fit`.
     own_means_ : OwnMeans
@@ -118,7 +120,7 @@ class LowRank(Widened, Imputer, Inductive):
         check_count("max_iter", self.max_iter, 1)
         check_positive("tolerance", self.tolerance)
         checked = check_recordings(recordings)
-        self.channels_ = checked[0].channels
+        self.learnt_from_, self.channels_ = tuple(checked), checked[0].channels
         self.own_means_ = OwnMeans.of(checked)
         frames = _Frames.of(np.concatenate([self.own_means_.apply(one) for one in checked]))
         self._learn(frames, *_start(frames, self.explained_variance))
@@ -148,7 +150,7 @@ class LowRank(Widened, Imputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
-        return widened(recordings, self.as_claimed)
+        return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

@@ -11,7 +11,7 @@ from typing import Self
 
 from mocapbench.baselines.aligned_window import AlignedWindow
 from mocapbench.baselines.channel_kriging import ChannelKriging
-from mocapbench.baselines.common.widening import Impute, Widened
+from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.fam import FAM
 from mocapbench.baselines.interpolation import (
     CubicSplineImputer,
@@ -28,6 +28,8 @@ from mocapbench.baselines.protocols import FrameImputer, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["CANDIDATES", "LAST_RESORT", "Panel"]
+
+Impute = Callable[[Sequence[Recording]], list[Prediction]]
 
 LAST_RESORT = "pchip"
 """What fills where no rehearsal has room: it never overshoots."""

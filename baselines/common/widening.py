@@ -8,42 +8,69 @@ they are, and no variance becomes smaller.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from abc import abstractmethod
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from sklearn.base import clone
 
 from mocapbench.baselines.common.trials import trial_masks
-from mocapbench.baselines.protocols import Prediction
+from mocapbench.baselines.protocols import Model, Prediction
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["Impute", "Widened", "widened"]
+__all__ = ["Relearning", "Widened", "widened"]
 
 Array = NDArray[np.float64]
-Impute = Callable[[Sequence[Recording]], list[Prediction]]
 
 _PRIOR_ENTRIES = 10
 """Trial entries that count in each channel as having the mean ratio over all channels."""
 
 
-class Widened(ABC):
+class Widened(Model):
     """A model whose variances `widened` checks when it fills recordings."""
 
     @abstractmethod
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
 
+    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
+        """Return what it claims of recordings of which more is hidden."""
+        return self.as_claimed(trials)
 
-def widened(recordings: Sequence[Recording], impute: Impute) -> list[Prediction]:
-    """Return the predictions of recordings with variances that their trials bear out.
+
+class Relearning(Widened):
+    """A model that learns anew for the trials of a recording from which it has learnt.
+
+    Otherwise its parameters would have seen what a trial hides, and it would err less in trials
+    than in gaps.
+    """
+
+    learnt_from_: Sequence[Recording]
+    """The recordings given to ``fit``, which sets them."""
+
+    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
+        """Return what it claims of recordings of which more is hidden, not having seen that."""
+        known = {recording.name for recording in self.learnt_from_}
+        strangers = [trial for trial in trials if trial.name not in known]
+        answers = iter(self.as_claimed(strangers) if strangers else ())
+        return [self._anew(trial) if trial.name in known else next(answers) for trial in trials]
+
+    def _anew(self, trial: Recording) -> Prediction:
+        others = [recording for recording in self.learnt_from_ if recording.name != trial.name]
+        relearnt: Relearning = clone(self)
+        relearnt.fit([*others, trial])
+        return relearnt.as_claimed([trial])[0]
+
+
+def widened(model: Widened, recordings: Sequence[Recording]) -> list[Prediction]:
+    """Return a model's predictions of recordings, with variances that their trials bear out.
 
     Parameters
     ----------
+    model : Widened
+        What it claims of one recording may not depend on the others.
     recordings : sequence of Recording
-    impute : callable
-        From recordings to one prediction each, with a variance. What it predicts of one may not
-        depend on the others.
     """
     masks = [trial_masks(recording) for recording in recordings]
     trials = [
@@ -51,13 +78,11 @@ def widened(recordings: Sequence[Recording], impute: Impute) -> list[Prediction]
         for recording, own in zip(recordings, masks, strict=True)
         for mask in own
     ]
-    predictions = iter(impute([*recordings, *trials]))
-    filled = [next(predictions) for _ in recordings]
-    tried = [[next(predictions) for _ in own] for own in masks]
+    answers = iter(model.as_tried(trials) if trials else ())
     return [
-        _widened(recording, prediction, list(zip(own, answers, strict=True)))
-        for recording, prediction, own, answers in zip(
-            recordings, filled, masks, tried, strict=True
+        _widened(recording, claimed, [(mask, next(answers)) for mask in own])
+        for recording, claimed, own in zip(
+            recordings, model.as_claimed(recordings), masks, strict=True
         )
     ]
 

@@ -126,7 +126,7 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
-        return widened(recordings, self.as_claimed)
+        return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

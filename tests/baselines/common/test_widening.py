@@ -4,7 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines import FAM, LDS, ChannelKriging, LowRank, Prediction
-from mocapbench.baselines.common.widening import widened
+from mocapbench.baselines.common.trials import trial_masks
+from mocapbench.baselines.common.widening import Widened, widened
 from mocapbench.datasets import Recording
 
 
@@ -19,13 +20,17 @@ def noise(name, scales, n_frames=200):
     return full.hide(hidden)
 
 
-def claiming(variance):
-    """Return a model that predicts 0 and claims ``variance``."""
+class Claiming(Widened):
+    """Predicts 0 and claims one variance."""
 
-    def impute(recordings):
-        return [Prediction.around(recording, 0.0, variance) for recording in recordings]
+    def __init__(self, variance=1.0):
+        self.variance = variance
 
-    return impute
+    def fit(self, recordings):
+        return self
+
+    def as_claimed(self, recordings):
+        return [Prediction.around(recording, 0.0, self.variance) for recording in recordings]
 
 
 @pytest.mark.parametrize("model", [LDS, LowRank, ChannelKriging, FAM])
@@ -41,8 +46,8 @@ def test_a_model_claims_the_means_that_it_fills_with(model):
 @given(st.lists(st.floats(0.1, 10.0), min_size=1, max_size=4), st.floats(0.01, 100.0))
 def test_means_stay_and_no_variance_becomes_smaller(scales, variance):
     recording = noise("r", np.array(scales))
-    (before,) = claiming(variance)([recording])
-    (after,) = widened([recording], claiming(variance))
+    (before,) = Claiming(variance).as_claimed([recording])
+    (after,) = widened(Claiming(variance), [recording])
     np.testing.assert_array_equal(after.mean, before.mean)
     assert (after.variance >= before.variance).all()
     assert (after.variance[recording.visible] == 0.0).all()
@@ -50,20 +55,34 @@ def test_means_stay_and_no_variance_becomes_smaller(scales, variance):
 
 @pytest.mark.parametrize("scale", [3.0, 30.0])
 def test_a_claim_that_is_too_small_becomes_what_trials_show(scale):
-    (prediction,) = widened([noise("r", np.array([scale, scale]))], claiming(1.0))
+    (prediction,) = widened(Claiming(1.0), [noise("r", np.array([scale, scale]))])
     np.testing.assert_allclose(prediction.variance[80:110], scale**2, rtol=0.3)
 
 
 def test_each_channel_is_checked_by_itself():
     recording = noise("r", np.array([1.0, 10.0]))
-    (prediction,) = widened([recording], claiming(1.0))
+    (prediction,) = widened(Claiming(1.0), [recording])
     assert prediction.variance[90, 1] > 3.0 * prediction.variance[90, 0]
 
 
 def test_a_recording_without_a_trial_keeps_its_variance():
     recording = Recording("r", np.arange(2.0), [[1.0], [np.nan]], ("c",), ("",))
-    (prediction,) = widened([recording], claiming(5.0))
+    (prediction,) = widened(Claiming(5.0), [recording])
     assert prediction.variance[1, 0] == 5.0
+
+
+@pytest.mark.parametrize("model", [LDS, LowRank, FAM])
+def test_a_model_learns_anew_for_trials_of_what_it_has_learnt_from(model):
+    recording, other = noise("r", np.array([1.0, 3.0]), 150), noise("other", np.array([2.0, 1.0]))
+    fitted = model().fit([recording, other])
+    trial, stranger = (
+        given.hide(trial_masks(given)[0]) for given in (recording, noise("new", np.ones(2)))
+    )
+    expected = [model().fit([other, trial]).as_claimed([trial]), fitted.as_claimed([stranger])]
+    for answer, (alone,) in zip(fitted.as_tried([trial, stranger]), expected, strict=True):
+        np.testing.assert_allclose(answer.mean, alone.mean)
+        np.testing.assert_allclose(answer.variance, alone.variance)
+    assert not np.allclose(fitted.as_claimed([trial])[0].variance, expected[0][0].variance)
 
 
 def test_neither_order_nor_company_matters():
