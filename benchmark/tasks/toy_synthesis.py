@@ -74,7 +74,7 @@ toy_synthesis = Task(
     ),
     profiles={
         "smoke": Profile(
-            ("test 1",), folds=2, budget={"max_iter": 25, "n_restarts": 1}, opt_in=("gpdm",)
+            ("test 1",), folds=2, budget={"max_iter": 5, "n_restarts": 1}, opt_in=("gpdm",)
         ),
         "quick": Profile(("test 1", "test 4", "test 9"), folds=3, opt_in=_NOT_QUICK),
         "paper": Profile(tuple(case.name for case in _CASES), folds=5, opt_in=("gpdm",)),

@@ -82,7 +82,7 @@ walking_interpolation = Task(
             budget={"max_iter": 2, "n_restarts": 1},
             opt_in=(
                 *("mohgp-1+5", "mohgp-1+5-registered", "mohgp-1", "hgp", "best-of"),
-                *("cyclic-alignment", "channel-kriging"),
+                *("cyclic-alignment", "channel-kriging", "gp-independent"),
             ),
         ),
         "quick": Profile(
