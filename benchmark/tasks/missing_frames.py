@@ -52,7 +52,7 @@ _LIKE_OTHERS_HERE = ("hold", "pchip", "pca-regression", "low-rank", "channel-kri
 """On whole frames the first two score like ``linear``, the others give the mean or nearly so."""
 
 _IN_GOLF_SWINGS = tuple(entrant.label for entrant in WITH_BEST_START)
-"""The smoke profile tries these there."""
+"""The smoke profile tries these there, unless their way of learning is tried here."""
 
 
 def missing_frames_problem(

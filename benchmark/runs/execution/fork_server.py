@@ -36,10 +36,11 @@ def fork_server() -> BaseContext:
 @contextmanager
 def _environment(variables: dict[str, str]) -> Iterator[None]:
     """Let processes that start within the context have these environment variables."""
-    before = dict(os.environ)
+    before = {name: os.environ[name] for name in variables if name in os.environ}
     os.environ.update(variables)
     try:
         yield
     finally:
-        os.environ.clear()
+        for name in variables:
+            del os.environ[name]
         os.environ.update(before)
