@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
-from multiprocessing import forkserver
+from multiprocessing import forkserver, resource_tracker
 from multiprocessing.context import BaseContext
 
 __all__ = ["fork_server"]
@@ -28,7 +29,7 @@ def fork_server() -> BaseContext:
     """
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(_PRELOAD)
-    with _environment(_ONE_THREAD):
+    with _environment(_ONE_THREAD), _without_interrupts():
         forkserver.ensure_running()
     return context
 
@@ -44,3 +45,14 @@ def _environment(variables: dict[str, str]) -> Iterator[None]:
         for name in variables:
             del os.environ[name]
         os.environ.update(before)
+
+
+@contextmanager
+def _without_interrupts() -> Iterator[None]:
+    """Let processes that start within the context not hear of Ctrl-C, which is for this one."""
+    resource_tracker.ensure_running()  # by the server's start at the latest; it would let them in
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -1,6 +1,10 @@
 """The server of workers: it starts ahead of them, and computes with one thread."""
 
 import os
+import signal
+import subprocess
+import sys
+import time
 
 import psutil
 from threadpoolctl import threadpool_info
@@ -27,3 +31,17 @@ def test_workers_have_one_thread_and_this_process_keeps_its_environment(monkeypa
     assert {library["num_threads"] for library in libraries} == {1}
     assert asked == "1"
     assert os.environ["OPENBLAS_NUM_THREADS"] == "2"
+
+
+def test_a_server_that_is_loading_does_not_hear_of_an_interrupt():
+    code = "import time; from mocapbench import benchmark as b; b.fork_server(); time.sleep(0.5)"
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
+        while len(psutil.Process(process.pid).children()) < 2:  # the server beside the tracker
+            time.sleep(0.01)
+        time.sleep(0.2)
+        os.killpg(process.pid, signal.SIGINT)
+        complaint = process.communicate()[1]
+    assert "KeyboardInterrupt" in complaint  # of the process that started the server
+    assert "forkserver" not in complaint
