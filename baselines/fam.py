@@ -155,7 +155,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
         check_settings(**self.get_params())
         checked = check_recordings(recordings)
         check_frames(checked)
-        self.learnt_from_, self.channels_ = tuple(checked), checked[0].channels
+        self.learnt_from_, self.channels_ = checked, checked[0].channels
         # Recordings are sorted by name, so that their order does not affect results.
         order = np.argsort([recording.name for recording in checked], kind="stable")
         ordered = [checked[k] for k in order]

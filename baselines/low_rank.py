@@ -120,7 +120,7 @@ class LowRank(Relearning, Imputer, Inductive):
         check_count("max_iter", self.max_iter, 1)
         check_positive("tolerance", self.tolerance)
         checked = check_recordings(recordings)
-        self.learnt_from_, self.channels_ = tuple(checked), checked[0].channels
+        self.learnt_from_, self.channels_ = checked, checked[0].channels
         self.own_means_ = OwnMeans.of(checked)
         frames = _Frames.of(np.concatenate([self.own_means_.apply(one) for one in checked]))
         self._learn(frames, *_start(frames, self.explained_variance))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.choosing.panel import Panel
 from mocapbench.baselines.common.gaps import runs
+from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.common.trials import trial_masks
 from mocapbench.datasets import Mask, Recording
 
@@ -63,8 +64,7 @@ class Rehearsals:
         tried = self.given.hide(mask)
         panel = self.panel
         if self.given.name in [recording.name for recording in self.fitted]:
-            others = [r for r in self.fitted if r.name != self.given.name]
-            panel = Panel.of([*others, tried])
+            panel = Panel.of(pool(self.fitted, [tried]))
         return self._errors(panel, self.given, mask)
 
     def in_training(self) -> list[tuple[Errors, Errors]]:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.base import clone
 
+from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.common.trials import trial_masks
 from mocapbench.baselines.protocols import Model, Prediction
 from mocapbench.datasets import Mask, Recording
@@ -57,9 +58,8 @@ class Relearning(Widened):
         return [self._anew(trial) if trial.name in known else next(answers) for trial in trials]
 
     def _anew(self, trial: Recording) -> Prediction:
-        others = [recording for recording in self.learnt_from_ if recording.name != trial.name]
         relearnt: Relearning = clone(self)
-        relearnt.fit([*others, trial])
+        relearnt.fit(pool(self.learnt_from_, [trial]))
         return relearnt.as_claimed([trial])[0]
 
 
