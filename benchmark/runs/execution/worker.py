@@ -25,6 +25,7 @@ from mocapbench.benchmark.runs.execution.child import (
     die_with_parent,
     kill_children,
 )
+from mocapbench.benchmark.runs.execution.large_pages import collapse_memory
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Status
@@ -43,6 +44,8 @@ def prepare_worker() -> None:
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     # One BLAS thread, so that results do not depend on how many jobs run at once.
     threadpool_limits(1)
+    gc.freeze()  # what the libraries hold lives as long as the worker
+    collapse_memory()
 
 
 def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:

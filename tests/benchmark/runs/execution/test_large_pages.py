@@ -1,0 +1,45 @@
+"""Memory in large pages: the same memory, in pages that a fork copies faster."""
+
+import platform
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mocapbench.benchmark.runs.execution import large_pages
+from mocapbench.benchmark.runs.execution.child import call_in_child
+
+SIZE = 16 << 20  # bytes
+
+
+def _kilobytes_in_large_pages():
+    rollup = Path("/proc/self/smaps_rollup").read_text()
+    return int(re.search(r"AnonHugePages:\s+(\d+)", rollup)[1])
+
+
+def _before_and_after():
+    memory = np.arange(SIZE // 8)
+    before = _kilobytes_in_large_pages()
+    large_pages.collapse_memory()
+    return before, _kilobytes_in_large_pages(), bool(np.all(memory == np.arange(SIZE // 8)))
+
+
+def _can_gather_pages():
+    setting = Path("/sys/kernel/mm/transparent_hugepage/enabled")
+    kernel = tuple(map(int, re.findall(r"\d+", platform.release())[:2]))
+    return kernel >= (6, 1) and setting.exists() and "[never]" not in setting.read_text()
+
+
+@pytest.mark.skipif(not _can_gather_pages(), reason="needs Linux 6.1 and pages of 2 MB")
+def test_memory_keeps_its_content_and_gets_larger_pages():
+    before, after, is_kept = call_in_child(_before_and_after, timeout=60)
+    assert is_kept
+    assert after > before
+
+
+def test_a_system_that_cannot_do_it_leaves_memory_as_it_is(monkeypatch):
+    monkeypatch.setattr(large_pages, "_MADV_COLLAPSE", 9999)
+    before, after, is_kept = call_in_child(_before_and_after, timeout=60)
+    assert is_kept
+    assert after == before
