@@ -128,7 +128,7 @@ def _profiles(
             (*quick, "synthetic"),
             folds=1,
             budget={"max_iter": 30},
-            opt_in=("gpdm", *_SECOND_KERNEL),
+            opt_in=("gpdm",),
         ),
         "paper": Profile(on_recordings(cases), folds=5, budget={"max_iter": 200}),
     }
