@@ -9,7 +9,7 @@ visible, or the last ones.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,14 @@ from numpy.typing import NDArray
 from mocapbench.baselines.common.gaps import hidden_together, runs
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["N_TRIALS", "trial_masks"]
+__all__ = ["N_TRIALS", "Places", "copies", "copies_or_islands", "trial_masks"]
+
+Frames = NDArray[np.intp]
+Places = Callable[[NDArray[np.bool_], Frames], Iterator[Sequence[Frames]]]
+"""From the frames that are not free (N,) and a gap, the frames that a trial may hide instead.
+
+Alternatives are in the order of preference, each with places along the recording.
+"""
 
 N_TRIALS = 3
 """Trials of a recording."""
@@ -29,46 +36,79 @@ _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 """Successive multiples of it, modulo 1, are spread evenly."""
 
 
-def trial_masks(recording: Recording) -> list[Mask]:
+def copies(blocked: NDArray[np.bool_], gap: Frames) -> Iterator[Sequence[Frames]]:
+    """Yield where copies of a gap may go, and shorter ones that fit nowhere else."""
+    starts_of = _outer_starts if _at_an_end(blocked, gap) else _inner_starts
+    for share in _SHARES:
+        n_hidden = max(round(share * len(gap)), 1)
+        yield starts_of(blocked, n_hidden)[:, None] + np.arange(n_hidden)
+
+
+def copies_or_islands(blocked: NDArray[np.bool_], gap: Frames) -> Iterator[Sequence[Frames]]:
+    """Yield the `copies` of a gap, none of a single frame; then visible frames between gaps.
+
+    One frame between visible ones tells little about a longer gap. Where frames are visible here
+    and there, hiding those between two gaps makes one of both: longer than the gaps are, but like
+    them.
+    """
+    yield from (places for places in copies(blocked, gap) if _is_long_enough(places, gap))
+    islands = runs(~blocked)
+    yield islands[:: max(len(islands) - 1, 1)] if _at_an_end(blocked, gap) else islands[1:-1]
+
+
+def _is_long_enough(places: Sequence[Frames], gap: Frames) -> bool:
+    return len(places) > 0 and len(places[0]) >= min(len(gap), 2)
+
+
+def trial_masks(recording: Recording, places: Places = copies) -> list[Mask]:
     """Return what each trial hides besides the gaps: masks (N, D), True where visible entries go.
 
     There are fewer than `N_TRIALS` where gaps are too many or too long to have a copy, or where
     trials would be alike, and none without a gap.
+
+    Parameters
+    ----------
+    recording : Recording
+    places : callable
+        What a trial may hide in place of a gap.
     """
     hidden = ~recording.visible
     masks = [np.zeros_like(hidden) for _ in range(N_TRIALS)]
     for columns in hidden_together(hidden):
         for number, mask in enumerate(masks):
-            for frames in _copies(hidden[:, columns[0]], (number + 0.5) / N_TRIALS):
+            for frames in _tried(hidden[:, columns[0]], places, (number + 0.5) / N_TRIALS):
                 mask[np.ix_(frames, columns)] = True
     unlike = {mask.tobytes(): mask for mask in masks}
     return [mask for mask in unlike.values() if mask.any()]
 
 
-def _copies(hidden: NDArray[np.bool_], place: float) -> Iterator[NDArray[np.intp]]:
-    """Yield the frames of copies of a channel's gaps, the first at ``place`` (0 to 1)."""
+def _tried(hidden: NDArray[np.bool_], places: Places, place: float) -> Iterator[Frames]:
+    """Yield the frames that stand for a channel's gaps, the first at ``place`` (0 to 1)."""
     blocked, room = hidden.copy(), _MOST_HIDDEN * np.count_nonzero(~hidden)
     taken = 0
     for gap in sorted(runs(hidden), key=len, reverse=True):
         if taken and taken + len(gap) > room:
             continue
-        frames = _placed(blocked, gap, place % 1.0)
+        frames = _placed(blocked, places(blocked, gap), place % 1.0)
         if len(frames):
             blocked[max(frames[0] - 1, 0) : frames[-1] + 2] = True
             taken, place = taken + len(frames), place + _GOLDEN
             yield frames
 
 
-def _placed(blocked: NDArray[np.bool_], gap: NDArray[np.intp], place: float) -> NDArray[np.intp]:
-    """Return the frames of a copy at one of the places it may have; shorter if need be."""
-    at_an_end = gap[0] == 0 or gap[-1] == len(blocked) - 1
-    starts_of = _outer_starts if at_an_end else _inner_starts
-    for share in _SHARES:
-        n_hidden = max(round(share * len(gap)), 1)
-        starts = starts_of(blocked, n_hidden)
-        if len(starts) and 2 * n_hidden <= np.count_nonzero(~blocked):
-            return np.asarray(starts[int(place * len(starts))] + np.arange(n_hidden))
+def _placed(
+    blocked: NDArray[np.bool_], alternatives: Iterator[Sequence[Frames]], place: float
+) -> Frames:
+    """Return the frames at ``place`` in the first alternative that leaves enough visible."""
+    for places in alternatives:
+        frames = places[int(place * len(places))] if len(places) else ()
+        if 0 < 2 * len(frames) <= np.count_nonzero(~blocked):
+            return np.asarray(frames)
     return np.empty(0, dtype=np.intp)
+
+
+def _at_an_end(blocked: NDArray[np.bool_], gap: Frames) -> bool:
+    return bool(gap[0] == 0 or gap[-1] == len(blocked) - 1)
 
 
 def _inner_starts(blocked: NDArray[np.bool_], length: int) -> NDArray[np.intp]:

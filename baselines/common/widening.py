@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from sklearn.base import clone
 
 from mocapbench.baselines.common.recordings import pool
-from mocapbench.baselines.common.trials import trial_masks
+from mocapbench.baselines.common.trials import copies_or_islands, trial_masks
 from mocapbench.baselines.protocols import Model, Prediction
 from mocapbench.datasets import Mask, Recording
 
@@ -72,7 +72,7 @@ def widened(model: Widened, recordings: Sequence[Recording]) -> list[Prediction]
         What it claims of one recording may not depend on the others.
     recordings : sequence of Recording
     """
-    masks = [trial_masks(recording) for recording in recordings]
+    masks = [trial_masks(recording, copies_or_islands) for recording in recordings]
     trials = [
         recording.hide(mask)
         for recording, own in zip(recordings, masks, strict=True)

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines.common.gaps import runs
-from mocapbench.baselines.common.trials import N_TRIALS, trial_masks
+from mocapbench.baselines.common.trials import N_TRIALS, copies_or_islands, trial_masks
 from mocapbench.datasets import Recording
 
 
@@ -86,3 +86,26 @@ def test_there_is_none_without_room_or_without_a_gap(n_visible):
     hidden = np.ones((50, 2), dtype=bool)
     hidden[:n_visible] = False
     assert trial_masks(recording(hidden)) == []
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10_000), st.integers(3, 12))
+def test_where_single_frames_are_visible_a_trial_makes_one_gap_of_two(seed, n_visible):
+    places = 1 + 2 * np.random.default_rng(seed).choice(29, n_visible, replace=False)
+    hidden = np.ones((60, 2), dtype=bool)
+    hidden[places] = False
+    masks = trial_masks(recording(hidden), copies_or_islands)
+    assert masks
+    for mask in masks:
+        assert not (mask & hidden).any()
+        assert (2 * mask.sum(axis=0) <= n_visible).all()
+        assert len(runs((hidden | mask)[:, 0])) == len(runs(hidden[:, 0])) - mask[:, 0].sum()
+
+
+def test_a_long_gap_has_no_copy_of_a_single_frame_among_the_islands():
+    hidden = np.ones((60, 1), dtype=bool)
+    hidden[[10, 20, 21, 22, 30]] = False
+    alone, *_ = trial_masks(recording(hidden))
+    assert np.flatnonzero(alone).tolist() == [21]
+    for mask in trial_masks(recording(hidden), copies_or_islands):
+        assert np.flatnonzero(mask).tolist() != [21]
