@@ -41,7 +41,7 @@ def copies(blocked: NDArray[np.bool_], gap: Frames) -> Iterator[Sequence[Frames]
     starts_of = _outer_starts if _at_an_end(blocked, gap) else _inner_starts
     for share in _SHARES:
         n_hidden = max(round(share * len(gap)), 1)
-        yield starts_of(blocked, n_hidden)[:, None] + np.arange(n_hidden)
+        yield [start + np.arange(n_hidden) for start in starts_of(blocked, n_hidden)]
 
 
 def copies_or_islands(blocked: NDArray[np.bool_], gap: Frames) -> Iterator[Sequence[Frames]]:

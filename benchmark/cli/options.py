@@ -12,6 +12,7 @@ import typer
 from mocapbench import benchmark as bench
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.runs.case_names import split_cases
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Store, TaskFile
@@ -23,6 +24,7 @@ __all__ = [
     "Names",
     "Out",
     "Plugins",
+    "cases_named",
     "load_plugins",
     "load_tasks",
     "open_archive",
@@ -56,6 +58,18 @@ def split(names: Sequence[str] | None) -> tuple[str, ...]:
     """Return the names of an option, however they were separated."""
     parts = (part.strip() for name in names or () for part in name.split(","))
     return tuple(part for part in parts if part)
+
+
+def cases_named(texts: Sequence[str], tasks: Sequence[str]) -> tuple[str, ...]:
+    """Return the cases that an option names, of some tasks or, where none is named, of all.
+
+    Commas separate them, but those within a case's name.
+    """
+    if not texts:
+        return ()
+    cases = [case for name in tasks or bench.TASKS.names() for case in bench.TASKS.get(name).cases]
+    names = [case.name for case in cases]
+    return tuple(case for text in texts for case in split_cases(text, names))
 
 
 def load_plugins(paths: Sequence[Path] | None) -> tuple[Path, ...]:

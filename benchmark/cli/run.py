@@ -26,6 +26,7 @@ from mocapbench.benchmark.cli.options import (
     Names,
     Out,
     Plugins,
+    cases_named,
     load_plugins,
     open_archive,
     show_left_out,
@@ -104,8 +105,15 @@ def run(
     console, plugins = LiteralConsole(), load_plugins(plugin)
     task_files = bench.open_task_files(task_file or (), recordings)
     own = bench.add_tasks(task_files)
+    chosen = split(tasks) or own
     request = bench.Request(
-        profile, split(tasks) or own, split(models), split(cases), split(metrics), folds, seed
+        profile,
+        chosen,
+        split(models),
+        cases_named(cases or (), chosen),
+        split(metrics),
+        folds,
+        seed,
     )
     archive = open_archive(data_dir, task_files)
     if not (offline or dry_run):

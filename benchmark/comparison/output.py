@@ -63,6 +63,8 @@ def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
     return [
         "“Better by” comes with its 95 % interval by Student’s t. Each p is corrected after Holm, "
         "single cases and all cases apart. P is by the Bayesian correlated t-test.",
+        "n counts folds, and cases over all of them, also those of one person; the report counts "
+        "people, and calls fewer than five too few to test.",
         *([f"{identical} of {len(rows)} comparisons are identical."] if identical else []),
         *(_powerless(n) for n in powerless[-1:]),
     ]
@@ -70,7 +72,10 @@ def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
 
 def _powerless(n: int) -> str:
     if n == 1:
-        return "Where n is 1 no test is possible: more folds, or more cases, are needed."
+        return (
+            "Where n is 1 no test is possible: more cases are needed, or more folds where the task "
+            "draws them."
+        )
     return (
         f"Where n is at most {n}, Wilcoxon’s signed-rank test cannot go below p = "
         f"{least_signed_rank_p(n):.4g}, however large the difference: go by the paired t-test."

@@ -9,6 +9,7 @@ import numpy as np
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.reports import RankedModel
+from mocapbench.reports.analysis.units import FEWEST_UNITS
 
 __all__ = ["headline", "left_out", "ranked", "remarks", "units", "verdict"]
 
@@ -29,8 +30,8 @@ def verdict(filled: Filled) -> str:
     trials = f"{ranking.n} trial gap{'s' if ranking.n != 1 else ''}"
     if len(ranking.order) == 1:
         return f"No other model has a rank, over {trials}."
-    if ranking.n < 2:
-        return f"It did best in {trials}, which is too few to tell whether that is chance."
+    if ranking.n < FEWEST_UNITS:
+        return f"It did best in {trials}, too few to tell whether that is chance."
     others = [model for model in ranking.sharing if model != ranking.order[0]]
     if not others:
         return f"Its lead over {ranking.order[1]} is more than chance, over {trials}."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -34,10 +35,17 @@ def outputs_of(files: Sequence[Path], folder: Path) -> list[Outputs]:
     Raises
     ------
     UsageError
-        If the folder is a file, a file to write exists, or two have one name.
+        If the folder is a file or cannot be written to, a file to write exists, or two have one
+        name.
     """
     if folder.exists() and not folder.is_dir():
         raise UsageError(f"--out: expected a folder, got the file {folder}; name another")
+    present = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    if not os.access(present, os.W_OK):
+        raise UsageError(
+            f"--out: expected a folder that can be written to, got {folder}; "
+            "name another, or change its permissions"
+        )
     outputs = [
         Outputs(
             folder / file.name, *(folder / f"{file.name}.{end}" for end in ("entries.csv", "html"))

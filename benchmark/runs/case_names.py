@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from fnmatch import fnmatchcase
 
-__all__ = ["matching_cases"]
+__all__ = ["matching_cases", "split_cases"]
 
 
 def matching_cases(wanted: str, names: Iterable[str]) -> tuple[str, ...]:
@@ -36,6 +36,31 @@ def matching_cases(wanted: str, names: Iterable[str]) -> tuple[str, ...]:
         [name for name in names if _hyphenated(name).startswith(typed)],
     )
     return tuple(next(filter(None, ways), ()))
+
+
+def split_cases(text: str, names: Iterable[str]) -> Iterator[str]:
+    """Yield what a user typed at commas, those apart that belong to the name of a case.
+
+    Parameters
+    ----------
+    text : str
+    names : iterable of str
+        Every name there is.
+
+    Examples
+    --------
+    >>> names = ("a limb 1 s, alone", "test 1")
+    >>> list(split_cases("test 1, a limb 1 s, alone", names))
+    ['test 1', 'a limb 1 s, alone']
+    """
+    known, parts = tuple(names), [part.strip() for part in text.split(",") if part.strip()]
+    while parts:
+        lengths = [
+            n for n in range(len(parts), 1, -1) if matching_cases(", ".join(parts[:n]), known)
+        ]
+        n = next(iter(lengths), 1)
+        yield ", ".join(parts[:n])
+        parts = parts[n:]
 
 
 def _hyphenated(name: str) -> str:

@@ -10,7 +10,12 @@ from dataclasses import dataclass
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Place, Standing, standings
 from mocapbench.reports.bundle.questions import QUESTIONS, Question
-from mocapbench.reports.front.board_cells import board_cells, first_metric, reference_of
+from mocapbench.reports.front.board_cells import (
+    board_cells,
+    first_metric,
+    reference_of,
+    short_title,
+)
 from mocapbench.reports.text import counted, number, slug
 
 __all__ = ["TESTED", "Answer", "Finding", "answers"]
@@ -94,7 +99,7 @@ def _finding(results: TaskResults, ranked: Ranked) -> Finding:
     if second is not None:
         text += f", next {second.label} {_mean(results, second)}{_margin(results, second)}"
     text += f"; no better than {reference_of(results)}" if _beaten(results, best) else ""
-    return Finding(slug("task", results.layout.name), results.layout.page.short, text)
+    return Finding(slug("task", results.layout.name), short_title(results), text)
 
 
 def _next(ranked: Ranked) -> Standing | None:

@@ -14,7 +14,7 @@ from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.front.board import SHADES, BoardCell
 from mocapbench.reports.text import cell_anchor, number
 
-__all__ = ["WORSE", "board_cells", "first_metric", "reference_of"]
+__all__ = ["WORSE", "board_cells", "first_metric", "reference_of", "short_title"]
 
 WORSE = "worse"
 NEXT = 1.0 + 1e-9
@@ -25,6 +25,13 @@ TRIVIAL = "trivial"
 def first_metric(results: TaskResults) -> str:
     """Return the metric by which the task is scored."""
     return results.layout.page.metrics[0]
+
+
+def short_title(results: TaskResults) -> str:
+    """Return the short title of a task, and whether its scores are of generated motion."""
+    cases = results.representative_cases(first_metric(results))
+    synthetic = bool(cases) and all(case.synthetic for case in cases)
+    return results.layout.page.short + (" (synthetic)" if synthetic else "")
 
 
 def board_cells(results: TaskResults) -> Mapping[str, BoardCell]:

@@ -11,7 +11,7 @@ from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.questions import question
 from mocapbench.reports.front.board import BoardCell, BoardColumn, BoardRow, Scoreboard
-from mocapbench.reports.front.board_cells import board_cells, first_metric
+from mocapbench.reports.front.board_cells import board_cells, first_metric, short_title
 from mocapbench.reports.text import counted, slug
 
 __all__ = ["scoreboard"]
@@ -58,7 +58,7 @@ def _column(results: TaskResults) -> BoardColumn:
     ranked = standings(results, metric)
     return BoardColumn(
         id=slug("task", results.layout.name),
-        title=page.short,
+        title=short_title(results),
         question=question(page.question).title,
         metric=metric,
         unit=_unit(results.metrics[metric]),

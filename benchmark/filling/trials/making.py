@@ -59,15 +59,20 @@ class Trial:
 
 
 def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
-    """Return trials of the gaps that a question asks for; none if there is no room for any."""
+    """Return trials of the gaps that a question asks for; none if there is no room for any.
+
+    No two are alike: the first that repeats another is the last that is made.
+    """
     trials: list[Trial] = []
+    made: set[tuple[float, bytes]] = set()
     used = np.zeros(len(question.given.times), dtype=bool)
     turns = _Turns(_interior(question), rng)
     most = min(MOST_TRIALS, max(FEWEST_TRIALS, MOST_ENTRIES // question.target.size))
     while len(trials) < most and sum(len(trial.units) for trial in trials) < ENOUGH_GAPS:
         trial = _trial(question, used, turns, rng)
-        if trial is None:
+        if trial is None or (like := _hidden_where(trial)) in made:
             break
+        made.add(like)
         trials.append(trial)
     return trials
 
@@ -83,6 +88,11 @@ def _trial(question: Question, used: Mask, turns: _Turns, rng: np.random.Generat
     if not placed.episodes:
         return None
     return _made(question, placed)
+
+
+def _hidden_where(trial: Trial) -> tuple[float, bytes]:
+    """Return what tells trials apart: where one begins, and what it hides."""
+    return float(trial.question.given.times[0]), trial.question.target.tobytes()
 
 
 def _ends(question: Question) -> tuple[list[Gap], list[Gap]]:

@@ -112,7 +112,7 @@ def _positions(points: Mapping[str, NDArray[Any]]) -> FrameByChannel:
 def _rate(file: str, points: Mapping[str, NDArray[Any]]) -> float:
     rate = float(points["rate"])
     if not (isfinite(rate) and rate > 0):
-        advice = "name the rate in frames per second"
+        advice = "name the rate in frames per second, such as --rate 100"
         raise FormatError(file, "a positive frame rate", f"{rate:g}", advice)
     return rate
 

@@ -79,7 +79,7 @@ def table_recording(
             file,
             "a column 'time' in seconds, or a rate",
             f"the columns {', '.join(names[:4])}{', …' if len(names) > 4 else ''}",
-            "name the rate in frames per second",
+            "name the rate in frames per second, such as --rate 100",
         )
     named = [_channel(names[index]) for index in columns.channels]
     return recording_of(

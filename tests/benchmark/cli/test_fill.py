@@ -1,7 +1,9 @@
 """`mocapbench fill`, from files to files."""
 
 import csv
+import os
 import shutil
+from pathlib import Path
 
 import format_files
 import numpy as np
@@ -96,6 +98,15 @@ def test_nothing_is_overwritten(cli, walk, tmp_path, out):
     kept = {path: path.read_bytes() for path in out.iterdir()}
     assert cli("fill", walk, "--model", "hold", "--out", out) == 2
     assert kept == {path: path.read_bytes() for path in out.iterdir()}
+
+
+def test_a_folder_that_cannot_be_written_to_is_refused_before_anything_is_tried(
+    cli, walk, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != tmp_path)
+    assert cli("fill", walk, "--model", "linear", "--out", tmp_path / "new" / "deep") == 2
+    assert "expected a folder that can be written to" in cli.printed
+    assert not (tmp_path / "new").exists()
 
 
 def test_files_of_one_name_are_refused(cli, walk, tmp_path, out):

@@ -47,6 +47,7 @@ def test_the_headline_counts(filled):
         ({"one": [1, 2, 1, 2, 1], "two": [5, 6, 5, 6, 5.1]}, "over two is more than chance"),
         ({"one": [1, 2, 1, 2, 1], "two": [2, 1, 2, 1, 2]}, "over two could be chance"),
         ({"one": [1], "two": [2]}, "too few to tell"),
+        ({"one": [1, 2, 1, 2], "two": [5, 6, 5, 6.1]}, "too few to tell"),
         ({"one": [1, 2]}, "No other model has a rank"),
     ],
 )

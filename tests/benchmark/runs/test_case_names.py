@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.registry import TASKS
-from mocapbench.benchmark.runs.case_names import matching_cases
+from mocapbench.benchmark.runs.case_names import matching_cases, split_cases
 
 NAMES = ("35-03 four", "35-03 three", "12-02 three", "test 1", "test 10", "synthetic 1", "a_b")
 
@@ -42,3 +42,27 @@ def test_every_case_is_found_by_its_own_name_alone(name):
 def test_what_is_found_is_there_once_and_in_order(wanted, names):
     found = matching_cases(wanted, names)
     assert list(found) == [name for name in dict.fromkeys(names) if name in found]
+
+
+@pytest.mark.parametrize(
+    ("typed", "names"),
+    [
+        ("test 1, test 2", ["test 1", "test 2"]),
+        ("a limb 1 s, alone", ["a limb 1 s, alone"]),
+        ("test 1,a limb 1 s,alone , test 2", ["test 1", "a limb 1 s, alone", "test 2"]),
+        ("a limb*, alone", ["a limb*, alone"]),
+        ("a leg, alone", ["a leg", "alone"]),
+        (",", []),
+    ],
+)
+def test_commas_separate_cases_but_not_within_the_name_of_one(typed, names):
+    known = ("a limb 1 s, alone", "a limb 2 s, alone", "test 1", "test 2")
+    assert list(split_cases(typed, known)) == names
+
+
+@pytest.mark.parametrize("task", TASKS.names())
+def test_every_case_can_be_named_alone_and_beside_another(task):
+    names = [case.name for case in TASKS.get(task).cases]
+    for name in names:
+        assert list(split_cases(name, names)) == [name]
+        assert list(split_cases(f"{name}, {names[0]}", names)) == [name, names[0]]

@@ -50,6 +50,21 @@ def test_shades_say_how_many_times_worse_than_the_best_a_mean_is(small, means):
     assert [cell.shade for cell in cells.values()].count("best") == 1
 
 
+@pytest.mark.parametrize(("synthetic", "said"), [((True, True), True), ((True, False), False)])
+def test_the_first_screen_says_where_all_that_counts_is_generated(small, synthetic, said):
+    one = small(
+        {"x": {"a": [1.0], "b": [2.0]}, "y": {"a": [1.0], "b": [2.0]}}, question="hidden-frames"
+    )
+    layout = one.layouts[0]
+    cases = [replace(c, synthetic=s) for c, s in zip(layout.cases, synthetic, strict=True)]
+    layout = replace(layout, cases=tuple(cases))
+    results = task_results(replace(one, layouts=(layout,)), layout)
+    (column,) = scoreboard([results], {"Models": ["a", "b"]}).columns
+    assert column.title.endswith(" (synthetic)") == said
+    for answer in answers([results]):
+        assert [finding.title for finding in answer.findings] == [column.title]
+
+
 def test_limits_are_not_shaded_and_cells_name_the_cases_that_they_lack(small):
     values = {"x": {"a": [1.0], "b": [2.0], "oracle": [0.1]}, "y": {"a": [1.0], "b": [NAN]}}
     cells = board_cells(results_of(small(values)))

@@ -52,6 +52,18 @@ def test_every_trial_gap_has_the_shape_of_a_real_one(blocks):
             assert made <= real
 
 
+@settings(deadline=None)
+@given(st.integers(4, 12), st.integers(1, 2), st.integers(0, 100))
+def test_no_two_trials_are_alike_however_short_the_recording(n_frames, length, seed):
+    values = np.arange(2.0 * n_frames).reshape(n_frames, 2)
+    target = np.zeros((n_frames, 2), dtype=bool)
+    target[1 : 1 + length, 0] = True
+    whole = Recording("r", np.arange(n_frames) / 10, values, ("a", "b"), ("", ""))
+    trials = make_trials(Question(whole.hide(target), target), np.random.default_rng(seed))
+    hidden = [trial.question.target.tobytes() for trial in trials]
+    assert len(set(hidden)) == len(hidden)
+
+
 def test_gaps_at_the_ends_are_tried_at_the_ends():
     asked = question([(0, 10, 0), (190, 10, 1)])
     for trial in make_trials(asked, np.random.default_rng(0)):
