@@ -120,8 +120,8 @@ def _columns(recording: Recording, pattern: str | None) -> Mask:
         some = ", ".join(recording.channels[:5])
         raise UsageError(
             f"{recording.name}: expected --channels to match a channel, got {pattern!r}; "
-            f"its {len(recording.channels)} channels begin with {some}; the pattern must match a whole "
-            "name, such as 'lfemur.*'"
+            f"its {len(recording.channels)} channels begin with {some}; "
+            "the pattern must match a whole name, such as 'lfemur.*'"
         )
     return np.array(matches)
 
