@@ -13,8 +13,8 @@ from mocapbench.reports.bundle.questions import QUESTIONS, Question
 from mocapbench.reports.front.board_cells import (
     board_cells,
     first_metric,
+    is_generated,
     reference_of,
-    short_title,
 )
 from mocapbench.reports.text import counted, number, slug
 
@@ -99,7 +99,8 @@ def _finding(results: TaskResults, ranked: Ranked) -> Finding:
     if second is not None:
         text += f", next {second.label} {_mean(results, second)}{_margin(results, second)}"
     text += f"; no better than {reference_of(results)}" if _beaten(results, best) else ""
-    return Finding(slug("task", results.layout.name), short_title(results), text)
+    title = results.layout.page.short + (" (synthetic)" if is_generated(results) else "")
+    return Finding(slug("task", results.layout.name), title, text)
 
 
 def _next(ranked: Ranked) -> Standing | None:

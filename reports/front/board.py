@@ -26,7 +26,8 @@ class BoardColumn:
     arrow : str
         Which values are better.
     basis, units : str
-        How many cases its means are over, and how many independent units these are.
+        How many cases its means are over, and whether all are of generated motion; how many
+        independent units these are.
     """
 
     id: str

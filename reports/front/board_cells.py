@@ -14,7 +14,7 @@ from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.front.board import SHADES, BoardCell
 from mocapbench.reports.text import cell_anchor, number
 
-__all__ = ["WORSE", "board_cells", "first_metric", "reference_of", "short_title"]
+__all__ = ["WORSE", "board_cells", "first_metric", "is_generated", "reference_of"]
 
 WORSE = "worse"
 NEXT = 1.0 + 1e-9
@@ -27,11 +27,10 @@ def first_metric(results: TaskResults) -> str:
     return results.layout.page.metrics[0]
 
 
-def short_title(results: TaskResults) -> str:
-    """Return the short title of a task, and whether its scores are of generated motion."""
+def is_generated(results: TaskResults) -> bool:
+    """Return whether all cases that count are of generated motion, which stands for recordings."""
     cases = results.representative_cases(first_metric(results))
-    synthetic = bool(cases) and all(case.synthetic for case in cases)
-    return results.layout.page.short + (" (synthetic)" if synthetic else "")
+    return bool(cases) and all(case.synthetic for case in cases)
 
 
 def board_cells(results: TaskResults) -> Mapping[str, BoardCell]:

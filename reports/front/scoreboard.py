@@ -11,7 +11,7 @@ from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.questions import question
 from mocapbench.reports.front.board import BoardCell, BoardColumn, BoardRow, Scoreboard
-from mocapbench.reports.front.board_cells import board_cells, first_metric, short_title
+from mocapbench.reports.front.board_cells import board_cells, first_metric, is_generated
 from mocapbench.reports.text import counted, slug
 
 __all__ = ["scoreboard"]
@@ -56,14 +56,15 @@ def _rows(labels: Sequence[str], columns: Sequence[Column]) -> tuple[BoardRow, .
 def _column(results: TaskResults) -> BoardColumn:
     metric, page = first_metric(results), results.layout.page
     ranked = standings(results, metric)
+    cases = "synthetic case" if is_generated(results) else "case"
     return BoardColumn(
         id=slug("task", results.layout.name),
-        title=short_title(results),
+        title=page.short,
         question=question(page.question).title,
         metric=metric,
         unit=_unit(results.metrics[metric]),
         arrow=ARROWS[results.metrics[metric].direction],
-        basis=counted(len(results.representative_cases(metric)), "case"),
+        basis=counted(len(results.representative_cases(metric)), cases),
         units=ranked[0].units if ranked else "",
         long_title=page.title,
     )
