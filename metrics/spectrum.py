@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator
 
 import numpy as np
@@ -162,17 +161,16 @@ def _runs(
     hidden: NDArray[np.bool_], starts: tuple[int, ...]
 ) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
     """Yield the frames (N, n) and outputs (n,) of all runs of hidden entries of one length N."""
-    runs: dict[int, list[tuple[int, int]]] = defaultdict(list)
+    found = []
     for start, stop in zip(starts, (*starts[1:], len(hidden)), strict=True):
         padded = np.pad(hidden[start:stop].astype(np.int8), ((1, 1), (0, 0)))
         steps = np.diff(padded, axis=0).T
-        begins, ends = np.argwhere(steps == 1), np.argwhere(steps == -1)
-        for (output, begin), (_, end) in zip(begins.tolist(), ends.tolist(), strict=True):
-            runs[end - begin].append((start + begin, output))
-    for length, places in runs.items():
-        if length >= SHORTEST:
-            firsts, outputs = np.transpose(places)
-            yield firsts + np.arange(length)[:, None], outputs
+        (outputs, begins), (_, ends) = np.nonzero(steps == 1), np.nonzero(steps == -1)
+        found.append((start + begins, outputs, ends - begins))
+    firsts, outputs, lengths = np.concatenate(found, axis=1)
+    for length in np.unique(lengths[lengths >= SHORTEST]):
+        of_length = lengths == length
+        yield firsts[of_length] + np.arange(length)[:, None], outputs[of_length]
 
 
 def _power(values: Array) -> Array:

@@ -42,9 +42,10 @@ def imputed_poses(
     # What moves a joint and the root alike moves it not relative to the root.
     relative = depends ^ depends[0]
     lengths = [len(recording.times) for recording in given]
+    placed = _placed(body, [*given, *given], [*truth, *means])
     return ImputedPoses(
-        truth=_placed(body, given, truth),
-        mean=_placed(body, given, means),
+        truth=placed[: len(hidden)],
+        mean=placed[len(hidden) :],
         hidden=hidden @ depends.T,
         hidden_relative=hidden @ relative.T,
         joints=_joints(body),
