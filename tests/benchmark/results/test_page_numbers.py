@@ -156,7 +156,8 @@ def test_the_scoreboard_has_the_means_the_cases_and_the_units(run, task):
         if all(matches(body[label][place], value) for label, value in wanted.items())
     )
     basis, units = heads[column]["small"][1:]
-    assert basis == f"{counting} case" + "s" * (counting != 1)
+    kind = "synthetic case" if all("synthetic" in case for case in cases) else "case"
+    assert basis == f"{counting} {kind}" + "s" * (counting != 1)
     independent = {"toy-interpolation-1", "toy-synthesis"}
     n_units = counting * FOLDS if task in independent else int(units.split()[0])
     assert int(units.split()[0]) == n_units
