@@ -9,7 +9,7 @@ visible, or the last ones.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,10 +20,10 @@ from mocapbench.datasets import Mask, Recording
 __all__ = ["N_TRIALS", "Places", "copies", "copies_or_islands", "trial_masks"]
 
 Frames = NDArray[np.intp]
-Places = Callable[[NDArray[np.bool_], Frames], Iterator[Sequence[Frames]]]
-"""From the frames that are not free (N,) and a gap, the frames that a trial may hide instead.
+Places = Callable[[NDArray[np.bool_], Frames, float], Iterator[Frames]]
+"""From the frames that are not free (N,), a gap and a place, what a trial may hide instead.
 
-Alternatives are in the order of preference, each with places along the recording.
+It yields frames near that place (0 to 1) of the recording, those to be preferred first.
 """
 
 N_TRIALS = 3
@@ -36,28 +36,29 @@ _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 """Successive multiples of it, modulo 1, are spread evenly."""
 
 
-def copies(blocked: NDArray[np.bool_], gap: Frames) -> Iterator[Sequence[Frames]]:
-    """Yield where copies of a gap may go, and shorter ones that fit nowhere else."""
+def copies(blocked: NDArray[np.bool_], gap: Frames, place: float) -> Iterator[Frames]:
+    """Yield a copy of a gap, and shorter ones in case it fits nowhere."""
     starts_of = _outer_starts if _at_an_end(blocked, gap) else _inner_starts
     for share in _SHARES:
         n_hidden = max(round(share * len(gap)), 1)
-        yield [start + np.arange(n_hidden) for start in starts_of(blocked, n_hidden)]
+        starts = starts_of(blocked, n_hidden)
+        if len(starts):
+            yield starts[int(place * len(starts))] + np.arange(n_hidden)
 
 
-def copies_or_islands(blocked: NDArray[np.bool_], gap: Frames) -> Iterator[Sequence[Frames]]:
+def copies_or_islands(blocked: NDArray[np.bool_], gap: Frames, place: float) -> Iterator[Frames]:
     """Yield the `copies` of a gap, none of a single frame; then visible frames between gaps.
 
     One frame between visible ones tells little about a longer gap. Where frames are visible here
     and there, hiding those between two gaps makes one of both: longer than the gaps are, but like
     them.
     """
-    yield from (places for places in copies(blocked, gap) if _is_long_enough(places, gap))
+    shortest = min(len(gap), 2)
+    yield from (frames for frames in copies(blocked, gap, place) if len(frames) >= shortest)
     islands = runs(~blocked)
-    yield islands[:: max(len(islands) - 1, 1)] if _at_an_end(blocked, gap) else islands[1:-1]
-
-
-def _is_long_enough(places: Sequence[Frames], gap: Frames) -> bool:
-    return len(places) > 0 and len(places[0]) >= min(len(gap), 2)
+    between = islands[:: max(len(islands) - 1, 1)] if _at_an_end(blocked, gap) else islands[1:-1]
+    if between:
+        yield between[int(place * len(between))]
 
 
 def trial_masks(recording: Recording, places: Places = copies) -> list[Mask]:
@@ -89,22 +90,18 @@ def _tried(hidden: NDArray[np.bool_], places: Places, place: float) -> Iterator[
     for gap in sorted(runs(hidden), key=len, reverse=True):
         if taken and taken + len(gap) > room:
             continue
-        frames = _placed(blocked, places(blocked, gap), place % 1.0)
+        frames = _placed(blocked, places(blocked, gap, place % 1.0))
         if len(frames):
             blocked[max(frames[0] - 1, 0) : frames[-1] + 2] = True
             taken, place = taken + len(frames), place + _GOLDEN
             yield frames
 
 
-def _placed(
-    blocked: NDArray[np.bool_], alternatives: Iterator[Sequence[Frames]], place: float
-) -> Frames:
-    """Return the frames at ``place`` in the first alternative that leaves enough visible."""
-    for places in alternatives:
-        frames = places[int(place * len(places))] if len(places) else ()
-        if 0 < 2 * len(frames) <= np.count_nonzero(~blocked):
-            return np.asarray(frames)
-    return np.empty(0, dtype=np.intp)
+def _placed(blocked: NDArray[np.bool_], alternatives: Iterator[Frames]) -> Frames:
+    """Return the first of the alternatives that leaves enough visible; no frames if none does."""
+    most = np.count_nonzero(~blocked) // 2
+    fitting = (frames for frames in alternatives if len(frames) <= most)
+    return next(fitting, np.empty(0, dtype=np.intp))
 
 
 def _at_an_end(blocked: NDArray[np.bool_], gap: Frames) -> bool:
