@@ -15,19 +15,13 @@ import pandas as pd
 
 from mocapbench.benchmark.comparison.problems import require_same_problems
 from mocapbench.benchmark.comparison.sides import Side
+from mocapbench.benchmark.comparison.units import case_units, pooled_units
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Task
-from mocapbench.metrics.statistics import (
-    Contrast,
-    case_units,
-    contrast,
-    holm,
-    pair,
-    pooled_units,
-)
+from mocapbench.metrics.statistics import Contrast, contrast, holm, pair
 
 __all__ = ["POOLED", "Row", "compare", "tidy"]
 
@@ -126,19 +120,17 @@ def _values(
 
 
 def _rows(task: Task, metric: str, pairs: Mapping[str, pd.DataFrame], rope: float) -> list[Row]:
-    loss, independent = METRICS.get(metric).loss, task.independent_folds
+    loss = METRICS.get(metric).loss
     single = [
-        Row(task.name, metric, label, case, contrast(units, loss, rope))
+        Row(task.name, metric, label, case, contrast(case_units(task, own, case), loss, rope))
         for label, own in pairs.items()
         for case in own.index.unique("case")
-        for units in [case_units(own, case, independent=independent)]
     ]
     pooled = [
-        Row(task.name, metric, label, POOLED, contrast(units, loss, rope))
+        Row(task.name, metric, label, POOLED, contrast(pooled_units(task, counted), loss, rope))
         for label, own in pairs.items()
         for counted in [_counted(task, own)]
         if counted.index.unique("case").size > 1
-        for units in [pooled_units(counted, independent=independent)]
     ]
     return [*_corrected(single), *_corrected(pooled)]
 

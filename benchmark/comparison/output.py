@@ -12,18 +12,28 @@ from rich.table import Table
 from mocapbench.benchmark.comparison.contrasts import Row
 from mocapbench.benchmark.markdown import escape, table_lines
 from mocapbench.benchmark.registry import METRICS
-from mocapbench.metrics.statistics import ALPHA, Contrast, least_signed_rank_p
+from mocapbench.metrics.statistics import ALPHA, FEWEST_UNITS, Contrast, least_signed_rank_p
 
 __all__ = ["markdown", "notes", "outcome", "terminal"]
+
+POWERLESS = (
+    f"Where n is {FEWEST_UNITS}, Wilcoxon’s signed-rank test cannot go below p = "
+    f"{least_signed_rank_p(FEWEST_UNITS):.4g}, however large the difference: go by the paired "
+    "t-test."
+)
+TOO_FEW = (
+    "Where they are too few: `mocapbench run` with more --folds helps if a task draws them, and "
+    "only recordings of more people if n counts people."
+)
 
 
 def outcome(row: Row, sides: tuple[str, str]) -> str:
     """Return who is better by the corrected t-test, or why that cannot be said."""
     contrast = row.contrast
-    if contrast.first == contrast.second and contrast.low == contrast.high:
+    if contrast.identical:
         return "identical"
-    if math.isnan(row.t_p_holm):
-        return "one unit: no test"
+    if contrast.n < FEWEST_UNITS:
+        return "too few to test"
     if row.t_p_holm > ALPHA:
         return "not separable"
     return f"{sides[contrast.advantage < 0.0]} better"
@@ -58,28 +68,17 @@ def markdown(rows: Sequence[Row], sides: tuple[str, str]) -> str:
 def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
     """Return what a reader of ``rows`` must know."""
     identical = sum(outcome(row, sides) == "identical" for row in rows)
-    powerless = sorted({row.contrast.n for row in rows} - {0})
-    powerless = [n for n in powerless if n == 1 or least_signed_rank_p(n) > ALPHA]
+    counts = {row.contrast.n for row in rows}
+    powerless = any(n >= FEWEST_UNITS and least_signed_rank_p(n) > ALPHA for n in counts)
     return [
         "“Better by” comes with its 95 % interval by Student’s t. Each p is corrected after Holm, "
         "single cases and all cases apart. P is by the Bayesian correlated t-test.",
-        "n counts folds, and cases over all of them, also those of one person; the report counts "
-        "people, and calls fewer than five too few to test.",
+        "n counts people, where recordings are of people, else independent folds or cases, as in "
+        "the report. Fewer than five are too few to test.",
         *([f"{identical} of {len(rows)} comparisons are identical."] if identical else []),
-        *(_powerless(n) for n in powerless[-1:]),
+        *([POWERLESS] if powerless else []),
+        *([TOO_FEW] if min(counts) < FEWEST_UNITS else []),
     ]
-
-
-def _powerless(n: int) -> str:
-    if n == 1:
-        return (
-            "Where n is 1 no test is possible: more cases are needed, or more folds where the task "
-            "draws them."
-        )
-    return (
-        f"Where n is at most {n}, Wilcoxon’s signed-rank test cannot go below p = "
-        f"{least_signed_rank_p(n):.4g}, however large the difference: go by the paired t-test."
-    )
 
 
 def _by_metric(rows: Sequence[Row]) -> Iterator[tuple[str, list[Row]]]:

@@ -8,8 +8,8 @@ import numpy as np
 
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.trials.choice import Choice
+from mocapbench.metrics.statistics import FEWEST_UNITS
 from mocapbench.reports import RankedModel
-from mocapbench.reports.analysis.units import FEWEST_UNITS
 
 __all__ = ["headline", "left_out", "ranked", "remarks", "units", "verdict"]
 

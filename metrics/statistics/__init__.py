@@ -1,8 +1,8 @@
 """Statistics of paired comparisons: whether a difference of two entrants is more than chance.
 
 A difference is an *advantage*: the loss of the second entrant minus that of the first, so that
-positive means that the first is better, whatever the metric's direction. `pairing` forms the units,
-`differences` and `posterior` test a sample of differences, `contrast` puts these together,
+positive means that the first is better, whatever the metric's direction. `pairing` pairs
+values, `differences` and `posterior` test a sample of differences, `contrast` puts these together,
 `families` tests many at once, and `ranking` orders more than two entrants. docs/statistics.md
 explains which of these is used where, and why.
 """
@@ -10,6 +10,7 @@ explains which of these is used where, and why.
 from mocapbench.metrics.statistics.contrast import ROPE, Contrast, contrast
 from mocapbench.metrics.statistics.differences import (
     ALPHA,
+    FEWEST_UNITS,
     holm,
     least_signed_rank_p,
     mean_interval,
@@ -22,18 +23,18 @@ from mocapbench.metrics.statistics.families import (
     holm_tests_of_means,
     means_and_errors,
 )
-from mocapbench.metrics.statistics.pairing import case_units, pair, pooled_units
+from mocapbench.metrics.statistics.pairing import pair
 from mocapbench.metrics.statistics.posterior import Posterior, correlated_t_test
 from mocapbench.metrics.statistics.ranking import RankComparison, compare_ranks, nemenyi
 
 __all__ = [
     "ALPHA",
+    "FEWEST_UNITS",
     "ROPE",
     "Contrast",
     "HolmTests",
     "Posterior",
     "RankComparison",
-    "case_units",
     "compare_ranks",
     "contrast",
     "correlated_t_test",
@@ -45,7 +46,6 @@ __all__ = [
     "means_and_errors",
     "nemenyi",
     "pair",
-    "pooled_units",
     "signed_rank_test",
     "t_test",
 ]

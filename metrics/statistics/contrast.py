@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
 
-from mocapbench.metrics.statistics.differences import mean_interval, signed_rank_test, t_test
+from mocapbench.metrics.statistics.differences import (
+    FEWEST_UNITS,
+    Array,
+    mean_interval,
+    signed_rank_test,
+    t_test,
+)
 from mocapbench.metrics.statistics.posterior import correlated_t_test
 
 __all__ = ["ROPE", "Contrast", "contrast"]
@@ -25,15 +31,18 @@ class Contrast:
     Parameters
     ----------
     n : int
-        Number of units that both have; if 0, all other fields are NaN.
+        Number of units that both have; if 0, all means are NaN. Below `FEWEST_UNITS` there is
+        neither an interval, nor a test, nor a probability.
     first, second : float
-        Mean values over the units.
+        Mean values over the units, by their shares.
     advantage, low, high : float
         By how much the first is better, with the 95 % interval; negative is worse.
     t_p, signed_rank_p : float
         Two-sided p-values of the paired t-test and of Wilcoxon's test, not corrected.
     better, equivalent, worse : float
         Probabilities by the Bayesian correlated t-test.
+    identical : bool
+        Whether both have the same value in every unit.
     """
 
     n: int
@@ -47,6 +56,7 @@ class Contrast:
     better: float = math.nan
     equivalent: float = math.nan
     worse: float = math.nan
+    identical: bool = False
 
 
 def contrast(units: pd.DataFrame, loss: Callable[[float], float], rope: float = ROPE) -> Contrast:
@@ -55,8 +65,8 @@ def contrast(units: pd.DataFrame, loss: Callable[[float], float], rope: float = 
     Parameters
     ----------
     units : DataFrame
-        One row per unit, columns ``first`` and ``second``, finite: see `case_units` and
-        `pooled_units`.
+        One row per unit: its values ``first`` and ``second``, finite, and its ``share`` of the
+        mean. Shares sum to 1.
     loss : callable
         From a value of the metric to its loss, of which lower is better.
     rope : float
@@ -72,18 +82,42 @@ def contrast(units: pd.DataFrame, loss: Callable[[float], float], rope: float = 
         raise ValueError(f"expected a region of practical equivalence of 0 or more, got {rope}")
     if units.empty:
         return Contrast(0)
+    first, second, shares = (units[name].to_numpy(float) for name in ("first", "second", "share"))
     advantages = (units["second"].map(loss) - units["first"].map(loss)).to_numpy(float)
-    scale = float(np.abs(units[["first", "second"]].to_numpy(float)).mean())
-    posterior = correlated_t_test(advantages, rope * scale)
-    low, high = mean_interval(advantages)
-    return Contrast(
+    means = Contrast(
         n=len(units),
-        first=float(units["first"].mean()),
-        second=float(units["second"].mean()),
-        advantage=float(advantages.mean()),
+        first=float(shares @ first),
+        second=float(shares @ second),
+        advantage=float(shares @ advantages),
+        identical=bool((first == second).all()),
+    )
+    if means.n < FEWEST_UNITS:
+        return means
+    scale = float(shares @ (np.abs(first) + np.abs(second))) / 2.0
+    return _tested(means, advantages, shares, rope * scale)
+
+
+def _tested(means: Contrast, advantages: Array, shares: Array, rope: float) -> Contrast:
+    """Return ``means`` with the interval, p-values and probabilities of the advantages."""
+    weighted = _of_equal_shares(advantages, shares)
+    low, high = mean_interval(weighted)
+    return replace(
+        means,
         low=low,
         high=high,
-        t_p=t_test(advantages),
+        t_p=t_test(weighted),
         signed_rank_p=signed_rank_test(advantages),
-        **vars(posterior),
+        **vars(correlated_t_test(weighted, rope)),
     )
+
+
+def _of_equal_shares(advantages: Array, shares: Array) -> Array:
+    """Return values of equal shares with the mean and the error of the weighted advantages.
+
+    They are y = x̄ + n s (x − x̄), with x̄ = Σ s x: their mean is x̄, and the squared error of that is
+    n/(n − 1) Σ s² (x − x̄)², that of `means_and_errors`.
+    """
+    if np.ptp(advantages) == 0.0:
+        return advantages
+    mean = shares @ advantages
+    return np.asarray(mean + advantages.size * shares * (advantages - mean))

@@ -16,6 +16,7 @@ from scipy import stats
 
 __all__ = [
     "ALPHA",
+    "FEWEST_UNITS",
     "holm",
     "least_signed_rank_p",
     "mean_interval",
@@ -25,6 +26,10 @@ __all__ = [
 ]
 
 ALPHA = 0.05
+
+FEWEST_UNITS = 5
+"""With fewer independent units no difference is tested: not to find one would say nothing."""
+
 MOST_ENUMERATED = 12
 
 Array = NDArray[np.float64]

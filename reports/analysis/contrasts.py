@@ -14,10 +14,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.statistics import ALPHA, holm_tests_of_means, means_and_errors
+from mocapbench.metrics.statistics import ALPHA, FEWEST_UNITS, holm_tests_of_means, means_and_errors
 from mocapbench.reports.analysis.cells import Cells
 from mocapbench.reports.analysis.grid import Array
-from mocapbench.reports.analysis.units import FEWEST_UNITS
 
 __all__ = ["PairContrast", "contrasts"]
 

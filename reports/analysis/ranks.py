@@ -12,10 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from mocapbench.metrics.statistics import RankComparison, compare_ranks, nemenyi
+from mocapbench.metrics.statistics import FEWEST_UNITS, RankComparison, compare_ranks, nemenyi
 from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.units import FEWEST_UNITS
 
 __all__ = ["Ranks", "ranks_over_units", "unit_losses"]
 

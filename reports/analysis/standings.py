@@ -15,11 +15,10 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.statistics import holm_tests_of_means, means_and_errors
+from mocapbench.metrics.statistics import FEWEST_UNITS, holm_tests_of_means, means_and_errors
 from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.grid import Array
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.units import FEWEST_UNITS
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.text import counted
 

@@ -1,4 +1,4 @@
-"""The one rule of what counts as an independent unit, for every test and interval of the page.
+"""The one rule of what counts as an independent unit, in the report and in ``compare``.
 
 A *cell* is a fold f of a case c. Its unit is
 
@@ -18,7 +18,7 @@ so that the mean Σ s(u) x(u) is the mean over cases. Its standard error is that
 with Student's t at n − 1 degrees of freedom for n units. Two recordings of one subject are thus one
 unit. Where all units have the same share it is the usual t-test over their values.
 
-With fewer than `FEWEST_UNITS` units no difference is tested: not to find one would say nothing.
+With fewer than `mocapbench.metrics.statistics.FEWEST_UNITS` units no difference is tested.
 """
 
 from __future__ import annotations
@@ -32,9 +32,7 @@ from scipy.sparse import csr_array
 
 from mocapbench.reports.bundle.layout import CaseLayout
 
-__all__ = ["FEWEST_UNITS", "UnitKind", "unit_kind", "unit_names", "unit_weights"]
-
-FEWEST_UNITS = 5
+__all__ = ["UnitKind", "unit_kind", "unit_names", "unit_weights"]
 
 
 class UnitKind(StrEnum):

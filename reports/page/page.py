@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import groupby
 
+from mocapbench.metrics.statistics import FEWEST_UNITS
 from mocapbench.reports.analysis.published.verdicts import RELATIVE_TOLERANCE
 from mocapbench.reports.analysis.results import TaskResults, task_results
 from mocapbench.reports.analysis.troubles import DATA_MISSING, troubles
-from mocapbench.reports.analysis.units import FEWEST_UNITS
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.model_info import ModelInfo, in_families
 from mocapbench.reports.bundle.questions import QUESTIONS, question

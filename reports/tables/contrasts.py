@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 from itertools import combinations
 
+from mocapbench.metrics.statistics import FEWEST_UNITS
 from mocapbench.reports.analysis.cells import cells
 from mocapbench.reports.analysis.contrasts import PairContrast, contrasts
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.units import FEWEST_UNITS
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.text import counted, decimals, number, slug
 

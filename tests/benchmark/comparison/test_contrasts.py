@@ -1,6 +1,7 @@
 import html
 from dataclasses import replace
 
+import numpy as np
 import pandas as pd
 import pytest
 from markdown_it import MarkdownIt
@@ -8,10 +9,15 @@ from typer.main import get_command
 
 from mocapbench.benchmark import comparison
 from mocapbench.benchmark.cli.compare import app
+from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark.results.bundle import bundle
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.metrics.statistics import ROPE
+from mocapbench.reports.analysis.cells import cells
+from mocapbench.reports.analysis.contrasts import contrasts
+from mocapbench.reports.analysis.results import task_results
 
 TOY, FRAMES = "toy-interpolation-1", "missing-frames"
 GOOD = {"test 1": [1.0, 1.2, 0.9, 1.1, 1.0], "test 2": [2.0, 2.2, 1.9, 2.1, 2.0]}
@@ -68,7 +74,7 @@ def test_two_runs_are_contrasted_case_by_case_and_over_all(cli, run, tmp_path):
     one, other = run("good", records("knn", GOOD)), run("bad", records("knn", BAD))
     rows = compared(cli, tmp_path, one, other, "--metrics", "mse")
     assert list(rows.index) == ["test 1", "test 2", "all cases"]
-    assert list(rows["n"]) == [5, 5, 2]
+    assert list(rows["n"]) == [5, 5, 10]
     assert rows.loc["test 1", "advantage"] == pytest.approx(0.52)
     assert rows.loc["all cases", "advantage"] == pytest.approx(0.77)
     assert (rows["t_p_holm"] >= rows["t_p"]).all()
@@ -107,7 +113,7 @@ def test_a_run_against_itself_is_identical(cli, run):
     assert "3 of 3 comparisons are identical" in cli.printed
 
 
-def test_overlapping_windows_count_as_one(cli, run, tmp_path):
+def test_overlapping_windows_of_one_person_count_as_one(cli, run, tmp_path):
     windows = {"35-03 three-walkers": [1.0, 2.0, 3.0], "07-01 three-walkers": [2.0, 3.0, 5.0]}
     groups = [
         records(label, cases, task=FRAMES, metric="rms_per_frame")
@@ -115,8 +121,28 @@ def test_overlapping_windows_count_as_one(cli, run, tmp_path):
     ]
     rows = compared(cli, tmp_path, run("run", *groups), "--models", "knn,nn")
     assert list(rows["n"]) == [1, 1, 2]
-    assert rows["t_p"].isna().tolist() == [True, True, False]
-    assert "one unit: no test" in cli.printed
+    assert rows["t_p"].isna().all()
+    assert cli.printed.count("too few to test") == 4  # and the note
+
+
+@pytest.mark.parametrize(
+    ("task", "metric", "n_folds", "n_units"),
+    [(TOY, "mse", 2, 18), (FRAMES, "rms_per_frame", 3, 5), ("marker-gaps", "mpjpe", 6, 4)],
+)
+def test_the_units_and_tests_are_those_of_the_report(task, metric, n_folds, n_units):
+    rng, cases = np.random.default_rng(0), TASKS.get(task).cases
+    found = [
+        records(label, {c.name: list(rng.lognormal(size=n_folds)) for c in cases}, task, metric)
+        for label in ("knn", "nn")
+    ]
+    whole = bundle([record for side in found for record in side], {})
+    expected = contrasts(cells(task_results(whole, whole.layouts[0]), metric))["knn", "nn"]
+    sides = comparison.between_models([r for side in found for r in side], ("knn", "nn"))
+    rows = comparison.compare(*sides, metrics=[metric], rope=ROPE)
+    (pooled,) = (row.contrast for row in rows if row.case == "all cases")
+    assert pooled.n == expected.n == n_units
+    for name in ("first", "second", "advantage", "t_p"):
+        assert getattr(pooled, name) == pytest.approx(getattr(expected, name), nan_ok=True)
 
 
 def test_rows_that_are_means_of_others_do_not_count_beside_them(cli, run, tmp_path):
@@ -136,7 +162,7 @@ def test_generated_motion_is_not_pooled_with_recordings(cli, run, tmp_path):
         for label, values in (("knn", cases), ("nn", doubled))
     ]
     rows = compared(cli, tmp_path, run("run", *groups), "--models", "knn,nn", "--metrics", "mse")
-    assert rows.loc["all cases", "n"] == 2
+    assert rows.loc["all cases", "n"] == 4
     assert rows.loc["all cases", "first"] == pytest.approx(1.525)
 
 

@@ -7,7 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.metrics.statistics import case_units, contrast, pair, pooled_units
+from mocapbench.metrics.statistics import (
+    FEWEST_UNITS,
+    contrast,
+    holm_tests_of_means,
+    means_and_errors,
+    pair,
+)
 
 NAN = math.nan
 values = st.lists(
@@ -25,7 +31,8 @@ def series(cases):
 
 
 def units(rows):
-    return pd.DataFrame(rows, columns=["first", "second"])
+    found = pd.DataFrame(rows, columns=["first", "second"])
+    return found.assign(share=1.0 / max(len(found), 1))
 
 
 @settings(max_examples=25)
@@ -36,6 +43,7 @@ def test_exchanging_the_entrants_reverses_the_contrast(rows):
     turned = (
         *(there.n, there.second, there.first, -there.advantage, -there.high, -there.low),
         *(there.t_p, there.signed_rank_p, there.worse, there.equivalent, there.better),
+        there.identical,
     )
     assert astuple(back) == pytest.approx(turned, nan_ok=True, abs=1e-9)
 
@@ -64,24 +72,41 @@ def test_an_advantage_follows_the_direction():
 
 
 def test_identical_entrants_are_equivalent():
-    same = contrast(units([(1.0, 1.0), (2.0, 2.0), (0.5, 0.5)]), lower)
+    same = contrast(units([(1.0, 1.0), (2.0, 2.0), (0.5, 0.5), (1.5, 1.5), (3.0, 3.0)]), lower)
     assert (same.advantage, same.t_p, same.signed_rank_p, same.equivalent) == (0.0, 1.0, 1.0, 1.0)
+    assert same.identical
+    assert contrast(units([(1.0, 1.0)]), lower).identical
 
 
-def test_one_unit_has_an_advantage_and_nothing_else():
-    lone = contrast(units([(1.0, 3.0)]), lower)
-    assert (lone.n, lone.advantage) == (1, 2.0)
-    assert all(math.isnan(value) for value in astuple(lone)[4:])
+@pytest.mark.parametrize("n", range(1, FEWEST_UNITS + 1))
+def test_few_units_have_an_advantage_and_no_test(n):
+    few = contrast(units([(1.0, 3.0), (1.0, 2.0), (1.0, 3.5), (2.0, 2.5), (1.0, 4.0)][:n]), lower)
+    assert few.n == n
+    assert few.advantage > 0.0
+    assert all(math.isnan(value) == (n < FEWEST_UNITS) for value in astuple(few)[4:11])
+
+
+@settings(max_examples=25)
+@given(st.lists(st.tuples(*[st.floats(0.1, 10.0)] * 3), min_size=5, max_size=9))
+def test_units_weigh_as_much_as_their_share(rows):
+    first, second, shares = np.array(rows).T
+    shares = shares / shares.sum()
+    found = contrast(pd.DataFrame({"first": first, "second": second, "share": shares}), lower)
+    weighted = holm_tests_of_means(*means_and_errors([second - first], shares), [len(rows)])
+    assert found.first == pytest.approx(shares @ first)
+    for name in ("low", "high"):
+        assert getattr(found, name) == pytest.approx(*getattr(weighted, name), abs=1e-9)
+    assert (found.advantage, found.t_p) == pytest.approx((*weighted.mean, *weighted.p), abs=1e-9)
 
 
 def test_nothing_in_common_is_no_contrast():
     nothing = contrast(units([]), lower)
     assert nothing.n == 0
-    assert all(math.isnan(value) for value in astuple(nothing)[1:])
+    assert all(math.isnan(value) for value in astuple(nothing)[1:-1])
 
 
 def test_the_region_is_a_share_of_the_mean_value():
-    rows = units([(100.0, 101.0)] * 3)
+    rows = units([(100.0, 101.0)] * 5)
     assert contrast(rows, lower, rope=0.02).equivalent == 1.0
     assert contrast(rows, lower, rope=0.001).better == 1.0
     with pytest.raises(ValueError, match="expected a region"):
@@ -93,32 +118,3 @@ def test_only_finite_values_at_common_addresses_are_paired():
     second = series({"x": [1.5, NAN, 3.0]})
     pairs = pair(first, second)
     assert pairs.to_dict("list") == {"first": [1.0], "second": [1.5]}
-    assert case_units(pairs, "only first", independent=False).empty
-
-
-def test_overlapping_windows_are_one_unit():
-    pairs = pair(series({"x": [1.0, 3.0]}), series({"x": [2.0, 6.0]}))
-    assert len(case_units(pairs, "x", independent=True)) == 2
-    (unit,) = case_units(pairs, "x", independent=False).to_dict("records")
-    assert unit == {"first": 2.0, "second": 4.0}
-
-
-def test_cases_are_the_units_of_a_task_however_many_folds_they_have():
-    pairs = pair(
-        series({"x": [1.0, 3.0], "y": [5.0]}), series({"x": [2.0, 6.0], "y": [7.0, 100.0]})
-    )
-    assert pooled_units(pairs, independent=True).to_dict("list") == {
-        "first": [2.0, 5.0],
-        "second": [4.0, 7.0],
-    }
-
-
-@pytest.mark.parametrize(("independent", "n"), [(True, 2), (False, 1)])
-def test_a_lone_case_is_pooled_over_its_own_units(independent, n):
-    pairs = pair(series({"x": [1.0, 3.0]}), series({"x": [2.0, 6.0]}))
-    assert len(pooled_units(pairs, independent=independent)) == n
-
-
-def test_pooling_nothing_gives_nothing():
-    empty = pair(series({"x": [1.0]}), series({"y": [1.0]}))
-    assert pooled_units(empty, independent=True).empty

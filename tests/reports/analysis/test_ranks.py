@@ -2,10 +2,9 @@ import re
 
 import pytest
 
-from mocapbench.metrics.statistics import nemenyi
+from mocapbench.metrics.statistics import FEWEST_UNITS, nemenyi
 from mocapbench.reports.analysis.ranks import ranks_over_units
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.analysis.units import FEWEST_UNITS
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.scores.ranks import rank_figure
 from mocapbench.reports.figures.styles import Style

@@ -6,10 +6,9 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from mocapbench.metrics.statistics import ALPHA, holm
+from mocapbench.metrics.statistics import ALPHA, FEWEST_UNITS, holm
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.standings import Place, standings
-from mocapbench.reports.analysis.units import FEWEST_UNITS
 from mocapbench.reports.bundle.layout import CaseLayout
 
 laws = settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
