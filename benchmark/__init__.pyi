@@ -18,6 +18,7 @@ from .formats import format_for
 from .gate.checking import check
 from .inspection.explanation import explain
 from .inspection.forecast_output import lacking, lacking_line
+from .inspection.left_out import left_out_lines
 from .inspection.output import explanation_table, state_lines, state_table
 from .inspection.planned import forecast_text, plan_table
 from .inspection.recordings import DataRequest, data_totals, next_data_step
@@ -139,6 +140,7 @@ __all__ = [
     "lacking",
     "lacking_line",
     "last_drawn",
+    "left_out_lines",
     "library_entry",
     "load_plugin",
     "memory_share",

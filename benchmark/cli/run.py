@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench import datasets
+from mocapbench import datasets, reports
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.data import fetch_missing
 from mocapbench.benchmark.cli.options import (
@@ -192,6 +192,7 @@ def _run(
         task_files=[file.to_plain() for file in config.task_files],
     )
     drawn = bench.last_drawn(store, [job.key for job in planned])
+    left_out = bench.left_out_lines(store, planned)
     if not drawn:
         store.save_plan(document(provenance=about))
     try:
@@ -206,7 +207,9 @@ def _run(
         console.print(f"nothing new; report: {report.resolve()}", soft_wrap=True)
         show_left_out(store.damaged, console)
         return code
-    about["wall time"] = f"{time.monotonic() - started:.0f} s"
+    about["wall time"] = _wall_time(time.monotonic() - started, records, about["started"])
+    for line in left_out:
+        console.print(line, soft_wrap=True, highlight=False)
     store.save_plan(document(provenance=about))
     if not with_report:
         line = f"no report was written; `mocapbench report --out {store.path}` writes one"
@@ -215,6 +218,15 @@ def _run(
     write_report(records, about, store, bench.archive_at(config.data_dir), report, console)
     store.save_plan(document(provenance=about, drawn=found))
     return code
+
+
+def _wall_time(seconds: float, records: Sequence[Record], started: str) -> str:
+    """Return the seconds of a run, and of how many results they are not."""
+    done = (record for record in records if record.status is bench.Status.OK)
+    earlier = sum(record.provenance.get("started") != started for record in done)
+    return f"{seconds:.0f} s" + (
+        f", besides {reports.counted(earlier, 'job')} done before" if earlier else ""
+    )
 
 
 def _fetching(planned: Sequence[Job], plugins: Sequence[Path]) -> str:

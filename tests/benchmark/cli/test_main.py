@@ -1,7 +1,9 @@
 import importlib
 import json
+import re
 import subprocess
 import sys
+import time
 
 import pandas as pd
 import pytest
@@ -97,6 +99,29 @@ def test_a_second_run_computes_nothing(cli, tmp_path):
     assert before == {
         path: path.stat().st_mtime_ns for path in (tmp_path / "run/records").glob("*/*")
     }
+
+
+def test_a_smaller_run_says_what_its_report_leaves_out(cli, tmp_path):
+    wide = (*TOY, "--models", "linear,knn,nn", "--folds", 2, "--out", tmp_path / "run")
+    assert cli(*wide) == 0
+    assert "not in the report" not in cli.printed
+    assert cli(*TOY, "--models", "linear", "--folds", 2, "--out", tmp_path / "run") == 0
+    assert "not in the report: 4 jobs of the run before this one (models knn, nn)" in cli.printed
+    assert cli(*wide) == 0
+    assert "not in the report" not in cli.printed
+    assert cli(*wide, "--folds", 1) == 0
+    assert "3 jobs of the run before this one (some of their folds)" in cli.printed
+
+
+def test_the_wall_time_of_a_resumed_run_says_what_it_leaves_out(cli, tmp_path):
+    run = (*TOY, "--models", "linear", "--out", tmp_path / "run", "--folds")
+    assert cli(*run, 1) == 0
+    about = Store.open(tmp_path / "run").load_plan()["provenance"]
+    assert re.fullmatch(r"\d+ s", about["wall time"])
+    time.sleep(1.0)  # the time of the start, which has no fractions, is another
+    assert cli(*run, 3) == 0
+    about = Store.open(tmp_path / "run").load_plan()["provenance"]
+    assert re.fullmatch(r"\d+ s, besides 1 job done before", about["wall time"])
 
 
 def _take_longer(path):
