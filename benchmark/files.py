@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
 
-__all__ = ["atomic_write", "target_of"]
+__all__ = ["atomic_write", "is_writable", "target_of", "words_of"]
 
 _READABLE = 0o644
 _SUFFIX = ".tmp"
@@ -30,6 +30,23 @@ def atomic_write(path: Path) -> Iterator[IO[bytes]]:
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
         raise
+
+
+def is_writable(folder: Path) -> bool:
+    """Return whether files can be made in ``folder``, or the folder itself where there is none."""
+    present = next(path for path in (folder, *folder.absolute().parents) if path.exists())
+    return present.is_dir() and os.access(present, os.W_OK | os.X_OK)
+
+
+def words_of(error: OSError) -> str:
+    """Return which file an error of the system is about, and what it says, without its number."""
+    if error.strerror is None:
+        return str(error)
+    if not isinstance(error.filename, str):
+        return error.strerror
+    path = Path(error.filename)
+    target = target_of(path)  # people know the file by this name
+    return f"{path.with_name(target) if target else path}: {error.strerror}"
 
 
 def target_of(temporary: Path) -> str:

@@ -10,9 +10,13 @@ from rich.text import Text
 
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import ExitCode, UsageError
+from mocapbench.benchmark.files import words_of
 from mocapbench.datasets import AcclaimError, DigestMismatch, FormatError
 
 __all__ = ["exit_code", "explain", "show_warning"]
+
+
+ERROR = Text("error:", "bold red")
 
 
 def exit_code(error: BaseException) -> ExitCode:
@@ -45,7 +49,7 @@ def explain(error: Exception) -> ExitCode:
         case UsageError() | DigestMismatch() | AcclaimError() | FormatError():
             _say(str(error))
         case OSError():
-            _say(f"cannot read or write: {error}")
+            _say(f"cannot read or write {words_of(error)}")
         case _:
             _quote("".join(traceback.format_exception(error)))
             _say("a defect of mocapbench or an added package; see above")
@@ -60,13 +64,19 @@ def show_warning(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    """Show a warning on standard error as Python does; in place of `warnings.showwarning`."""
+    """Show a warning on standard error; in place of `warnings.showwarning`.
+
+    Ours are written for users, others are shown as Python shows them, with their place.
+    """
     del file
-    _quote(warnings.formatwarning(message, category, filename, lineno, line))
+    if category.__module__.startswith("mocapbench."):
+        _say(str(message), Text("warning:", "bold"))
+    else:
+        _quote(warnings.formatwarning(message, category, filename, lineno, line))
 
 
-def _say(message: str) -> None:
-    LiteralConsole(stderr=True).print(Text("error:", "bold red"), message, soft_wrap=True)
+def _say(message: str, kind: Text = ERROR) -> None:
+    LiteralConsole(stderr=True).print(kind, message, soft_wrap=True)
 
 
 def _quote(text: str) -> None:

@@ -12,6 +12,7 @@ import typer
 from mocapbench import benchmark as bench
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.files import is_writable
 from mocapbench.benchmark.runs.case_names import split_cases
 
 if TYPE_CHECKING:
@@ -112,11 +113,16 @@ def require_writable(*paths: Path | None) -> None:
     Raises
     ------
     UsageError
-        If a path is a folder, or in a folder that does not exist.
+        If a path is a folder, or in a folder that does not exist or cannot be written to.
     """
-    for path in paths:
-        if path is not None and (path.is_dir() or not path.parent.is_dir()):
+    for path in filter(None, paths):
+        if path.is_dir() or not path.parent.is_dir():
             raise UsageError(f"{path}: expected a file in a folder that exists")
+        if not is_writable(path.parent):
+            raise UsageError(
+                f"{path}: expected a file in a folder that can be written to; name another, or "
+                "change the folder's permissions"
+            )
 
 
 def show_left_out(damaged: Iterable[str], console: LiteralConsole) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -11,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import atomic_write, is_writable
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.reports import csv_text
 
@@ -40,8 +39,7 @@ def outputs_of(files: Sequence[Path], folder: Path) -> list[Outputs]:
     """
     if folder.exists() and not folder.is_dir():
         raise UsageError(f"--out: expected a folder, got the file {folder}; name another")
-    present = next(path for path in (folder, *folder.absolute().parents) if path.exists())
-    if not os.access(present, os.W_OK):
+    if not is_writable(folder):
         raise UsageError(
             f"--out: expected a folder that can be written to, got {folder}; "
             "name another, or change its permissions"

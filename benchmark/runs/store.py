@@ -29,7 +29,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import atomic_write, words_of
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.directory.key_file import KEYS, KeyEntry, read_keys, write_keys
 from mocapbench.benchmark.runs.directory.leftovers import sweep
@@ -79,7 +79,10 @@ class Store:
                 with atomic_write(path / _MARKER) as file:
                     file.write(json.dumps({"format": _FORMAT}).encode())
         except OSError as error:
-            raise UsageError(f"--out: {path} cannot be written: {error}") from error
+            raise UsageError(
+                f"--out: expected a folder that can be written to, got {path} ({words_of(error)}); "
+                "name another, or change its permissions"
+            ) from error
         return cls(path)
 
     @classmethod
