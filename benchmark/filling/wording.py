@@ -6,12 +6,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mocapbench.benchmark.filling.edges import jumps
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.metrics.statistics import FEWEST_UNITS
 from mocapbench.reports import RankedModel
 
 __all__ = ["headline", "left_out", "ranked", "remarks", "units", "verdict"]
+
+SLOW = 0.5
+"""Seconds between frames from which on times are probably not in seconds."""
 
 
 def headline(filled: Filled) -> str:
@@ -60,7 +64,42 @@ def remarks(filled: Filled) -> Iterator[str]:
             f"to {100 * choice.share:.3g} % as long, and errors in the real ones larger."
         )
     if filled.answer.variance is None:
-        yield f"{filled.model} has no predictive distribution: there are no bands."
+        none = f"{filled.model} has no predictive distribution: there are no bands."
+        yield f"{none} {_with_bands(filled)}".strip()
+    yield from _jumps(filled)
+    yield from _slow(filled)
+
+
+def _with_bands(filled: Filled) -> str:
+    """Return which model with bands is as good in trials, as far as they tell."""
+    if filled.choice is None:
+        return ""
+    ranking = filled.choice.ranking
+    alike = [m for m in ranking.sharing if ranking.scores[m].coverage is not None]
+    return f"--model {alike[0]} gives some; trials do not separate the two." if alike else ""
+
+
+def _jumps(filled: Filled) -> Iterator[str]:
+    recording = filled.recording
+    found = jumps(recording, filled.source.request.target)
+    if found:
+        frame, channel, size, largest = found[0]
+        unit = recording.units[channel]
+        edges = "one edge" if len(found) == 1 else f"{len(found)} edges"
+        yield (
+            f"At {edges} of gaps, a channel jumps further than between any two visible frames: "
+            f"{recording.channels[channel]} by {size:.3g} {unit} at frame {frame}, elsewhere by at "
+            f"most {largest:.3g} {unit}. Look at the curves before you use these entries."
+        )
+
+
+def _slow(filled: Filled) -> Iterator[str]:
+    interval = float(np.median(np.diff(filled.source.request.given.times)))
+    if interval > SLOW:
+        yield (
+            f"Frames are {interval:.3g} s apart, which is long for motion: if the file's times are "
+            "in milliseconds, divide them by 1000."
+        )
 
 
 def ranked(filled: Filled) -> Iterator[RankedModel]:

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,8 +23,9 @@ def filled(waves, hidden):
     def make(choice=None, *, left_open=(), windows=0, failed=()):
         target = hidden((50, 60, [0, 1]))
         request = Request(waves().hide(target), target, left_open)
+        answer = Answer(waves().values[target], np.ones(20))
         source = Source(Path("waves.csv"), CSVFormat(), request, ())
-        return Filled(source, "one", Answer(np.zeros(20), np.ones(20)), windows, choice, failed)
+        return Filled(source, "one", answer, windows, choice, failed)
 
     return make
 
@@ -60,6 +62,33 @@ def test_what_was_done_is_said(filled):
     said = " ".join(remarks(filled(choice_of({"one": [1, 2]}, share=0.25), **kind)))
     for words in ("1 longer gap was left open", "3 windows", "25 % as long", "two did better"):
         assert words in said
+
+
+@pytest.mark.parametrize(("coverage", "said"), [(0.9, True), (None, False)])
+def test_a_model_with_bands_that_does_as_well_is_named(filled, coverage, said):
+    choice = choice_of({"one": [1, 2, 1, 2, 1], "two": [2, 1, 2, 1, 2]})
+    scores = {**choice.ranking.scores}
+    scores["two"] = replace(scores["two"], coverage=coverage)
+    bare = filled(replace(choice, ranking=replace(choice.ranking, scores=scores)))
+    bare = replace(bare, answer=replace(bare.answer, variance=None))
+    words = " ".join(remarks(bare))
+    assert "there are no bands" in words
+    assert ("--model two gives some" in words) == said
+
+
+def test_a_jump_at_an_edge_is_said(filled):
+    raised = replace(filled(), answer=Answer(np.full(20, 99.0), np.ones(20)))
+    (said,) = remarks(raised)
+    assert said.startswith("At 4 edges of gaps, a channel jumps further than between any two")
+    assert "deg at frame 5" in said
+
+
+def test_times_that_are_probably_not_in_seconds_are_said(filled):
+    given = filled()
+    request = given.source.request
+    late = replace(request.given, times=1000.0 * request.given.times)
+    source = replace(given.source, request=replace(request, given=late))
+    assert "in milliseconds" in " ".join(remarks(replace(given, source=source)))
 
 
 def test_nothing_special_is_passed_over_in_silence(filled):

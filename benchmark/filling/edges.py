@@ -1,0 +1,63 @@
+"""Jumps at the edges of filled gaps, where entries do not fit the visible ones beside them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mocapbench.datasets import Mask, Recording
+
+__all__ = ["Jump", "jumps"]
+
+_RELATIVE = 1e-6
+"""Steps below this share of a channel's values are rounding."""
+
+
+class Jump(NamedTuple):
+    """A step between a visible and a filled frame that is longer than every visible step.
+
+    Parameters
+    ----------
+    frame : int
+        The filled frame, 0-based.
+    channel : int
+    size : float
+        Of the step, in the channel's unit.
+    largest : float
+        Of the steps between visible frames of the channel.
+    """
+
+    frame: int
+    channel: int
+    size: float
+    largest: float
+
+
+def jumps(recording: Recording, target: Mask) -> list[Jump]:
+    """Return the jumps of a filled recording, the one that exceeds visible steps most first.
+
+    A step is |x(n + 1) − x(n)| of a channel x with frames n. A channel without two visible frames
+    in a row has no steps to compare with, and no jumps.
+
+    Parameters
+    ----------
+    recording : Recording
+        N frames of D channels, filled.
+    target : ndarray of bool of shape (N, D)
+        The entries that were filled.
+    """
+    steps = np.abs(np.diff(recording.values, axis=0))
+    visible = recording.visible & ~target
+    within = visible[1:] & visible[:-1]
+    largest = np.where(within, steps, 0.0).max(axis=0, initial=0.0)
+    least = _RELATIVE * np.where(visible, np.abs(recording.values), 0.0).max(axis=0, initial=0.0)
+    edges = (target[1:] & visible[:-1]) | (visible[1:] & target[:-1])
+    found = edges & within.any(axis=0) & (steps > largest + least)
+    return sorted(
+        (
+            Jump(int(n + target[n + 1, c]), int(c), float(steps[n, c]), float(largest[c]))
+            for n, c in zip(*np.nonzero(found), strict=True)
+        ),
+        key=lambda jump: (jump.largest / jump.size, jump.frame, jump.channel),
+    )

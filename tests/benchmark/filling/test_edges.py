@@ -1,0 +1,50 @@
+import numpy as np
+import pytest
+
+from mocapbench.benchmark.filling.edges import Jump, jumps
+
+
+def test_the_truth_does_not_jump(waves, hidden):
+    assert jumps(waves(), hidden((50, 60, [0, 1]))) == []
+
+
+@pytest.mark.parametrize("amount", [5.0, -7.0])
+def test_a_raised_gap_jumps_at_both_edges_by_what_it_was_raised(waves, hidden, amount):
+    recording, target = waves(), hidden((50, 60, [1]))
+    steps = np.abs(np.diff(recording.values[:, 1]))
+    raised = recording.values.copy()
+    raised[target] += 10.0 * amount
+    first, second = jumps(recording.with_values(raised), target)
+    assert {(j.frame, j.channel) for j in (first, second)} == {(50, 1), (59, 1)}
+    assert first.size >= second.size
+    assert second.size == pytest.approx(10.0 * abs(amount), abs=steps.max())
+    assert first.largest == pytest.approx(np.delete(steps, range(49, 60)).max())
+
+
+def test_steps_inside_a_gap_and_beside_open_ones_do_not_count(waves, hidden):
+    recording, target = waves(), hidden((50, 60, [0]))
+    values = recording.values.copy()
+    values[54:56, 0] += 90.0
+    values[48:50, 0] = np.nan  # stays open, so that nothing visible lies beside the gap there
+    assert jumps(recording.with_values(values), target) == []
+
+
+def test_a_channel_that_stands_still_may_be_filled_to_rounding(waves, hidden):
+    recording, target = waves(), hidden((50, 60, [0]))
+    values = recording.values.copy()
+    values[:, 0] = 3.0
+    values[50:60, 0] += 1e-9
+    assert jumps(recording.with_values(values), target) == []
+    values[50:60, 0] += 1.0
+    (found, _) = jumps(recording.with_values(values), target)
+    assert found == Jump(50, 0, pytest.approx(1.0), 0.0)
+
+
+def test_a_gap_at_the_end_has_one_edge(waves, hidden):
+    recording = waves()
+    n_frames = len(recording.values)
+    target = hidden((n_frames - 5, n_frames, [0]))
+    values = recording.values.copy()
+    values[target] += 90.0
+    (found,) = jumps(recording.with_values(values), target)
+    assert found.frame == n_frames - 5
