@@ -67,7 +67,8 @@ class Blends:
             "recordings share it: one that advances two or three states a frame skips those "
             "between, which another recording then shapes."
         )
-        panels = (strip(motion, JointAngles(problem.skeleton), TRANSITION), *curves)
+        moving = strip(motion, JointAngles(problem.skeleton), [TRANSITION] * len(times))
+        panels = (moving, *curves)
         return Illustration(solved.task, f"Blend by {label}", caption, panels)
 
 

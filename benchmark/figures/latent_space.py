@@ -97,7 +97,7 @@ def _walks(
         strip(
             Recording(label, times[: len(poses)], poses, about.channels, about.units),
             body,
-            group,
+            [group] * len(poses),
             f"{label}: {group}, ",
         )
         for label, walk in walks.items()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,8 +18,19 @@ STRIDE = 90.0
 """Centimetres from one stick figure to the next."""
 
 
-def strip(motion: Recording, body: Body, group: str, title: str = "") -> Panel:
-    """Return stick figures at even times, seen from the side and set apart."""
+def strip(motion: Recording, body: Body, groups: Sequence[str], title: str = "") -> Panel:
+    """Return stick figures at even times, seen from the side and set apart.
+
+    Parameters
+    ----------
+    motion : Recording
+        N frames, of which eight are shown.
+    body : Body
+    groups : sequence of str
+        In which style to draw each frame (N).
+    title : str
+        What the heading begins with.
+    """
     frames = np.linspace(0, len(motion.times) - 1, N_FIGURES).round().astype(int)
     places = body.positions(motion)[frames]
     places = places - places[:, :1] * [0.0, 0.0, 1.0]
@@ -27,7 +40,10 @@ def strip(motion: Recording, body: Body, group: str, title: str = "") -> Panel:
         f"{title}every {np.diff(motion.times[frames]).mean():.2g} s",
         "",
         "height, cm",
-        tuple(_sticks(body.skeleton, figure, group) for figure in places),
+        tuple(
+            _sticks(body.skeleton, figure, groups[frame])
+            for figure, frame in zip(places, frames, strict=True)
+        ),
         spatial=True,
     )
 

@@ -13,6 +13,7 @@ from mocapbench.benchmark.filling.wording import headline, left_out, ranked, rem
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.datasets import Mask, Recording
 from mocapbench.reports import FilledCurve, FilledPage, Panel
+from mocapbench.reports.filling.values import FILLED_FRAMES, GIVEN_FRAMES
 
 __all__ = ["page_of"]
 
@@ -103,4 +104,6 @@ def _motion(filled: Filled, recording: Recording, gap: Gap) -> Panel | None:
     part = recording.frames(np.arange(frames.start, frames.stop))
     if skeleton is None or not part.visible.all() or not set(part.channels) >= _ROOT_PATH:
         return None
-    return strip(part, JointAngles(skeleton), "filled")
+    touched = filled.source.request.target[frames].any(axis=1)
+    groups = np.where(touched, FILLED_FRAMES, GIVEN_FRAMES).tolist()
+    return strip(part, JointAngles(skeleton), groups)

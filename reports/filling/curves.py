@@ -13,14 +13,15 @@ from mocapbench.reports.figures.marks import band, group, horizontal, polyline, 
 from mocapbench.reports.figures.pictures.thinning import thinned
 from mocapbench.reports.figures.styles import TRUTH, Style
 from mocapbench.reports.figures.svg_figure import Key
-from mocapbench.reports.filling.values import FilledCurve
+from mocapbench.reports.filling.values import FILLED_FRAMES, GIVEN_FRAMES, FilledCurve
 from mocapbench.reports.printable import printable
 from mocapbench.reports.text import counted
 
-__all__ = ["draw_curve", "legend"]
+__all__ = ["MOTION_STYLES", "draw_curve", "legend"]
 
 HEIGHT = 120.0
 FILLED = Style("h0", 1)
+MOTION_STYLES = {GIVEN_FRAMES: TRUTH, FILLED_FRAMES: FILLED}
 _WITHIN_95 = 1.96
 
 Array = NDArray[np.float64]

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from markupsafe import Markup
-
-from mocapbench.reports.bundle.panels import Illustration
+from mocapbench.reports.bundle.panels import Illustration, Panel
 from mocapbench.reports.figures.pictures.panels import draw
-from mocapbench.reports.filling.curves import draw_curve, legend
+from mocapbench.reports.filling.curves import MOTION_STYLES, draw_curve, legend
 from mocapbench.reports.filling.values import FilledPage
 from mocapbench.reports.resources import styles, template
 from mocapbench.reports.text import decimals, number
@@ -20,16 +18,14 @@ def render_filled(page: FilledPage) -> str:
         page=page,
         curves=[draw_curve(curve) for curve in page.curves],
         legend=legend(),
-        motion=_motion(page),
+        motion=draw(_motion(page.motion), MOTION_STYLES) if page.motion else None,
         rows=_rows(page),
         css=styles(),
     )
 
 
-def _motion(page: FilledPage) -> Markup | None:
-    if page.motion is None:
-        return None
-    return draw(Illustration("filled", "Motion", "", (page.motion,)), {}).svg
+def _motion(motion: Panel) -> Illustration:
+    return Illustration("filled", "Motion", "", (motion,))
 
 
 def _rows(page: FilledPage) -> list[tuple[str, ...]]:

@@ -9,7 +9,10 @@ from numpy.typing import NDArray
 
 from mocapbench.reports.bundle.panels import Panel
 
-__all__ = ["FilledCurve", "FilledPage", "RankedModel"]
+__all__ = ["FILLED_FRAMES", "GIVEN_FRAMES", "FilledCurve", "FilledPage", "RankedModel"]
+
+FILLED_FRAMES, GIVEN_FRAMES = "filled", "in the file"
+"""The groups of the figures of a motion: with filled entries, and without."""
 
 Array = NDArray[np.float64]
 
