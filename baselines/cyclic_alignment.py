@@ -77,8 +77,8 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         parent are smooth; or HLM's as printed, which is not normalised.
     grouping : {"random", "similar"}, default="random"
         The first styles: random groups of equal size, which vary more between runs and so gain more
-        from averaging, or groups of recordings that are alike once aligned to a common cycle, which
-        EM keeps, for finding styles.
+        from averaging, or groups of recordings that are alike in shape and tempo once aligned to a
+        common cycle, which EM keeps, for finding styles.
     refine_iter : int, default=10
         Iterations of EM, continued from `fit`, that `impute` runs on a recording together with the
         fitted ones.

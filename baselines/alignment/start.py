@@ -19,7 +19,7 @@ from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hype
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.alignment.updates import update_paths
-from mocapbench.baselines.common.prototypes import cluster_cycles
+from mocapbench.baselines.common.prototypes import grouped, of_unit_variance, tempi
 
 __all__ = [
     "GROUPINGS",
@@ -133,16 +133,19 @@ def random_styles(
 def similar_styles(
     state: State, sequences: Sequences, n_styles: int, rng: np.random.Generator
 ) -> NDArray[np.intp]:
-    """Return a style (K,) for each sequence aligned to one cycle, by K-means on the prototypes.
+    """Return a style (K,) for each sequence aligned to one cycle, by K-means on shape and tempo.
 
-    Every sequence has a style of its own, in random order, if there are enough styles.
+    Both count alike, as in multiple factor analysis (B. Escofier, J. Pagès 1994, Computational
+    Statistics & Data Analysis 18:121–140): the first axes of both have one variance. Every sequence
+    has a style of its own, in random order, if there are enough styles.
     """
-    if len(sequences.lengths) <= n_styles:
+    n_sequences = len(sequences.lengths)
+    if n_sequences <= n_styles:
         return random_styles(state, sequences, n_styles, rng)
-    trace = state.cycles.mean[:, 0]
-    cycles = prototypes(best_paths(state, sequences), sequences, trace)
-    unit = np.ones(trace.shape[1])  # sequences are standardised
-    return cluster_cycles(cycles, unit, n_styles, _N_STARTS, rng)[0]
+    paths, trace = best_paths(state, sequences), state.cycles.mean[:, 0]
+    shapes = prototypes(paths, sequences, trace).reshape(n_sequences, -1)
+    features = np.column_stack([of_unit_variance(shapes), tempi(paths, len(trace))])
+    return grouped(features, n_styles, _N_STARTS, rng)
 
 
 GROUPINGS: dict[str, Grouping] = {"random": random_styles, "similar": similar_styles}

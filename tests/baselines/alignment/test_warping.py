@@ -48,6 +48,16 @@ def test_sequences_that_are_alike_on_the_cycle_share_a_style(seed):
         assert len(set(styles[size == SIZES])) == 1
 
 
+def test_sequences_of_one_shape_and_two_tempi_are_two_styles():
+    fast = np.array([False, True, False, True, True, False])
+    times = [np.arange(40) * (1.5 if quick else 1.0) + k for k, quick in enumerate(fast)]
+    waves = [np.sin(2 * np.pi * t[:, None] / 8 + np.arange(3)) for t in times]
+    sequences = Sequences.of(waves)
+    rng = np.random.default_rng(0)
+    styles = similar_styles(random_start(sequences, STEADY, rng), sequences, 2, rng)
+    assert len(set(styles)) == len({*zip(styles, fast, strict=True)}) == 2
+
+
 @pytest.mark.parametrize("n_styles", [len(SIZES), 20])
 def test_a_sequence_has_a_style_of_its_own_if_there_are_enough(n_styles):
     state, sequences, rng = _aligned(0)

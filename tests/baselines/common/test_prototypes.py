@@ -1,6 +1,10 @@
 import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import stats
 
-from mocapbench.baselines.common.prototypes import cluster_cycles
+from mocapbench.baselines.common.prototypes import cluster_cycles, of_unit_variance, tempi
 
 RNG = np.random.default_rng(0)
 CENTRES = np.array([0.0, 3.0, 0.0, 3.0, 3.0])
@@ -24,3 +28,41 @@ def test_more_styles_than_recordings_give_each_its_own():
     labels, means = cluster_cycles(CYCLES, np.ones(2), 9, 1, np.random.default_rng(1))
     assert sorted(labels) == [0, 1, 2, 3, 4]
     np.testing.assert_allclose(means[labels], CYCLES)
+
+
+def path_of(advances, start=0, n_states=12):
+    return (start + np.concatenate([[0], np.cumsum(advances)])).astype(int) % n_states
+
+
+@given(st.lists(st.lists(st.integers(1, 5), max_size=9), min_size=1, max_size=6))
+def test_tempi_are_about_their_mean_and_vary_by_at_most_one(advances):
+    tempo = tempi([path_of(a, start) for start, a in enumerate(advances)], 12)
+    assert np.isfinite(tempo).all()
+    assert tempo.sum() == pytest.approx(0.0, abs=1e-9)
+    known = [bool(a) for a in advances]
+    assert not tempo[np.logical_not(known)].any()
+    assert (tempo[known].var() if any(known) else 0.0) <= 1.0 + 1e-9
+
+
+def test_steady_tempi_have_variance_1_and_do_not_depend_on_the_number_of_states():
+    advances = [[1] * 20, [2] * 15, [3] * 30]
+    tempo = tempi([path_of(a) for a in advances], 12)
+    np.testing.assert_allclose(tempo, stats.zscore(np.log([1, 2, 3])))
+    finer = tempi([path_of(np.multiply(a, 2), n_states=24) for a in advances], 24)
+    np.testing.assert_allclose(finer, tempo)
+
+
+def test_tempi_that_differ_by_chance_do_not_count():
+    rng = np.random.default_rng(2)
+    chance = tempi([path_of(rng.integers(1, 4, size=40)) for _ in range(200)], 12)
+    assert chance.var() < 0.2
+    assert not tempi([path_of([1, 3, 1, 3]), path_of([3, 1, 3, 1])], 12).any()
+
+
+def test_the_first_axis_of_features_gets_variance_1():
+    features = np.random.default_rng(3).normal(size=(9, 4)) * [9.0, 1.0, 1.0, 1.0] + 5.0
+    scaled = of_unit_variance(features)
+    variances = np.linalg.eigvalsh(np.cov(scaled.T, ddof=0))
+    assert variances.max() == pytest.approx(1.0)
+    np.testing.assert_allclose(scaled.mean(axis=0), 0.0, atol=1e-12)
+    assert not of_unit_variance(np.ones((3, 2))).any()
