@@ -9,8 +9,7 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from mocapbench.datasets.acclaim.motion import Motion, format_motion
-from mocapbench.datasets.acclaim.motion_reader import parse_motion
+from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.acclaim.skeleton_reader import read_skeleton
 from mocapbench.datasets.gait_curves import STYLES
@@ -69,11 +68,10 @@ class GaitLibrary(Library):
         return _recording(key)
 
     def motion(self, key: str) -> Motion:
-        """Return the motion, written and read back as Acclaim text like any other."""
+        """Return the motion; as Acclaim text it would have the same values."""
         subject, trial = map(int, split_key(key))
         skeleton = self.skeleton(key)
-        motion = walk(skeleton, STYLES[gait_style(key)], subject, trial)
-        return parse_motion(format_motion(motion), skeleton, f"gait:{key}")
+        return walk(skeleton, STYLES[gait_style(key)], subject, trial)
 
     def skeleton(self, key: str) -> Skeleton:
         """Return the skeleton, which all recordings share."""

@@ -100,8 +100,11 @@ class Record:
     def to_json(self) -> str:
         """Return the record as strict JSON; NaN becomes null, the address five entries."""
         document = {item.name: getattr(self, item.name) for item in fields(self)}
-        document |= document.pop("address")._asdict()
-        return json.dumps({"format": FORMAT, **_without_nan(document)})
+        document |= {"format": FORMAT, **document.pop("address")._asdict()}
+        try:
+            return orjson.dumps(document).decode()
+        except TypeError:  # what it does not know, such as an integer of more than 64 bits
+            return json.dumps(_without_nan(document))
 
     @classmethod
     def from_json(cls, text: str | bytes) -> Self:

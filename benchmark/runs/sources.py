@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import importlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.util import decode_source
@@ -97,8 +97,9 @@ class _Module(NamedTuple):
 @cache
 def _read(module: str) -> _Module:
     tree = ast.parse(_source(module))
-    imports = tuple(dict.fromkeys(_imports(module, tree)))
-    for node in ast.walk(tree):
+    nodes = [*ast.walk(tree)]
+    imports = tuple(dict.fromkeys(_imports(module, nodes)))
+    for node in nodes:
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
             node.body = [statement for statement in node.body if not _is_prose(statement)]
     return _Module(ast.unparse(tree), imports)
@@ -137,10 +138,10 @@ def _imported(module: str) -> ModuleType | None:
         return None
 
 
-def _imports(module: str, tree: ast.Module) -> Iterator[_Import]:
-    """Yield what ``module`` imports, and what it offers lazily."""
+def _imports(module: str, nodes: Iterable[ast.AST]) -> Iterator[_Import]:
+    """Yield what ``module``, of these nodes, imports, and what it offers lazily."""
     values = vars(_imported(module)) if _imported(module) else {}
-    for node in (*ast.walk(tree), *_stub(module)):
+    for node in (*nodes, *_stub(module)):
         if isinstance(node, ast.Import):
             yield from (_Import(alias.name) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):

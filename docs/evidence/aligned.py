@@ -3,10 +3,13 @@
 ::
 
     python docs/evidence/aligned.py styles [RESTARTS]  # purity by start, before and after EM
+    python docs/evidence/aligned.py tempo [RESTARTS]   # … by shape, and by shape and tempo
     python docs/evidence/aligned.py bodies             # upper bodies of subjects 08 and 35
     python docs/evidence/aligned.py walks              # the task's eleven walks, five seeds
 
-`bodies` is what choices were made by. Subject 07, whose walks the task scores, takes no part: each
+`tempo` does so for the task's recordings, and for 31 others, of subjects 02, 16 and 35, by which
+the weight of the tempo was judged. `bodies` is what other choices were made by. Subject 07, whose
+walks the task scores, takes no part: each
 of eight walks of subjects 08 and 35 is left out in turn of 28 recordings of 08, 09 and 35.
 """
 
@@ -21,16 +24,36 @@ import numpy as np
 from mocapbench import benchmark as bench
 from mocapbench.baselines import CyclicAlignment
 from mocapbench.baselines.alignment.fitting import restarts, run, split
-from mocapbench.benchmark.tasks.hlm_recordings import CMU
+from mocapbench.baselines.alignment.start import best_paths, prototypes
+from mocapbench.baselines.common.prototypes import grouped, of_unit_variance, tempi
+from mocapbench.benchmark.tasks.hlm_recordings import CMU, Corpus
 from mocapbench.datasets import Recording
 
 VISIBLE = ("root", "tibia", "foot", "toes")
 LEFT_OUT = ("08_01", "08_03", "08_06", "08_09", "35_01", "35_03", "35_05", "35_07")
 
 
-def purity(labels: np.typing.NDArray[np.intp]) -> float:
+# After the database's index of motions.
+OTHERS = Corpus(
+    {
+        f"cmu:{subject}_{trial:02}": style
+        for subject, style, trials in (
+            ("02", "walk", (1, 2)),
+            ("02", "run", (3,)),
+            ("16", "walk", (15, 16, 21, 22, 31, 32, 47, 58)),
+            ("16", "slow walk", (33, 34)),
+            ("16", "run", (35, 36, 45, 46)),
+            ("35", "walk", (15, 16, *range(28, 35))),
+            ("35", "run", (17, 18, 20, 21, 22)),
+        )
+        for trial in trials
+    }
+)
+
+
+def purity(labels: np.typing.NDArray[np.intp], corpus: Corpus = CMU) -> float:
     """Return the share of recordings whose label is the commonest of their cluster."""
-    truth = np.array(list(CMU.styles.values()))
+    truth = np.array([style for _, style in sorted(corpus.styles.items())])
     tops = [np.unique(truth[labels == c], return_counts=True)[1].max() for c in set(labels)]
     return float(np.sum(tops)) / len(truth)
 
@@ -60,6 +83,33 @@ def styles(n_restarts: int = 5) -> None:
                 [purity(model.labels_), *(purity(end.labels.argmax(axis=1)) for end in ends)]
             )
         print(n_styles, "start, similar, random:", *np.round(np.mean(rows, axis=0), 3), flush=True)
+
+
+def tempo(n_restarts: int = 5) -> None:
+    """Print the purity of groups by shape, and by shape and tempo, as they start and after EM."""
+    for name, corpus in (("others", OTHERS), ("the task's", CMU)):
+        recordings = list(corpus.read(bench.archive_at(None)).values())
+        for n_styles in range(2, 9):
+            rows = [_by_tempo(recordings, corpus, n_styles, seed) for seed in range(n_restarts)]
+            print(name, n_styles, "shape, and tempo:", *np.round(np.mean(rows, axis=0), 3))
+
+
+def _by_tempo(
+    recordings: Sequence[Recording], corpus: Corpus, n_styles: int, seed: int
+) -> list[float]:
+    rng = np.random.default_rng(seed)
+    model = CyclicAlignment(n_styles=1, n_restarts=1, max_iter=1, random_state=rng).fit(recordings)
+    paths, trace = best_paths(model.state_, model.sequences_), model.state_.cycles.mean[:, 0]
+    shapes = prototypes(paths, model.sequences_, trace).reshape(len(recordings), -1)
+    features = of_unit_variance(shapes)
+    both = np.column_stack([features, tempi(paths, len(trace))])
+    found = []
+    for chosen in (features, both):
+        labels = grouped(chosen, n_styles, 10, rng)
+        state = split(model.state_, np.eye(n_styles)[labels])
+        ended = run(state, model.sequences_, model.settings_, 40).state.labels.argmax(axis=1)
+        found += [purity(labels, corpus), purity(ended, corpus)]
+    return found
 
 
 def _error(test: Recording, others: Sequence[Recording], seed: int) -> list[float]:
@@ -100,4 +150,6 @@ def walks() -> None:
 
 if __name__ == "__main__":
     command, *numbers = sys.argv[1:]
-    {"styles": styles, "bodies": bodies, "walks": walks}[command](*map(int, numbers))
+    {"styles": styles, "tempo": tempo, "bodies": bodies, "walks": walks}[command](
+        *map(int, numbers)
+    )

@@ -11,10 +11,12 @@ import pytest
 from mocapbench.datasets import (
     THESIS_CHANNELS,
     GaitLibrary,
+    format_motion,
     format_skeleton,
     gait_style,
     gpdm_features,
     joint_positions,
+    parse_motion,
     parse_skeleton,
 )
 
@@ -44,6 +46,13 @@ def test_the_channels_are_those_of_the_database(motions):
 def test_a_key_names_one_motion(motions):
     for key, motion in motions.items():
         np.testing.assert_array_equal(GaitLibrary().motion(key).values, motion.values)
+
+
+def test_as_acclaim_text_a_motion_has_the_same_values(motions):
+    for motion in motions.values():
+        back = parse_motion(format_motion(motion), motion.skeleton, "gait")
+        assert (back.segments, back.values.flags.c_contiguous) == (motion.segments, True)
+        assert back.values.tobytes() == motion.values.tobytes()
 
 
 def test_subjects_and_trials_differ():
