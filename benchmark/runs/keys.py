@@ -12,7 +12,7 @@ from __future__ import annotations
 import hashlib
 import importlib.metadata
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from functools import cache, partial
 from typing import Any
 
@@ -23,7 +23,7 @@ from mocapbench.benchmark.tasks.base import Case
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.metrics import Metric
 
-__all__ = ["fit_contents", "key_of", "score_contents", "training_contents"]
+__all__ = ["fit_contents", "key_of", "metric_contents", "score_contents", "training_contents"]
 
 _FITTING = ("mocapbench.datasets", "mocapbench.baselines", "mocapbench.benchmark")
 _SCORING = ("mocapbench.metrics",)
@@ -95,8 +95,13 @@ def _installed_version(library: str) -> str:
     return importlib.metadata.version(library)
 
 
+def metric_contents(metrics: Iterable[Metric[Any]]) -> Mapping[str, Any]:
+    """Return what the score keys of all records that are scored by ``metrics`` cover of these."""
+    return {metric.name: described(metric.statistic, _SCORING) for metric in metrics}
+
+
 def score_contents(
-    fit: str, metrics: Sequence[Metric[Any]], case: str, references: Mapping[str, str]
+    fit: str, metrics: Mapping[str, Any], case: str, references: Mapping[str, str]
 ) -> Mapping[str, Any]:
     """Return what the score key of a record covers: the fit key, and by what it was scored.
 
@@ -104,14 +109,14 @@ def score_contents(
     ----------
     fit : str
         The fit key.
-    metrics : sequence of Metric
+    metrics : mapping of str to Any
+        See `metric_contents`.
     case : str
         The row; others may share the fit.
     references : mapping of str to str
         Digest of each recording that only the scores depend on.
     """
-    scored = {metric.name: described(metric.statistic, _SCORING) for metric in metrics}
-    return {"fit": fit, "metrics": scored, "scored against": [case, dict(references)]}
+    return {"fit": fit, "metrics": metrics, "scored against": [case, dict(references)]}
 
 
 def key_of(contents: Mapping[str, Any]) -> str:

@@ -13,7 +13,13 @@ from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.case_names import matching_cases
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.key_parts import key_parts
-from mocapbench.benchmark.runs.keys import fit_contents, key_of, score_contents, training_contents
+from mocapbench.benchmark.runs.keys import (
+    fit_contents,
+    key_of,
+    metric_contents,
+    score_contents,
+    training_contents,
+)
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Entrant, Profile, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
@@ -193,6 +199,7 @@ def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> It
     digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.recordings}
     seen, compared = ({uri: digests[uri] for uri in of} for of in (case.sources, case.references))
     metrics = tuple(sorted(set(map(METRICS.current_name, request.metrics or METRICS.names()))))
+    scored_by = metric_contents(map(METRICS.get, metrics))
     for entrant in _chosen_entrants(request, task):
         model = MODELS.get(entrant.model)
         parameters = _parameters(entrant, case, task.profile(request.profile))
@@ -200,8 +207,7 @@ def _case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> It
             address = Address(task.name, task.version, case.name, fold, entrant.label)
             seeds = Seeds(request.seed, address._replace(case=case.problem_name))
             fitted = fit_contents(case, seeds, model=model, parameters=parameters, digests=seen)
-            fit, scored_by = key_of(fitted), [METRICS.get(name) for name in metrics]
-            learnt = seeds.of_training(case.training)
+            fit, learnt = key_of(fitted), seeds.of_training(case.training)
             scored = score_contents(fit, scored_by, case.name, compared)
             yield Job(
                 address,

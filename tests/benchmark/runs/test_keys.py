@@ -18,7 +18,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs import keys, sources
-from mocapbench.benchmark.runs.keys import fit_contents, key_of, score_contents
+from mocapbench.benchmark.runs.keys import fit_contents, key_of, metric_contents, score_contents
 from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case
@@ -64,7 +64,7 @@ def test_order_of_parameters_does_not():
 
 
 def _score_key(metrics, case="row", references=None):
-    return key_of(score_contents("fit", metrics, case, references or {}))
+    return key_of(score_contents("fit", metric_contents(metrics), case, references or {}))
 
 
 def test_a_metric_changes_the_score_key_alone():
