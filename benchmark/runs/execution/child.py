@@ -28,6 +28,7 @@ __all__ = [
 ]
 
 _FORK = multiprocessing.get_context("fork")
+_LIBC = ctypes.CDLL(None)  # once: a child copies the memory of what it makes
 _PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36  # of prctl(2)
 
 
@@ -114,7 +115,7 @@ def _received(receiver: Connection, process: ForkProcess, timeout: float) -> byt
 
 def adopt_orphans() -> None:
     """Become the parent of what descendants of this process leave behind, so that it is found."""
-    ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1)
+    _LIBC.prctl(_PR_SET_CHILD_SUBREAPER, 1)
 
 
 def kill_children() -> None:
@@ -133,4 +134,4 @@ def _children() -> Iterator[int]:
 
 def die_with_parent() -> None:
     """Have the system kill this process when the one that started it ends, however that ends."""
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
