@@ -136,8 +136,9 @@ def similar_styles(
     """Return a style (K,) for each sequence aligned to one cycle, by K-means on shape and tempo.
 
     Both count alike, as in multiple factor analysis (B. Escofier, J. Pagès 1994, Computational
-    Statistics & Data Analysis 18:121–140): the first axes of both have one variance. Every sequence
-    has a style of its own, in random order, if there are enough styles.
+    Statistics & Data Analysis 18:121–140): the first axis of the shapes has the largest variance
+    that tempi have, if they are known well. Every sequence has a style of its own, in random order,
+    if there are enough styles.
     """
     n_sequences = len(sequences.lengths)
     if n_sequences <= n_styles:

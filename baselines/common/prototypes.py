@@ -55,15 +55,18 @@ def of_unit_variance(features: Array) -> Array:
     """Return features (K, F) about their means, of variance 1 along their first axis."""
     centred = features - features.mean(axis=0)
     first = np.linalg.norm(centred, ord=2) / np.sqrt(len(features))
-    return np.asarray(centred / first if first > 0.0 else centred)
+    rounding = np.finfo(float).eps * np.abs(features).max(initial=0.0) * np.sqrt(features.size)
+    return np.asarray(centred / first if first > rounding else np.zeros_like(centred))
 
 
 def tempi(paths: Sequence[NDArray[np.intp]], n_states: int) -> Array:
     """Return the tempo of each recording on a common cycle, about the mean of all.
 
-    It is the logarithm of the states that a path advances by in a frame, at least one. The variance
-    over recordings is the share of it that is not the error of means over frames: 1 where tempi are
-    known well, 0 where they differ by no more than that error.
+    It is the logarithm of the states that a path advances by in a frame, at least one, with an
+    error e(k) = s²/(N(k) − 1): s² is the variance of the advances about their means, relative to
+    these and over all recordings. Of the variance of the logarithms, τ² is what the errors do not
+    explain. Tempi are shrunk to τ/(τ² + e(k)) times the logarithm, so that they are 0 where they
+    differ by no more than their errors, and of variance 1 where there are none.
 
     Parameters
     ----------
@@ -75,17 +78,18 @@ def tempi(paths: Sequence[NDArray[np.intp]], n_states: int) -> Array:
     Returns
     -------
     ndarray of shape (K,)
-        0, the mean, for a recording of one frame.
+        Their variance is at most 1. A recording of one frame has 0, the mean.
     """
     advances = [(np.diff(path) - 1) % n_states + 1 for path in paths]
-    known = [k for k, advance in enumerate(advances) if len(advance)]
+    known = np.flatnonzero([len(advance) for advance in advances])
     tempo = np.zeros(len(paths))
-    if not known:
+    if not len(known):
         return tempo
-    means, spreads = np.array([(advances[k].mean(), advances[k].std()) for k in known]).T
-    errors = (spreads / means) ** 2 / [len(advances[k]) for k in known]
+    lengths = np.array([len(advances[k]) for k in known])
+    means = np.array([advances[k].mean() for k in known])
+    relative = np.concatenate([advances[k] for k in known]) / np.repeat(means, lengths) - 1.0
+    errors = np.square(relative).sum() / max(len(relative) - len(known), 1) / lengths
     logs = np.log(means) - np.log(means).mean()
-    variance = logs.var()
-    if variance > errors.mean():
-        tempo[known] = logs * np.sqrt(variance - errors.mean()) / variance
-    return tempo
+    excess = max(logs.var() - errors.mean(), 0.0)
+    tempo[known] = logs * np.sqrt(excess) / np.maximum(excess + errors, np.finfo(float).tiny)
+    return np.asarray(tempo / max(1.0, tempo.std()))

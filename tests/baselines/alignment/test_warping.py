@@ -48,14 +48,25 @@ def test_sequences_that_are_alike_on_the_cycle_share_a_style(seed):
         assert len(set(styles[size == SIZES])) == 1
 
 
-def test_sequences_of_one_shape_and_two_tempi_are_two_styles():
-    fast = np.array([False, True, False, True, True, False])
-    times = [np.arange(40) * (1.5 if quick else 1.0) + k for k, quick in enumerate(fast)]
-    waves = [np.sin(2 * np.pi * t[:, None] / 8 + np.arange(3)) for t in times]
+def test_two_sizes_at_two_tempi_are_four_styles_only_by_their_tempi(monkeypatch):
+    steps, sizes = np.tile([1.0, 1.5], 6), np.repeat([1.0, 2.0], 6)
+    draws = np.random.default_rng(0)
+    waves = [
+        size * np.sin(2 * np.pi * step * np.arange(60)[:, None] / 8 + np.arange(3) + k)
+        + 0.2 * draws.normal(size=(60, 3))
+        for k, (step, size) in enumerate(zip(steps, sizes, strict=True))
+    ]
     sequences = Sequences.of(waves)
-    rng = np.random.default_rng(0)
-    styles = similar_styles(random_start(sequences, STEADY, rng), sequences, 2, rng)
-    assert len(set(styles)) == len({*zip(styles, fast, strict=True)}) == 2
+
+    def kinds():
+        """Return how many different pairs there are of a style and a kind of wave."""
+        rng = np.random.default_rng(0)
+        styles = similar_styles(random_start(sequences, STEADY, rng), sequences, 4, rng)
+        return len({*zip(styles, steps, sizes, strict=True)})
+
+    assert kinds() == 4
+    monkeypatch.setattr("mocapbench.baselines.alignment.start.tempi", lambda p, _: np.zeros(len(p)))
+    assert kinds() > 4
 
 
 @pytest.mark.parametrize("n_styles", [len(SIZES), 20])
