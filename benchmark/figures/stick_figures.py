@@ -24,18 +24,19 @@ def strip(motion: Recording, body: Body, groups: Sequence[str], title: str = "")
     Parameters
     ----------
     motion : Recording
-        N frames, of which eight are shown.
+        Two frames (N) or more, of which at most eight are shown.
     body : Body
     groups : sequence of str
         In which style to draw each frame (N).
     title : str
         What the heading begins with.
     """
-    frames = np.linspace(0, len(motion.times) - 1, N_FIGURES).round().astype(int)
+    n_figures = min(N_FIGURES, len(motion.times))
+    frames = np.linspace(0, len(motion.times) - 1, n_figures).round().astype(int)
     places = body.positions(motion)[frames]
     places = places - places[:, :1] * [0.0, 0.0, 1.0]
     places[..., 1] -= places[..., 1].min(axis=1, keepdims=True)
-    places[..., 2] += STRIDE * np.arange(N_FIGURES)[:, None]
+    places[..., 2] += STRIDE * np.arange(n_figures)[:, None]
     return Panel(
         f"{title}every {np.diff(motion.times[frames]).mean():.2g} s",
         "",

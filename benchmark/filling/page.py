@@ -20,7 +20,7 @@ __all__ = ["page_of"]
 _MOST_CURVES, _CHANNELS_PER_GAP = 16, 4
 _BESIDE = 1.0
 """How much of the recording is shown on each side of a gap, relative to its length."""
-_LEAST_BESIDE = 15
+_LEAST_BESIDE, _LEAST_MOTION = 15, 3
 _ROOT_PATH = frozenset({"root.tx", "root.ty", "root.tz"})
 
 
@@ -100,9 +100,11 @@ def _caption(gaps: Sequence[Gap], shown: Sequence[tuple[Gap, int]]) -> str:
 def _motion(filled: Filled, recording: Recording, gap: Gap) -> Panel | None:
     """Return stick figures from before a gap until after it, where the file has a skeleton."""
     skeleton = filled.source.format.skeleton(filled.source.path)
-    frames = _around(gap, len(recording.times))
+    beside = max(len(gap), _LEAST_MOTION)  # so that figures are of filled frames, too
+    frames = slice(max(gap.start - beside, 0), min(gap.stop + beside, len(recording.times)))
     part = recording.frames(np.arange(frames.start, frames.stop))
-    if skeleton is None or not part.visible.all() or not set(part.channels) >= _ROOT_PATH:
+    whole = len(part.times) > 1 and part.visible.all() and set(part.channels) >= _ROOT_PATH
+    if skeleton is None or not whole:
         return None
     touched = filled.source.request.target[frames].any(axis=1)
     groups = np.where(touched, FILLED_FRAMES, GIVEN_FRAMES).tolist()

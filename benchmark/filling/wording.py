@@ -71,12 +71,12 @@ def remarks(filled: Filled) -> Iterator[str]:
 
 
 def _with_bands(filled: Filled) -> str:
-    """Return which model with bands is as good in trials, as far as they tell."""
-    if filled.choice is None:
+    """Return the best model with bands that trials cannot tell apart from the choice."""
+    if filled.choice is None or filled.failed or filled.choice.ranking.n < FEWEST_UNITS:
         return ""
     ranking = filled.choice.ranking
     alike = [m for m in ranking.sharing if ranking.scores[m].coverage is not None]
-    return f"--model {alike[0]} gives some; trials do not separate the two." if alike else ""
+    return f"Trials cannot tell it apart from {alike[0]}, which has bands." if alike else ""
 
 
 def _jumps(filled: Filled) -> Iterator[str]:
@@ -94,7 +94,8 @@ def _jumps(filled: Filled) -> Iterator[str]:
 
 
 def _slow(filled: Filled) -> Iterator[str]:
-    interval = float(np.median(np.diff(filled.source.request.given.times)))
+    times = filled.source.request.given.times
+    interval = (times[-1] - times[0]) / max(len(times) - 1, 1)
     if interval > SLOW:
         yield (
             f"Frames are {interval:.3g} s apart, which is long for motion: if the file's times are "

@@ -1,3 +1,4 @@
+import warnings
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.benchmark.filling.trials.ranking import rank
 from mocapbench.benchmark.filling.trials.scores import Scores
 from mocapbench.benchmark.filling.wording import headline, ranked, remarks, verdict
-from mocapbench.datasets import CSVFormat
+from mocapbench.datasets import CSVFormat, Recording
 
 
 @pytest.fixture
@@ -64,16 +65,27 @@ def test_what_was_done_is_said(filled):
         assert words in said
 
 
-@pytest.mark.parametrize(("coverage", "said"), [(0.9, True), (None, False)])
-def test_a_model_with_bands_that_does_as_well_is_named(filled, coverage, said):
-    choice = choice_of({"one": [1, 2, 1, 2, 1], "two": [2, 1, 2, 1, 2]})
+@pytest.mark.parametrize(
+    ("coverage", "n", "failed", "said"),
+    [
+        (0.9, 5, (), True),
+        (None, 5, (), False),
+        (0.9, 4, (), False),  # too few to tell anything
+        (0.9, 5, (("two", "it broke"),), False),
+    ],
+)
+def test_a_model_with_bands_that_trials_cannot_tell_apart_is_named(
+    filled, coverage, n, failed, said
+):
+    choice = choice_of({"one": [1, 2, 1, 2, 1][:n], "two": [2, 1, 2, 1, 2][:n]})
     scores = {**choice.ranking.scores}
     scores["two"] = replace(scores["two"], coverage=coverage)
-    bare = filled(replace(choice, ranking=replace(choice.ranking, scores=scores)))
+    choice = replace(choice, ranking=replace(choice.ranking, scores=scores))
+    bare = filled(choice, failed=failed)
     bare = replace(bare, answer=replace(bare.answer, variance=None))
     words = " ".join(remarks(bare))
     assert "there are no bands" in words
-    assert ("--model two gives some" in words) == said
+    assert ("cannot tell it apart from two, which has bands" in words) == said
 
 
 def test_a_jump_at_an_edge_is_said(filled):
@@ -86,9 +98,21 @@ def test_a_jump_at_an_edge_is_said(filled):
 def test_times_that_are_probably_not_in_seconds_are_said(filled):
     given = filled()
     request = given.source.request
-    late = replace(request.given, times=1000.0 * request.given.times)
-    source = replace(given.source, request=replace(request, given=late))
-    assert "in milliseconds" in " ".join(remarks(replace(given, source=source)))
+    for interval, said in ((0.49, False), (0.51, True)):
+        times = interval * np.arange(len(request.given.times))
+        late = replace(request, given=replace(request.given, times=times))
+        found = replace(given, source=replace(given.source, request=late))
+        assert ("in milliseconds" in " ".join(remarks(found))) == said
+
+
+def test_one_frame_has_no_interval_to_remark_on():
+    given = Recording("one", [0.0], [[1.0, np.nan]], ("a", "b"), ("deg", "deg"))
+    target = np.array([[False, True]])
+    source = Source(Path("one.csv"), CSVFormat(), Request(given, target, ()), ())
+    filled = Filled(source, "one", Answer(np.zeros(1), np.ones(1)), 0, None, ())
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert list(remarks(filled)) == []
 
 
 def test_nothing_special_is_passed_over_in_silence(filled):
