@@ -45,7 +45,7 @@ def compare(
     csv: Annotated[Path | None, typer.Option(help="A CSV file to write, unrounded.")] = None,
     plugin: Plugins = None,
 ) -> None:
-    """Compare two runs, or two models of one run, fold by fold."""
+    """Compare two runs, or two models of one run, by paired folds."""
     load_plugins(plugin)
     console = LiteralConsole()
     require_writable(markdown, csv)

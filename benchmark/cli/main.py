@@ -27,7 +27,7 @@ COMMANDS = {
     "report": "Write the HTML report of a run, or of what changed between two.",
     "motion": "Write the motion that a model made as GIF, AMC, BVH or CSV.",
     "check": "Check that no metric of a run is worse than its reference value.",
-    "compare": "Compare two runs, or two models of one run, fold by fold.",
+    "compare": "Compare two runs, or two models of one run, by paired folds.",
     "data": "Look for, fetch and verify recordings.",
     "export": "Write the scores and jobs of a run directory as tables.",
     "list": "List tasks, models, metrics, libraries or formats of files.",

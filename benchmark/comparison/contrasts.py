@@ -15,9 +15,10 @@ import pandas as pd
 
 from mocapbench.benchmark.comparison.problems import require_same_problems
 from mocapbench.benchmark.comparison.sides import Side
-from mocapbench.benchmark.comparison.units import case_units, pooled_units
+from mocapbench.benchmark.comparison.units import units_of, with_advantages
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import METRICS, TASKS
+from mocapbench.benchmark.results.bundle import metric_info
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Task
@@ -32,6 +33,7 @@ POOLED = "all cases"
 class Row:
     """One contrast: of one case, or of all cases of a task (`POOLED`).
 
+    ``identical`` says whether both sides have the same value in every fold.
     ``t_p_holm`` and ``signed_rank_p_holm`` are corrected over the rows of one task and metric,
     the pooled ones apart from those of single cases.
     """
@@ -41,6 +43,7 @@ class Row:
     entrant: str
     case: str
     contrast: Contrast
+    identical: bool = False
     t_p_holm: float = math.nan
     signed_rank_p_holm: float = math.nan
 
@@ -120,15 +123,20 @@ def _values(
 
 
 def _rows(task: Task, metric: str, pairs: Mapping[str, pd.DataFrame], rope: float) -> list[Row]:
-    loss = METRICS.get(metric).loss
+    advantages = {label: with_advantages(own, metric_info(metric)) for label, own in pairs.items()}
+
+    def row(label: str, case: str, own: pd.DataFrame) -> Row:
+        found = contrast(units_of(task, own), rope)
+        return Row(task.name, metric, label, case, found, own["first"].equals(own["second"]))
+
     single = [
-        Row(task.name, metric, label, case, contrast(case_units(task, own, case), loss, rope))
-        for label, own in pairs.items()
-        for case in own.index.unique("case")
+        row(label, str(case), of_case)
+        for label, own in advantages.items()
+        for case, of_case in own.groupby(level="case", sort=False)
     ]
     pooled = [
-        Row(task.name, metric, label, POOLED, contrast(pooled_units(task, counted), loss, rope))
-        for label, own in pairs.items()
+        row(label, POOLED, counted)
+        for label, own in advantages.items()
         for counted in [_counted(task, own)]
         if counted.index.unique("case").size > 1
     ]

@@ -21,19 +21,20 @@ POWERLESS = (
     f"{least_signed_rank_p(FEWEST_UNITS):.4g}, however large the difference: go by the paired "
     "t-test."
 )
-TOO_FEW = (
-    "Where they are too few: `mocapbench run` with more --folds helps if a task draws them, and "
-    "only recordings of more people if n counts people."
+TOO_FEW = "too few to test"
+MORE = (
+    f"For what is {TOO_FEW}: `mocapbench run` with more --folds helps where n counts folds, and "
+    "recordings of more people where it counts people."
 )
 
 
 def outcome(row: Row, sides: tuple[str, str]) -> str:
     """Return who is better by the corrected t-test, or why that cannot be said."""
     contrast = row.contrast
-    if contrast.identical:
+    if row.identical:
         return "identical"
     if contrast.n < FEWEST_UNITS:
-        return "too few to test"
+        return TOO_FEW
     if row.t_p_holm > ALPHA:
         return "not separable"
     return f"{sides[contrast.advantage < 0.0]} better"
@@ -67,17 +68,17 @@ def markdown(rows: Sequence[Row], sides: tuple[str, str]) -> str:
 
 def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
     """Return what a reader of ``rows`` must know."""
-    identical = sum(outcome(row, sides) == "identical" for row in rows)
+    identical = sum(row.identical for row in rows)
     counts = {row.contrast.n for row in rows}
     powerless = any(n >= FEWEST_UNITS and least_signed_rank_p(n) > ALPHA for n in counts)
     return [
         "“Better by” comes with its 95 % interval by Student’s t. Each p is corrected after Holm, "
         "single cases and all cases apart. P is by the Bayesian correlated t-test.",
-        "n counts people, where recordings are of people, else independent folds or cases, as in "
-        "the report. Fewer than five are too few to test.",
+        "n counts people where cases or folds go through recordings of people, else independent "
+        "folds or cases, as in the report. Fewer than five are too few to test.",
         *([f"{identical} of {len(rows)} comparisons are identical."] if identical else []),
         *([POWERLESS] if powerless else []),
-        *([TOO_FEW] if min(counts) < FEWEST_UNITS else []),
+        *([MORE] if any(outcome(row, sides) == TOO_FEW for row in rows) else []),
     ]
 
 

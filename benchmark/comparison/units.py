@@ -1,6 +1,7 @@
-"""The units of a comparison, which are those of the report: people, where recordings are of people.
+"""The units of a comparison and their advantages, by the rules of the report.
 
-`mocapbench.reports.analysis.units` states the rule.
+`mocapbench.reports.analysis.units` states what a unit is: a person, where cases or folds go through
+recordings of people. `mocapbench.reports.analysis.grid` states the loss of a fold.
 """
 
 from __future__ import annotations
@@ -11,30 +12,42 @@ from numpy.typing import NDArray
 
 from mocapbench.benchmark.results.bundle import case_layout
 from mocapbench.benchmark.tasks.base import Task
-from mocapbench.reports import CaseLayout
+from mocapbench.reports import CaseLayout, MetricInfo
+from mocapbench.reports.analysis.grid import linear_losses
 from mocapbench.reports.analysis.units import unit_names, unit_weights
 
-__all__ = ["case_units", "pooled_units"]
+__all__ = ["units_of", "with_advantages"]
 
 
-def case_units(task: Task, pairs: pd.DataFrame, case: str) -> pd.DataFrame:
-    """Return the units of one case of a task; see `pooled_units`."""
-    return pooled_units(task, pairs[pairs.index.get_level_values("case") == case])
+def with_advantages(pairs: pd.DataFrame, metric: MetricInfo) -> pd.DataFrame:
+    """Return pairs with the ``advantage`` of the first, which is positive where it is better.
+
+    Parameters
+    ----------
+    pairs : DataFrame
+        Columns ``first`` and ``second``, indexed by (case, fold).
+    metric : MetricInfo
+    """
+    advantages = np.zeros(len(pairs))
+    for places in pairs.groupby(level="case", sort=False).indices.values():
+        first, second = linear_losses(pairs.to_numpy()[places].T, metric)
+        advantages[places] = second - first
+    return pairs.assign(advantage=advantages)
 
 
-def pooled_units(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
+def units_of(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
     """Return the units of cases of a task, in which every case weighs the same.
 
     Parameters
     ----------
     task : Task
     pairs : DataFrame
-        Columns ``first`` and ``second``, indexed by (case, fold).
+        Numbers, indexed by (case, fold).
 
     Returns
     -------
     DataFrame
-        One row per unit: ``first``, ``second`` and its ``share`` of the mean. Shares sum to 1.
+        One row per unit: the means of the columns, and its ``share`` of the mean over cases.
     """
     known = {case.name: case_layout(task, case) for case in task.cases}
     units = [

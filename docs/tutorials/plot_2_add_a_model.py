@@ -85,7 +85,7 @@ for model in (Forgetful, LeastJerk):
 # --------------------
 #
 # The task :doc:`/generated/tasks/marker-gaps` hides an arm or a leg for
-# 0.1 to 2 seconds. We take its generated walks, four folds (each with
+# 0.1 to 2 seconds. We take its generated walks, six folds (each with
 # another gap), and three interpolations to compare with. Each job runs
 # in a process of its own and never sees the truth.
 
@@ -111,7 +111,7 @@ def run(command: str) -> str:
 output = run(
     f"mocapbench run --plugin {PLUGIN} --out results"
     " --offline --no-report --tasks marker-gaps"
-    " --cases 'synthetic*alone' --folds 4"
+    " --cases 'synthetic*alone' --folds 6"
     " --models least-jerk,linear,makima,cubic-spline"
 )
 print(output.splitlines()[-2])
@@ -193,7 +193,7 @@ for length, label in best.items():
 # Is that more than chance?
 # -------------------------
 #
-# Four gaps of each length are few. ``mocapbench compare`` pairs the two
+# Six gaps of each length are few. ``mocapbench compare`` pairs the two
 # models gap by gap. We take the interpolation that stands highest in
 # the picture.
 
@@ -216,7 +216,7 @@ folder.cleanup()
 # words. **Look at** the column *advantage*, in centimetres: above zero,
 # the new model is better. Its 95 % interval goes from *low* to *high*;
 # one that holds 0 leaves open which of the two is better, and so does a
-# *p* above 0.05. *All cases* has each length of gap as one value.
+# *p* above 0.05. *All cases* has all gaps, of every length.
 # :doc:`plot_4_is_the_difference_real` says what lies behind these
 # columns, and how many folds it takes.
 #

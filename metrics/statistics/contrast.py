@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -38,11 +37,10 @@ class Contrast:
     advantage, low, high : float
         By how much the first is better, with the 95 % interval; negative is worse.
     t_p, signed_rank_p : float
-        Two-sided p-values of the paired t-test and of Wilcoxon's test, not corrected.
+        Two-sided p-values of the paired t-test and of Wilcoxon's test, not corrected. Wilcoxon's
+        counts every unit once, whatever its share.
     better, equivalent, worse : float
         Probabilities by the Bayesian correlated t-test.
-    identical : bool
-        Whether both have the same value in every unit.
     """
 
     n: int
@@ -56,19 +54,16 @@ class Contrast:
     better: float = math.nan
     equivalent: float = math.nan
     worse: float = math.nan
-    identical: bool = False
 
 
-def contrast(units: pd.DataFrame, loss: Callable[[float], float], rope: float = ROPE) -> Contrast:
-    """Return the contrast of the two columns of ``units``.
+def contrast(units: pd.DataFrame, rope: float = ROPE) -> Contrast:
+    """Return the contrast of two entrants.
 
     Parameters
     ----------
     units : DataFrame
-        One row per unit: its values ``first`` and ``second``, finite, and its ``share`` of the
-        mean. Shares sum to 1.
-    loss : callable
-        From a value of the metric to its loss, of which lower is better.
+        One row per unit: the values ``first`` and ``second``, the ``advantage`` of the first, all
+        finite, and the unit's ``share`` of the means. Shares sum to 1.
     rope : float
         Half the width of the region of practical equivalence, as a share of the mean absolute
         value of both columns.
@@ -82,14 +77,13 @@ def contrast(units: pd.DataFrame, loss: Callable[[float], float], rope: float = 
         raise ValueError(f"expected a region of practical equivalence of 0 or more, got {rope}")
     if units.empty:
         return Contrast(0)
-    first, second, shares = (units[name].to_numpy(float) for name in ("first", "second", "share"))
-    advantages = (units["second"].map(loss) - units["first"].map(loss)).to_numpy(float)
+    columns = ("first", "second", "advantage", "share")
+    first, second, advantages, shares = (units[name].to_numpy(float) for name in columns)
     means = Contrast(
         n=len(units),
         first=float(shares @ first),
         second=float(shares @ second),
         advantage=float(shares @ advantages),
-        identical=bool((first == second).all()),
     )
     if means.n < FEWEST_UNITS:
         return means

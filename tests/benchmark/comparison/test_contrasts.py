@@ -122,12 +122,18 @@ def test_overlapping_windows_of_one_person_count_as_one(cli, run, tmp_path):
     rows = compared(cli, tmp_path, run("run", *groups), "--models", "knn,nn")
     assert list(rows["n"]) == [1, 1, 2]
     assert rows["t_p"].isna().all()
-    assert cli.printed.count("too few to test") == 4  # and the note
+    assert cli.printed.count("too few to test") == 5  # three rows, and two notes
 
 
 @pytest.mark.parametrize(
     ("task", "metric", "n_folds", "n_units"),
-    [(TOY, "mse", 2, 18), (FRAMES, "rms_per_frame", 3, 5), ("marker-gaps", "mpjpe", 6, 4)],
+    [
+        (TOY, "mse", 2, 18),
+        (FRAMES, "rms_per_frame", 3, 5),
+        (FRAMES, "coverage_95", 3, 5),
+        ("marker-gaps", "mpjpe", 6, 4),
+        ("toy-synthesis", "variance_ratio", 4, 36),
+    ],
 )
 def test_the_units_and_tests_are_those_of_the_report(task, metric, n_folds, n_units):
     rng, cases = np.random.default_rng(0), TASKS.get(task).cases
@@ -136,13 +142,33 @@ def test_the_units_and_tests_are_those_of_the_report(task, metric, n_folds, n_un
         for label in ("knn", "nn")
     ]
     whole = bundle([record for side in found for record in side], {})
-    expected = contrasts(cells(task_results(whole, whole.layouts[0]), metric))["knn", "nn"]
+    scored = cells(task_results(whole, whole.layouts[0]), metric)
     sides = comparison.between_models([r for side in found for r in side], ("knn", "nn"))
     rows = comparison.compare(*sides, metrics=[metric], rope=ROPE)
     (pooled,) = (row.contrast for row in rows if row.case == "all cases")
+    expected = contrasts(scored)["knn", "nn"]
     assert pooled.n == expected.n == n_units
-    for name in ("first", "second", "advantage", "t_p"):
-        assert getattr(pooled, name) == pytest.approx(getattr(expected, name), nan_ok=True)
+    for name in ("first", "second", "advantage"):
+        assert getattr(pooled, name) == pytest.approx(getattr(expected, name))
+    assert pooled.t_p == pytest.approx(expected.t_p, nan_ok=True)
+
+
+def test_equal_means_of_units_are_not_identical_values(cli, run, tmp_path):
+    swings = {"64-01": [1.0], "64-02": [3.0]}
+    turned = dict(zip(swings, reversed(swings.values()), strict=True))
+    both = run(
+        "run", *(records(*of, task="golf-swings") for of in (("knn", swings), ("nn", turned)))
+    )
+    rows = compared(cli, tmp_path, both, "--models", "knn,nn", "--metrics", "mse")
+    assert not rows["identical"].any()
+    assert rows.loc["all cases", ["n", "advantage"]].to_list() == [1, 0.0]
+    assert cli.printed.count("too few to test") == 5  # three rows, and two notes
+
+
+def test_nothing_is_said_of_few_units_where_all_is_identical(cli, run):
+    path = run("run", records("knn", {"test 1": [1.0]}))
+    assert cli("compare", path, path) == 0
+    assert "For what is too few to test" not in cli.printed
 
 
 def test_rows_that_are_means_of_others_do_not_count_beside_them(cli, run, tmp_path):

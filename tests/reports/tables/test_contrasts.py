@@ -46,7 +46,8 @@ def test_all_pairs_at_once_are_the_contrasts_one_by_one(small, seed):
     table = results.scores.pivot(index="fold", columns="label", values="value")
     for pair, many in contrasts(cells(results, "mse")).items():
         units = table[list(pair)].dropna().set_axis(["first", "second"], axis=1)
-        one = contrast(units, float)
+        advantages = units["second"] - units["first"]
+        one = contrast(units.assign(advantage=advantages, share=1.0 / len(units)))
         for name in ("n", "first", "second", "advantage", "t_p"):
             assert getattr(many, name) == pytest.approx(getattr(one, name), abs=1e-9)
         assert many.separable == (not many.low <= 0.0 <= many.high)
