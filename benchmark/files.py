@@ -27,6 +27,10 @@ def atomic_write(path: Path) -> Iterator[IO[bytes]]:
             yield file
         Path(temporary).chmod(_READABLE)  # temporary files are their owner's alone
         Path(temporary).replace(path)
+    except OSError as error:
+        Path(temporary).unlink(missing_ok=True)
+        error.filename = error.filename or str(path)  # which errors of writing lack
+        raise
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
         raise
@@ -39,14 +43,13 @@ def is_writable(folder: Path) -> bool:
 
 
 def words_of(error: OSError) -> str:
-    """Return which file an error of the system is about, and what it says, without its number."""
-    if error.strerror is None:
-        return str(error)
+    """Return what an error of the system says, without its number, and of which file."""
+    said = error.strerror or str(error) or type(error).__name__
     if not isinstance(error.filename, str):
-        return error.strerror
+        return said
     path = Path(error.filename)
     target = target_of(path)  # people know the file by this name
-    return f"{path.with_name(target) if target else path}: {error.strerror}"
+    return f"{path.with_name(target) if target else path}: {said}"
 
 
 def target_of(temporary: Path) -> str:

@@ -49,7 +49,7 @@ def explain(error: Exception) -> ExitCode:
         case UsageError() | DigestMismatch() | AcclaimError() | FormatError():
             _say(str(error))
         case OSError():
-            _say(f"cannot read or write {words_of(error)}")
+            _say(f"cannot read or write: {words_of(error)}")
         case _:
             _quote("".join(traceback.format_exception(error)))
             _say("a defect of mocapbench or an added package; see above")

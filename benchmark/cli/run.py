@@ -192,7 +192,8 @@ def _run(
         task_files=[file.to_plain() for file in config.task_files],
     )
     drawn = bench.last_drawn(store, [job.key for job in planned])
-    left_out = bench.left_out_lines(store, planned)
+    for line in bench.left_out_lines(store, planned):
+        console.print(line, soft_wrap=True, highlight=False)
     if not drawn:
         store.save_plan(document(provenance=about))
     try:
@@ -208,8 +209,6 @@ def _run(
         show_left_out(store.damaged, console)
         return code
     about["wall time"] = _wall_time(time.monotonic() - started, records, about["started"])
-    for line in left_out:
-        console.print(line, soft_wrap=True, highlight=False)
     store.save_plan(document(provenance=about))
     if not with_report:
         line = f"no report was written; `mocapbench report --out {store.path}` writes one"
@@ -221,12 +220,12 @@ def _run(
 
 
 def _wall_time(seconds: float, records: Sequence[Record], started: str) -> str:
-    """Return the seconds of a run, and of how many results they are not."""
+    """Return the seconds of a run, and how many results are of earlier ones."""
     done = (record for record in records if record.status is bench.Status.OK)
     earlier = sum(record.provenance.get("started") != started for record in done)
-    return f"{seconds:.0f} s" + (
-        f", besides {reports.counted(earlier, 'job')} done before" if earlier else ""
-    )
+    are = "is" if earlier == 1 else "are"
+    others = f"; {reports.counted(earlier, 'result')} {are} of an earlier run" if earlier else ""
+    return f"{seconds:.0f} s{others}"
 
 
 def _fetching(planned: Sequence[Job], plugins: Sequence[Path]) -> str:

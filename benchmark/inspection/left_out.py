@@ -15,7 +15,7 @@ __all__ = ["left_out_lines"]
 
 
 def left_out_lines(store: Store, planned: Sequence[Job]) -> list[str]:
-    """Return in words which results the report will leave out; none if it shows all.
+    """Return in words which results of the run before the report will leave out; none if none.
 
     Parameters
     ----------
@@ -31,24 +31,23 @@ def left_out_lines(store: Store, planned: Sequence[Job]) -> list[str]:
     written = store.record_keys()
     before = {job.address._replace(version=0) for job in jobs if job.key in written}
     now = {job.address._replace(version=0) for job in planned}
-    if not before - now:
+    gone = before - now
+    if not gone:
         return []
     return [
-        f"not in the report: {counted(len(before - now), 'job')} of the run before this one "
-        f"({'; '.join(_gone(before, now))}); they stay in {store.path}, and a run with these too "
-        "shows them again"
+        f"not in the report: {counted(len(gone), 'result')} of the run before "
+        f"({'; '.join(_named(gone, now))}), kept in {store.path} for a run that has them too"
     ]
 
 
-def _gone(before: Iterable[Address], now: Iterable[Address]) -> Iterator[str]:
-    """Yield which names are gone, by kind; if none is, single jobs are."""
-    gone = {
-        kind: sorted({getattr(a, kind) for a in before} - {getattr(a, kind) for a in now})
-        for kind in ("label", "task", "case")
-    }
-    if gone["label"]:
-        yield f"models {', '.join(gone['label'])}"
-    if gone["task"]:
-        yield f"tasks {', '.join(gone['task'])}"
-    if not gone["label"] and not gone["task"]:
-        yield f"cases {', '.join(gone['case'])}" if gone["case"] else "some of their folds"
+def _named(gone: Iterable[Address], now: Iterable[Address]) -> Iterator[str]:
+    """Yield which models, tasks and cases are gone, and how many results are of other folds."""
+    rest, kept = list(gone), list(now)
+    for kind, name in (("label", "model"), ("task", "task"), ("case", "case")):
+        there = {getattr(address, kind) for address in kept}
+        names = sorted({getattr(address, kind) for address in rest} - there)
+        if names:
+            yield f"{name}{'s' if len(names) > 1 else ''} {', '.join(names)}"
+        rest = [address for address in rest if getattr(address, kind) in there]
+    if rest:
+        yield counted(len(rest), "other")

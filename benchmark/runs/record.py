@@ -103,7 +103,7 @@ class Record:
         document |= {"format": FORMAT, **document.pop("address")._asdict()}
         try:
             return orjson.dumps(document).decode()
-        except TypeError:  # what it does not know, such as an integer of more than 64 bits
+        except TypeError:  # integers of more than 64 bits, surrogates, keys that are no text
             return json.dumps(_without_nan(document))
 
     @classmethod
@@ -155,9 +155,11 @@ def _encodable(text: str) -> str:
 def _without_nan(value: Any) -> Any:
     match value:
         case dict():
-            return {str(key): _without_nan(item) for key, item in value.items()}
+            return {_encodable(str(key)): _without_nan(item) for key, item in value.items()}
         case list() | tuple():
             return [_without_nan(item) for item in value]
+        case str():
+            return _encodable(value)
         case float() if not math.isfinite(value):
             return None
         case _:

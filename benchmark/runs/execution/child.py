@@ -28,7 +28,7 @@ __all__ = [
 ]
 
 _FORK = multiprocessing.get_context("fork")
-_LIBC = ctypes.CDLL(None)  # once: a child copies the memory of what it makes
+_LIBC = ctypes.CDLL(None)  # loaded before a fork: in the child it would cost pages of memory
 _PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36  # of prctl(2)
 
 

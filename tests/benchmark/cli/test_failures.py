@@ -18,15 +18,19 @@ def test_a_warning_of_ours_is_one_line_and_others_name_their_place(capsys):
 
 
 def test_an_error_of_the_system_names_the_file_that_people_know(capsys, tmp_path):
-    with pytest.raises(OSError) as full, atomic_write(tmp_path / "scores.csv") as file:
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), file.name)
+    path = tmp_path / "scores.csv"
+    with pytest.raises(OSError, match="No space") as full, atomic_write(path):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))  # as write() does, without a name
     assert explain(full.value) is ExitCode.USAGE
-    assert "Errno" not in capsys.readouterr().err
+    said = capsys.readouterr().err.replace("\n", "")
+    assert said == f"error: cannot read or write: {path}: No space left on device"
     temporary = f".scores.csv.{'a' * 8}.tmp"
     assert explain(PermissionError(errno.EACCES, "Permission denied", temporary))
-    assert capsys.readouterr().err == "error: cannot read or write scores.csv: Permission denied\n"
+    assert "write: scores.csv: Permission denied" in capsys.readouterr().err
     assert explain(OSError("told by a library"))
-    assert "cannot read or write told by a library" in capsys.readouterr().err
+    assert "write: told by a library" in capsys.readouterr().err
+    assert explain(ConnectionResetError())
+    assert "write: ConnectionResetError" in capsys.readouterr().err
 
 
 def test_a_file_where_none_can_be_written_is_refused_before_anything(cli, tmp_path, monkeypatch):

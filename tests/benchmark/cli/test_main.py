@@ -106,11 +106,11 @@ def test_a_smaller_run_says_what_its_report_leaves_out(cli, tmp_path):
     assert cli(*wide) == 0
     assert "not in the report" not in cli.printed
     assert cli(*TOY, "--models", "linear", "--folds", 2, "--out", tmp_path / "run") == 0
-    assert "not in the report: 4 jobs of the run before this one (models knn, nn)" in cli.printed
+    assert "not in the report: 4 results of the run before (models knn, nn)" in cli.printed
     assert cli(*wide) == 0
     assert "not in the report" not in cli.printed
     assert cli(*wide, "--folds", 1) == 0
-    assert "3 jobs of the run before this one (some of their folds)" in cli.printed
+    assert "3 results of the run before (3 others)" in cli.printed
 
 
 def test_the_wall_time_of_a_resumed_run_says_what_it_leaves_out(cli, tmp_path):
@@ -121,7 +121,7 @@ def test_the_wall_time_of_a_resumed_run_says_what_it_leaves_out(cli, tmp_path):
     time.sleep(1.0)  # the time of the start, which has no fractions, is another
     assert cli(*run, 3) == 0
     about = Store.open(tmp_path / "run").load_plan()["provenance"]
-    assert re.fullmatch(r"\d+ s, besides 1 job done before", about["wall time"])
+    assert re.fullmatch(r"\d+ s; 1 result is of an earlier run", about["wall time"])
 
 
 def _take_longer(path):
