@@ -84,12 +84,12 @@ def _jumps(filled: Filled) -> Iterator[str]:
     found = jumps(recording, filled.source.request.target)
     if found:
         frame, channel, size, largest = found[0]
-        unit = recording.units[channel]
+        unit = f" {recording.units[channel]}".rstrip()
         edges = "one edge" if len(found) == 1 else f"{len(found)} edges"
         yield (
             f"At {edges} of gaps, a channel jumps further than between any two visible frames: "
-            f"{recording.channels[channel]} by {size:.3g} {unit} at frame {frame}, elsewhere by at "
-            f"most {largest:.3g} {unit}. Look at the curves before you use these entries."
+            f"{recording.channels[channel]} by {size:.3g}{unit} at frame {frame}, elsewhere by at "
+            f"most {largest:.3g}{unit}. Look at the curves before you use these entries."
         )
 
 
