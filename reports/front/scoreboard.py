@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -71,12 +72,12 @@ def _column(results: TaskResults) -> BoardColumn:
 
 
 def _unit(metric: MetricInfo) -> str:
-    """Return the acronym in a metric's title, else its unit, unless that is too long for a head."""
-    _, _, rest = metric.title.partition("(")
-    acronym = rest.partition(")")[0]
-    named = acronym if acronym.isupper() else metric.unit
-    if 0 < len(named) <= LONGEST_UNIT:
-        return named
+    """Return a metric's unit, if a head has room for it, else the acronym in its title, if any."""
+    if 0 < len(metric.unit) <= LONGEST_UNIT:
+        return metric.unit
+    acronym = re.search(r"\b([A-Z]{2,})\)", metric.title)
+    if acronym:
+        return acronym[1]
     return "error" if metric.direction is Direction.LOWER else "score"
 
 
