@@ -214,8 +214,8 @@ class Store:
     def save_fit(self, key: str, fit: Fit) -> None:
         """Write ``fit`` whole or not at all.
 
-        It is not compressed: of numbers that would save a quarter of the bytes, and cost more than
-        all else that a run does itself with a job.
+        It is not compressed: of such numbers that would save a quarter of the bytes, and take
+        longer than all else that a run does itself with a job.
         """
         about = {**fit.costs, "key": key}
         with atomic_write(_made(self._fit_path(key))) as file:
