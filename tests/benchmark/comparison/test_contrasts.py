@@ -9,12 +9,14 @@ from typer.main import get_command
 
 from mocapbench.benchmark import comparison
 from mocapbench.benchmark.cli.compare import app
+from mocapbench.benchmark.comparison.units import with_advantages
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.results.bundle import bundle
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.metrics.statistics import ROPE
+from mocapbench.reports import MetricInfo
 from mocapbench.reports.analysis.cells import cells
 from mocapbench.reports.analysis.contrasts import contrasts
 from mocapbench.reports.analysis.results import task_results
@@ -151,6 +153,21 @@ def test_the_units_and_tests_are_those_of_the_report(task, metric, n_folds, n_un
     for name in ("first", "second", "advantage"):
         assert getattr(pooled, name) == pytest.approx(getattr(expected, name))
     assert pooled.t_p == pytest.approx(expected.t_p, nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    ("direction", "target", "advantages"),
+    [
+        ("lower", None, [2.0, 3.0, -1.0]),
+        ("higher", None, [-2.0, -3.0, 1.0]),
+        ("target", 5.0, [-2.0, -3.0, 1.0]),  # both means are below it
+    ],
+)
+def test_an_advantage_follows_the_direction(direction, target, advantages):
+    addresses = pd.MultiIndex.from_tuples([("a", 0), ("a", 1), ("b", 0)], names=["case", "fold"])
+    pairs = pd.DataFrame({"first": [1.0, 2.0, 3.0], "second": [3.0, 5.0, 2.0]}, addresses)
+    found = with_advantages(pairs, MetricInfo("m", "m", direction, target))
+    assert found["advantage"].to_list() == advantages
 
 
 def test_equal_means_of_units_are_not_identical_values(cli, run, tmp_path):
