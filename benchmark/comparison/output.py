@@ -69,15 +69,13 @@ def markdown(rows: Sequence[Row], sides: tuple[str, str]) -> str:
 def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
     """Return what a reader of ``rows`` must know."""
     identical = sum(row.identical for row in rows)
-    counts = {row.contrast.n for row in rows}
-    powerless = any(n >= FEWEST_UNITS and least_signed_rank_p(n) > ALPHA for n in counts)
     return [
         "“Better by” comes with its 95 % interval by Student’s t. Each p is corrected after Holm, "
         "single cases and all cases apart. P is by the Bayesian correlated t-test.",
         "n counts people where cases or folds go through recordings of people, else independent "
         "folds or cases, as in the report. Fewer than five are too few to test.",
         *([f"{identical} of {len(rows)} comparisons are identical."] if identical else []),
-        *([POWERLESS] if powerless else []),
+        *([POWERLESS] if any(row.contrast.n == FEWEST_UNITS for row in rows) else []),
         *([MORE] if any(outcome(row, sides) == TOO_FEW for row in rows) else []),
     ]
 

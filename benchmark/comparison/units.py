@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from mocapbench.benchmark.results.bundle import case_layout
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import CaseLayout, MetricInfo
 from mocapbench.reports.analysis.grid import linear_losses
@@ -49,11 +48,11 @@ def units_of(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
     DataFrame
         One row per unit: the means of the columns, and its ``share`` of the mean over cases.
     """
-    known = {case.name: case_layout(task, case) for case in task.cases}
+    subjects = {case.name: case.subjects for case in task.cases}
     units = [
         unit
         for name, fold in pairs.index
-        for case in [known.get(name, CaseLayout(name, {}))]  # of runs with cases that are gone
+        for case in [CaseLayout(name, {}, subjects=subjects.get(name, ()))]  # or one that is gone
         for unit in unit_names(case, [fold], independent=task.independent_folds)
     ]
     weights = unit_weights(units, pairs.index.get_level_values("case").to_list())

@@ -62,7 +62,7 @@ def _curves(
     deviations = np.full(request.target.shape, np.nan)
     deviations[request.target] = filled.deviations
     for gap, channel in shown:
-        frames = _around(gap, len(recording.times))
+        frames = _around(gap, len(recording.times), _LEAST_BESIDE)
         yield FilledCurve(
             recording.channels[channel],
             recording.units[channel],
@@ -82,9 +82,9 @@ def _spans(recording: Recording, filled: Mask, frames: slice) -> Iterator[tuple[
         yield float(recording.times[max(first, 0)]), float(recording.times[min(stop, last)])
 
 
-def _around(gap: Gap, n_frames: int) -> slice:
-    """Return the frames of a gap and those beside it."""
-    beside = max(int(_BESIDE * len(gap)), _LEAST_BESIDE)
+def _around(gap: Gap, n_frames: int, least: int) -> slice:
+    """Return the frames of a gap and those beside it, at least so many on each side."""
+    beside = max(int(_BESIDE * len(gap)), least)
     return slice(max(gap.start - beside, 0), min(gap.stop + beside, n_frames))
 
 
@@ -100,8 +100,8 @@ def _caption(gaps: Sequence[Gap], shown: Sequence[tuple[Gap, int]]) -> str:
 def _motion(filled: Filled, recording: Recording, gap: Gap) -> Panel | None:
     """Return stick figures from before a gap until after it, where the file has a skeleton."""
     skeleton = filled.source.format.skeleton(filled.source.path)
-    beside = max(len(gap), _LEAST_MOTION)  # so that figures are of filled frames, too
-    frames = slice(max(gap.start - beside, 0), min(gap.stop + beside, len(recording.times)))
+    # Few frames beside it, so that figures are of filled frames, too.
+    frames = _around(gap, len(recording.times), _LEAST_MOTION)
     part = recording.frames(np.arange(frames.start, frames.stop))
     whole = len(part.times) > 1 and part.visible.all() and set(part.channels) >= _ROOT_PATH
     if skeleton is None or not whole:

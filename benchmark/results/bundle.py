@@ -11,7 +11,7 @@ from mocapbench.benchmark.results.interpolations import interpolates
 from mocapbench.benchmark.results.model_infos import model_infos
 from mocapbench.benchmark.results.origins import origins
 from mocapbench.benchmark.runs.record import Record
-from mocapbench.benchmark.tasks.base import Case, Task
+from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import (
     Bundle,
     CaseLayout,
@@ -22,7 +22,7 @@ from mocapbench.reports import (
     TaskLayout,
 )
 
-__all__ = ["bundle", "case_layout", "metric_info"]
+__all__ = ["bundle", "metric_info"]
 
 
 def bundle(
@@ -80,24 +80,22 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
     return TaskLayout(
         name=task.name,
         page=task.page,
-        cases=tuple(case_layout(task, case) for case in task.cases),
+        cases=tuple(
+            CaseLayout(
+                case.name,
+                case.columns,
+                synthetic=case.synthetic,
+                averages_references=task.averages_references(case),
+                notes=task.page.notes(case.name),
+                subjects=case.subjects,
+            )
+            for case in task.cases
+        ),
         labels=_unique(record.address.label for record in of_task),
         independent_folds=task.independent_folds,
         budget=budget,
         models=model_infos(task, of_task),
         interpolations=_unique(r.address.label for r in of_task if interpolates(r.model)),
-    )
-
-
-def case_layout(task: Task, case: Case) -> CaseLayout:
-    """Return what a page says of a case of ``task``."""
-    return CaseLayout(
-        case.name,
-        case.columns,
-        synthetic=case.synthetic,
-        averages_references=task.averages_references(case),
-        notes=task.page.notes(case.name),
-        subjects=case.subjects,
     )
 
 

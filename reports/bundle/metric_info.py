@@ -56,8 +56,17 @@ class MetricInfo:
     @property
     def short(self) -> str:
         """The abbreviation that the title ends in, or its part before a bracket."""
-        abbreviation = re.search(r"\(((?:\w+ )?[A-Z]{2,})\)", self.title)
-        return abbreviation[1] if abbreviation else self.title.partition(" (")[0]
+        return self._abbreviation or self.title.partition(" (")[0]
+
+    @property
+    def acronym(self) -> str:
+        """The capitals of the abbreviation, such as SMSE of “pooled SMSE”; empty without one."""
+        return self._abbreviation.rpartition(" ")[2]
+
+    @property
+    def _abbreviation(self) -> str:
+        found = re.search(r"\(((?:\w+ )?[A-Z]{2,})\)", self.title)
+        return found[1] if found else ""
 
     @property
     def better(self) -> str:

@@ -13,7 +13,7 @@ from mocapbench.reports.figures.marks import band, group, horizontal, polyline, 
 from mocapbench.reports.figures.pictures.thinning import thinned
 from mocapbench.reports.figures.styles import TRUTH, Style
 from mocapbench.reports.figures.svg_figure import Key
-from mocapbench.reports.filling.values import FILLED_FRAMES, GIVEN_FRAMES, FilledCurve
+from mocapbench.reports.filling.values import FILLED_FRAMES, FilledCurve
 from mocapbench.reports.printable import printable
 from mocapbench.reports.text import counted
 
@@ -21,7 +21,8 @@ __all__ = ["MOTION_STYLES", "draw_curve", "legend"]
 
 HEIGHT = 120.0
 FILLED = Style("h0", 1)
-MOTION_STYLES = {GIVEN_FRAMES: TRUTH, FILLED_FRAMES: FILLED}
+MOTION_STYLES = {FILLED_FRAMES: FILLED}
+"""Of the figures of a motion; those in the file are drawn as the truth is everywhere."""
 _WITHIN_95 = 1.96
 
 Array = NDArray[np.float64]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -75,10 +74,7 @@ def _unit(metric: MetricInfo) -> str:
     """Return a metric's unit, if a head has room for it, else the acronym in its title, if any."""
     if 0 < len(metric.unit) <= LONGEST_UNIT:
         return metric.unit
-    acronym = re.search(r"\b([A-Z]{2,})\)", metric.title)
-    if acronym:
-        return acronym[1]
-    return "error" if metric.direction is Direction.LOWER else "score"
+    return metric.acronym or ("error" if metric.direction is Direction.LOWER else "score")
 
 
 def _best_interpolations(
