@@ -23,7 +23,7 @@ FrameByJointBy3 = NDArray[np.float64]
 Rotations = NDArray[np.float64]
 """(3, 3, N) matrices, the frames last, so that products of all of them are fast."""
 
-_REST = np.zeros(1)
+_NO_TURN = np.eye(3)[:, :, np.newaxis]
 
 
 def joint_positions(skeleton: Skeleton, *recordings: Recording) -> FrameByJointBy3:
@@ -54,9 +54,10 @@ def joint_positions(skeleton: Skeleton, *recordings: Recording) -> FrameByJointB
     curves = dict(zip(names, stacked.T, strict=True))
     root, *segments = skeleton.segments
     ends = {root.name: np.stack([curves[f"{root.name}.{dof}"] for dof in ("tx", "ty", "tz")])}
-    rotations = {root.name: _rotation(root, curves)}
-    for segment in segments:
-        rotation = _then(_rotation(segment, curves), rotations[segment.parent])
+    axes = _axes(skeleton.segments)
+    rotations = {root.name: _rotation(root, axes[0], curves)}
+    for segment, axis in zip(segments, axes[1:], strict=True):
+        rotation = _then(_rotation(segment, axis, curves), rotations[segment.parent])
         bone = segment.length * np.asarray(segment.direction)
         rotations[segment.name] = rotation
         ends[segment.name] = ends[segment.parent] + np.einsum("ijn,j->in", rotation, bone)
@@ -117,11 +118,17 @@ def _curves(names: Sequence[str], recording: Recording) -> FrameByChannel:
     return curves
 
 
-def _rotation(segment: Segment, curves: Mapping[str, Frames]) -> Rotations:
+def _axes(segments: Sequence[Segment]) -> NDArray[np.float64]:
+    """Return C of every segment, (S, 3, 3, 1)."""
+    axes = map(_about, "XYZ", np.transpose([segment.axis for segment in segments]))
+    return np.moveaxis(reduce(_then, axes), 2, 0)[..., np.newaxis]
+
+
+def _rotation(segment: Segment, axis: Rotations, curves: Mapping[str, Frames]) -> Rotations:
     """Return C M C⁻¹ at every frame; at one frame if the segment stays at rest."""
-    angles = [curves.get(f"{segment.name}.r{axis.lower()}", _REST) for axis in segment.order]
-    moved = reduce(_then, map(_about, segment.order, angles))
-    axis = reduce(_then, map(_about, "XYZ", np.reshape(segment.axis, (3, 1))))
+    names = {turn: f"{segment.name}.r{turn.lower()}" for turn in segment.order}
+    turns = [_about(turn, curves[name]) for turn, name in names.items() if name in curves]
+    moved = reduce(_then, turns or [_NO_TURN])
     return _then(_then(axis.transpose(1, 0, 2), moved), axis)
 
 

@@ -38,8 +38,8 @@ def hidden_entries(outcome: Imputation) -> Mask:
     if not hidden.any():
         raise ValueError("expected at least one hidden entry to score, got none: hide some")
     for name, values in (("truth", outcome.truth), ("mean", outcome.mean)):
-        if not np.isfinite(values[hidden]).all():
-            bad = int((~np.isfinite(values[hidden])).sum())
+        if (wrong := hidden & ~np.isfinite(values)).any():
+            bad = int(wrong.sum())
             raise ValueError(f"expected a finite {name} at hidden entries, got {bad} that are not")
     return hidden
 

@@ -18,6 +18,7 @@ from mocapbench.benchmark.problems.placement import imputed_poses
 from mocapbench.benchmark.problems.unit import Unit
 from mocapbench.datasets import FrameByChannel, Mask, Recording
 from mocapbench.metrics import Imputation, ImputedPoses
+from mocapbench.metrics.entries import mean_over, variance_over
 
 __all__ = ["FilledRecordings", "ImputeProblem"]
 
@@ -164,8 +165,9 @@ class ImputeProblem(Problem[FilledRecordings]):
         """Return moments over all recordings given to fit and impute, each counted once."""
         unique = {recording.name: recording for recording in (*self.train, *self.given)}
         values = self.unit.of(np.concatenate([recording.values for recording in unique.values()]))
-        seen = np.ma.masked_invalid(values)
-        return seen.mean(axis=0).filled(0.0), seen.var(axis=0).filled(0.0)
+        seen = np.isfinite(values)
+        moments = mean_over(values, seen, axis=0), variance_over(values, seen)
+        return np.nan_to_num(moments[0]), np.nan_to_num(moments[1])
 
 
 def _checked(recording: Recording, prediction: Prediction) -> Prediction:

@@ -2,6 +2,8 @@
 
 import pickle
 import socket
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -91,3 +93,14 @@ def test_without_a_network_the_error_names_it(tmp_path, monkeypatch):
 def test_its_errors_can_be_pickled():
     error = pickle.loads(pickle.dumps(ServerUnreachable("what", "why", "remedy")))
     assert str(error) == "what: why; remedy"
+
+
+def test_who_downloads_nothing_loads_no_library_for_it():
+    code = (
+        "import sys\n"
+        "from mocapbench.datasets import open_archive\n"
+        "open_archive().recording('gait:01_01')\n"
+        "assert 'mocapbench.datasets.download' in sys.modules\n"
+        "assert 'requests.adapters' not in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=120)
