@@ -1,4 +1,4 @@
-"""Several models, weighted by how they do in rehearsals of the gaps at hand."""
+"""Several models, averaged as errs least in rehearsals of the gaps at hand."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
 from mocapbench.baselines.choosing.rehearsals import Rehearsals
 from mocapbench.baselines.choosing.weights import evidence, expected_errors, weights_of
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
-from mocapbench.baselines.common.validation import check_positive
+from mocapbench.baselines.common.validation import check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import Recording
 
@@ -20,7 +20,7 @@ __all__ = ["BestOf"]
 
 
 class BestOf(Imputer, Inductive):
-    r"""The mean of several models, weighted by their errors in rehearsals of the gaps.
+    r"""The mean of several models that errs least in rehearsals of the gaps.
 
     A model that is best on walks may be bad for someone who stands still. For every recording to
     fill, copies of its gaps are therefore hidden where its entries are visible, and every candidate
@@ -29,19 +29,23 @@ class BestOf(Imputer, Inductive):
     the one to fill, in turn and left out of training: by what a candidate's error grows there from
     the copies to the gaps, its error is multiplied.
 
-    The weights are :math:`w_i \propto \prod_s E_{is}^{-p}` with the root mean squared error
-    :math:`E_{is}` to expect by each of these two sources of evidence and the ``power`` p. The
+    The weights are those of stacked regression, :math:`w = \arg\min w^\top G w` over
+    :math:`w \ge 0, \sum_i w_i = 1`. :math:`G = \sum_s G_s / \min_i G_{s,ii}` adds up the
+    sources s of evidence, each with the mean products :math:`G_{s,ij}` to expect of the errors of
+    candidates i and j, whose correlations :math:`\rho_{ij}` become
+    :math:`(1 - \lambda) \rho_{ij} + \lambda` with the ``shrinkage`` :math:`\lambda`. The
     prediction is the mixture of the candidates' distributions: its variance includes how far they
-    lie apart. The variance of a candidate that has none is :math:`\prod_s E_{is}^{2/S}`, with S
-    sources. Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``,
+    lie apart. The variance of a candidate that has none is the geometric mean of its squared errors
+    :math:`G_{s,ii}`. Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``,
     ``pca-regression``, ``nn``, ``aligned-window``, ``pose-kriging`` and ``channel-kriging``; those
     that cannot fill a mask, or not learn from the recordings, are left out. The seed of ``fam`` is
     fixed, so that nothing is random.
 
     Parameters
     ----------
-    power : float, default=8.0
-        With 0 all candidates would count alike; the larger, the more the best one counts. Positive.
+    shrinkage : float, default=0.5
+        How far the correlations between candidates' errors are moved from those in rehearsals, at
+        0, towards one, at 1, where the best candidate has all the weight.
 
     Attributes
     ----------
@@ -54,7 +58,9 @@ class BestOf(Imputer, Inductive):
 
     References
     ----------
-    Not from a publication. ``docs/calibration.md`` has what was tried.
+    L. Breiman (1996), Stacked regressions, *Machine Learning* 24:49–64, for the weights. The
+    evidence and the shrinkage are not from a publication: ``docs/calibration.md`` has what was
+    tried.
 
     Examples
     --------
@@ -78,8 +84,8 @@ class BestOf(Imputer, Inductive):
 
     max_frames = 1000
 
-    def __init__(self, power: float = 8.0) -> None:
-        self.power = power
+    def __init__(self, shrinkage: float = 0.5) -> None:
+        self.shrinkage = shrinkage
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Fit the candidates.
@@ -90,7 +96,7 @@ class BestOf(Imputer, Inductive):
             If a parameter is out of range, there is no recording, channels differ, or a name
             repeats.
         """
-        check_positive("power", self.power)
+        check_share("shrinkage", self.shrinkage)
         # In the order of names, so that the order given does not affect results.
         checked = check_recordings(recordings)
         self.recordings_ = tuple(sorted(checked, key=lambda recording: recording.name))
@@ -108,7 +114,7 @@ class BestOf(Imputer, Inductive):
         """
         checked = self._checked(recordings)
         sources = [evidence(self._rehearsals(recording)) for recording in checked]
-        return [weights_of(found, self.power) for found in sources]
+        return [weights_of(found, self.shrinkage) for found in sources]
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the weighted mean of the candidates, and the variance of their mixture.
@@ -134,8 +140,10 @@ class BestOf(Imputer, Inductive):
         if LAST_RESORT not in answers:  # it says what nothing can fill
             return self.panel_.models[LAST_RESORT].impute([recording])[0]
         rehearsals = self._rehearsals(recording)
-        sources = [{n: e for n, e in s.items() if n in answers} for s in evidence(rehearsals)]
-        errors, weights = expected_errors(sources), weights_of(sources, self.power)
+        found = evidence(rehearsals)
+        names = [name for name in found[0] if name in answers] if found else []
+        sources = [products.loc[names, names] for products in found if names]
+        errors, weights = expected_errors(sources), weights_of(sources, self.shrinkage)
         means = {name: answers[name].mean for name in weights}
         mean = np.sum([weights[name] * means[name] for name in weights], axis=0)
         variance = np.zeros_like(mean)

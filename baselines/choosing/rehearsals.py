@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from mocapbench.baselines.choosing.panel import Panel
@@ -15,11 +16,14 @@ from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.common.trials import trial_masks
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["Errors", "Rehearsals"]
+__all__ = ["Products", "Rehearsals"]
 
 Array = NDArray[np.float64]
-Errors = Mapping[str, float]
-"""The mean squared error of each model, in units of the channels' scales."""
+Products = pd.DataFrame
+"""(C, C) mean products of the errors of models, by name, in units of the channels' scales.
+
+Mean squared errors are on the diagonal; what is beside it says which models err alike.
+"""
 
 _MOST_HELD_OUT = 3
 """Training recordings that take the place of the one to fill."""
@@ -55,11 +59,11 @@ class Rehearsals:
         """Whether copies of the longest gap in the recording itself had to be shortened."""
         return _longest(self.trials) < _longest([~self.given.visible])
 
-    def own(self) -> list[Errors]:
+    def own(self) -> list[Products]:
         """Return errors in the recording itself, for each trial."""
         return [self._own(mask) for mask in self.trials]
 
-    def _own(self, mask: Mask) -> Errors:
+    def _own(self, mask: Mask) -> Products:
         """Return errors in a trial, which no model has seen in fitting."""
         tried = self.given.hide(mask)
         panel = self.panel
@@ -67,7 +71,7 @@ class Rehearsals:
             panel = Panel.of(pool(self.fitted, [tried]))
         return self._errors(panel, self.given, mask)
 
-    def in_training(self) -> list[tuple[Errors, Errors]]:
+    def in_training(self) -> list[tuple[Products, Products]]:
         """Return errors with the gaps as they are, and in a trial, for recordings held out in turn.
 
         The recording held out has the gaps of the one to fill.
@@ -81,32 +85,35 @@ class Rehearsals:
         turns = [chosen] if len(others) > _MANY * len(chosen) else [[one] for one in chosen]
         return [errors for turn in turns for errors in self._held_out(turn)]
 
-    def _held_out(self, recordings: Sequence[Recording]) -> list[tuple[Errors, Errors]]:
+    def _held_out(self, recordings: Sequence[Recording]) -> list[tuple[Products, Products]]:
         names = {recording.name for recording in recordings}
         panel = Panel.of([r for r in self.fitted if r.name not in names])
         return [self._in_place_of_given(panel, recording) for recording in recordings]
 
-    def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Errors, Errors]:
+    def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Products, Products]:
         middle = len(self.trials) // 2
         masks = [~self.given.visible, *self.trials[middle : middle + 1]]
         gaps, *trials = _aligned(recording, masks)
         cut, hidden = gaps
         full = self._errors(panel, cut, hidden)
         short = [self._errors(panel, cut.hide(hidden), mask, cut) for _, mask in trials]
-        return full, short[0] if short else {}
+        return full, short[0] if short else pd.DataFrame()
 
     def _errors(
         self, panel: Panel, given: Recording, mask: Mask, truth: Recording | None = None
-    ) -> Errors:
+    ) -> Products:
         """Return the errors of a panel where ``mask`` hides entries of ``given``."""
         known = mask & (truth or given).visible
         if not known.any():
-            return {}
+            return pd.DataFrame()
         values = (truth or given).values
-        return {
-            name: float(np.mean(((mean - values) / self.scale)[known] ** 2))
+        errors = {
+            name: ((mean - values) / self.scale)[known]
             for name, mean in panel.means(given.hide(mask)).items()
         }
+        stacked = np.array([*errors.values()])
+        products = stacked @ stacked.T / np.count_nonzero(known)
+        return pd.DataFrame(products, [*errors], [*errors])
 
     @cached_property
     def scale(self) -> Array:

@@ -5,61 +5,82 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+from scipy.optimize import nnls
 
 from mocapbench.baselines.choosing.panel import LAST_RESORT
-from mocapbench.baselines.choosing.rehearsals import Errors, Rehearsals
+from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 
 __all__ = ["evidence", "expected_errors", "weights_of"]
 
 _LEAST = 1e-12
 """Least squared error, in units of the channels' scales."""
+_RIDGE = 1e-9
+"""Added to correlations, so that models that agree share their weight."""
 
 
-def evidence(rehearsals: Rehearsals) -> Sequence[Errors]:
-    """Return the squared error to expect of each model in the gaps, by each source there is.
+def evidence(rehearsals: Rehearsals) -> Sequence[Products]:
+    """Return the products of errors to expect in the gaps, by each source there is.
 
     The sources are copies of the gaps in the recording itself, which knows the person, and training
     recordings that take its place, which know such gaps in such motions. Where copies had to be
-    shorter than the gaps, the first is multiplied by how much larger the model's error is in
+    shorter than the gaps, the first is multiplied by how much larger the models' errors are in
     training with the gaps than with such copies; where that is not known, training counts alone.
     Without a gap there is no source.
     """
     if rehearsals.given.visible.all():
         return []
-    own, in_training = _means(rehearsals.own()), rehearsals.in_training()
-    gaps = _means(with_gaps for with_gaps, _ in in_training)
-    copies = _means(with_copies for _, with_copies in in_training) if rehearsals.are_short else gaps
+    own, in_training = _mean(rehearsals.own()), rehearsals.in_training()
+    gaps = _mean(with_gaps for with_gaps, _ in in_training)
+    copies = _mean(with_copies for _, with_copies in in_training) if rehearsals.are_short else gaps
     both = [name for name in own if name in gaps and name in copies]
     if not both:
-        return [alone for alone in [gaps or own] if alone]
-    grown = {name: own[name] * gaps[name] / copies[name] for name in both}
-    return [grown, {name: gaps[name] for name in both}]
+        return [alone for alone in [own if gaps.empty else gaps] if not alone.empty]
+    own, gaps, copies = (each.loc[both, both] for each in (own, gaps, copies))
+    growth = np.sqrt(np.diag(gaps) / np.diag(copies))
+    return [own * np.outer(growth, growth), gaps]
 
 
-def _means(errors: Iterable[Errors]) -> Errors:
-    """Return the mean error of each model that has one in every rehearsal."""
-    every: Sequence[Errors] = [found for found in errors if found]
-    names = [name for name in every[0] if all(name in found for found in every)] if every else []
-    return {name: _LEAST + float(np.mean([found[name] for found in every])) for name in names}
+def _mean(rehearsed: Iterable[Products]) -> Products:
+    """Return the mean products of the models that have errors in every rehearsal."""
+    every = [products for products in rehearsed if not products.empty]
+    if not every:
+        return pd.DataFrame()
+    names = [name for name in every[0] if all(name in products for products in every)]
+    total = np.sum([products.loc[names, names].to_numpy() for products in every], axis=0)
+    return pd.DataFrame(total / len(every) + _LEAST * np.eye(len(names)), names, names)
 
 
-def expected_errors(sources: Sequence[Errors]) -> Errors:
-    """Return the geometric mean over the sources of the error to expect of each model."""
-    names = sources[0] if sources else ()
-    return {
-        name: float(np.exp(np.mean([np.log(errors[name]) for errors in sources]))) for name in names
-    }
+def expected_errors(sources: Sequence[Products]) -> Mapping[str, float]:
+    """Return the geometric mean over the sources of the squared error of each model."""
+    names = [*sources[0]] if sources else []
+    logarithms = [np.log(np.diag(products)) for products in sources]
+    return dict(zip(names, np.exp(np.mean(logarithms, axis=0)), strict=True)) if names else {}
 
 
-def weights_of(sources: Sequence[Errors], power: float) -> Mapping[str, float]:
-    """Return the weights of models, which sum to one: ∝ error^(−power) of the root errors.
+def weights_of(sources: Sequence[Products], shrinkage: float) -> Mapping[str, float]:
+    """Return the weights of models, which sum to one: the mean that errs least in rehearsals.
 
-    The factors of the sources are multiplied, so that two of them decide more than one. Without any
-    source the last resort has all the weight.
+    Each source counts in units of the least squared error in it. Correlations between errors are
+    moved towards one by the ``shrinkage``, since in few rehearsals models seem to make up for each
+    other's errors more than they will. Without any source the last resort has all the weight.
     """
-    errors = expected_errors(sources)
-    if not errors:
+    if not sources:
         return {LAST_RESORT: 1.0}
-    least, exponent = min(errors.values()), 0.5 * power * len(sources)
-    raw = {name: (least / error) ** exponent for name, error in errors.items()}
-    return {name: weight / sum(raw.values()) for name, weight in raw.items()}
+    products = np.sum([source / np.diag(source).min() for source in sources], axis=0)
+    roots = np.sqrt(np.diag(products))
+    correlations = (1.0 - shrinkage) * products / np.outer(roots, roots) + shrinkage
+    return dict(zip(map(str, sources[0]), _least_error(correlations, roots), strict=True))
+
+
+def _least_error(correlations: NDArray[np.float64], roots: NDArray[np.float64]) -> list[float]:
+    """Return the shares w that minimise wᵀ R C R w, with R the diagonal of the roots.
+
+    They are those of the y ≥ 0 that minimises ½ yᵀ R C R y − 1ᵀ y, which is a problem of
+    non-negative least squares in R y.
+    """
+    factor = np.linalg.cholesky(correlations + _RIDGE * np.eye(len(roots)))
+    scaled, _ = nnls(factor.T, solve_triangular(factor, roots.min() / roots, lower=True))
+    return list(scaled / roots / np.sum(scaled / roots))

@@ -78,8 +78,8 @@ def test_a_complete_recording_stays_as_it_is():
 
 
 def test_what_cannot_be_filled_is_refused():
-    with pytest.raises(ValueError, match="power to be a finite positive number"):
-        BestOf(power=0.0).fit(TRAINING)
+    with pytest.raises(ValueError, match="shrinkage to be a number from 0 to 1"):
+        BestOf(shrinkage=1.5).fit(TRAINING)
     with pytest.raises(ValueError, match="expected channels"):
         MODEL.impute([walk("new", 0.0).select(["a"])])
     unseen = [gap(recording, 0, 60, [0]) for recording in TRAINING]

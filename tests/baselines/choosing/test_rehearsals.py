@@ -48,9 +48,22 @@ def test_real_gaps_stay_hidden_in_rehearsals():
 def test_errors_are_those_of_the_copies_in_units_of_the_spread():
     given = gap(walk("new"), 20, 28)
     _, rehearsals = watched([walk("one")], given)
-    for mask, errors in zip(rehearsals.trials, rehearsals.own(), strict=True):
+    for mask, products in zip(rehearsals.trials, rehearsals.own(), strict=True):
         expected = np.mean((given.values / rehearsals.scale)[mask] ** 2)
-        assert errors == pytest.approx({"zero": expected})
+        assert products.loc["zero", "zero"] == pytest.approx(expected)
+
+
+def test_products_are_means_over_hidden_entries_and_covariances_of_errors():
+    fitted, given = [walk("one"), walk("two", phase=1.0)], gap(walk("new"), 20, 28)
+    panel = Panel.of(fitted)
+    rehearsals = Rehearsals(fitted, panel, given)
+    mask, products = rehearsals.trials[0], rehearsals.own()[0]
+    means = panel.means(given.hide(mask))
+    linear, spline = (
+        ((means[name] - given.values) / rehearsals.scale)[mask] for name in ("linear", "pchip")
+    )
+    assert products.loc["linear", "pchip"] == pytest.approx(np.mean(linear * spline))
+    assert np.linalg.eigvalsh(products).min() > -1e-9 * np.trace(products)
 
 
 @pytest.mark.parametrize(("last", "short"), [(24, False), (55, True)])
@@ -73,7 +86,7 @@ def test_a_copy_that_fits_in_one_place_only_is_compared_with_the_gap_in_training
     rehearsals = Rehearsals(fitted, Panel.of(fitted), gap(walk("new"), 8, 56))
     assert len(rehearsals.trials) == 1
     assert rehearsals.are_short
-    assert all(with_copies for _, with_copies in rehearsals.in_training())
+    assert not any(with_copies.empty for _, with_copies in rehearsals.in_training())
 
 
 def test_one_training_recording_cannot_be_left_out():

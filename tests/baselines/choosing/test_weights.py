@@ -1,42 +1,86 @@
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.choosing.panel import CANDIDATES, LAST_RESORT, Panel
+from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
 from mocapbench.baselines.choosing.rehearsals import Rehearsals
 from mocapbench.baselines.choosing.weights import evidence, expected_errors, weights_of
 
-ERRORS = st.dictionaries(st.sampled_from(sorted(CANDIDATES)), st.floats(1e-6, 1e6), min_size=1)
+SEEDS = st.integers(0, 2**32 - 1)
+SHARES = st.floats(0.0, 1.0)
+
+
+def products(squares, *, correlation=0.0):
+    """Return products of errors with these squares and one correlation between all."""
+    roots = np.sqrt([*squares.values()])
+    correlations = np.where(np.eye(len(roots)), 1.0, correlation)
+    return pd.DataFrame(np.outer(roots, roots) * correlations, [*squares], [*squares])
+
+
+def drawn(seed, n_models=4, n_errors=30):
+    """Return the products of errors of models that err alike in part."""
+    rng = np.random.default_rng(seed)
+    errors = rng.normal(size=n_errors) + rng.normal(size=(n_models, n_errors))
+    errors *= rng.lognormal(size=(n_models, 1))
+    names = [f"model {k}" for k in range(n_models)]
+    return pd.DataFrame(errors @ errors.T / n_errors, names, names)
+
+
+def expected(weights, table):
+    return float(weights @ table.to_numpy() @ weights)
 
 
 @settings(max_examples=60, deadline=None)
-@given(ERRORS, st.floats(0.5, 20.0))
-def test_weights_sum_to_one_and_smaller_errors_weigh_more(errors, power):
-    weights = weights_of([errors], power)
-    assert sum(weights.values()) == pytest.approx(1.0)
-    by_error = [weights[name] for name in sorted(errors, key=errors.get)]
-    assert (np.diff(by_error) <= 1e-12).all()
+@given(SEEDS, SEEDS)
+def test_no_other_weights_err_less_in_rehearsals(seed, other):
+    table = drawn(seed)
+    weights = weights_of([table], 0.0)
+    assert [*weights] == [*table]
+    values = np.array([*weights.values()])
+    assert values.min() >= 0.0
+    assert values.sum() == pytest.approx(1.0)
+    others = np.random.default_rng(other).dirichlet(np.full(len(table), 0.3), size=50)
+    least = expected(values, table)
+    assert all(least <= expected(w, table) * (1 + 1e-6) for w in [*others, *np.eye(len(table))])
 
 
 @settings(max_examples=30, deadline=None)
-@given(ERRORS, st.floats(1e-3, 1e3))
-def test_weights_do_not_depend_on_the_unit_of_errors(errors, unit):
-    scaled = weights_of([{name: unit * error for name, error in errors.items()}], 4.0)
-    assert scaled == pytest.approx(weights_of([errors], 4.0))
+@given(SEEDS, SEEDS, SHARES, st.floats(1e-3, 1e3))
+def test_weights_depend_neither_on_the_unit_of_errors_nor_on_the_order(seed, second, share, unit):
+    sources = [drawn(seed), drawn(second)]
+    weights = weights_of(sources, share)
+    assert weights_of([unit * sources[0], sources[1]], share) == pytest.approx(weights, abs=1e-6)
+    turned = [source.iloc[::-1, ::-1] for source in sources]
+    assert weights_of(turned, share) == pytest.approx(weights, abs=1e-6)
 
 
-@settings(max_examples=30, deadline=None)
-@given(st.floats(1e-2, 1e2), st.floats(1e-2, 1e2))
-def test_the_factors_of_two_sources_are_multiplied(one, other):
-    sources = [{"linear": 1.0, "lds": one}, {"linear": 1.0, "lds": other}]
-    ratios = [w["lds"] / w["linear"] for w in (weights_of([s], 3.0) for s in sources)]
-    both = weights_of(sources, 3.0)
-    assert both["lds"] / both["linear"] == pytest.approx(ratios[0] * ratios[1])
+@given(st.floats(1e-3, 1e3), st.floats(1e-3, 1e3))
+def test_errors_without_correlation_weigh_by_their_inverse_squares(one, other):
+    weights = weights_of([products({"a": one, "b": other})], 0.0)
+    assert weights["a"] / weights["b"] == pytest.approx(other / one, rel=1e-4)
+
+
+@given(SEEDS)
+def test_with_correlations_of_one_the_best_has_all_the_weight(seed):
+    table = drawn(seed)
+    best = table.columns[np.diag(table).argmin()]
+    assert weights_of([table], 1.0)[best] == pytest.approx(1.0, abs=1e-3)
+
+
+def test_models_that_agree_share_their_weight():
+    weights = weights_of([products({"a": 1.0, "b": 1.0}, correlation=1.0)], 0.5)
+    assert weights == pytest.approx({"a": 0.5, "b": 0.5})
+
+
+def test_two_sources_count_alike_whatever_the_size_of_errors_in_them():
+    sources = [products({"a": 1.0, "b": 2.0}), products({"a": 2000.0, "b": 1000.0})]
+    assert weights_of(sources, 0.5) == pytest.approx({"a": 0.5, "b": 0.5})
 
 
 def test_without_an_error_the_last_resort_fills():
-    assert weights_of([], 8.0) == {LAST_RESORT: 1.0}
+    assert weights_of([], 0.5) == {LAST_RESORT: 1.0}
 
 
 class Staged(Rehearsals):
@@ -64,27 +108,29 @@ class _Gap:
 
 
 def test_the_recording_and_training_count_alike():
-    own = [{"a": 1.0, "b": 3.0}, {"a": 3.0, "b": 3.0}]
-    staged = Staged(own, [({"a": 8.0, "b": 3.0}, {"a": 1.0})], short=False)
+    own = [products({"a": 1.0, "b": 3.0}), products({"a": 3.0, "b": 3.0})]
+    training = [(products({"a": 8.0, "b": 3.0}), products({"a": 1.0}))]
+    staged = Staged(own, training, short=False)
     assert expected_errors(evidence(staged)) == pytest.approx({"a": 4.0, "b": 3.0})
 
 
 def test_errors_in_short_copies_grow_as_they_do_in_training():
-    """For a from 1 to 4 and for b by nothing, which is then averaged with training."""
-    training = [({"a": 16.0, "b": 3.0}, {"a": 4.0, "b": 3.0})]
-    staged = Staged([{"a": 1.0, "b": 3.0}], training, short=True)
-    assert expected_errors(evidence(staged)) == pytest.approx({"a": 8.0, "b": 3.0})
+    """For a from 1 to 4 and for b by nothing; how alike they are stays."""
+    training = [(products({"a": 16.0, "b": 3.0}), products({"a": 4.0, "b": 3.0}))]
+    own = [products({"a": 1.0, "b": 3.0}, correlation=0.5)]
+    found = evidence(Staged(own, training, short=True))
+    assert expected_errors(found) == pytest.approx({"a": 8.0, "b": 3.0})
+    assert found[0].loc["a", "b"] == pytest.approx(0.5 * np.sqrt(4.0 * 3.0))
 
 
 def test_without_room_training_counts_alone_and_without_training_the_copies():
-    training = [({"a": 8.0}, {})]
+    training, own = [(products({"a": 8.0}), pd.DataFrame())], [products({"a": 1.0})]
     assert expected_errors(evidence(Staged([], training, short=True))) == pytest.approx({"a": 8.0})
-    assert expected_errors(evidence(Staged([{"a": 1.0}], [], short=True))) == pytest.approx(
-        {"a": 1.0}
-    )
+    assert expected_errors(evidence(Staged(own, [], short=True))) == pytest.approx({"a": 1.0})
     assert expected_errors(evidence(Staged([], [], short=True))) == {}
 
 
 def test_training_counts_alone_where_it_has_no_copies_to_compare_with_the_gaps():
-    staged = Staged([{"a": 1.0}], [({"a": 8.0}, {})], short=True)
-    assert evidence(staged) == [pytest.approx({"a": 8.0})]
+    training = [(products({"a": 8.0}), pd.DataFrame())]
+    found = evidence(Staged([products({"a": 1.0})], training, short=True))
+    assert [expected_errors([source]) for source in found] == [pytest.approx({"a": 8.0})]

@@ -1,0 +1,71 @@
+"""How `best-of` weighs its candidates, tried where training recordings take the place of tests.
+
+It is reported in `docs/calibration.md`.
+
+::
+
+    python docs/evidence/stacking.py [HELD_OUT]
+
+prints the error of the mean with each shrinkage, relative to the best candidate of the task. Of
+each case, so many training recordings are held out in turn and have the gaps of the test.
+Recordings are read from the folders in the environment variable MOCAPBENCH_DATA.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+
+import numpy as np
+import pandas as pd
+
+from mocapbench import benchmark as bench
+from mocapbench.baselines import BestOf
+from mocapbench.baselines.choosing.rehearsals import _aligned
+from mocapbench.baselines.choosing.weights import evidence, weights_of
+from mocapbench.datasets import Recording
+
+TASKS = ("subject-35-missing", "upper-body-missing", "missing-frames", "golf-swings")
+SHRINKAGES = (0.0, 0.25, 0.4, 0.5, 0.6, 0.75, 1.0)
+
+
+def turns(task: str, n_held_out: int) -> Iterator[tuple[list[Recording], Recording, Recording]]:
+    """Yield what is left to learn from, a recording held out with the gaps of a test, and whole."""
+    archive = bench.archive_at(os.environ["MOCAPBENCH_DATA"])
+    request = bench.Request(profile="paper", tasks=(task,), models=("best-of",), folds=1)
+    for job in bench.plan(request, archive):
+        if job.missing or "synthetic" in job.address.case:
+            continue
+        problem = bench.TASKS.get(task).case(job.address.case).problem(job.seeds, archive)
+        given = problem.given[0]
+        train = [recording for recording in problem.train if recording.name != given.name]
+        for k in sorted({int((i + 0.5) * len(train) / n_held_out) for i in range(n_held_out)}):
+            ((whole, gaps),) = _aligned(train[k], [~given.visible])
+            yield train[:k] + train[k + 1 :], whole.hide(gaps), whole
+
+
+def errors(train: list[Recording], given: Recording, whole: Recording) -> dict[str, float]:
+    """Return the root mean squared error of each candidate and of the mean, by shrinkage."""
+    model = BestOf().fit(train)
+    means = {name: answer.mean for name, answer in model.panel_.impute(given).items()}
+    sources = evidence(model._rehearsals(given))
+    for shrinkage in SHRINKAGES:
+        weights = weights_of(sources, shrinkage)
+        means[f"{shrinkage:g}"] = np.sum([w * means[n] for n, w in weights.items()], axis=0)
+    hidden = ~given.visible
+    return {n: float(np.sqrt(np.mean((m - whole.values)[hidden] ** 2))) for n, m in means.items()}
+
+
+def main(n_held_out: str = "3") -> None:
+    """Print a line for each task."""
+    for task in TASKS:
+        rows = [errors(*turn) for turn in turns(task, int(n_held_out))]
+        table = pd.DataFrame(rows).dropna(axis=1).mean()
+        shown = [f"{shrinkage:g}" for shrinkage in SHRINKAGES]
+        best = table.drop(shown).idxmin()
+        print(task, len(rows), "best:", best, (table[shown] / table[best]).round(3).to_dict())
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
