@@ -1,6 +1,8 @@
 """`mocapbench motion`, from a run directory to files."""
 
 import json
+import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -147,6 +149,13 @@ def test_a_file_that_cannot_be_written_is_refused(cli, fills, tmp_path, options,
     assert cli("motion", fills, CELL, *paths) == 2
     assert told in cli.printed
     assert sorted(path.read_text() for path in tmp_path.iterdir()) == ["mine", "mine"]
+
+
+def test_a_folder_that_cannot_be_written_to_is_refused(cli, fills, tmp_path, monkeypatch):
+    monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != tmp_path)
+    assert cli("motion", fills, CELL, "--csv", tmp_path / "walk.csv") == 2
+    assert "expected a folder that can be written to" in cli.printed
+    assert [*tmp_path.iterdir()] == []
 
 
 def test_a_job_without_a_prediction_is_named(cli, write_run, tmp_path):
