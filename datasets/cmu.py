@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import platformdirs
 
@@ -26,10 +26,12 @@ from mocapbench.datasets.digests import (
     read_digests,
     with_unix_line_ends,
 )
-from mocapbench.datasets.download import Downloader
 from mocapbench.datasets.keys import split_key
 from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import Recording
+
+if TYPE_CHECKING:
+    from mocapbench.datasets.download import Downloader
 
 __all__ = ["CMU_ACKNOWLEDGEMENT", "CMU_URL", "CMULibrary", "registered_digests"]
 
@@ -102,7 +104,7 @@ class CMULibrary(Library):
             self.cache_dir / "digests.tsv",
             _DIVERSE,
         )
-        self.downloader = Downloader(base_url, self.cache_dir, retries=retries, backoff=backoff)
+        self.base_url, self.retries, self.backoff = base_url, retries, backoff
 
     def where(self, key: str) -> str:
         """Return the path of the .amc file, or an empty string unless both files are here."""
@@ -162,7 +164,13 @@ class CMULibrary(Library):
         for path in _paths(key):
             self._discard_wrong_download(path)
             if self._find(path) is None:
-                self.downloader.fetch(path, partial(self.digests.check, path))
+                self._downloader().fetch(path, partial(self.digests.check, path))
+
+    def _downloader(self) -> Downloader:
+        # Its libraries take .1 s and 7 MB, which whoever downloads nothing should not pay.
+        from mocapbench.datasets.download import Downloader  # noqa: PLC0415
+
+        return Downloader(self.base_url, self.cache_dir, retries=self.retries, backoff=self.backoff)
 
     def _searched(self) -> tuple[Path, ...]:
         return (*self.folders, self.cache_dir)

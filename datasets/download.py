@@ -5,17 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
-import lazy_loader
+import requests
+from requests.adapters import HTTPAdapter
+from urllib3.util.retry import Retry
 
 from mocapbench.datasets.errors import FetchError, ServerUnreachable
-
-if TYPE_CHECKING:
-    import requests
-    import urllib3
-else:  # they take .1 s and 7 MB, which whoever downloads nothing should not pay
-    requests, urllib3 = map(lazy_loader.load, ("requests", "urllib3"))
 
 __all__ = ["Downloader"]
 
@@ -84,7 +79,7 @@ class Downloader:
 
     def _session(self) -> requests.Session:
         session = requests.Session()
-        retry = urllib3.Retry(
+        retry = Retry(
             total=self.retries,
             backoff_factor=self.backoff,
             status_forcelist=_OVERLOADED,
@@ -93,7 +88,7 @@ class Downloader:
             respect_retry_after_header=False,
         )
         for scheme in ("http://", "https://"):
-            session.mount(scheme, requests.adapters.HTTPAdapter(max_retries=retry))
+            session.mount(scheme, HTTPAdapter(max_retries=retry))
         return session
 
 

@@ -126,8 +126,9 @@ def _axes(segments: Sequence[Segment]) -> NDArray[np.float64]:
 
 def _rotation(segment: Segment, axis: Rotations, curves: Mapping[str, Frames]) -> Rotations:
     """Return C M C⁻¹ at every frame; at one frame if the segment stays at rest."""
-    names = {turn: f"{segment.name}.r{turn.lower()}" for turn in segment.order}
-    turns = [_about(turn, curves[name]) for turn, name in names.items() if name in curves]
+    names = [f"{segment.name}.r{turn.lower()}" for turn in segment.order]
+    pairs = zip(segment.order, names, strict=True)
+    turns = [_about(turn, curves[name]) for turn, name in pairs if name in curves]
     moved = reduce(_then, turns or [_NO_TURN])
     return _then(_then(axis.transpose(1, 0, 2), moved), axis)
 
