@@ -9,8 +9,8 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
-from mocapbench.baselines.choosing.rehearsals import Rehearsals
-from mocapbench.baselines.choosing.weights import evidence, expected_errors, weights_of
+from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
+from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
@@ -105,7 +105,7 @@ class BestOf(Imputer, Inductive):
         return self
 
     def weights(self, recordings: Sequence[Recording]) -> list[Mapping[str, float]]:
-        """Return the weight of each candidate in each recording; they sum to one.
+        """Return the weight of each candidate that can fill a recording; they sum to one.
 
         Raises
         ------
@@ -113,8 +113,10 @@ class BestOf(Imputer, Inductive):
             If channels differ.
         """
         checked = self._checked(recordings)
-        sources = [evidence(self._rehearsals(recording)) for recording in checked]
-        return [weights_of(found, self.shrinkage) for found in sources]
+        return [weights_of(self._sources(recording), self.shrinkage) for recording in checked]
+
+    def _sources(self, recording: Recording) -> Sequence[Products]:
+        return among(evidence(self._rehearsals(recording)), self.panel_.means(recording))
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the weighted mean of the candidates, and the variance of their mixture.
@@ -140,9 +142,7 @@ class BestOf(Imputer, Inductive):
         if LAST_RESORT not in answers:  # it says what nothing can fill
             return self.panel_.models[LAST_RESORT].impute([recording])[0]
         rehearsals = self._rehearsals(recording)
-        found = evidence(rehearsals)
-        names = [name for name in found[0] if name in answers] if found else []
-        sources = [products.loc[names, names] for products in found if names]
+        sources = among(evidence(rehearsals), answers)
         errors, weights = expected_errors(sources), weights_of(sources, self.shrinkage)
         means = {name: answers[name].mean for name in weights}
         mean = np.sum([weights[name] * means[name] for name in weights], axis=0)

@@ -16,7 +16,7 @@ from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.common.trials import trial_masks
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["Products", "Rehearsals"]
+__all__ = ["Products", "Rehearsals", "aligned"]
 
 Array = NDArray[np.float64]
 Products = pd.DataFrame
@@ -93,7 +93,7 @@ class Rehearsals:
     def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Products, Products]:
         middle = len(self.trials) // 2
         masks = [~self.given.visible, *self.trials[middle : middle + 1]]
-        gaps, *trials = _aligned(recording, masks)
+        gaps, *trials = aligned(recording, masks)
         cut, hidden = gaps
         full = self._errors(panel, cut, hidden)
         short = [self._errors(panel, cut.hide(hidden), mask, cut) for _, mask in trials]
@@ -131,7 +131,7 @@ def _longest(masks: Sequence[Mask]) -> int:
     )
 
 
-def _aligned(recording: Recording, masks: Sequence[Mask]) -> list[tuple[Recording, Mask]]:
+def aligned(recording: Recording, masks: Sequence[Mask]) -> list[tuple[Recording, Mask]]:
     """Cut a recording and masks to the shorter of their lengths, around the gaps."""
     n_frames, n_masked = len(recording.times), len(masks[0])
     length = min(n_frames, n_masked)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -13,7 +13,7 @@ from scipy.optimize import nnls
 from mocapbench.baselines.choosing.panel import LAST_RESORT
 from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 
-__all__ = ["evidence", "expected_errors", "weights_of"]
+__all__ = ["among", "evidence", "expected_errors", "weights_of"]
 
 _LEAST = 1e-12
 """Least squared error, in units of the channels' scales."""
@@ -51,6 +51,12 @@ def _mean(rehearsed: Iterable[Products]) -> Products:
     names = [name for name in every[0] if all(name in products for products in every)]
     total = np.sum([products.loc[names, names].to_numpy() for products in every], axis=0)
     return pd.DataFrame(total / len(every) + _LEAST * np.eye(len(names)), names, names)
+
+
+def among(sources: Sequence[Products], names: Container[str]) -> Sequence[Products]:
+    """Return what the sources say of these models, where they say anything."""
+    kept = [name for name in sources[0] if name in names] if sources else []
+    return [products.loc[kept, kept] for products in sources if kept]
 
 
 def expected_errors(sources: Sequence[Products]) -> Mapping[str, float]:

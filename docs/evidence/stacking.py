@@ -22,7 +22,7 @@ import pandas as pd
 
 from mocapbench import benchmark as bench
 from mocapbench.baselines import BestOf
-from mocapbench.baselines.choosing.rehearsals import _aligned
+from mocapbench.baselines.choosing.rehearsals import Rehearsals, aligned
 from mocapbench.baselines.choosing.weights import evidence, weights_of
 from mocapbench.datasets import Recording
 
@@ -41,7 +41,7 @@ def turns(task: str, n_held_out: int) -> Iterator[tuple[list[Recording], Recordi
         given = problem.given[0]
         train = [recording for recording in problem.train if recording.name != given.name]
         for k in sorted({int((i + 0.5) * len(train) / n_held_out) for i in range(n_held_out)}):
-            ((whole, gaps),) = _aligned(train[k], [~given.visible])
+            ((whole, gaps),) = aligned(train[k], [~given.visible])
             yield train[:k] + train[k + 1 :], whole.hide(gaps), whole
 
 
@@ -49,7 +49,7 @@ def errors(train: list[Recording], given: Recording, whole: Recording) -> dict[s
     """Return the root mean squared error of each candidate and of the mean, by shrinkage."""
     model = BestOf().fit(train)
     means = {name: answer.mean for name, answer in model.panel_.impute(given).items()}
-    sources = evidence(model._rehearsals(given))
+    sources = evidence(Rehearsals(model.recordings_, model.panel_, given))
     for shrinkage in SHRINKAGES:
         weights = weights_of(sources, shrinkage)
         means[f"{shrinkage:g}"] = np.sum([w * means[n] for n, w in weights.items()], axis=0)

@@ -1,12 +1,12 @@
 import numpy as np
 import pandas as pd
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
 from mocapbench.baselines.choosing.rehearsals import Rehearsals
-from mocapbench.baselines.choosing.weights import evidence, expected_errors, weights_of
+from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
 
 SEEDS = st.integers(0, 2**32 - 1)
 SHARES = st.floats(0.0, 1.0)
@@ -67,6 +67,31 @@ def test_with_correlations_of_one_the_best_has_all_the_weight(seed):
     table = drawn(seed)
     best = table.columns[np.diag(table).argmin()]
     assert weights_of([table], 1.0)[best] == pytest.approx(1.0, abs=1e-3)
+
+
+@given(st.floats(1e-2, 1e2), SHARES)
+def test_two_models_weigh_as_in_closed_form(ratio, shrinkage):
+    """w_a ∝ σ_b² − ρσ_aσ_b, with ρ the shrinkage where errors have no correlation."""
+    weights = weights_of([products({"a": 1.0, "b": ratio**2})], shrinkage)
+    raw = [max(ratio**2 - shrinkage * ratio, 0.0), max(1.0 - shrinkage * ratio, 0.0)]
+    assume(sum(raw) > 1e-3)
+    assert [*weights.values()] == pytest.approx(np.divide(raw, sum(raw)), abs=1e-4)
+
+
+def test_a_source_counts_in_units_of_its_least_error():
+    """Without correlations a model weighs by the inverse of Σ G_s / min G_s."""
+    one = products({"a": 1.0, "b": 4.0, "c": 100.0})
+    other = products({"a": 60.0, "b": 20.0, "c": 20.0})
+    expected = 1.0 / np.array([1.0 + 3.0, 4.0 + 1.0, 100.0 + 1.0])
+    weights = weights_of([one, other], 0.0)
+    assert [*weights.values()] == pytest.approx(expected / expected.sum())
+
+
+def test_only_models_that_can_fill_the_recording_are_weighed():
+    table = products({"a": 1.0, "b": 2.0, "c": 3.0}, correlation=0.5)
+    (kept,) = among([table], {"a", "c", "d"})
+    pd.testing.assert_frame_equal(kept, products({"a": 1.0, "c": 3.0}, correlation=0.5))
+    assert among([table], {"d"}) == among([], {"a"}) == []
 
 
 def test_models_that_agree_share_their_weight():
