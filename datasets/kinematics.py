@@ -7,7 +7,7 @@ parent's end plus ``length * direction`` so turned (Acclaim ASF/AMC specificatio
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import reduce
 
 import numpy as np
@@ -23,6 +23,7 @@ FrameByJointBy3 = NDArray[np.float64]
 Rotations = NDArray[np.float64]
 """(3, 3, N) matrices, the frames last, so that products of all of them are fast."""
 
+_TRANSLATION = ("tx", "ty", "tz")
 _NO_TURN = np.eye(3)[:, :, np.newaxis]
 
 
@@ -49,11 +50,9 @@ def joint_positions(skeleton: Skeleton, *recordings: Recording) -> FrameByJointB
     ValueError
         If a channel is not a degree of freedom of the skeleton, or an entry is hidden.
     """
-    names = tuple(f"{segment.name}.{dof}" for segment in skeleton.segments for dof in segment.dof)
-    stacked = np.concatenate([_curves(names, recording) for recording in recordings])
-    curves = dict(zip(names, stacked.T, strict=True))
     root, *segments = skeleton.segments
-    ends = {root.name: np.stack([curves[f"{root.name}.{dof}"] for dof in ("tx", "ty", "tz")])}
+    curves = _curves(skeleton, recordings)
+    ends = {root.name: np.stack([curves[f"{root.name}.{dof}"] for dof in _TRANSLATION])}
     axes = _axes(skeleton.segments)
     rotations = {root.name: _rotation(root, axes[0], curves)}
     for segment, axis in zip(segments, axes[1:], strict=True):
@@ -104,18 +103,32 @@ def joint_trajectories(skeleton: Skeleton, recording: Recording) -> Recording:
     return Recording(recording.name, recording.times, values, channels, ("cm",) * len(channels))
 
 
-def _curves(names: Sequence[str], recording: Recording) -> FrameByChannel:
-    """Return the curves of the degrees of freedom of these names."""
-    unknown = [name for name in recording.channels if name not in names]
+def _curves(skeleton: Skeleton, recordings: Sequence[Recording]) -> dict[str, Frames]:
+    """Return the curves of the degrees of freedom that have a channel, and of the root's path."""
+    known = {f"{segment.name}.{dof}" for segment in skeleton.segments for dof in segment.dof}
+    for recording in recordings:
+        _check(recording, known)
+    names = [f"{skeleton.segments[0].name}.{dof}" for dof in _TRANSLATION]
+    names += sorted({name for recording in recordings for name in recording.channels} - {*names})
+    stacked = np.concatenate([_columns(names, recording) for recording in recordings])
+    return dict(zip(names, stacked.T, strict=True))
+
+
+def _check(recording: Recording, known: Collection[str]) -> None:
+    unknown = [name for name in recording.channels if name not in known]
     if unknown or not recording.visible.all():
         raise ValueError(
             f"recording {recording.name!r}: expected complete frames of the skeleton's degrees of "
             f"freedom, got {np.count_nonzero(~recording.visible)} hidden entries and "
             f"the unknown channels {unknown}"
         )
-    curves = np.zeros((len(recording.times), len(names)))
-    curves[:, [names.index(name) for name in recording.channels]] = recording.values
-    return curves
+
+
+def _columns(names: Sequence[str], recording: Recording) -> FrameByChannel:
+    """Return the columns of these names, zero where the recording has no such channel."""
+    columns = np.zeros((len(recording.times), len(names)))
+    columns[:, [names.index(name) for name in recording.channels]] = recording.values
+    return columns
 
 
 def _axes(segments: Sequence[Segment]) -> NDArray[np.float64]:

@@ -72,11 +72,9 @@ class JointAngles:
         """Return True where the channel is of the joint's segment or of one that carries it."""
         segments = self.skeleton.segments
         owners = [channel.partition(".")[0] for channel in channels]
-        rows: list[JointByChannel] = []
-        for segment, parent in zip(segments, self.skeleton.parents, strict=True):
-            own = np.array([owner == segment.name for owner in owners])
-            rows.append(own | rows[parent] if parent >= 0 else own)
-        depends = np.stack(rows)
+        depends = np.equal.outer([segment.name for segment in segments], owners)
+        for joint, parent in enumerate(self.skeleton.parents[1:], start=1):
+            depends[joint] |= depends[parent]
         # The root turns about itself: only its translation moves it.
         depends[0] &= [".t" in channel or ".dt" in channel for channel in channels]
         return depends
