@@ -60,11 +60,11 @@ class Rehearsals:
         return _longest(self.trials) < _longest([~self.given.visible])
 
     def own(self) -> list[Products]:
-        """Return errors in the recording itself, for each trial."""
+        """Return the products of errors in the recording itself, for each trial."""
         return [self._own(mask) for mask in self.trials]
 
     def _own(self, mask: Mask) -> Products:
-        """Return errors in a trial, which no model has seen in fitting."""
+        """Return those of a trial, which no model has seen in fitting."""
         tried = self.given.hide(mask)
         panel = self.panel
         if self.given.name in [recording.name for recording in self.fitted]:
@@ -72,7 +72,7 @@ class Rehearsals:
         return self._errors(panel, self.given, mask)
 
     def in_training(self) -> list[tuple[Products, Products]]:
-        """Return errors with the gaps as they are, and in a trial, for recordings held out in turn.
+        """Return those of training recordings held out in turn, with the gaps and in a trial.
 
         The recording held out has the gaps of the one to fill.
         """
@@ -102,7 +102,7 @@ class Rehearsals:
     def _errors(
         self, panel: Panel, given: Recording, mask: Mask, truth: Recording | None = None
     ) -> Products:
-        """Return the errors of a panel where ``mask`` hides entries of ``given``."""
+        """Return the products of a panel's errors where ``mask`` hides entries of ``given``."""
         known = mask & (truth or given).visible
         if not known.any():
             return pd.DataFrame()
