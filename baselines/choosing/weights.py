@@ -61,9 +61,11 @@ def among(sources: Sequence[Products], names: Container[str]) -> Sequence[Produc
 
 def expected_errors(sources: Sequence[Products]) -> Mapping[str, float]:
     """Return the geometric mean over the sources of the squared error of each model."""
-    names = [*sources[0]] if sources else []
+    if not sources:
+        return {}
     logarithms = [np.log(np.diag(products)) for products in sources]
-    return dict(zip(names, np.exp(np.mean(logarithms, axis=0)), strict=True)) if names else {}
+    errors = np.exp(np.mean(logarithms, axis=0)).tolist()
+    return dict(zip(map(str, sources[0]), errors, strict=True))
 
 
 def weights_of(sources: Sequence[Products], shrinkage: float) -> Mapping[str, float]:
@@ -89,4 +91,6 @@ def _least_error(correlations: NDArray[np.float64], roots: NDArray[np.float64]) 
     """
     factor = np.linalg.cholesky(correlations + _RIDGE * np.eye(len(roots)))
     scaled, _ = nnls(factor.T, solve_triangular(factor, roots.min() / roots, lower=True))
-    return list(scaled / roots / np.sum(scaled / roots))
+    shares = scaled / roots
+    normalised: list[float] = (shares / shares.sum()).tolist()
+    return normalised
