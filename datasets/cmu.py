@@ -167,7 +167,7 @@ class CMULibrary(Library):
                 self._downloader().fetch(path, partial(self.digests.check, path))
 
     def _downloader(self) -> Downloader:
-        # Its libraries take .1 s and 7 MB, which whoever downloads nothing should not pay.
+        # Its libraries take .1 s and 3 MB, which whoever downloads nothing should not pay.
         from mocapbench.datasets.download import Downloader  # noqa: PLC0415
 
         return Downloader(self.base_url, self.cache_dir, retries=self.retries, backoff=self.backoff)
