@@ -1,4 +1,4 @@
-"""Several models, averaged as errs least in rehearsals of the gaps at hand."""
+"""Several models, averaged with the weights that erred least in rehearsals of the gaps at hand."""
 
 from __future__ import annotations
 
