@@ -10,7 +10,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
 
-__all__ = ["atomic_write", "is_writable", "target_of", "words_of"]
+from mocapbench.benchmark.errors import UsageError
+
+__all__ = ["atomic_write", "is_writable", "require_writable_folder", "target_of", "words_of"]
 
 _READABLE = 0o644
 _SUFFIX = ".tmp"
@@ -40,6 +42,21 @@ def is_writable(folder: Path) -> bool:
     """Return whether files can be made in ``folder``, or the folder itself where there is none."""
     present = next(path for path in (folder, *folder.absolute().parents) if path.exists())
     return present.is_dir() and os.access(present, os.W_OK | os.X_OK)
+
+
+def require_writable_folder(option: str, folder: Path) -> None:
+    """Refuse the folder that an option of the command line asks to write to.
+
+    Raises
+    ------
+    UsageError
+        If files cannot be made there.
+    """
+    if not is_writable(folder):
+        raise UsageError(
+            f"{option}: expected a folder that can be written to, got {folder}; "
+            "name another, or change its permissions"
+        )
 
 
 def words_of(error: OSError) -> str:

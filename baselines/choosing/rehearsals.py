@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mocapbench.baselines.choosing.panel import Panel
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.recordings import pool
+from mocapbench.baselines.common.scaling import unit_scales
 from mocapbench.baselines.common.trials import trial_masks
 from mocapbench.datasets import Mask, Recording
 
@@ -118,11 +119,7 @@ class Rehearsals:
     @cached_property
     def scale(self) -> Array:
         """(D,) the mean spread of the channels of each channel's unit: units count alike."""
-        stacked = np.concatenate([recording.values for recording in (*self.fitted, self.given)])
-        variance = np.ma.masked_invalid(stacked).var(axis=0).filled(0.0)
-        units = np.array(self.given.units)
-        mean = np.array([variance[units == unit].mean() for unit in self.given.units])
-        return np.sqrt(np.where(mean > 0.0, mean, 1.0))
+        return unit_scales([*self.fitted, self.given])
 
 
 def _longest(masks: Sequence[Mask]) -> int:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mocapbench.baselines.common.recordings import visible_moments
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["Standardisation"]
+__all__ = ["Standardisation", "unit_scales"]
 
 Array = NDArray[np.float64]
 
@@ -52,8 +52,7 @@ class Standardisation:
                 f"{unseen}: leave these channels out with Recording.select"
             )
         counts = np.sum([recording.visible.sum(axis=0) for recording in recordings], axis=0)
-        constant = np.sqrt(variance) <= CONSTANT * np.maximum(np.abs(mean), 1.0)
-        return cls(mean, np.where(constant, 1.0, np.sqrt(variance)), counts)
+        return cls(mean, np.where(_constant(mean, variance), 1.0, np.sqrt(variance)), counts)
 
     def apply(self, recording: Recording) -> Recording:
         """Return the recording in standard units."""
@@ -70,3 +69,20 @@ class Standardisation:
         It is added to the log-density of data in standard units to get that in their own units.
         """
         return -float(self.counts @ np.log(self.scale))
+
+
+def unit_scales(recordings: Sequence[Recording]) -> Array:
+    """Return the scale of each channel (D,): the mean spread of the channels of its unit.
+
+    That is the root of the mean variance of their visible entries; 1 if they are constant. With
+    one unit, errors are those in it up to a factor; with several, each counts alike.
+    """
+    mean, variance = visible_moments(recordings)
+    spread = np.where(_constant(mean, variance), 0.0, np.nan_to_num(variance))
+    units = np.array(recordings[0].units)
+    of_unit = np.array([spread[units == unit].mean() for unit in recordings[0].units])
+    return np.sqrt(np.where(of_unit > 0.0, of_unit, 1.0))
+
+
+def _constant(mean: Array, variance: Array) -> NDArray[np.bool_]:
+    return np.asarray(np.sqrt(variance) <= CONSTANT * np.maximum(np.abs(mean), 1.0))

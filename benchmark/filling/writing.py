@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write, is_writable
+from mocapbench.benchmark.files import atomic_write, require_writable_folder
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.reports import csv_text
 
@@ -39,11 +39,7 @@ def outputs_of(files: Sequence[Path], folder: Path) -> list[Outputs]:
     """
     if folder.exists() and not folder.is_dir():
         raise UsageError(f"--out: expected a folder, got the file {folder}; name another")
-    if not is_writable(folder):
-        raise UsageError(
-            f"--out: expected a folder that can be written to, got {folder}; "
-            "name another, or change its permissions"
-        )
+    require_writable_folder("--out", folder)
     outputs = [
         Outputs(
             folder / file.name, *(folder / f"{file.name}.{end}" for end in ("entries.csv", "html"))

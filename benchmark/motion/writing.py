@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write, is_writable
+from mocapbench.benchmark.files import atomic_write, require_writable_folder
 from mocapbench.benchmark.motion.gif import gif_bytes
 from mocapbench.benchmark.motion.joint_angles import amc_text, bvh_text
 from mocapbench.benchmark.motion.made import EntrantMotion
@@ -38,11 +38,7 @@ def require_new(files: Mapping[str, Path]) -> None:
             raise UsageError(f"--{kind}: expected a file called *.{kind}, got {path}")
         if not path.parent.is_dir():
             raise UsageError(f"--{kind}: expected a folder that exists, got {path.parent}")
-        if not is_writable(path.parent):
-            raise UsageError(
-                f"--{kind}: expected a folder that can be written to, got {path.parent}; "
-                "name another, or change its permissions"
-            )
+        require_writable_folder(f"--{kind}", path.parent)
         for written in (path, *([_skeleton_beside(path)] if kind == "amc" else [])):
             if written.exists():
                 raise UsageError(

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mocapbench.baselines.common.scaling import unit_scales
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.trials.making import Trial, make_trials
 from mocapbench.benchmark.filling.trials.race import Runner, race
 from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
-from mocapbench.benchmark.filling.trials.scores import channel_scale, scores_of, weights_of
+from mocapbench.benchmark.filling.trials.scores import scores_of, weights_of
 from mocapbench.benchmark.filling.workers import Workers
 
 __all__ = ["Choice", "choose"]
@@ -90,7 +91,7 @@ def _common(runners: Sequence[Runner]) -> int:
 
 
 def _ranked(question: Question, trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:
-    scale = channel_scale(question.given)
+    scale = unit_scales([question.given])
     scores = {
         runner.model: scores_of(trials, runner.answers[: len(trials)], scale)
         for runner in runners

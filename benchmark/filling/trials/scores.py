@@ -12,9 +12,8 @@ from scipy.special import ndtri
 
 from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.trials.making import Trial
-from mocapbench.datasets import Recording
 
-__all__ = ["Scores", "channel_scale", "scores_of", "weights_of"]
+__all__ = ["Scores", "scores_of", "weights_of"]
 
 Array = NDArray[np.float64]
 
@@ -39,19 +38,6 @@ class Scores:
     errors: Array
     rmse: Mapping[str, float]
     coverage: float | None
-
-
-def channel_scale(recording: Recording) -> Array:
-    """Return the scale of each channel (D,): the mean spread of the channels of its unit.
-
-    That is the root of the mean variance of their visible entries; 1 if they are constant. With
-    one unit, errors are those in it up to a factor; with several, each counts alike.
-    """
-    seen = np.ma.masked_invalid(recording.values)
-    variance = seen.var(axis=0).filled(0.0)
-    units = np.array(recording.units)
-    mean = np.array([variance[units == unit].mean() for unit in recording.units])
-    return np.sqrt(np.where(mean > 0.0, mean, 1.0))
 
 
 def weights_of(trials: Sequence[Trial]) -> Array:
