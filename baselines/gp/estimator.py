@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import ClassVar, Self
 
 import numpy as np
@@ -55,8 +56,8 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
     kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
         The kernel of every component.
     n_restarts : int, default=1
-        Number of searches. The first starts from the data, the second on another scale, the others
-        at random around the first.
+        Number of searches. The first starts from the data, the next three with its lengthscales
+        assigned otherwise (one search, if there is one component), the others at random around it.
     max_iter : int, default=1000
         Largest number of iterations of a search.
     tol : float, default=1e-7
@@ -183,7 +184,7 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
     def _train(self, replicates: Replicates) -> None:
         reduction = self.reduction_
         start = self._start(replicates)
-        rng = np.random.default_rng(self.random_state)
+        begin = starts(start, self.n_restarts, np.random.default_rng(self.random_state))
         kernel = KERNELS[self.kernel]
         solvers = PLANS[self.solver](kernel, reduction, start)
         draws = {layer: len(set(nodes)) for layer, nodes in self.tree_.items()}
@@ -192,10 +193,10 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
             threaded = with_mapper(solvers, mapper)
             self.training_: Training = maximise(
                 lambda parameters: reduction.evaluate(threaded, parameters),
-                starts(start, self.n_restarts, rng),
+                begin,
                 space,
                 Budget(self.tol, self.max_iter, self.max_seconds),
-                self._print if self.verbose else _report_nothing,
+                partial(self._print, len(begin)) if self.verbose else _report_nothing,
             )
         self.solver_ = solver_names(solvers)
         self.engine_ = describe_work(solvers, reduction, start)
@@ -231,10 +232,10 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
             )
         return self.parameters_
 
-    def _print(self, search: int, step: Iteration) -> None:
+    def _print(self, n_searches: int, search: int, step: Iteration) -> None:
         log_likelihood = step.log_likelihood + self.scaling_.log_jacobian
         print(
-            f"search {search + 1} of {self.n_restarts}, iteration {step.iteration}: "
+            f"search {search + 1} of {n_searches}, iteration {step.iteration}: "
             f"log-likelihood {log_likelihood:.3f}, {step.seconds:.1f} s"
         )
 

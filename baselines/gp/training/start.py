@@ -3,8 +3,9 @@ r"""Where the searches for parameters start.
 The first start follows from the data in standard units (docs/inference.md, section 10, "Start").
 The leading directions of the mean curves start :math:`W` of the parent, those of the deviations
 from them :math:`W` of the child. :math:`\kappa` starts at a tenth of the layer's variance, and
-noise and lengthscales at the estimates of `moments`. The second start has half the first one's
-:math:`W`, and shorter lengthscales; further starts are random around the first.
+noise and lengthscales at the estimates of `moments`. Nothing in the data says which direction goes
+with which lengthscale, so the next three starts assign them in other ways; further starts are
+random around the first.
 """
 
 from __future__ import annotations
@@ -31,11 +32,13 @@ Array = NDArray[np.float64]
 
 KAPPA_SHARE = 0.1
 """Share of a layer's variance that κ starts with."""
-SECOND_WEIGHTS = 0.5
-"""The second start's W, relative to the first. All of the variance settles too early for the
-directions of the data, which mix those of the components."""
-SECOND_LENGTHSCALES = 0.5**1.5
-"""The second start's lengthscales, relative to the first."""
+OTHER_WEIGHTS = 0.5
+"""W of the second to fourth start, relative to the first. All of the variance settles too early for
+the directions of the data, which mix those of the components."""
+OTHER_LENGTHSCALES = 0.5**1.5
+"""The lengthscales of the second to fourth start, relative to the first."""
+ALIKE = 0.1
+"""How far apart the log-lengthscales of the fourth start are, relative to the first."""
 MIN_VARIANCE = 1e-2
 """Least variance that a direction of a layer starts with: at 0 the gradient vanishes."""
 
@@ -78,23 +81,55 @@ def data_driven(
 
 
 def starts(first: Parameters, n: int, rng: np.random.Generator) -> list[Parameters]:
-    """Return ``n`` starts: the given one, one on another scale, and random ones near the first."""
-    others = [perturbed(first, rng) for _ in range(n - 2)]
-    return [first, _rescaled(first), *others][:n]
+    """Return ``n`` starts: the given one, three that change its scales, and random ones near it.
+
+    In the second, the lengthscales of the last layer are in reverse order, in the third those of
+    the layers above; in the fourth, all are nearly equal. Starts that are then the same, as with
+    one component, count as one: fewer than ``n`` are returned.
+    """
+    *above, last = first.layers
+    fixed = [
+        first,
+        _changed(first, dict.fromkeys([last], -1.0)),
+        _changed(first, dict.fromkeys(above, -1.0)),
+        _changed(first, dict.fromkeys(first.layers, ALIKE)),
+    ]
+    distinct = {start.flat.tobytes(): start for start in fixed[:n]}
+    return [*distinct.values(), *(perturbed(first, rng) for _ in range(n - len(fixed)))]
+
+
+def _changed(first: Parameters, spread: Mapping[str, float]) -> Parameters:
+    """Return the start with less of the variance in W, and shorter lengthscales, in every layer.
+
+    ``spread`` multiplies the distances of a layer's log-lengthscales from their mean; -1 reverses
+    their order.
+    """
+
+    def layer(name: str, old: LayerParameters) -> LayerParameters:
+        b, mean = old.coregionalisation, old.log_lengthscales.mean()
+        distances = spread.get(name, 1.0) * (old.log_lengthscales - mean)
+        return LayerParameters(
+            mean + np.log(OTHER_LENGTHSCALES) + distances,
+            replace(b, weights=OTHER_WEIGHTS * b.weights),
+        )
+
+    return replace(first, layers={name: layer(name, old) for name, old in first.layers.items()})
 
 
 def perturbed(start: Parameters, rng: np.random.Generator) -> Parameters:
     """Return a random start near another.
 
-    log ℓ, log √κ and log β move by 0.5 times a standard normal; W is normal, with the root mean
-    square of each column of the given start.
+    The components of a layer exchange their lengthscales. Then log ℓ, log √κ and log β move by 0.5
+    times a standard normal; W is normal, with the root mean square of each column of the given
+    start.
     """
 
     def layer(old: LayerParameters) -> LayerParameters:
         b = old.coregionalisation
         size = np.sqrt(np.mean(b.weights**2, axis=1, keepdims=True)) if b.weights.size else 0.0
+        lengthscales = rng.permutation(old.log_lengthscales)
         return LayerParameters(
-            old.log_lengthscales + 0.5 * rng.standard_normal(old.log_lengthscales.shape),
+            lengthscales + 0.5 * rng.standard_normal(lengthscales.shape),
             Coregionalisation(
                 size * rng.standard_normal(b.weights.shape),
                 b.kappa_roots * np.exp(0.5 * rng.standard_normal(b.kappa_roots.shape)),
@@ -105,22 +140,6 @@ def perturbed(start: Parameters, rng: np.random.Generator) -> Parameters:
         {name: layer(old) for name, old in start.layers.items()},
         start.log_noise + 0.5 * rng.standard_normal(start.log_noise.shape),
     )
-
-
-def _rescaled(start: Parameters) -> Parameters:
-    """Return the start with less of the variance in W, and shorter lengthscales, in every layer."""
-    layers = {
-        name: replace(
-            layer,
-            coregionalisation=replace(
-                layer.coregionalisation,
-                weights=SECOND_WEIGHTS * layer.coregionalisation.weights,
-            ),
-            log_lengthscales=layer.log_lengthscales + np.log(SECOND_LENGTHSCALES),
-        )
-        for name, layer in start.layers.items()
-    }
-    return replace(start, layers=layers)
 
 
 def _log_lengthscales(lengthscale: float, n_components: int) -> Array:

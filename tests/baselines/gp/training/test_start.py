@@ -46,21 +46,43 @@ def test_random_starts_have_the_same_shapes_and_differ(case):
     assert (perturbed(start, np.random.default_rng(0)).flat == one.flat).all()
 
 
-@pytest.mark.parametrize("n", [1, 2, 4])
-def test_starts_are_the_first_one_on_another_scale_and_random_ones(n, case):
-    first = _start(case(np.random.default_rng(5), n_times=9))
-    listed = starts(first, n, np.random.default_rng(0))
-    assert len(listed) == n
+# How far apart the log-lengthscales of each later start are, in the last layer and above.
+SPREADS = [(-1.0, 1.0), (1.0, -1.0), (0.1, 0.1)]
+
+
+@pytest.mark.parametrize("structure", ["hierarchical", "pooled"])
+def test_starts_after_the_first_assign_shorter_lengthscales_otherwise(structure, case):
+    first = _start(case(np.random.default_rng(5), structure=structure, n_times=9))
+    listed = starts(first, 4, np.random.default_rng(0))
     assert listed[0] is first
-    for second in listed[1:2]:
-        for name, layer in second.layers.items():
-            np.testing.assert_allclose(
-                layer.lengthscales, 0.5**1.5 * first.layers[name].lengthscales, rtol=1e-12
-            )
-            mine, others = layer.coregionalisation, first.layers[name].coregionalisation
-            np.testing.assert_allclose(mine.weights, 0.5 * others.weights, rtol=1e-12)
-            np.testing.assert_array_equal(mine.kappa, others.kappa)
-        np.testing.assert_array_equal(second.log_noise, first.log_noise)
+    last = [*first.layers][-1]
+    for start, (in_last, above) in zip(listed[1:], SPREADS, strict=True):
+        for name, layer in start.layers.items():
+            mine, before = layer.coregionalisation, first.layers[name].coregionalisation
+            logs = first.layers[name].log_lengthscales
+            spread = in_last if name == last else above
+            expected = logs.mean() - 1.5 * np.log(2.0) + spread * (logs - logs.mean())
+            np.testing.assert_allclose(layer.log_lengthscales, expected, rtol=0, atol=1e-12)
+            np.testing.assert_allclose(mine.weights, 0.5 * before.weights, rtol=1e-12)
+            np.testing.assert_array_equal(mine.kappa, before.kappa)
+        np.testing.assert_array_equal(start.log_noise, first.log_noise)
+
+
+@pytest.mark.parametrize("n", [1, 2, 4, 6])
+@pytest.mark.parametrize(("n_components", "n_same"), [(1, 2), (2, 0)])
+def test_starts_differ_and_those_after_the_fourth_are_random(n, n_components, n_same, case):
+    first = _start(case(np.random.default_rng(5), n_times=9), n_components)
+    listed = starts(first, n, np.random.default_rng(0))
+    n_same = min(n_same, max(n - 2, 0))
+    assert len(listed) == len({start.flat.tobytes() for start in listed}) == n - n_same
     rng = np.random.default_rng(0)
-    for random in listed[2:]:
+    for random in listed[4 - n_same :]:
         np.testing.assert_array_equal(random.flat, perturbed(first, rng).flat)
+
+
+def test_components_exchange_their_lengthscales_in_random_starts(case):
+    start = _start(case(np.random.default_rng(4), n_times=9), n_components=3)
+    rng = np.random.default_rng(0)
+    drawn = np.array([perturbed(start, rng).layers["child"].log_lengthscales for _ in range(400)])
+    mean = start.layers["child"].log_lengthscales.mean()
+    np.testing.assert_allclose(drawn.mean(axis=0), mean, atol=0.15)
