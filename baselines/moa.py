@@ -39,7 +39,8 @@ class MOA(TrendedProcess):
         The kernel of every component.
     n_restarts : int, default=1
         Number of searches. The first starts from the data, the next three with its lengthscales
-        assigned otherwise (one search, if there is one component), the others at random around it.
+        assigned otherwise (one search, if there is one component), the fifth with shorter ones, the
+        others at random around it.
     max_iter : int, default=1000
         Largest number of iterations of a search.
     tol : float, default=1e-7

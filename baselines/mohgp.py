@@ -57,9 +57,10 @@ class MOHGP(TrendedProcess):
         Number of columns of each factor W_q; 0 makes the outputs independent.
     kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
         The kernel of every component.
-    n_restarts : int, default=4
+    n_restarts : int, default=5
         Number of searches. The first starts from the data, the next three with its lengthscales
-        assigned otherwise (one search, if there is one component), the others at random around it.
+        assigned otherwise (one search, if there is one component), the fifth with shorter ones, the
+        others at random around it.
     max_iter : int, default=1000
         Largest number of iterations of a search.
     tol : float, default=1e-7
@@ -158,7 +159,7 @@ class MOHGP(TrendedProcess):
         registration: str = "none",
         rank: int = 1,
         kernel: str = "matern32",
-        n_restarts: int = 4,
+        n_restarts: int = 5,
         max_iter: int = 1000,
         tol: float = 1e-7,
         max_seconds: float | None = None,
