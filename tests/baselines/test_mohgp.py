@@ -54,7 +54,8 @@ def test_it_comes_close_to_the_true_parameters_on_toy_data():
         ours, limit = [], []
         for seed in range(20):
             process, *problem = _problem(seed, noise)
-            ours.append(_pooled_error(MOHGP(n_components=3, kernel="rbf"), *problem))
+            model = MOHGP(n_components=3, kernel="rbf", n_restarts=2)
+            ours.append(_pooled_error(model, *problem))
             limit.append(_pooled_error(Oracle().inform(process), *problem))
         ratios.append(np.mean(ours) / np.mean(limit))
     assert np.mean(ratios) <= 1.25
@@ -65,6 +66,7 @@ def test_a_common_trend_pays_where_there_is_one():
     hierarchy, independent = 0.0, 0.0
     for seed in range(5):
         _, *problem = _problem(seed, 0.01)
-        hierarchy += _pooled_error(MOHGP(n_components=3, kernel="rbf"), *problem)
+        model = MOHGP(n_components=3, kernel="rbf", n_restarts=2)
+        hierarchy += _pooled_error(model, *problem)
         independent += _pooled_error(LMCIndependent(n_components=3, kernel="rbf"), *problem)
     assert hierarchy < independent
