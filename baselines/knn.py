@@ -27,6 +27,9 @@ __all__ = ["KNN"]
 
 Array = NDArray[np.float64]
 
+TIE = 1e-6
+"""By how much of the spread of times recordings that are equally far in time differ."""
+
 
 class KNN(Imputer, Inductive):
     r"""Fill hidden entries from the nearest frames of all recordings.
@@ -36,7 +39,8 @@ class KNN(Imputer, Inductive):
     squares, to the mean steps of the training frames near it
     (``mocapbench.baselines.common.transitions``). Any other recording is filled by scikit-learn's
     ``KNNImputer`` on the stacked frames of all recordings. Time is one more column, scaled to the
-    median standard deviation of the channels.
+    median standard deviation of the channels. Where frames are equally near, in time alone, their
+    order and the names of their recordings decide.
 
     Both use the recordings given to `fit` and the visible entries of the recording to fill. There
     is no predictive distribution.
@@ -137,11 +141,22 @@ def _fill_entries(
     check_visible(pooled)
     _, variance = visible_moments(pooled)
     times = np.concatenate([other.times for other in pooled])
-    scale = np.median(np.sqrt(variance)) / (times.std() or 1.0)
+    spread = times.std() or 1.0
+    scale = np.median(np.sqrt(variance)) / spread
     imputer = KNNImputer(n_neighbors=n_neighbors)
-    imputer.fit(np.column_stack([stack(pooled), scale * times]))
+    imputer.fit(np.column_stack([stack(pooled), scale * (times + _later(pooled, spread))]))
     frames = np.column_stack([recording.values, scale * recording.times])
     return np.asarray(imputer.transform(frames)[:, :-1])
+
+
+def _later(recordings: Sequence[Recording], spread: float) -> Array:
+    """Return how much later (n_frames,) each frame counts, so that no two are equally far in time.
+
+    Otherwise rounding, which differs among processors, would choose between those before and after
+    a frame, and among recordings.
+    """
+    rank = {name: place for place, name in enumerate(sorted(r.name for r in recordings), start=1)}
+    return np.concatenate([np.full(len(r.times), TIE * spread * rank[r.name]) for r in recordings])
 
 
 def _fill_frames(

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from sklearn.impute import KNNImputer
@@ -88,3 +90,17 @@ def test_what_cannot_be_filled_is_refused(train, new, message):
 def test_it_needs_a_neighbour():
     with pytest.raises(ValueError, match="n_neighbors of at least 1"):
         KNN(n_neighbors=0).fit([recording("train", [[1.0]])])
+
+
+@pytest.mark.parametrize("factor", [1.0 - 3e-13, 1.0 + 1e-13, 1.0 + 7e-13])
+def test_neighbours_equally_far_in_time_are_not_chosen_by_rounding(factor):
+    rng = np.random.default_rng(0)
+    times = np.linspace(0.0, 2.0 * np.pi, 50)
+    *train, new = (recording(name, rng.normal(size=(50, 2)), times) for name in "dbcae")
+    hidden = rng.random((50, 2)) < 0.9
+    stretched = [replace(r, times=factor * times) for r in (*train, new)]
+    (one,), (other,) = (
+        KNN(n_neighbors=3).fit(group[:-1]).impute([group[-1].hide(hidden)])
+        for group in ((*train, new), (*stretched[-2::-1], stretched[-1]))
+    )
+    np.testing.assert_allclose(one.mean, other.mean, rtol=1e-9)
