@@ -87,12 +87,11 @@ def imputed_spectrum(outcome: Imputation) -> Score:
     >>> round(npss(outcome).value, 6)
     2.0
     """
-    runs = _runs(hidden_entries(outcome), outcome.poses.starts)
-    pairs = [(outcome.truth[run], outcome.mean[run]) for run in runs]
-    distances = [
-        np.abs(_cumulative(mean) - _cumulative(truth)).sum(axis=0) for truth, mean in pairs
-    ]
-    powers = [_power(truth) for truth, _ in pairs]
+    distances, powers = [], []
+    for run in _runs(hidden_entries(outcome), outcome.poses.starts):
+        power, (truth, mean) = _spectra(np.stack([outcome.truth[run], outcome.mean[run]]))
+        distances.append(np.abs(mean - truth).sum(axis=0))
+        powers.append(power[0])
     return Score(_weighted_mean(np.concatenate([[], *distances]), np.concatenate([[], *powers])))
 
 
@@ -146,13 +145,10 @@ def sampled_spectrum(outcome: Synthesis) -> Score:
     2.0
     """
     check_synthesis(outcome)
-    powers = _power(outcome.references)
-    references = _cumulative(outcome.references)
+    powers, references = _spectra(outcome.references)
+    _, samples = _spectra(outcome.samples)
     by_sample = np.array(
-        [
-            _weighted_mean(np.abs(sample - references).sum(axis=1), powers)
-            for sample in _cumulative(outcome.samples)
-        ]
+        [_weighted_mean(np.abs(sample - references).sum(axis=1), powers) for sample in samples]
     )
     return Score(float(by_sample.mean()), {"sample": by_sample})
 
@@ -173,16 +169,15 @@ def _runs(
         yield firsts[of_length] + np.arange(length)[:, None], outputs[of_length]
 
 
-def _power(values: Array) -> Array:
-    """Return the total power (…, D) of the outputs of ``values`` (…, N, D)."""
-    return np.asarray((np.abs(fft(values, axis=-2)) ** 2).sum(axis=-2))
+def _spectra(values: Array) -> tuple[Array, Array]:
+    """Return the total power (…, D) of the outputs of ``values`` (…, N, D), and their spectra.
 
-
-def _cumulative(values: Array) -> Array:
-    """Return the cumulative power spectra (…, N, D), 1 at the end; 0 where there is no power."""
+    The spectra (…, N, D) are cumulative: 1 at the end; 0 where there is no power.
+    """
     spectrum = np.abs(fft(values, axis=-2)) ** 2
     power = spectrum.sum(axis=-2, keepdims=True)
-    return np.asarray((spectrum / np.where(power > 0.0, power, 1.0)).cumsum(axis=-2))
+    cumulative = (spectrum / np.where(power > 0.0, power, 1.0)).cumsum(axis=-2)
+    return power[..., 0, :], cumulative
 
 
 def _weighted_mean(values: Array, weights: Array) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import pickle
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -59,9 +60,12 @@ class Spool:
                     pickle.dump(content, file, protocol=pickle.HIGHEST_PROTOCOL)
 
     def load(self, uri: str, digest: str) -> _Content | None:
-        """Return a recording and its skeleton, or None if they are not here."""
+        """Return a recording and its skeleton, or None if they are not here.
+
+        This process, and those forked from it, keep the last that were loaded.
+        """
         path = self.path(uri, digest)
-        return pickle.loads(path.read_bytes()) if path.exists() else None
+        return _content(path) if path.exists() else None
 
     def files(self, digests: Mapping[str, str]) -> tuple[Path, ...]:
         """Return the files of those recordings that are here."""
@@ -81,6 +85,11 @@ class Spool:
     def path(self, uri: str, digest: str) -> Path:
         """Return the file of a recording."""
         return self.folder / hashlib.sha256(f"{uri}\0{digest}".encode()).hexdigest()
+
+
+@lru_cache(maxsize=64)  # more than a case of any registered task reads
+def _content(path: Path) -> _Content:
+    return pickle.loads(path.read_bytes())
 
 
 def _skeleton(archive: Archive, uri: str) -> Skeleton | None:

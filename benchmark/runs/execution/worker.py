@@ -8,6 +8,7 @@ from __future__ import annotations
 import gc
 import signal
 import time
+from collections.abc import Mapping
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -31,6 +32,7 @@ from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.task_files.building import add_tasks
 from mocapbench.benchmark.task_files.task_file import TaskFile
+from mocapbench.datasets import Library
 
 __all__ = ["load_plugins_once", "prepare_worker", "run_job"]
 
@@ -59,10 +61,11 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
         The recordings that the run has read.
     """
     job, started = work.job, time.perf_counter()
-    load_plugins_once(config.plugins)
+    libraries = _libraries(config.data_dir, config.plugins)
     _add_tasks(config.task_files)
     _import_code(job.model, job.address.task, job.metrics)
-    archive = SpooledArchive(archive_at(config.data_dir).libraries, spool, job.digests)
+    _load_recordings(spool, job.digests)
+    archive = SpooledArchive(libraries, spool, job.digests)
     try:
         ended = call_in_child(evaluate, work, config, archive, timeout=config.timeout)
     except TimeoutError:
@@ -85,6 +88,20 @@ def load_plugins_once(paths: tuple[Path, ...]) -> None:
 @cache
 def _add_tasks(files: tuple[TaskFile, ...]) -> None:
     add_tasks(files)
+
+
+@cache
+def _libraries(data_dir: Path | None, plugins: tuple[Path, ...]) -> Mapping[str, Library]:
+    """Load the plug-ins, and return the libraries of recordings, theirs included."""
+    load_plugins_once(plugins)
+    return archive_at(data_dir).libraries
+
+
+def _load_recordings(spool: Spool, digests: Mapping[str, str]) -> None:
+    """Load what every child would load again; of what fails, the child gives the reason."""
+    with suppress(Exception):
+        for uri, digest in digests.items():
+            spool.load(uri, digest)
 
 
 @cache

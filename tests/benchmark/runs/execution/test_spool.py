@@ -53,6 +53,10 @@ def test_it_is_read_once(spooled, library):
     assert library.read == 1
 
 
+def test_a_process_loads_it_once(spooled):
+    assert spooled.recording(URI) is spooled.recording(URI)
+
+
 def test_what_comes_back_is_the_same(spooled, library):
     original, copy = Archive({"gait": library}).recording(URI), spooled.recording(URI)
     for field in dataclasses.fields(original):
