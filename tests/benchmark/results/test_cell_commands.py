@@ -80,6 +80,7 @@ def replanned(jobs, profile, archive):
     return plan(request, archive)
 
 
+@pytest.mark.slow
 def test_the_command_computes_the_cell_again_with_the_same_keys_and_scores(tmp_path):
     run = "mocapbench run --profile smoke --tasks marker-gaps --models hold,linear --folds 1"
     program = [sys.executable, "-m", "mocapbench.benchmark.cli.main"]

@@ -16,7 +16,9 @@ def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
     assert len(set(wanted)) == len(wanted)
 
 
-@pytest.mark.parametrize("profile", ["smoke", "quick", "paper"])
+@pytest.mark.parametrize(
+    "profile", ["smoke", "quick", pytest.param("paper", marks=pytest.mark.slow)]
+)
 def test_every_job_of_a_profile_has_a_key_of_its_own_and_every_problem_a_fit(profile):
     jobs = plan(Request(profile), archive_at(None))
     assert len({job.key for job in jobs}) == len(jobs)

@@ -26,6 +26,7 @@ def violations(tab):
     return tab.evaluate(AUDIT)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("width", "scheme"), VIEWS)
 def test_nothing_is_violated_with_everything_unfolded(visit, width, scheme):
     tab = visit(width, scheme)
