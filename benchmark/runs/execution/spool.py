@@ -89,7 +89,8 @@ class Spool:
 
 @lru_cache(maxsize=64)  # more than a case of any registered task reads
 def _content(path: Path) -> _Content:
-    return pickle.loads(path.read_bytes())
+    content: _Content = pickle.loads(path.read_bytes())
+    return content
 
 
 def _skeleton(archive: Archive, uri: str) -> Skeleton | None:
