@@ -18,6 +18,11 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def pytest_itemcollected(item):
+    if "browser" in item.fixturenames:
+        item.add_marker("browser")
+
+
 @pytest.fixture(autouse=True)
 def registries(monkeypatch):
     """Keep what one test registers from the others, and the folders of its plugins."""
