@@ -17,6 +17,11 @@ from mocapbench.datasets import Archive, Library, Recording, Skeleton, SkeletonU
 
 __all__ = ["Spool", "SpooledArchive"]
 
+_KEPT = 8
+"""Recordings that a process keeps; what a worker keeps counts as memory of each of its jobs."""
+_AHEAD = 8 << 20
+"""Bytes of the recordings of one job that are loaded ahead at most."""
+
 
 class _Content(NamedTuple):
     recording: Recording
@@ -62,10 +67,17 @@ class Spool:
     def load(self, uri: str, digest: str) -> _Content | None:
         """Return a recording and its skeleton, or None if they are not here.
 
-        This process, and those forked from it, keep the last that were loaded.
+        The process keeps the last few that were loaded.
         """
         path = self.path(uri, digest)
         return _content(path) if path.exists() else None
+
+    def load_ahead(self, digests: Mapping[str, str]) -> None:
+        """Load recordings for the processes forked from this one, unless they are many or long."""
+        files = self.files(digests)
+        if len(files) <= _KEPT and sum(file.stat().st_size for file in files) <= _AHEAD:
+            for file in files:
+                _content(file)
 
     def files(self, digests: Mapping[str, str]) -> tuple[Path, ...]:
         """Return the files of those recordings that are here."""
@@ -87,7 +99,7 @@ class Spool:
         return self.folder / hashlib.sha256(f"{uri}\0{digest}".encode()).hexdigest()
 
 
-@lru_cache(maxsize=64)  # more than a case of any registered task reads
+@lru_cache(maxsize=_KEPT)
 def _content(path: Path) -> _Content:
     content: _Content = pickle.loads(path.read_bytes())
     return content

@@ -64,7 +64,8 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
     libraries = _libraries(config.data_dir, config.plugins)
     _add_tasks(config.task_files)
     _import_code(job.model, job.address.task, job.metrics)
-    _load_recordings(spool, job.digests)
+    with suppress(Exception):  # of what fails, the child gives the reason
+        spool.load_ahead(job.digests)
     archive = SpooledArchive(libraries, spool, job.digests)
     try:
         ended = call_in_child(evaluate, work, config, archive, timeout=config.timeout)
@@ -95,13 +96,6 @@ def _libraries(data_dir: Path | None, plugins: tuple[Path, ...]) -> Mapping[str,
     """Load the plug-ins, and return the libraries of recordings, theirs included."""
     load_plugins_once(plugins)
     return archive_at(data_dir).libraries
-
-
-def _load_recordings(spool: Spool, digests: Mapping[str, str]) -> None:
-    """Load what every child would load again; of what fails, the child gives the reason."""
-    with suppress(Exception):
-        for uri, digest in digests.items():
-            spool.load(uri, digest)
 
 
 @cache

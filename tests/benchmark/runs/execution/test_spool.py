@@ -6,6 +6,7 @@ import pickle
 import numpy as np
 import pytest
 
+from mocapbench.benchmark.runs.execution import spool as spool_module
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
 from mocapbench.datasets import Archive, GaitLibrary, Library, SkeletonUnavailable
 
@@ -54,7 +55,18 @@ def test_it_is_read_once(spooled, library):
 
 
 def test_a_process_loads_it_once(spooled):
+    spooled.spool.load_ahead(spooled.digests)
+    spooled.spool.path(URI, spooled.digests[URI]).write_bytes(b"not read again")
     assert spooled.recording(URI) is spooled.recording(URI)
+
+
+@pytest.mark.parametrize("limit", ["_KEPT", "_AHEAD"])
+def test_what_would_take_much_memory_is_not_loaded_ahead(spooled, monkeypatch, limit):
+    monkeypatch.setattr(spool_module, limit, 0)
+    spooled.spool.load_ahead(spooled.digests)
+    spooled.spool.path(URI, spooled.digests[URI]).write_bytes(b"garbled")
+    with pytest.raises(pickle.UnpicklingError):
+        spooled.recording(URI)
 
 
 def test_what_comes_back_is_the_same(spooled, library):
