@@ -43,7 +43,10 @@ class Fails(Imputer):
 
 MODELS = {"fails": Fails}
 """
-TEXT = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0\n"), min_size=1)
+# A folder's name has at most 255 bytes, four a character.
+TEXT = st.text(
+    st.characters(exclude_categories=["Cs"], exclude_characters="\0\n"), min_size=1, max_size=63
+)
 LINES = st.lists(TEXT)
 CACHES = shutil.ignore_patterns(
     ".git", ".tox", ".venv", ".*_cache", "__pycache__", "*.egg-info", "build", "dist", "_build"
