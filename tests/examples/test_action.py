@@ -43,10 +43,10 @@ class Fails(Imputer):
 
 MODELS = {"fails": Fails}
 """
-# A folder's name has at most 255 bytes, four a character.
-TEXT = st.text(
-    st.characters(exclude_categories=["Cs"], exclude_characters="\0\n"), min_size=1, max_size=63
-)
+CHARACTERS = st.characters(exclude_categories=["Cs"], exclude_characters="\0\n")
+TEXT = st.text(CHARACTERS, min_size=1)
+FOLDER = st.text(CHARACTERS, min_size=1, max_size=63)
+"""Its name has at most 255 bytes, four a character."""
 LINES = st.lists(TEXT)
 CACHES = shutil.ignore_patterns(
     ".git", ".tox", ".venv", ".*_cache", "__pycache__", "*.egg-info", "build", "dist", "_build"
@@ -96,7 +96,7 @@ def test_outputs_that_are_read_are_written():
     assert read == written
 
 
-@given(st.lists(TEXT, min_size=4, max_size=4), LINES, LINES)
+@given(st.tuples(TEXT, TEXT, FOLDER, TEXT), LINES, LINES)
 @settings(max_examples=10)
 @example(["$(touch owned)", "`touch owned`", "'; touch owned #", '";touch owned #'], ["*"], ["&&"])
 def test_whatever_inputs_say_arrives_as_it_is(texts, plugins, more):
