@@ -1,17 +1,15 @@
-"""Evaluation of one job: pose its problem, fit, answer and score."""
+"""Evaluation of one job: pose its problem, have its model answer, and score the answer."""
 
 from __future__ import annotations
 
 import resource
-import traceback
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from joblib import parallel_config
-
 from mocapbench.benchmark.problems.base import Problem
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.registry import METRICS, TASKS
+from mocapbench.benchmark.runs.answering import Answered, answer
 from mocapbench.benchmark.runs.fitting.fit import Fit
-from mocapbench.benchmark.runs.fitting.solve import Fitted, solve, train
 from mocapbench.benchmark.runs.fitting.trained import Trained
 from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Record, Status
@@ -30,10 +28,17 @@ class Evaluation(NamedTuple):
     """The fitted model, where other jobs can use it."""
 
 
-def evaluate(work: Work, config: WorkerConfig, archive: Archive) -> Evaluation:
+def _here(function: Callable[..., Answered], *arguments: Any) -> Answered:
+    return function(*arguments)
+
+
+def evaluate(
+    work: Work, config: WorkerConfig, archive: Archive, call: Callable[..., Answered] = _here
+) -> Evaluation:
     """Return the record of a job, and what others can use of it.
 
-    Whatever the model raises becomes a failed record. The process's memory is limited from now on.
+    Whatever the task, the model or a metric raises becomes a failed record. The process's memory
+    is limited from now on.
 
     Parameters
     ----------
@@ -41,36 +46,30 @@ def evaluate(work: Work, config: WorkerConfig, archive: Archive) -> Evaluation:
     config : WorkerConfig
     archive : Archive
         Where recordings come from.
+    call : callable
+        Calls the function that it gets first with the other arguments: the model's part, which
+        posing and scoring need not share a process with. What it raises itself is for the caller.
     """
-    job, fit, new, trained = work.job, work.fit, None, None
+    job = work.job
     try:
         resource.setrlimit(resource.RLIMIT_AS, (config.memory, resource.RLIM_INFINITY))
         problem = TASKS.get(job.address.task).case(job.address.case).problem(job.seeds, archive)
-        if fit is None:
-            with parallel_config("threading", n_jobs=config.threads):
-                fitted, trained = _fitted(work, problem)
-                fit = new = solve(problem, fitted, job.seeds.random_state("sample"))
-        return Evaluation(_scored(work, fit, problem, config), new, trained)
-    except MemoryError:
-        limit = config.memory / 2**30
-        message = f"the job needed more than its {limit:.1f} GiB; raise --memory or lower --jobs"
-        record = job.record(Status.OUT_OF_MEMORY, message, traceback=traceback.format_exc())
-    except BaseException as error:  # a model that calls sys.exit has failed like any other
-        message = f"{type(error).__name__}: {error}"
-        record = job.record(Status.FAILED, message, traceback=traceback.format_exc())
-    return Evaluation(record, new, trained)
+    except BaseException as error:
+        return Evaluation(job.failed(error, config.memory))
+    if work.fit is not None:
+        return Evaluation(_record(work, work.fit, problem, config))
+    fit, trained, failure = call(answer, work, problem, config)
+    if fit is not None:
+        return Evaluation(_record(work, fit, problem, config), fit, trained)
+    assert failure is not None
+    return Evaluation(failure, None, trained)
 
 
-def _fitted(work: Work, problem: Problem[Any]) -> tuple[Fitted, Trained | None]:
-    """Return the fitted model, and the same for other jobs if it is new and they can use it."""
-    job, trained = work.job, work.trained
-    if trained is not None and trained.suits(problem):
-        return trained.load(), None
-    random_state = job.training_seeds.random_state("init")
-    fitted = train(problem, MODELS.get(job.model), job.parameters, random_state)
-    new = Trained.of(job.training_key, fitted, problem) if job.training_key else None
-    # Loaded here too: what went through pickle may differ in memory layout, and so in rounding.
-    return (new.load() if new else fitted), new
+def _record(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
+    try:
+        return _scored(work, fit, problem, config)
+    except BaseException as error:
+        return work.job.failed(error, config.memory)
 
 
 def _scored(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -102,6 +103,16 @@ class Job:
             message=message,
             **results,
         )
+
+    def failed(self, error: BaseException, memory: int) -> Record:
+        """Return a record of this job, which may take ``memory`` bytes and raised ``error``."""
+        text = "".join(traceback.format_exception(error))
+        if not isinstance(error, MemoryError):
+            message = f"{type(error).__name__}: {error}"
+            return self.record(Status.FAILED, message, traceback=text)
+        limit = memory / 2**30
+        message = f"the job needed more than its {limit:.1f} GiB; raise --memory or lower --jobs"
+        return self.record(Status.OUT_OF_MEMORY, message, traceback=text)
 
     def timed_out(self, seconds: float) -> Record:
         """Return a record of this job that was killed after so many seconds."""

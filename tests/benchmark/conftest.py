@@ -58,6 +58,11 @@ def broken_models():
     return Path(__file__).with_name("broken_models.py")
 
 
+@pytest.fixture
+def broken_metrics():
+    return Path(__file__).with_name("broken_metrics.py")
+
+
 def _records(out):
     documents = [json.loads(p.read_text()) for p in (Path(out) / "records").rglob("*.json")]
     return {(d["task"], d["case"], d["label"], d["fold"]): d for d in documents}

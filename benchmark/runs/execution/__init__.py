@@ -1,1 +1,1 @@
-"""Where and how jobs run: each in a process of its own, on this machine or on a cluster."""
+"""Where and how jobs run: each model in a process of its own, on this machine or a cluster."""

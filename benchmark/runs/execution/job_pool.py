@@ -1,4 +1,4 @@
-"""A pool of workers that live for many jobs, each of which runs in a killable process.
+"""A pool of workers that live for many jobs, the model of each in a killable process.
 
 A crash, a hang or a kill costs one record alone. Workers are forked from a server that has the
 libraries loaded but has computed nothing, and one that dies is replaced.
@@ -6,6 +6,7 @@ libraries loaded but has computed nothing, and one that dies is replaced.
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Collection
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 
@@ -49,6 +50,8 @@ class JobPool:
         try:
             return future.result()
         except ProcessExpired as error:
+            if error.exitcode == -signal.SIGALRM:
+                return Outcome(job.timed_out(self._config.timeout), None, self._config.timeout)
             message = f"the worker died with exit code {error.exitcode} before it could report"
         except (Exception, CancelledError) as error:
             message = f"no report came back: {type(error).__name__}: {error}"

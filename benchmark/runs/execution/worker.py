@@ -1,6 +1,7 @@
-"""One worker: it lives for many jobs, and gives each of them a process of its own.
+"""One worker: it lives for many jobs, and gives the model of each a process of its own.
 
-It loads what the jobs need; its children, which share its memory, fit and score.
+It poses the problems and scores the answers. A child, which shares its memory, fits and answers:
+what a model does to its process reaches no other job, nor what scores it.
 """
 
 from __future__ import annotations
@@ -22,12 +23,12 @@ from mocapbench.benchmark.runs.evaluate import Evaluation, evaluate
 from mocapbench.benchmark.runs.execution.child import (
     ProcessDiedError,
     adopt_orphans,
-    call_in_child,
     die_with_parent,
     kill_children,
 )
 from mocapbench.benchmark.runs.execution.large_pages import collapse_memory
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
+from mocapbench.benchmark.runs.execution.time_limit import TimeLimit
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.task_files.building import add_tasks
@@ -44,6 +45,7 @@ def prepare_worker() -> None:
     adopt_orphans()
     # At once when told to, with the child: a worker that winds up holds up the end of a run.
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)
     # One BLAS thread, so that results do not depend on how many jobs run at once.
     threadpool_limits(1)
     gc.freeze()  # what the libraries hold lives as long as the worker
@@ -52,6 +54,8 @@ def prepare_worker() -> None:
 
 def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
     """Return the outcome of one job; whatever its model does becomes a failed record.
+
+    A task or a metric that takes too long ends the worker by SIGALRM.
 
     Parameters
     ----------
@@ -64,13 +68,16 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
     libraries = _libraries(config.data_dir, config.plugins)
     _add_tasks(config.task_files)
     _import_code(job.model, job.address.task, job.metrics)
-    with suppress(Exception):  # of what fails, the child gives the reason
+    with suppress(Exception):  # of what fails, `evaluate` gives the reason
         spool.load_ahead(job.digests)
     archive = SpooledArchive(libraries, spool, job.digests)
     try:
-        ended = call_in_child(evaluate, work, config, archive, timeout=config.timeout)
+        with TimeLimit(config.timeout) as limit:
+            ended = evaluate(work, config, archive, limit.call_in_child)
     except TimeoutError:
         ended = Evaluation(job.timed_out(config.timeout))
+    except MemoryError as error:  # where there is no room for what the child hands back
+        ended = Evaluation(job.failed(error, config.memory))
     except ProcessDiedError as error:
         message = f"the process died with exit code {error.exit_code} before it could report"
         ended = Evaluation(job.record(Status.FAILED, message))
@@ -100,7 +107,7 @@ def _libraries(data_dir: Path | None, plugins: tuple[Path, ...]) -> Mapping[str,
 
 @cache
 def _import_code(model: str, task: str, metrics: tuple[str, ...]) -> None:
-    """Import what every child would import again; of what fails, the child gives the reason."""
+    """Import what every child would import again; of what fails, `evaluate` gives the reason."""
     with suppress(Exception):
         TASKS.get(task)
         MODELS.get(model)

@@ -1,9 +1,9 @@
-"""A model that misbehaves costs its own record and nothing else."""
+"""A model, or a metric, that misbehaves costs its own record and nothing else."""
 
 import psutil
 import pytest
 
-LITTER = ["sleep", "601"]
+LITTERS = ["sleep", "601"], ["sleep", "602"]
 ENDINGS = {
     "raises": ("failed", "RuntimeError: the model <b>raised</b>"),
     "singular": ("failed", "LinAlgError"),
@@ -21,7 +21,17 @@ ENDINGS = {
     "hungry": ("out-of-memory", "raise --memory"),
     "litters": ("ok", ""),
     "meddles": ("failed", "RuntimeError: meddled"),
+    "rigs": ("ok", ""),
     "well-behaved": ("ok", ""),
+}
+BY_METRIC = {
+    "sleeps": ("timeout", "killed after 5 s"),
+    "hangs": ("timeout", "killed after 5 s"),
+    "dies": ("failed", "exit code 7"),
+    "exits": ("failed", "SystemExit: 5"),
+    "raises": ("failed", "RuntimeError: the metric raised"),
+    "hoards": ("out-of-memory", "raise --memory"),
+    "litters": ("ok", ""),
 }
 
 
@@ -36,6 +46,10 @@ def arguments(tmp_path, broken_models):
     ]
 
 
+def _litter():
+    return [p for p in psutil.process_iter(["cmdline"]) if p.info["cmdline"] in LITTERS]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("site", SITES.values(), ids=SITES)
 def test_each_ending_is_recorded_and_the_others_run(cli, records, arguments, tmp_path, site):
@@ -46,12 +60,34 @@ def test_each_ending_is_recorded_and_the_others_run(cli, records, arguments, tmp
     }
     for label, (_, message) in ENDINGS.items():
         assert message in found[label]["message"]
-    assert not [p for p in psutil.process_iter(["cmdline"]) if p.info["cmdline"] == LITTER]
+    assert _litter() == []
     assert "RuntimeError" in found["raises"]["traceback"]
     assert found["well-behaved"]["scores"]["mse"] > 0
     page = (tmp_path / "run" / "report.html").read_text()
     assert "the model &lt;b&gt;raised" in page
     assert "<b>raised" not in page
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("metric", BY_METRIC)
+def test_a_metric_fails_its_jobs_and_ends_no_run(cli, records, arguments, broken_metrics, metric):
+    status, message = BY_METRIC[metric]
+    chosen = ("--models", "well-behaved,trivial", "--metrics", metric, "--timeout", 5, "--jobs", 1)
+    assert cli(*arguments, "--plugin", broken_metrics, *chosen) == (0 if status == "ok" else 3)
+    out = arguments[arguments.index("--out") + 1]
+    found = list(records(out).values())
+    assert [record["status"] for record in found] == [status] * 2
+    assert all(message in record["message"] for record in found)
+    assert _litter() == []
+
+
+@pytest.mark.slow
+def test_what_a_model_does_to_metrics_changes_no_score_of_its_own(cli, records, arguments):
+    assert cli(*arguments, "--models", "rigs,well-behaved", "--jobs", 1) == 0
+    out = arguments[arguments.index("--out") + 1]
+    rigged, honest = records(out).values()
+    assert rigged["scores"] == honest["scores"]
+    assert honest["scores"]["mse"] > 0
 
 
 def test_a_parameter_that_is_no_plain_value_is_refused(cli, tmp_path, arguments):
