@@ -12,12 +12,12 @@ import os
 import pickle
 import signal
 import sys
+import traceback
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from multiprocessing.connection import Connection, wait
-from multiprocessing.context import ForkProcess
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, NoReturn
 
 __all__ = [
     "ProcessDiedError",
@@ -27,7 +27,6 @@ __all__ = [
     "kill_children",
 ]
 
-_FORK = multiprocessing.get_context("fork")
 _LIBC = ctypes.CDLL(None)  # loaded before a fork: in the child it would cost pages of memory
 _PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36  # of prctl(2)
 
@@ -37,11 +36,11 @@ class ProcessDiedError(Exception):
 
     Parameters
     ----------
-    exit_code : int or None
-        Its exit code; minus the signal's number if a signal ended it; None if it runs on.
+    exit_code : int
+        Its exit code; minus the signal's number if a signal ended it.
     """
 
-    def __init__(self, exit_code: int | None) -> None:
+    def __init__(self, exit_code: int) -> None:
         super().__init__(exit_code)
         self.exit_code = exit_code
 
@@ -63,54 +62,71 @@ def call_in_child(function: Callable[..., Any], *arguments: Any, timeout: float)
     Raises
     ------
     TimeoutError
-        If the call took longer.
+        If the call took longer, or the process lives on without a way to report.
     ProcessDiedError
         If the process ended without a result.
     SystemExit
         If the process that started this one has ended: then nobody waits for the result.
     """
-    receiver, sender = _FORK.Pipe(duplex=False)
-    process = _FORK.Process(target=_report, args=(sender, function, arguments))
-    process.start()
+    receiver, sender = multiprocessing.Pipe(duplex=False)
+    _flush()  # or the child would print again what waits to be printed
+    # Not by `multiprocessing.Process`, which changes memory that would have to be copied.
+    child = os.fork()
+    if not child:
+        _report(sender, function, arguments)
     sender.close()
     try:
-        return pickle.loads(_received(receiver, process, timeout))
+        result = _received(receiver, child, timeout)
     finally:
-        process.kill()
-        process.join()
-        process.close()
+        os.kill(child, signal.SIGKILL)
+        _, status = os.waitpid(child, 0)
+    if not result:
+        raise ProcessDiedError(os.waitstatus_to_exitcode(status))
+    return pickle.loads(result)
 
 
-def _report(sender: Connection, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
-    die_with_parent()
-    result = pickle.dumps(function(*arguments), protocol=pickle.HIGHEST_PROTOCOL)
+def _flush() -> None:
     for stream in (sys.stdout, sys.stderr):
         stream.flush()
-    sender.send_bytes(result)
-    os._exit(0)  # at once: nothing here is worth tidying up
 
 
-def _received(receiver: Connection, process: ForkProcess, timeout: float) -> bytes:
-    # Not the process's sentinel, a pipe which stays open while a process that it started runs on.
-    # And besides it the run: a worker's parent is the server that forks workers, which lives as
-    # long as they do, so that `die_with_parent` comes too late.
+def _report(
+    sender: Connection, function: Callable[..., Any], arguments: tuple[Any, ...]
+) -> NoReturn:
+    exit_code = 1
+    try:
+        die_with_parent()
+        result = pickle.dumps(function(*arguments), protocol=pickle.HIGHEST_PROTOCOL)
+        _flush()
+        sender.send_bytes(result)
+        exit_code = 0
+    except BaseException:
+        traceback.print_exc()
+    finally:  # at once: nothing is worth tidying up, and what the caller does next is not for it
+        os._exit(exit_code)
+
+
+def _received(receiver: Connection, child: int, timeout: float) -> bytes:
+    """Return what the child reports; nothing if it ends, or has ended, without a report."""
+    # Besides the child the run is watched: a worker's parent is the server that forks workers,
+    # which lives as long as they do, so that `die_with_parent` comes too late.
     run = multiprocessing.parent_process()
     watched = [run.sentinel] if run else []
-    ended = os.pidfd_open(cast(int, process.pid))
+    ended = os.pidfd_open(child)
     try:
         with receiver:
             ready = wait([receiver, ended, *watched], timeout)
-            if not ready:
-                raise TimeoutError
             if set(watched) & set(ready):
                 raise SystemExit
-            if receiver.poll():
+            if receiver in ready or receiver.poll():
                 return receiver.recv_bytes()
     except EOFError:  # it closed the pipe, and should end now
-        wait([ended], timeout)
+        ready = wait([ended], timeout)
     finally:
         os.close(ended)
-    raise ProcessDiedError(process.exitcode)
+    if not ready:
+        raise TimeoutError
+    return b""
 
 
 def adopt_orphans() -> None:

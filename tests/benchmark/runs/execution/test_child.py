@@ -1,6 +1,5 @@
 """A call in a process of its own: what it returns, and how it ends if it does not return."""
 
-import multiprocessing
 import os
 import resource
 import signal
@@ -53,6 +52,19 @@ def _start_one_that_holds_the_pipe(file):
     os._exit(3)
 
 
+def _close_everything_and_sleep():
+    os.closerange(3, 4096)
+    time.sleep(600)
+
+
+def _raise():
+    raise ValueError("not as promised")
+
+
+def _what_cannot_be_pickled():
+    return lambda: None
+
+
 @pytest.mark.parametrize("number", [3, 10**6])
 def test_it_returns_what_the_function_returns(number):
     assert call_in_child(_square, number, timeout=60) == number**2
@@ -98,7 +110,32 @@ def test_a_descendant_that_holds_the_pipe_does_not_keep_it_waiting(tmp_path):
 def test_it_is_killed_after_the_timeout(tmp_path):
     with pytest.raises(TimeoutError):
         call_in_child(time.sleep, 600, timeout=0.5)
-    assert not multiprocessing.active_children()
+    assert not psutil.Process().children()
+
+
+def test_one_that_lives_on_without_a_way_to_report_is_killed_after_the_timeout():
+    with pytest.raises(TimeoutError):
+        call_in_child(_close_everything_and_sleep, timeout=0.5)
+    assert not psutil.Process().children()
+
+
+@pytest.mark.parametrize("function", [_raise, _what_cannot_be_pickled], ids=["raises", "lambda"])
+def test_one_that_breaks_its_promise_dies_and_says_why(function, capfd):
+    with pytest.raises(ProcessDiedError) as raised:
+        call_in_child(function, timeout=60)
+    assert raised.value.exit_code == 1
+    assert "Traceback" in capfd.readouterr().err
+
+
+def test_what_waits_to_be_printed_is_printed_once():
+    program = (
+        "from mocapbench.benchmark.runs.execution.child import call_in_child\n"
+        "print('before')\n"
+        "call_in_child(print, 'in it', timeout=60)\n"
+        "print('after')\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
+    assert ended.stdout.split(b"\n") == [b"before", b"in it", b"after", b""]
 
 
 LEFT_BEHIND = """
