@@ -7,9 +7,9 @@ import pickle
 import time
 from collections.abc import Collection
 from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import ExitStack
 from functools import lru_cache
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from types import TracebackType
 from typing import Self
 
@@ -23,6 +23,7 @@ from mocapbench.benchmark.runs.execution.child import (
     call_in_child,
     kill_children,
 )
+from mocapbench.benchmark.runs.execution.scratch import scratch_folder
 from mocapbench.benchmark.runs.execution.worker import load_plugins_once
 from mocapbench.benchmark.runs.execution.worker_pool import worker_pool
 from mocapbench.benchmark.runs.machine import memory_share
@@ -48,8 +49,10 @@ class Workers:
         self._memory = int(memory_share(count) * 2**30)
 
     def __enter__(self) -> Self:
-        self._folder = TemporaryDirectory(prefix="mocapbench-fill-")
-        self._pool = worker_pool(self.count)
+        with ExitStack() as resources:
+            self._folder = resources.enter_context(scratch_folder())
+            self._pool = worker_pool(self.count)
+            self._resources = resources.pop_all()
         return self
 
     def __exit__(
@@ -60,11 +63,11 @@ class Workers:
     ) -> None:
         self._pool.stop()  # type: ignore[no-untyped-call]
         self._pool.join()
-        self._folder.cleanup()
+        self._resources.close()
 
     def keep(self, question: Question) -> Path:
         """Write a question where the workers read it, and return the file."""
-        path = Path(self._folder.name, f"question-{next(self._numbers)}")
+        path = self._folder / f"question-{next(self._numbers)}"
         path.write_bytes(pickle.dumps(question, protocol=pickle.HIGHEST_PROTOCOL))
         return path
 

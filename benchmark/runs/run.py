@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from rich.console import Console
 
@@ -14,6 +12,7 @@ from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.execution.base import Site
 from mocapbench.benchmark.runs.execution.execute import execute
 from mocapbench.benchmark.runs.execution.job_queue import JobQueue
+from mocapbench.benchmark.runs.execution.scratch import scratch_folder
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.fitting.trained import TrainedModels
 from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
@@ -81,8 +80,8 @@ def _computed(
 ) -> Iterator[Record]:
     """Yield the record of each job as it ends, once it is in the store."""
     archive, queue = archive_at(config.data_dir), JobQueue(jobs)
-    with TemporaryDirectory(prefix="mocapbench-") as folder:
-        spool, models = Spool(Path(folder)), TrainedModels(Path(folder))
+    with scratch_folder() as folder:
+        spool, models = Spool(folder), TrainedModels(folder)
 
         def work(job: Job) -> Work:
             spool.add(archive, job.digests)

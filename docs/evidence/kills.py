@@ -31,10 +31,15 @@ def found(run: Path) -> dict[tuple[Any, ...], Any]:
     }
 
 
-def ends(command: list[str], seconds: float) -> bool:
+def ends(command: list[str], scratch: Path, seconds: float) -> bool:
     """Return whether a run ended before it was killed, which none of its processes may survive."""
     run = subprocess.Popen(
-        command, start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        command,
+        env=os.environ | {"TMPDIR": str(scratch)},
+        start_new_session=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
     )
     try:
         said, _ = run.communicate(timeout=seconds)
@@ -47,6 +52,8 @@ def ends(command: list[str], seconds: float) -> bool:
         return False
     assert run.returncode == 0, said
     assert "damaged" not in said, said
+    left_behind = list(scratch.glob("mocapbench-*"))
+    assert not left_behind, f"left behind: {left_behind}"
     return True
 
 
@@ -64,11 +71,13 @@ def main(wanted: int, options: list[str]) -> None:
     draw, kills, cycles = random.Random(0), 0, 0
     with TemporaryDirectory() as folder:
         reference, out = Path(folder, "reference"), Path(folder, "out-0")
+        scratch = Path(folder, "scratch")
+        scratch.mkdir()
         began = time.monotonic()
-        assert ends([*command, str(reference)], 3600.0)
+        assert ends([*command, str(reference)], scratch, 3600.0)
         whole = time.monotonic() - began
         while kills < wanted:
-            if not ends([*command, str(out)], draw.uniform(1.0, max(8.0, whole / 2))):
+            if not ends([*command, str(out)], scratch, draw.uniform(1.0, max(8.0, whole / 2))):
                 kills += 1
                 continue
             assert found(out) == found(reference), f"{out} differs"
@@ -76,7 +85,7 @@ def main(wanted: int, options: list[str]) -> None:
             cycles += 1
             out = Path(folder, f"out-{cycles}")
             print(f"{kills} kills, {cycles} runs ended as if nobody had killed them", flush=True)
-        assert ends([*command, str(out)], 3600.0)
+        assert ends([*command, str(out)], scratch, 3600.0)
         assert found(out) == found(reference), f"{out} differs"
         print(f"{kills} kills, {cycles + 1} runs ended as if nobody had killed them")
 
