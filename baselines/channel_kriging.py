@@ -139,8 +139,8 @@ class ChannelKriging(Widened, Imputer, Inductive):
         Raises
         ------
         ValueError
-            If channels differ, or a channel is visible neither in a recording nor in those given to
-            `fit`.
+            If channels differ, a channel is visible neither in a recording nor in those given to
+            `fit`, or channels that are hidden together are visible together nowhere.
         """
         check_is_fitted(self)
         return widened(self, recordings)
@@ -169,6 +169,13 @@ class ChannelKriging(Widened, Imputer, Inductive):
         """Return the mean and variance of ``channels`` in the frames ``wanted``."""
         values = frames.values[:, channels]
         known = np.flatnonzero(~np.isnan(values).any(axis=1))
+        if not len(known):
+            raise ValueError(
+                f"expected a frame of some recording in which the {len(channels)} channels that "
+                f"are hidden together (numbers {channels.tolist()} from 0) are all visible, got "
+                f"none: give a recording that has such frames, or take a model that fills each "
+                f"channel alone, such as pchip"
+            )
         others = np.setdiff1d(np.arange(frames.values.shape[1]), channels)
         prior = self._covariance(frames, known, known, others)
         prior[np.diag_indices_from(prior)] += self.noise

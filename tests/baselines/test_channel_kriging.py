@@ -105,3 +105,14 @@ def test_what_cannot_be_filled_is_refused():
         model.impute([knee_hidden(walk("new", 0), 0)])
     with pytest.raises(ValueError, match="expected channels"):
         ChannelKriging().fit(TRAINING).impute([walk("new", 0).select(["hip"])])
+
+
+def test_channels_that_are_hidden_together_must_be_visible_together_somewhere():
+    """Though each of them is visible."""
+    apart, throughout = np.zeros((2, 60, 3), dtype=bool)
+    apart[:40, 1] = apart[30:, 2] = throughout[:, 1:] = True
+    given, training = walk("new", 0).hide(throughout), [walk("one", 0).hide(apart)]
+    with pytest.raises(ValueError, match=r"the 2 channels .* \[1, 2\] .* visible, got none"):
+        ChannelKriging().fit(training).impute([given])
+    (filled,) = ChannelKriging().fit([*training, walk("two", 7)]).impute([given])
+    assert np.isfinite(filled.mean).all()
