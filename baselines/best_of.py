@@ -36,10 +36,16 @@ class BestOf(Imputer, Inductive):
     :math:`(1 - \lambda) \rho_{ij} + \lambda` with the ``shrinkage`` :math:`\lambda`. The
     prediction is the mixture of the candidates' distributions: its variance includes how far they
     lie apart. The variance of a candidate that has none is the geometric mean of its squared errors
-    :math:`G_{s,ii}`. Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``,
-    ``pca-regression``, ``nn``, ``aligned-window``, ``pose-kriging`` and ``channel-kriging``; those
-    that cannot fill a mask, or not learn from the recordings, are left out. The seed of ``fam`` is
-    fixed, so that nothing is random.
+    :math:`G_{s,ii}`. Where copies of the gaps hide a few entries only, what they say is moved
+    towards what training says: ten more entries are supposed, in which candidates err as there.
+
+    Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``, ``pca-regression``, ``nn``,
+    ``aligned-window``, ``pose-kriging``, ``channel-kriging``, and ``mohgp`` with three components
+    and with one and five that registers recordings. Those that cannot fill a mask, or not learn
+    from the recordings, are left out. ``mohgp`` takes part where recordings to fill were given to
+    `fit`, too, and are few and small: three walks of 90 frames and 39 channels, which take a
+    minute. It keeps its parameters in rehearsals. The seed of ``fam`` is fixed, so that nothing is
+    random.
 
     Parameters
     ----------

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Self
 
 from mocapbench.baselines.aligned_window import AlignedWindow
 from mocapbench.baselines.channel_kriging import ChannelKriging
+from mocapbench.baselines.choosing.jointly import Jointly
 from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.fam import FAM
 from mocapbench.baselines.interpolation import (
@@ -21,6 +23,7 @@ from mocapbench.baselines.interpolation import (
 )
 from mocapbench.baselines.lds import LDS
 from mocapbench.baselines.low_rank import LowRank
+from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.baselines.nn import NN
 from mocapbench.baselines.pca_regression import PCARegression
 from mocapbench.baselines.pose_kriging import PoseKriging
@@ -33,6 +36,17 @@ Impute = Callable[[Sequence[Recording]], list[Prediction]]
 
 LAST_RESORT = "pchip"
 """What fills where no rehearsal has room: it never overshoots."""
+
+
+def _mohgp(n_components: int | Mapping[str, int], registration: str = "none") -> Jointly:
+    """Return a hierarchy that is learnt in one short search.
+
+    On toy data it is as accurate as one learnt in five searches, in a tenth of their time.
+    """
+    return Jointly(
+        MOHGP(n_components=n_components, registration=registration, n_restarts=1, max_iter=60)
+    )
+
 
 CANDIDATES: Mapping[str, Callable[[], FrameImputer]] = {
     "linear": LinearImputer,
@@ -47,8 +61,10 @@ CANDIDATES: Mapping[str, Callable[[], FrameImputer]] = {
     "aligned-window": AlignedWindow,
     "pose-kriging": PoseKriging,
     "channel-kriging": ChannelKriging,
+    "mohgp": partial(_mohgp, 3),
+    "mohgp-registered": partial(_mohgp, {"parent": 1, "child": 5}, "affine"),
 }
-"""All are inductive, and take a few seconds at most."""
+"""All are inductive, and take a few seconds at most, `Jointly` half a minute."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,13 +76,12 @@ class Panel:
     @classmethod
     def of(cls, recordings: Sequence[Recording]) -> Self:
         """Fit every candidate that can be fitted."""
-        models = {}
-        for name, candidate in CANDIDATES.items():
-            # A model that expects other data refuses them with a ValueError.
-            with warnings.catch_warnings(), suppress(ValueError):
-                warnings.simplefilter("ignore")
-                models[name] = candidate().fit(recordings)
-        return cls(models)
+        return cls(_fitted({name: new() for name, new in CANDIDATES.items()}, recordings))
+
+    def anew(self, recordings: Sequence[Recording]) -> Self:
+        """Return the models fitted to other recordings; `Jointly` keeps its parameters."""
+        models = {name: copy(model) for name, model in self.models.items()}
+        return replace(self, models=_fitted(models, recordings))
 
     def impute(self, recording: Recording) -> dict[str, Prediction]:
         """Return the prediction of each model that can fill the recording."""
@@ -82,9 +97,27 @@ class Panel:
     ) -> dict[str, Prediction]:
         predictions = {}
         for name, model in self.models.items():
-            with suppress(ValueError):
+            with _if_it_can():
                 (predictions[name],) = how(model)([recording])
         return predictions
+
+
+def _fitted(
+    models: Mapping[str, FrameImputer], recordings: Sequence[Recording]
+) -> Mapping[str, FrameImputer]:
+    fitted = {}
+    for name, model in models.items():
+        with _if_it_can():
+            fitted[name] = model.fit(recordings)
+    return fitted
+
+
+@contextmanager
+def _if_it_can() -> Iterator[None]:
+    """Leave a model out that expects other data: it refuses them with a ValueError."""
+    with warnings.catch_warnings(), suppress(ValueError):
+        warnings.simplefilter("ignore")
+        yield
 
 
 def _without_trials(model: FrameImputer) -> Impute:

@@ -69,13 +69,14 @@ class Rehearsals:
         tried = self.given.hide(mask)
         panel = self.panel
         if self.given.name in [recording.name for recording in self.fitted]:
-            panel = Panel.of(pool(self.fitted, [tried]))
+            panel = panel.anew(pool(self.fitted, [tried]))
         return self._errors(panel, self.given, mask)
 
     def in_training(self) -> list[tuple[Products, Products]]:
         """Return those of training recordings held out in turn, with the gaps and in a trial.
 
-        The recording held out has the gaps of the one to fill.
+        The recording held out has the gaps of the one to fill. Only copies that had to be shorter
+        are tried besides.
         """
         others = sorted((r for r in self.fitted if r.name != self.given.name), key=lambda r: r.name)
         if len(self.fitted) < 2:
@@ -88,17 +89,18 @@ class Rehearsals:
 
     def _held_out(self, recordings: Sequence[Recording]) -> list[tuple[Products, Products]]:
         names = {recording.name for recording in recordings}
-        panel = Panel.of([r for r in self.fitted if r.name not in names])
+        panel = self.panel.anew([r for r in self.fitted if r.name not in names])
         return [self._in_place_of_given(panel, recording) for recording in recordings]
 
     def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Products, Products]:
         middle = len(self.trials) // 2
-        masks = [~self.given.visible, *self.trials[middle : middle + 1]]
+        short = self.trials[middle : middle + 1] if self.are_short else []
+        masks = [~self.given.visible, *short]
         gaps, *trials = aligned(recording, masks)
         cut, hidden = gaps
         full = self._errors(panel, cut, hidden)
-        short = [self._errors(panel, cut.hide(hidden), mask, cut) for _, mask in trials]
-        return full, short[0] if short else pd.DataFrame()
+        copies = [self._errors(panel, cut.hide(hidden), mask, cut) for _, mask in trials]
+        return full, copies[0] if copies else pd.DataFrame()
 
     def _errors(
         self, panel: Panel, given: Recording, mask: Mask, truth: Recording | None = None

@@ -17,6 +17,8 @@ __all__ = ["among", "evidence", "expected_errors", "weights_of"]
 
 _LEAST = 1e-12
 """Least squared error, in units of the channels' scales."""
+_PRIOR_ENTRIES = 10
+"""Entries that count in the recording itself as erring as in training, beside those it hides."""
 _RIDGE = 1e-9
 """Added to correlations, so that models that agree share their weight."""
 
@@ -28,7 +30,8 @@ def evidence(rehearsals: Rehearsals) -> Sequence[Products]:
     recordings that take its place, which know such gaps in such motions. Where copies had to be
     shorter than the gaps, the first is multiplied by how much larger the models' errors are in
     training with the gaps than with such copies; where that is not known, training counts alone.
-    Without a gap there is no source.
+    Where copies hide a few entries only, what they say is moved towards what training says. Without
+    a gap there is no source.
     """
     if rehearsals.given.visible.all():
         return []
@@ -40,7 +43,19 @@ def evidence(rehearsals: Rehearsals) -> Sequence[Products]:
         return [alone for alone in [own if gaps.empty else gaps] if not alone.empty]
     own, gaps, copies = (each.loc[both, both] for each in (own, gaps, copies))
     growth = np.sqrt(np.diag(gaps) / np.diag(copies))
-    return [own * np.outer(growth, growth), gaps]
+    n_entries = float(np.sum(rehearsals.trials))
+    return [_steadied(own * np.outer(growth, growth), gaps, n_entries), gaps]
+
+
+def _steadied(own: Products, gaps: Products, n_entries: float) -> Products:
+    """Return products in the recording itself, moved towards those in training if of few entries.
+
+    Among many models, some err little by chance in a few entries. `_PRIOR_ENTRIES` more are
+    supposed, in which models err as in training but for one factor, that of their mean error.
+    """
+    factor = np.trace(own) / np.trace(gaps)
+    steadied: Products = n_entries * own + _PRIOR_ENTRIES * factor * gaps
+    return steadied / (n_entries + _PRIOR_ENTRIES)
 
 
 def _mean(rehearsed: Iterable[Products]) -> Products:

@@ -152,7 +152,7 @@ _MOHGP_1 = Entrant("mohgp-1", "mohgp", {"n_components": 1, **RBF})
 _NOT_CYCLIC = ("cyclic-alignment",)
 """Takes longer on curves without a cycle than the others, and the quick profile has walks."""
 _SLOW = (*_NOT_CYCLIC, "best-of")
-"""`best-of` takes as long, and is tried in the first of these tasks."""
+"""`best-of` takes as long, and is tried in the other tasks of this kind."""
 
 
 def _paper(cases: tuple[Case, ...]) -> Profile:

@@ -90,7 +90,10 @@ walking_interpolation = Task(
             folds=1,
             budget={"max_iter": 150},
             # Longer than all others together.
-            opt_in=("mohgp-1+5", "mohgp-1+5-registered", "mohgp-1", "cyclic-alignment"),
+            opt_in=(
+                *("mohgp-1+5", "mohgp-1+5-registered", "mohgp-1"),
+                *("cyclic-alignment", "best-of"),
+            ),
         ),
         "paper": Profile(on_recordings(_CASES), folds=5, budget={"max_iter": 500}),
     },

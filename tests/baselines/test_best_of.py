@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines import BestOf, PchipImputer
+from mocapbench.baselines import MOHGP, BestOf, PchipImputer
 from mocapbench.baselines.choosing.panel import CANDIDATES
-from mocapbench.datasets import Recording
+from mocapbench.datasets import Recording, ToyProcess
 
 
 def walk(name, phase, offset=0.0, n_frames=60):
@@ -46,6 +46,22 @@ def test_a_walk_is_filled_by_what_has_learnt_walks():
     truth = walk("new", 0.5).values
     error = np.abs(prediction.mean - truth).max()
     assert error < 0.1 * np.abs(spline.mean - truth).max()
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("seed", range(3))
+def test_few_points_of_smooth_curves_are_filled_as_well_as_by_a_gaussian_process(seed):
+    rng = np.random.default_rng(seed)
+    children = ToyProcess.random(rng, n_outputs=2, noise=0.01).draw(rng, np.linspace(0, 6, 40), 4)
+    hidden = np.ones((40, 2), dtype=bool)
+    for channel in hidden.T:
+        channel[rng.choice(40, 6, replace=False)] = False
+    recordings = [*children[:-1], children[-1].hide(hidden)]
+    errors = [
+        np.square(model.fit(recordings).impute(recordings[-1:])[0].mean - children[-1].values).sum()
+        for model in (BestOf(), MOHGP(n_components=3))
+    ]
+    assert errors[0] < 1.2 * errors[1]
 
 
 def test_someone_who_stands_still_is_filled_no_worse_than_by_interpolation():

@@ -81,6 +81,15 @@ def test_training_recordings_take_the_place_of_the_one_to_fill(n_frames):
         assert set(with_gaps) == set(with_copies) >= {"linear", "lds", "pose-kriging"}
 
 
+def test_copies_as_long_as_the_gaps_are_not_compared_with_them():
+    fitted = [walk("one"), walk("two", phase=1.0)]
+    found = Rehearsals(fitted, Panel.of(fitted), gap(walk("new"), 20, 24)).in_training()
+    assert [(with_gaps.empty, with_copies.empty) for with_gaps, with_copies in found] == [
+        (False, True),
+        (False, True),
+    ]
+
+
 def test_a_copy_that_fits_in_one_place_only_is_compared_with_the_gap_in_training():
     fitted = [walk("one"), walk("two", phase=1.0)]
     rehearsals = Rehearsals(fitted, Panel.of(fitted), gap(walk("new"), 8, 56))
@@ -97,9 +106,7 @@ def test_one_training_recording_cannot_be_left_out():
 def test_of_many_training_recordings_three_are_held_out_in_one_fit(monkeypatch):
     fitted = [walk(f"walk {k:02}", phase=0.3 * k) for k in range(16)]
     fits = []
-    monkeypatch.setattr(
-        Panel, "of", classmethod(lambda cls, recordings: fits.append(recordings) or cls({}))
-    )
+    monkeypatch.setattr(Panel, "anew", lambda self, recordings: fits.append(recordings) or self)
     found = Rehearsals(fitted, Panel({}), gap(walk("new"), 20, 40)).in_training()
     assert len(found) == 3
     assert [len(recordings) for recordings in fits] == [13]

@@ -109,13 +109,14 @@ def test_without_an_error_the_last_resort_fills():
 
 
 class Staged(Rehearsals):
-    """Rehearsals with given errors."""
+    """Rehearsals with given errors, those in the recording itself of so many entries."""
 
-    def __init__(self, own, in_training, *, short):
+    def __init__(self, own, in_training, *, short, n_entries=10**9):
         recording = Panel({})  # not looked at
         object.__setattr__(self, "given", _Gap())
         object.__setattr__(self, "panel", recording)
         object.__setattr__(self, "errors", (own, in_training, short))
+        object.__setattr__(self, "trials", [np.array([[n_entries]])])
 
     def own(self):
         return self.errors[0]
@@ -146,6 +147,18 @@ def test_errors_in_short_copies_grow_as_they_do_in_training():
     found = evidence(Staged(own, training, short=True))
     assert expected_errors(found) == pytest.approx({"a": 8.0, "b": 3.0})
     assert found[0].loc["a", "b"] == pytest.approx(0.5 * np.sqrt(4.0 * 3.0))
+
+
+@pytest.mark.parametrize(
+    ("n_entries", "own"),
+    # As in training, where b errs three times as much as a, but half as much in all.
+    [(1e-6, {"a": 1.0, "b": 3.0}), (10, {"a": 2.0, "b": 2.0}), (1e9, {"a": 3.0, "b": 1.0})],
+)
+def test_errors_in_few_entries_are_moved_towards_those_in_training(n_entries, own):
+    training = [(products({"a": 2.0, "b": 6.0}, correlation=0.5), pd.DataFrame())]
+    staged = Staged([products({"a": 3.0, "b": 1.0})], training, short=False, n_entries=n_entries)
+    assert expected_errors(evidence(staged)[:1]) == pytest.approx(own, rel=1e-4)
+    assert expected_errors(evidence(staged)[1:]) == pytest.approx({"a": 2.0, "b": 6.0})
 
 
 def test_without_room_training_counts_alone_and_without_training_the_copies():

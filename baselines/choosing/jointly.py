@@ -1,0 +1,97 @@
+"""Gaussian processes over the recordings to fill and those to learn from, as candidates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from copy import copy
+from typing import ClassVar, Self
+
+from mocapbench.baselines.common.recordings import pool
+from mocapbench.baselines.gp.estimator import GaussianProcess
+from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
+from mocapbench.datasets import Recording
+
+__all__ = ["Jointly"]
+
+_MOST_WORK = 1.8e11
+"""Σ (N D)³ over the recordings: of exact inference if each has gaps of its own."""
+
+
+class Jointly(Imputer, Inductive):
+    """A Gaussian process that fills recordings together with those that it has learnt from.
+
+    It is worth its time where the recordings to fill are among them, so that what is visible there
+    counts. Its parameters are learnt once. Whatever it is given afterwards, it goes on from them by
+    one iteration of its search: rehearsals cost little, and parameters, of which there are few
+    beside entries, tell little of what a rehearsal hides (as in leave-one-out cross-validation with
+    the parameters kept; C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for
+    Machine Learning, §5.4.2).
+
+    Parameters
+    ----------
+    process : GaussianProcess
+
+    Attributes
+    ----------
+    recordings_ : tuple of Recording
+        Those of the last `fit`, with which recordings are filled.
+    process_ : GaussianProcess
+        Fitted to those of the first `fit`.
+    """
+
+    family: ClassVar[str] = "Several models"
+
+    def __init__(self, process: GaussianProcess) -> None:
+        self.process = process
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Learn the parameters, unless they are known, and keep the recordings.
+
+        Raises
+        ------
+        ValueError
+            If the recordings of the first `fit` are all complete; if they, and another one as
+            large, are too large; or if the process cannot learn from them.
+        """
+        largest = max(recordings, key=lambda recording: recording.values.size)
+        _check_work([*recordings, largest])
+        self.recordings_ = tuple(recordings)
+        if not hasattr(self, "process_"):
+            self.process_ = copy(self.process).fit(_some_incomplete(recordings))
+        return self
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the posterior of each recording given itself and those of the last `fit`.
+
+        Raises
+        ------
+        ValueError
+            If a recording is too large beside those, or its channels differ.
+        """
+        return [self._given(recording).impute([recording])[0] for recording in recordings]
+
+    def _given(self, recording: Recording) -> GaussianProcess:
+        # It comes first: of several with as many hidden entries, others are registered to it.
+        others = [other for other in self.recordings_ if other.name != recording.name]
+        together = pool([recording], others)
+        _check_work(together)
+        onwards: GaussianProcess = copy(self.process_).set_params(warm_start=True, max_iter=1)
+        return onwards.fit(together)
+
+
+def _some_incomplete(recordings: Sequence[Recording]) -> Sequence[Recording]:
+    if all(recording.visible.all() for recording in recordings):
+        raise ValueError(
+            "expected a recording with hidden entries among those to learn from, got complete ones "
+            "only: give those that are to be filled, too"
+        )
+    return recordings
+
+
+def _check_work(recordings: Sequence[Recording]) -> None:
+    work = sum(float(recording.values.size) ** 3 for recording in recordings)
+    if work > _MOST_WORK:
+        raise ValueError(
+            f"expected recordings whose numbers of entries (frames times channels), cubed, add up "
+            f"to at most {_MOST_WORK:.2g}, got {work:.2g}: exact inference would take minutes"
+        )
