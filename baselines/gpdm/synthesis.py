@@ -87,7 +87,8 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
         """Return poses in the model's units, drawn jointly at the positions ``x`` (M, d)."""
         mean, covariance, _ = self.conditional_.reconstruction.moments(x)
         values, vectors = np.linalg.eigh(covariance)
-        root = vectors * np.sqrt(np.maximum(values, 0.0))
+        # The symmetric root, which no sign of an eigenvector changes.
+        root = vectors * np.sqrt(np.maximum(values, 0.0)) @ vectors.T
         return np.asarray(mean + root @ rng.standard_normal(mean.shape))
 
 

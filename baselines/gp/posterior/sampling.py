@@ -1,7 +1,7 @@
 r"""Draws from a linear model of coregionalisation, without forming its covariance.
 
 A component is :math:`B_q \otimes k_q` with :math:`B_q = W W^\top + \operatorname{diag}(\kappa)`
-and :math:`k_q = \Lambda\Lambda^\top`. A draw is white noise multiplied by Λ in time and by
+and :math:`k_q = L L^\top`. A draw is white noise multiplied by L in time and by
 :math:`[W, \sqrt{\operatorname{diag}\kappa}]` in outputs (docs/inference.md, section 9).
 """
 
@@ -12,11 +12,14 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import LayerParameters
-from mocapbench.baselines.gp.prior.pivoted import PivotedRoot
 
 __all__ = ["draw_layer"]
 
 Array = NDArray[np.float64]
+
+JITTER = 1e-10
+"""Variance added to a kernel matrix, relative to the kernel's. Rounding leaves the smallest
+eigenvalues of a smooth kernel below zero by some 1e-14."""
 
 
 def draw_layer(
@@ -26,12 +29,18 @@ def draw_layer(
     n_samples: int,
     rng: np.random.Generator,
 ) -> Array:
-    """Return (n_samples, M, D) draws of Σ_q B_q ⊗ k_q at ``times`` (M,)."""
+    """Return (n_samples, M, D) draws of Σ_q B_q ⊗ k_q at ``times`` (M,).
+
+    Equal times get equal values. Rounding, which differs among processors, changes draws by little:
+    the Cholesky factor is continuous in the matrix, and the roots of κ count without their sign.
+    """
+    grid, places = np.unique(times, return_inverse=True)
     weights, roots = layer.coregionalisation.weights, layer.coregionalisation.kappa_roots
-    total = np.zeros((n_samples, len(times), roots.shape[1]))
+    total = np.zeros((n_samples, len(grid), roots.shape[1]))
     for lengthscale, columns, kappa_roots in zip(layer.lengthscales, weights, roots, strict=True):
-        root = PivotedRoot.of(kernel, float(lengthscale), times).values
-        mixing = np.hstack([columns, np.diag(kappa_roots)])
-        white = rng.standard_normal((n_samples, root.shape[1], mixing.shape[1]))
+        gram = kernel.value(np.subtract.outer(grid, grid), float(lengthscale))
+        root = np.linalg.cholesky(gram + JITTER * np.eye(len(grid)))
+        mixing = np.hstack([columns, np.diag(np.abs(kappa_roots))])
+        white = rng.standard_normal((n_samples, len(grid), mixing.shape[1]))
         total += root @ white @ mixing.T
-    return total
+    return total[:, places]

@@ -46,3 +46,10 @@ def test_enough_dimensions_raise_no_warning():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         initial_states(Observations.of([np.random.default_rng(0).normal(size=(30, 3))]), 15)
+
+
+def test_states_do_not_depend_on_the_signs_of_eigenvectors(monkeypatch):
+    data = Observations.of([np.random.default_rng(0).normal(size=(30, 3))])
+    states, eigh = initial_states(data, 4), np.linalg.eigh
+    monkeypatch.setattr(np.linalg, "eigh", lambda matrix: (eigh(matrix)[0], -eigh(matrix)[1]))
+    np.testing.assert_array_equal(initial_states(data, 4), states)

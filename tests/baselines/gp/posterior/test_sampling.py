@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -38,3 +40,20 @@ def test_draws_depend_only_on_the_seed_and_are_functions_of_time(case):
         np.testing.assert_array_equal(first, again)
         np.testing.assert_allclose(first[:, 0], first[:, 2], atol=1e-12)
         assert (first[:, 0] != first[:, 1]).all()
+
+
+@pytest.mark.parametrize("name", KERNELS)
+def test_rounding_changes_draws_by_little(name, case):
+    parameters = case(np.random.default_rng(0), n_components=2, rank=1).parameters
+    layer, times = parameters.layers["child"], np.linspace(0.0, 2 * np.pi, 30)
+    b = layer.coregionalisation
+    rounded = replace(
+        layer,
+        log_lengthscales=layer.log_lengthscales + 1e-15 * np.array([1.0, -1.0]),
+        coregionalisation=replace(b, kappa_roots=-b.kappa_roots),
+    )
+    first, again = (
+        draw_layer(KERNELS[name], one, times, 5, np.random.default_rng(3))
+        for one in (layer, rounded)
+    )
+    np.testing.assert_allclose(first, again, atol=1e-6 * np.abs(first).max())

@@ -92,3 +92,15 @@ def test_components_exchange_their_lengthscales_in_random_starts(case):
     drawn = np.array([perturbed(start, rng).layers["child"].log_lengthscales for _ in range(400)])
     mean = start.layers["child"].log_lengthscales.mean()
     np.testing.assert_allclose(drawn.mean(axis=0), mean, atol=0.15)
+
+
+def test_the_start_does_not_depend_on_the_signs_of_singular_vectors(case, monkeypatch):
+    example, svd = case(np.random.default_rng(0), n_times=9), np.linalg.svd
+    start = _start(example)
+
+    def turned(matrix, **options):
+        left, singular, right = svd(matrix, **options)
+        return -left, singular, -right
+
+    monkeypatch.setattr(np.linalg, "svd", turned)
+    np.testing.assert_array_equal(_start(example).flat, start.flat)
