@@ -58,9 +58,8 @@ class MOHGP(TrendedProcess):
     kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
         The kernel of every component.
     n_restarts : int, default=5
-        Number of searches. The first starts from the data, the next three with its lengthscales
-        assigned otherwise (one search, if there is one component), the fifth with shorter ones, the
-        others at random around it.
+        Number of searches. The first starts from the data, the next four with its lengthscales
+        assigned otherwise (one search, if there is one component), the others at random around it.
     max_iter : int, default=1000
         Largest number of iterations of a search.
     tol : float, default=1e-7

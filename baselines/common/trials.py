@@ -17,7 +17,15 @@ from numpy.typing import NDArray
 from mocapbench.baselines.common.gaps import hidden_together, runs
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["N_TRIALS", "Places", "copies", "copies_or_islands", "trial_masks"]
+__all__ = [
+    "N_TRIALS",
+    "Places",
+    "copies",
+    "copies_or_islands",
+    "halved",
+    "remoteness",
+    "trial_masks",
+]
 
 Frames = NDArray[np.intp]
 Places = Callable[[NDArray[np.bool_], Frames, float], Iterator[Frames]]
@@ -81,6 +89,46 @@ def trial_masks(recording: Recording, places: Places = copies) -> list[Mask]:
                 mask[np.ix_(frames, columns)] = True
     unlike = {mask.tobytes(): mask for mask in masks}
     return [mask for mask in unlike.values() if mask.any()]
+
+
+def halved(hidden: Mask, trial: Mask) -> Mask:
+    """Return a trial (N, D) half as long: at the side where it borders on a gap, or in the middle.
+
+    A trial of a single frame stays as it is.
+    """
+    shorter = np.zeros_like(trial)
+    for columns in hidden_together(trial):
+        for frames in runs(trial[:, columns[0]]):
+            shorter[np.ix_(_half(hidden[:, columns[0]], frames), columns)] = True
+    return shorter
+
+
+def remoteness(hidden: Mask, within: Mask) -> int:
+    """Return the most frames between an entry and the nearest visible one of its channel.
+
+    Parameters
+    ----------
+    hidden : ndarray of shape (N, D)
+        What is hidden; channels that are hidden throughout do not count.
+    within : ndarray of shape (N, D)
+        The entries.
+    """
+    frames = np.arange(len(hidden))[:, None]
+    before = np.maximum.accumulate(np.where(hidden, -np.inf, frames))
+    after = np.minimum.accumulate(np.where(hidden, np.inf, frames)[::-1])[::-1]
+    distance = np.minimum(frames - before, after - frames)
+    return int(distance.max(where=within & np.isfinite(distance), initial=0))
+
+
+def _half(hidden: NDArray[np.bool_], frames: Frames) -> Frames:
+    length = max(len(frames) // 2, 1)
+    beside = np.pad(hidden, 1, constant_values=True)
+    if beside[frames[0]]:
+        return frames[:length]
+    if beside[frames[-1] + 2]:
+        return frames[-length:]
+    first = (len(frames) - length) // 2
+    return frames[first : first + length]
 
 
 def _tried(hidden: NDArray[np.bool_], places: Places, place: float) -> Iterator[Frames]:

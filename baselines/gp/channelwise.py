@@ -29,9 +29,9 @@ class Channelwise(ChannelPosteriors[Single]):
     kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
         The kernel of every component.
     n_restarts : int, default=1
-        Number of searches for each channel. The first starts from the data, the next three with its
-        lengthscales assigned otherwise (one search, if there is one component), the fifth with
-        shorter ones, the others at random around it.
+        Number of searches for each channel. The first starts from the data, the next four with its
+        lengthscales assigned otherwise (one search, if there is one component), the others at
+        random around it.
     max_iter : int, default=1000
         Largest number of iterations of a search.
     tol : float, default=1e-7

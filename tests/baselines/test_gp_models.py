@@ -118,9 +118,9 @@ def test_solvers_predict_alike(model, recordings):
 
 @pytest.mark.parametrize("model", JOINT)
 def test_restarts_are_seeded_and_never_worse(model, recordings):
-    one = model(max_iter=30, n_restarts=1, n_components=2).fit(recordings)
+    one = model(max_iter=30, n_restarts=1, n_components=3).fit(recordings)
     many, again = (
-        model(max_iter=30, n_restarts=7, n_components=2, random_state=5).fit(recordings)
+        model(max_iter=30, n_restarts=7, n_components=3, random_state=5).fit(recordings)
         for _ in range(2)
     )
     assert len(many.training_.searches) == 7

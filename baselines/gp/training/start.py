@@ -4,13 +4,13 @@ The first start follows from the data in standard units (docs/inference.md, sect
 The leading directions of the mean curves start :math:`W` of the parent, those of the deviations
 from them :math:`W` of the child. :math:`\kappa` starts at a tenth of the layer's variance, and
 noise and lengthscales at the estimates of `moments`. Nothing in the data says which direction goes
-with which lengthscale, so the next three starts assign them in other ways; the fifth has shorter
-ones, and further starts are random around the first.
+with which lengthscale, so the next four starts assign them in other ways; further starts are random
+around the first.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -36,8 +36,8 @@ KAPPA_SHARE = 0.1
 OTHER_WEIGHTS = 0.5
 """W of the second to fifth start, relative to the first. All of the variance settles too early for
 the directions of the data, which mix those of the components."""
-SHORTER, SHORTEST = 0.5**1.5, 0.5**2.5
-"""The lengthscales of the second to fourth start, and of the fifth, relative to the first."""
+SHORTER = 0.5**1.5
+"""The lengthscales of the second to fifth start, relative to the first."""
 ALIKE = 0.1
 """How far apart the log-lengthscales of the fourth start are, relative to the first."""
 MIN_VARIANCE = 1e-2
@@ -85,34 +85,45 @@ def starts(first: Parameters, n: int, rng: np.random.Generator) -> list[Paramete
     """Return ``n`` starts: the given one, four that change its scales, and random ones near it.
 
     In the second, the lengthscales of the last layer are in reverse order, in the third those of
-    the layers above; in the fourth, all are nearly equal; in the fifth, they are shorter still.
-    Starts that are then the same, as with one component, count as one: fewer than ``n`` are
-    returned.
+    the layers above; in the fourth, all are nearly equal; in the fifth, each direction of every
+    layer has the lengthscale of the next one, and the last direction that of the first. Starts that
+    are then the same, as with one component, count as one: fewer than ``n`` are returned.
     """
     *above, last = first.layers
     fixed = [
         first,
-        _changed(first, SHORTER, dict.fromkeys([last], -1.0)),
-        _changed(first, SHORTER, dict.fromkeys(above, -1.0)),
-        _changed(first, SHORTER, dict.fromkeys(first.layers, ALIKE)),
-        _changed(first, SHORTEST, {}),
+        _changed(first, dict.fromkeys([last], _reversed)),
+        _changed(first, dict.fromkeys(above, _reversed)),
+        _changed(first, dict.fromkeys(first.layers, _alike)),
+        _changed(first, dict.fromkeys(first.layers, _moved_on)),
     ]
     distinct = {start.flat.tobytes(): start for start in fixed[:n]}
     return [*distinct.values(), *(perturbed(first, rng) for _ in range(n - len(fixed)))]
 
 
-def _changed(first: Parameters, factor: float, spread: Mapping[str, float]) -> Parameters:
+def _reversed(log_lengthscales: Array) -> Array:
+    return log_lengthscales[::-1]
+
+
+def _alike(log_lengthscales: Array) -> Array:
+    mean = log_lengthscales.mean()
+    return np.asarray(mean + ALIKE * (log_lengthscales - mean))
+
+
+def _moved_on(log_lengthscales: Array) -> Array:
+    return np.roll(log_lengthscales, -1)
+
+
+def _changed(first: Parameters, changes: Mapping[str, Callable[[Array], Array]]) -> Parameters:
     """Return the start with less of the variance in W, and shorter lengthscales, in every layer.
 
-    ``factor`` multiplies lengthscales; ``spread`` the distances of a layer's log-lengthscales from
-    their mean, so that -1 reverses their order.
+    ``changes`` has, by layer, the map of its log-lengthscales.
     """
 
     def layer(name: str, old: LayerParameters) -> LayerParameters:
-        b, mean = old.coregionalisation, old.log_lengthscales.mean()
-        distances = spread.get(name, 1.0) * (old.log_lengthscales - mean)
+        b, changed = old.coregionalisation, changes.get(name, np.array)(old.log_lengthscales)
         return LayerParameters(
-            mean + np.log(factor) + distances, replace(b, weights=OTHER_WEIGHTS * b.weights)
+            np.log(SHORTER) + changed, replace(b, weights=OTHER_WEIGHTS * b.weights)
         )
 
     return replace(first, layers={name: layer(name, old) for name, old in first.layers.items()})

@@ -4,7 +4,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines.common.gaps import runs
-from mocapbench.baselines.common.trials import N_TRIALS, copies_or_islands, trial_masks
+from mocapbench.baselines.common.trials import (
+    N_TRIALS,
+    copies_or_islands,
+    halved,
+    remoteness,
+    trial_masks,
+)
 from mocapbench.datasets import Recording
 
 
@@ -109,3 +115,32 @@ def test_a_long_gap_has_no_copy_of_a_single_frame_among_the_islands():
     assert np.flatnonzero(alone).tolist() == [21]
     for mask in trial_masks(recording(hidden), copies_or_islands):
         assert np.flatnonzero(mask).tolist() != [21]
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10_000))
+def test_a_halved_trial_hides_half_of_each_stretch_and_borders_on_what_it_did(seed):
+    given = with_gaps(seed)
+    beside = np.pad(~given.visible, ((1, 1), (0, 0)), constant_values=True)
+    for mask in trial_masks(given):
+        half = halved(~given.visible, mask)
+        assert not (half & ~mask).any()
+        for d in range(4):
+            for stretch in runs(mask[:, d]):
+                (kept,) = runs(half[stretch, d])
+                assert len(kept) == max(len(stretch) // 2, 1)
+                if beside[stretch[0], d]:
+                    assert kept[0] == 0
+                elif beside[stretch[-1] + 2, d]:
+                    assert kept[-1] == len(stretch) - 1
+
+
+def test_remoteness_is_the_distance_to_the_nearest_visible_frame_of_the_channel():
+    hidden = np.array([[0, 1, 1, 1, 1, 1, 0, 1], [1, 1, 1, 0, 0, 0, 0, 0]], dtype=bool).T
+    assert remoteness(hidden, np.zeros_like(hidden)) == 0
+    within = np.zeros_like(hidden)
+    within[[2, 7], 0] = True
+    assert remoteness(hidden, within) == 2
+    assert remoteness(hidden, hidden) == 3
+    throughout = np.ones_like(hidden)
+    assert remoteness(throughout, throughout) == 0

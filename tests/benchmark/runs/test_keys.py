@@ -147,7 +147,7 @@ FIT_PATH = [
     ("baselines.common.threads", "toy-interpolation-1", "mohgp"),
     ("baselines.common.transitions", "missing-frames", "knn"),
     ("baselines.common.trials", "missing-frames", "lds"),
-    ("baselines.common.widening", "missing-frames", "lds"),
+    ("baselines.common.calibrating", "missing-frames", "lds"),
     ("baselines.common.validation", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.prior.kernels", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.solvers.latent_split.gradient", "toy-interpolation-1", "mohgp"),

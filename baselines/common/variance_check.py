@@ -1,0 +1,116 @@
+r"""What a recording's own trials say of the variances that a model claims.
+
+The variance of a channel is multiplied by the mean ratio, in the trials, of squared errors to
+claimed variances. Where that is below one, its root counts, but no less than a quarter: trials are
+few, and a variance that is too small does more harm than one that is too large.
+
+Where copies of a gap had to be shorter, they are easier: their entries lie nearer to visible ones.
+They are then tried at half their length, too. If the ratio grows from one to the other as a power
+of the distance to the nearest visible frame, it is taken to grow so up to the distance in the gap,
+and no variance becomes smaller.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.common.trials import (
+    copies_or_islands,
+    halved,
+    remoteness,
+    trial_masks,
+)
+from mocapbench.baselines.protocols import Prediction
+from mocapbench.datasets import Mask, Recording
+
+__all__ = ["VarianceCheck"]
+
+Array = NDArray[np.float64]
+
+_TINY = np.finfo(np.float64).tiny
+_PRIOR_ENTRIES = 10
+"""Trial entries that count in each channel as having the mean ratio over all channels."""
+_LEAST_FACTOR = 0.25
+"""Of a variance that trials show to be too large."""
+_STEEPEST = 0.6
+"""Largest power of the distance by which ratios grow: what two short lengths say is noisy.
+``docs/calibration.md`` has the choice."""
+
+
+@dataclass(frozen=True, eq=False)
+class VarianceCheck:
+    """The trials of a recording.
+
+    Parameters
+    ----------
+    recording : Recording
+    copies : sequence of Mask
+        What each trial hides besides the gaps.
+    halves : sequence of Mask
+        The same, half as long; empty where copies are as long as the gaps.
+    """
+
+    recording: Recording
+    copies: Sequence[Mask]
+    halves: Sequence[Mask]
+
+    @classmethod
+    def of(cls, recording: Recording) -> Self:
+        """Choose the trials."""
+        hidden = ~recording.visible
+        copies = trial_masks(recording, copies_or_islands)
+        are_short = 1 < _distance(hidden, copies) < remoteness(hidden, hidden)
+        return cls(recording, copies, [halved(hidden, mask) for mask in copies if are_short])
+
+    @property
+    def trials(self) -> list[Recording]:
+        """The recording as each trial shows it, the copies first."""
+        return [self.recording.hide(mask) for mask in (*self.copies, *self.halves)]
+
+    def applied(self, claimed: Prediction, answers: Sequence[Prediction]) -> Prediction:
+        """Return a prediction with variances that the answers to the trials bear out.
+
+        Parameters
+        ----------
+        claimed : Prediction
+            Of the recording.
+        answers : sequence of Prediction
+            Of the `trials`, in their order.
+        """
+        if not answers or claimed.variance is None:
+            return claimed
+        n_copies = len(self.copies)
+        sums, counts = self._ratios(self.copies, answers[:n_copies])
+        overall = sums.sum() / counts.sum()
+        factors = (sums + _PRIOR_ENTRIES * overall) / (counts + _PRIOR_ENTRIES)
+        if self.halves:
+            factors = np.maximum(factors * self._growth(overall, answers[n_copies:]), 1.0)
+        lessened = np.maximum(np.sqrt(factors), _LEAST_FACTOR)
+        return Prediction(claimed.mean, claimed.variance * np.maximum(factors, lessened))
+
+    def _growth(self, overall: float, answers: Sequence[Prediction]) -> float:
+        """Return by what the ratio grows from the copies to the gaps."""
+        hidden = ~self.recording.visible
+        sums, counts = self._ratios(self.halves, answers)
+        of_halves = sums.sum() / counts.sum()
+        half, copy = _distance(hidden, self.halves), _distance(hidden, self.copies)
+        power = np.log((overall + _TINY) / (of_halves + _TINY)) / np.log(copy / half)
+        return float((remoteness(hidden, hidden) / copy) ** np.clip(power, 0.0, _STEEPEST))
+
+    def _ratios(self, masks: Sequence[Mask], answers: Sequence[Prediction]) -> tuple[Array, Array]:
+        """Return the sum of squared errors over claimed variances, and their number, by channel."""
+        sums, counts = np.zeros((2, self.recording.values.shape[1]))
+        for mask, answer in zip(masks, answers, strict=True):
+            claimed = np.where(mask, np.asarray(answer.variance, dtype=np.float64), 1.0)
+            errors = np.where(mask, self.recording.values - answer.mean, 0.0)
+            sums, counts = sums + (errors**2 / claimed).sum(axis=0), counts + mask.sum(axis=0)
+        return sums, counts
+
+
+def _distance(hidden: Mask, masks: Sequence[Mask]) -> int:
+    return max((remoteness(hidden | mask, mask) for mask in masks), default=0)
