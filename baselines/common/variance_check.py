@@ -52,7 +52,7 @@ class VarianceCheck:
     copies : sequence of Mask
         What each trial hides besides the gaps.
     halves : sequence of Mask
-        The same, half as long; empty where copies are as long as the gaps.
+        The same, half as long; empty where copies are as long as the gaps, or too short for it.
     """
 
     recording: Recording
@@ -64,8 +64,10 @@ class VarianceCheck:
         """Choose the trials."""
         hidden = ~recording.visible
         copies = trial_masks(recording, copies_or_islands)
-        are_short = 1 < _distance(hidden, copies) < remoteness(hidden, hidden)
-        return cls(recording, copies, [halved(hidden, mask) for mask in copies if are_short])
+        halves = [halved(hidden, mask) for mask in copies]
+        distances = [_distance(hidden, masks) for masks in (halves, copies, [hidden])]
+        nearer = distances == sorted(set(distances))
+        return cls(recording, copies, halves if nearer else [])
 
     @property
     def trials(self) -> list[Recording]:
@@ -100,7 +102,7 @@ class VarianceCheck:
         of_halves = sums.sum() / counts.sum()
         half, copy = _distance(hidden, self.halves), _distance(hidden, self.copies)
         power = np.log((overall + _TINY) / (of_halves + _TINY)) / np.log(copy / half)
-        return float((remoteness(hidden, hidden) / copy) ** np.clip(power, 0.0, _STEEPEST))
+        return float((_distance(hidden, [hidden]) / copy) ** np.clip(power, 0.0, _STEEPEST))
 
     def _ratios(self, masks: Sequence[Mask], answers: Sequence[Prediction]) -> tuple[Array, Array]:
         """Return the sum of squared errors over claimed variances, and their number, by channel."""
@@ -113,4 +115,5 @@ class VarianceCheck:
 
 
 def _distance(hidden: Mask, masks: Sequence[Mask]) -> int:
+    """Return how far from visible frames the trials hide an entry at most."""
     return max((remoteness(hidden | mask, mask) for mask in masks), default=0)

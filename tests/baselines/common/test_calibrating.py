@@ -71,6 +71,18 @@ def test_a_model_that_errs_nowhere_keeps_some_variance():
     np.testing.assert_array_equal(prediction.variance[80:110], 0.25)
 
 
+@settings(max_examples=100, deadline=None)
+@given(st.integers(0, 10_000), st.floats(0.02, 0.9))
+def test_variances_are_finite_whatever_is_visible(seed, share):
+    rng = np.random.default_rng(seed)
+    values = rng.normal(size=(40, 2))
+    complete = Recording("r", np.arange(40) / 30, values, ("a", "b"), ("", ""))
+    recording = complete.hide(rng.random(values.shape) > share)
+    (prediction,) = calibrated(Claiming(1.0), [recording])
+    assert (prediction.variance[~recording.visible] >= 0.25).all()
+    assert np.isfinite(prediction.variance).all()
+
+
 class Drifting(Calibrated):
     """Predicts the last visible value, and claims one variance however long a gap is."""
 
