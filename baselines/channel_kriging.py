@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.calibrating import Calibrated, calibrated
 from mocapbench.baselines.common.gaps import hidden_together
 from mocapbench.baselines.common.recordings import check_recordings, pool
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_not_negative, check_positive
+from mocapbench.baselines.common.widening import Widened, widened
 from mocapbench.baselines.kriging.left_out import left_out_scales
 from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
@@ -33,7 +33,7 @@ _LEAST_SCALE = 1e-12
 """Least variance of a channel, as a fraction of its variance over all recordings."""
 
 
-class ChannelKriging(Calibrated, Imputer, Inductive):
+class ChannelKriging(Widened, Imputer, Inductive):
     r"""Predict hidden channels from the visible ones around a frame, by a Gaussian process.
 
     A frame x of recording r at time t is described by the visible channels in it and in the frames
@@ -51,7 +51,7 @@ class ChannelKriging(Calibrated, Imputer, Inductive):
     Channels hidden in the same frames are filled together; where others are hidden besides, these
     are interpolated over time for the comparison.
 
-    Variances are corrected by trials. What is hidden as a whole has nothing to be predicted from,
+    Variances are widened by trials. What is hidden as a whole has nothing to be predicted from,
     and tends to the recording's mean. The defaults had the least error, of values a factor of two
     or more apart, where the second half of a leg or of the upper body was left out in each training
     recording of ``subject-35-missing`` in turn. Time is counted in frames.
@@ -143,7 +143,7 @@ class ChannelKriging(Calibrated, Imputer, Inductive):
             `fit`, or channels that are hidden together are visible together nowhere.
         """
         check_is_fitted(self)
-        return calibrated(self, recordings)
+        return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.calibrating import Relearning, calibrated
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
+from mocapbench.baselines.common.widening import Relearning, widened
 from mocapbench.baselines.functional.basis import Array
 from mocapbench.baselines.functional.components import infer_scores, principal_axes
 from mocapbench.baselines.functional.cycles import Cycles
@@ -179,7 +179,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
 
         A recording takes the length of cycle and the shift at which its visible entries are closest
         to the reference curve. The length is at most a quarter beyond those of the fitted ones.
-        Variances are corrected by trials on the recording's visible entries
+        Variances are widened by trials on the recording's visible entries
         (``docs/calibration.md``).
 
         Raises
@@ -187,7 +187,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
         ValueError
             If channels differ, or a recording has no frame.
         """
-        return calibrated(self, self._checked(recordings))
+        return widened(self, self._checked(recordings))
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
         """Return the state of each frame of recordings, which are placed as by `impute`.

@@ -8,10 +8,10 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.calibrating import Relearning, calibrated
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive
+from mocapbench.baselines.common.widening import Relearning, widened
 from mocapbench.baselines.protocols import (
     Imputer,
     Inductive,
@@ -137,7 +137,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return mean and variance of the hidden entries given the visible ones of each recording.
 
-        Variances are those of the smoother, corrected by trials on the recording's visible entries
+        Variances are those of the smoother, widened by trials on the recording's visible entries
         (``docs/calibration.md``).
 
         Raises
@@ -147,7 +147,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
-        return calibrated(self, recordings)
+        return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.calibrating import Relearning, calibrated
 from mocapbench.baselines.common.own_means import OwnMeans
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
+from mocapbench.baselines.common.widening import Relearning, widened
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -150,7 +150,7 @@ class LowRank(Relearning, Imputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
-        return calibrated(self, recordings)
+        return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

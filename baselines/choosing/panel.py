@@ -13,7 +13,7 @@ from typing import Self
 from mocapbench.baselines.aligned_window import AlignedWindow
 from mocapbench.baselines.channel_kriging import ChannelKriging
 from mocapbench.baselines.choosing.jointly import Jointly
-from mocapbench.baselines.common.calibrating import Calibrated
+from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.fam import FAM
 from mocapbench.baselines.interpolation import (
     CubicSplineImputer,
@@ -88,7 +88,7 @@ class Panel:
         return self._filled(recording, lambda model: model.impute)
 
     def means(self, recording: Recording) -> dict[str, FrameByChannel]:
-        """Return the means of `impute`, without the trials, which only change variances."""
+        """Return the means of `impute`, without the trials that only widen variances."""
         filled = self._filled(recording, _without_trials)
         return {name: prediction.mean for name, prediction in filled.items()}
 
@@ -121,4 +121,4 @@ def _if_it_can() -> Iterator[None]:
 
 
 def _without_trials(model: FrameImputer) -> Impute:
-    return model.as_claimed if isinstance(model, Calibrated) else model.impute
+    return model.as_claimed if isinstance(model, Widened) else model.impute

@@ -1,13 +1,11 @@
 r"""What a recording's own trials say of the variances that a model claims.
 
 The variance of a channel is multiplied by the mean ratio, in the trials, of squared errors to
-claimed variances. Where that is below one, its root counts, but no less than a quarter: trials are
-few, and a variance that is too small does more harm than one that is too large.
+claimed variances, where that is above one.
 
 Where copies of a gap had to be shorter, they are easier: their entries lie nearer to visible ones.
 They are then tried at half their length, too. If the ratio grows from one to the other as a power
-of the distance to the nearest visible frame, it is taken to grow so up to the distance in the gap,
-and no variance becomes smaller.
+of the distance to the nearest visible frame, it is taken to grow so up to the distance in the gap.
 """
 
 from __future__ import annotations
@@ -35,8 +33,6 @@ Array = NDArray[np.float64]
 _TINY = np.finfo(np.float64).tiny
 _PRIOR_ENTRIES = 10
 """Trial entries that count in each channel as having the mean ratio over all channels."""
-_LEAST_FACTOR = 0.25
-"""Of a variance that trials show to be too large."""
 _STEEPEST = 0.6
 """Largest power of the distance by which ratios grow: what two short lengths say is noisy.
 ``docs/calibration.md`` has the choice."""
@@ -91,9 +87,8 @@ class VarianceCheck:
         overall = sums.sum() / counts.sum()
         factors = (sums + _PRIOR_ENTRIES * overall) / (counts + _PRIOR_ENTRIES)
         if self.halves:
-            factors = np.maximum(factors * self._growth(overall, answers[n_copies:]), 1.0)
-        lessened = np.maximum(np.sqrt(factors), _LEAST_FACTOR)
-        return Prediction(claimed.mean, claimed.variance * np.maximum(factors, lessened))
+            factors *= self._growth(overall, answers[n_copies:])
+        return Prediction(claimed.mean, claimed.variance * np.maximum(factors, 1.0))
 
     def _growth(self, overall: float, answers: Sequence[Prediction]) -> float:
         """Return by what the ratio grows from the copies to the gaps."""

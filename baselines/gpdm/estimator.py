@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.calibrating import Calibrated, calibrated
 from mocapbench.baselines.common.gaps import hidden_frames
 from mocapbench.baselines.common.recordings import check_channels
 from mocapbench.baselines.common.validation import (
@@ -23,6 +22,7 @@ from mocapbench.baselines.common.validation import (
     check_seed,
     check_share,
 )
+from mocapbench.baselines.common.widening import Widened, widened
 from mocapbench.baselines.gpdm.conditional import Conditional, Query
 from mocapbench.baselines.gpdm.dynamics import Dynamics
 from mocapbench.baselines.gpdm.kernels import RBFKernel
@@ -40,7 +40,7 @@ __all__ = ["LatentVariableModel"]
 Array = NDArray[np.float64]
 
 
-class LatentVariableModel(Calibrated, FrameImputer, Inductive, Embedded):
+class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
     """Poses as smooth functions of latent positions, which have a prior.
 
     A subclass provides the prior and the learning algorithm. Its constructor stores ``n_latent``,
@@ -116,7 +116,7 @@ class LatentVariableModel(Calibrated, FrameImputer, Inductive, Embedded):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the mean and variance of hidden frames given the training and visible frames.
 
-        Variances are those given the most probable latent positions, corrected by trials on the
+        Variances are those given the most probable latent positions, widened by trials on the
         recording's visible frames (``docs/calibration.md``).
 
         Raises
@@ -126,7 +126,7 @@ class LatentVariableModel(Calibrated, FrameImputer, Inductive, Embedded):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_)
-        return calibrated(self, recordings)
+        return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

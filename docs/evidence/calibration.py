@@ -39,8 +39,8 @@ from mocapbench.baselines import (
     PchipImputer,
     PoseKriging,
 )
-from mocapbench.baselines.common.calibrating import Calibrated
 from mocapbench.baselines.common.gaps import hidden_frames
+from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.kriging.paths import MatchedPaths
 from mocapbench.benchmark import ImputeProblem
 from mocapbench.benchmark.problems.impute import FilledRecordings
@@ -194,7 +194,7 @@ def trials() -> None:
         print(f"{task:22} {name:16}", *np.round(np.mean(rows, axis=0), 3), flush=True)
 
 
-def calibration(model: Calibrated, problem: ImputeProblem) -> list[float]:
+def calibration(model: Widened, problem: ImputeProblem) -> list[float]:
     """Return the coverage, MSLL and CRPS of the variances as claimed, and as corrected."""
     answers = (model.as_claimed(problem.given), model.impute(problem.given))
     outcomes = [problem.outcome(FilledRecordings(tuple(answer))) for answer in answers]

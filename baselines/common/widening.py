@@ -1,8 +1,9 @@
-"""Models whose variances a recording's own trials check.
+"""Variances that a recording's own trials have checked.
 
 A model may claim too much of a recording that is unlike its training, such as the walk of a
 stranger. Trials hide more of the recording where the truth is visible, and the variances of the
-gaps are multiplied by what they show (`variance_check`). Means stay as they are.
+gaps are multiplied by what they show (`variance_check`). Means stay as they are, and no variance
+becomes smaller.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ from mocapbench.baselines.common.variance_check import VarianceCheck
 from mocapbench.baselines.protocols import Model, Prediction
 from mocapbench.datasets import Recording
 
-__all__ = ["Calibrated", "Relearning", "calibrated"]
+__all__ = ["Relearning", "Widened", "widened"]
 
 
-class Calibrated(Model):
-    """A model whose variances `calibrated` checks when it fills recordings."""
+class Widened(Model):
+    """A model whose variances `widened` checks when it fills recordings."""
 
     @abstractmethod
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -33,7 +34,7 @@ class Calibrated(Model):
         return self.as_claimed(trials)
 
 
-class Relearning(Calibrated):
+class Relearning(Widened):
     """A model that learns anew for the trials of a recording from which it has learnt.
 
     Otherwise its parameters would have seen what a trial hides, and it would err less in trials
@@ -56,12 +57,12 @@ class Relearning(Calibrated):
         return relearnt.as_claimed([trial])[0]
 
 
-def calibrated(model: Calibrated, recordings: Sequence[Recording]) -> list[Prediction]:
+def widened(model: Widened, recordings: Sequence[Recording]) -> list[Prediction]:
     """Return a model's predictions of recordings, with variances that their trials bear out.
 
     Parameters
     ----------
-    model : Calibrated
+    model : Widened
         What it claims of one recording may not depend on the others.
     recordings : sequence of Recording
     """
