@@ -51,9 +51,9 @@ def _steadied(own: Products, gaps: Products, n_entries: float) -> Products:
     """Return products in the recording itself, moved towards those in training if of few entries.
 
     Among many models, some err little by chance in a few entries. `_PRIOR_ENTRIES` more are
-    supposed, in which models err as in training but for one factor, that of their mean error.
+    supposed, in which models err as in training but for one factor, the geometric mean of theirs.
     """
-    factor = np.trace(own) / np.trace(gaps)
+    factor = np.exp(np.log(np.diag(own) / np.diag(gaps)).mean())
     steadied: Products = n_entries * own + _PRIOR_ENTRIES * factor * gaps
     return steadied / (n_entries + _PRIOR_ENTRIES)
 

@@ -97,19 +97,19 @@ def halved(hidden: Mask, trial: Mask) -> Mask:
     A trial of a single frame stays as it is.
     """
     shorter = np.zeros_like(trial)
-    for columns in hidden_together(trial):
-        for frames in runs(trial[:, columns[0]]):
-            shorter[np.ix_(_half(hidden[:, columns[0]], frames), columns)] = True
+    for channel, column in enumerate(trial.T):
+        for frames in runs(column):
+            shorter[_half(hidden[:, channel], frames), channel] = True
     return shorter
 
 
-def remoteness(hidden: Mask, within: Mask) -> int:
-    """Return the most frames between an entry and the nearest visible one of its channel.
+def remoteness(hidden: Mask, within: Mask) -> NDArray[np.intp]:
+    """Return for each channel (D,) the most frames between an entry and the nearest visible one.
 
     Parameters
     ----------
     hidden : ndarray of shape (N, D)
-        What is hidden; channels that are hidden throughout do not count.
+        What is hidden; 0 is returned for channels that are hidden throughout.
     within : ndarray of shape (N, D)
         The entries.
     """
@@ -117,7 +117,8 @@ def remoteness(hidden: Mask, within: Mask) -> int:
     before = np.maximum.accumulate(np.where(hidden, -np.inf, frames))
     after = np.minimum.accumulate(np.where(hidden, np.inf, frames)[::-1])[::-1]
     distance = np.minimum(frames - before, after - frames)
-    return int(distance.max(where=within & np.isfinite(distance), initial=0))
+    counted = within & np.isfinite(distance)
+    return np.asarray(distance.max(axis=0, where=counted, initial=0), dtype=np.intp)
 
 
 def _half(hidden: NDArray[np.bool_], frames: Frames) -> Frames:

@@ -3,15 +3,17 @@ r"""What a recording's own trials say of the variances that a model claims.
 The variance of a channel is multiplied by the mean ratio, in the trials, of squared errors to
 claimed variances, where that is above one.
 
-Where copies of a gap had to be shorter, they are easier: their entries lie nearer to visible ones.
-They are then tried at half their length, too. If the ratio grows from one to the other as a power
-of the distance to the nearest visible frame, it is taken to grow so up to the distance in the gap.
+Where copies of a channel's gap had to be shorter, they are easier: their entries lie nearer to
+visible ones. They are then tried at half their length, too. If the ratio of such channels grows
+from one to the other as a power of the distance to the nearest visible frame, it is taken to grow
+so up to the distance in the gap.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -29,6 +31,7 @@ from mocapbench.datasets import Mask, Recording
 __all__ = ["VarianceCheck"]
 
 Array = NDArray[np.float64]
+Distances = NDArray[np.intp]
 
 _TINY = np.finfo(np.float64).tiny
 _PRIOR_ENTRIES = 10
@@ -58,12 +61,10 @@ class VarianceCheck:
     @classmethod
     def of(cls, recording: Recording) -> Self:
         """Choose the trials."""
-        hidden = ~recording.visible
         copies = trial_masks(recording, copies_or_islands)
-        halves = [halved(hidden, mask) for mask in copies]
-        distances = [_distance(hidden, masks) for masks in (halves, copies, [hidden])]
-        nearer = distances == sorted(set(distances))
-        return cls(recording, copies, halves if nearer else [])
+        halves = [halved(~recording.visible, mask) for mask in copies]
+        check = cls(recording, copies, halves)
+        return check if check._short.any() else replace(check, halves=[])
 
     @property
     def trials(self) -> list[Recording]:
@@ -84,20 +85,37 @@ class VarianceCheck:
             return claimed
         n_copies = len(self.copies)
         sums, counts = self._ratios(self.copies, answers[:n_copies])
-        overall = sums.sum() / counts.sum()
-        factors = (sums + _PRIOR_ENTRIES * overall) / (counts + _PRIOR_ENTRIES)
+        factors = (sums + _PRIOR_ENTRIES * sums.sum() / counts.sum()) / (counts + _PRIOR_ENTRIES)
         if self.halves:
-            factors *= self._growth(overall, answers[n_copies:])
+            factors = factors * self._growth(sums, counts, answers[n_copies:])
         return Prediction(claimed.mean, claimed.variance * np.maximum(factors, 1.0))
 
-    def _growth(self, overall: float, answers: Sequence[Prediction]) -> float:
-        """Return by what the ratio grows from the copies to the gaps."""
+    def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
+        """Return by what the ratio grows from the copies to the gaps: (D,)."""
+        short = self._short
+        gap, copy, half = (distances[short] for distances in self._distances)
+        less, fewer = (each[short].sum() for each in self._ratios(self.halves, answers))
+        steps = (sums[short].sum() / counts[short].sum() + _TINY) / (less / fewer + _TINY)
+        power = np.clip(np.log(steps) / np.log(copy / half).mean(), 0.0, _STEEPEST)
+        growth = np.ones(len(short))
+        growth[short] = (gap / copy) ** power
+        return growth
+
+    @cached_property
+    def _distances(self) -> tuple[Distances, Distances, Distances]:
+        """How far from visible frames gaps, copies and halves reach in each channel: (D,) each."""
         hidden = ~self.recording.visible
-        sums, counts = self._ratios(self.halves, answers)
-        of_halves = sums.sum() / counts.sum()
-        half, copy = _distance(hidden, self.halves), _distance(hidden, self.copies)
-        power = np.log((overall + _TINY) / (of_halves + _TINY)) / np.log(copy / half)
-        return float((_distance(hidden, [hidden]) / copy) ** np.clip(power, 0.0, _STEEPEST))
+        gap, copy, half = (
+            np.max([remoteness(hidden | mask, mask) for mask in masks], axis=0, initial=0)
+            for masks in ([hidden], self.copies, self.halves)
+        )
+        return gap, copy, half
+
+    @property
+    def _short(self) -> NDArray[np.bool_]:
+        """The channels (D,) whose copies are shorter than gaps, and longer than halves."""
+        gap, copy, half = self._distances
+        return np.asarray((half > 0) & (half < copy) & (copy < gap))
 
     def _ratios(self, masks: Sequence[Mask], answers: Sequence[Prediction]) -> tuple[Array, Array]:
         """Return the sum of squared errors over claimed variances, and their number, by channel."""
@@ -107,8 +125,3 @@ class VarianceCheck:
             errors = np.where(mask, self.recording.values - answer.mean, 0.0)
             sums, counts = sums + (errors**2 / claimed).sum(axis=0), counts + mask.sum(axis=0)
         return sums, counts
-
-
-def _distance(hidden: Mask, masks: Sequence[Mask]) -> int:
-    """Return how far from visible frames the trials hide an entry at most."""
-    return max((remoteness(hidden | mask, mask) for mask in masks), default=0)

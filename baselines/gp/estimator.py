@@ -57,7 +57,8 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
         The kernel of every component.
     n_restarts : int, default=1
         Number of searches. The first starts from the data, the next four with its lengthscales
-        assigned otherwise (one search, if there is one component), the others at random around it.
+        assigned otherwise, the others at random around it. Of starts that are the same, as with one
+        component, one is searched.
     max_iter : int, default=1000
         Largest number of iterations of a search.
     tol : float, default=1e-7

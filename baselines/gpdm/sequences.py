@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.utils.extmath import svd_flip
 
 from mocapbench.baselines.common.gaps import complete_stretches
 from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.signs import oriented
 from mocapbench.datasets import Recording
 
 __all__ = ["TrainingSequences", "whitened_components"]
@@ -79,8 +79,8 @@ def whitened_components(y: Array, n_latent: int) -> Array:
 
     Where the rank of ``y`` is below ``n_latent``, d is that rank, and a warning is issued.
     """
-    left, singular, right = np.linalg.svd(y, full_matrices=False)
-    left, _ = svd_flip(left, right)
+    left, singular, _ = np.linalg.svd(y, full_matrices=False)
+    left = oriented(left)
     rank = int((singular > singular[0] * max(y.shape) * np.finfo(float).eps).sum())
     if rank < n_latent:
         warnings.warn(

@@ -13,8 +13,8 @@ from __future__ import annotations
 import warnings
 
 import numpy as np
-from sklearn.utils.extmath import svd_flip
 
+from mocapbench.baselines.common.signs import oriented
 from mocapbench.baselines.state_space.maximisation import maximised
 from mocapbench.baselines.state_space.model import Parameters, Priors
 from mocapbench.baselines.state_space.observations import Observations
@@ -67,6 +67,5 @@ def _components(rows: Array, n_states: int) -> Array:
     if rank == 0:
         return np.zeros((len(rows), 1))
     kept = slice(-1, -min(rank, n_states) - 1, -1)
-    # With signs that do not depend on the processor: those of the states decide what is drawn.
-    axes, _ = svd_flip(axes, axes.T.copy())
+    axes = oriented(axes)  # the signs of states decide what is drawn
     return np.asarray(centred @ axes[:, kept] / np.sqrt(variances[kept]))

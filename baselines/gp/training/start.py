@@ -15,8 +15,8 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.utils.extmath import svd_flip
 
+from mocapbench.baselines.common.signs import oriented
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.reduction.replicates import Replicates
@@ -167,9 +167,8 @@ def _coregionalisation(curves: Array, n_components: int, rank: int) -> Coregiona
     # Scaled so that the squares of an output's row add up to its variance.
     known = np.maximum((curves != 0.0).sum(axis=(0, 2)), 1)
     scaled = curves.transpose(1, 0, 2).reshape(n_outputs, -1) / np.sqrt(known)[:, None]
-    directions, singular, courses = np.linalg.svd(scaled, full_matrices=False)
-    # With signs that do not depend on the processor: those of W decide what is drawn.
-    directions, _ = svd_flip(directions, courses)
+    directions, singular, _ = np.linalg.svd(scaled, full_matrices=False)
+    directions = oriented(directions)  # the signs of W decide what is drawn
     # The columns of W: singular directions in turn. If they are too few they repeat, with their
     # variance divided.
     n_columns = n_components * rank

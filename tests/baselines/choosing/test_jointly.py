@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import MOHGP
+from mocapbench.baselines.choosing import panel
 from mocapbench.baselines.choosing.jointly import Jointly
-from mocapbench.baselines.choosing.panel import CANDIDATES
+from mocapbench.baselines.choosing.panel import CANDIDATES, Panel
 from mocapbench.datasets import Recording
 
 
@@ -41,8 +42,8 @@ def test_it_is_the_process_given_all_recordings_together(model):
 
 
 def test_parameters_are_learnt_once(model):
-    before = model.process_.parameters_.flat.copy()
     """Even if complete recordings follow."""
+    before = model.process_.parameters_.flat.copy()
     others = [walk("three", 0.3), walk("four", 0.4)]
     again = Jointly(MOHGP(n_restarts=1, max_iter=15)).fit(TRAINING).fit(others)
     np.testing.assert_array_equal(again.process_.parameters_.flat, before)
@@ -92,7 +93,14 @@ def test_recordings_that_would_take_minutes_are_refused(model):
 
 
 @pytest.mark.parametrize("name", ["mohgp", "mohgp-registered"])
-def test_a_candidate_can_be_fitted_anew_without_touching_the_first(name):
-    fitted = CANDIDATES[name]().fit([recording.frames(np.arange(12)) for recording in TRAINING])
-    assert fitted.process.n_restarts == 1
-    assert not hasattr(fitted.process, "parameters_")
+def test_a_candidate_fitted_anew_leaves_the_first_as_it_is(name, monkeypatch):
+    monkeypatch.setattr(panel, "CANDIDATES", {name: CANDIDATES[name]})
+    short = [recording.frames(np.arange(12)) for recording in TRAINING]
+    first = Panel.of(short)
+    given = gap(short[0], 5, 8)
+    before = first.means(given)[name]
+    anew = first.anew([walk("three", 0.3, n_frames=12)])
+    assert [recording.name for recording in anew.models[name].recordings_] == ["three"]
+    assert [recording.name for recording in first.models[name].recordings_] == ["one", "two"]
+    assert anew.models[name].process_ is first.models[name].process_
+    np.testing.assert_array_equal(first.means(given)[name], before)

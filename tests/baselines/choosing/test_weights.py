@@ -161,6 +161,14 @@ def test_errors_in_few_entries_are_moved_towards_those_in_training(n_entries, ow
     assert expected_errors(evidence(staged)[1:]) == pytest.approx({"a": 2.0, "b": 6.0})
 
 
+def test_a_model_that_errs_hugely_does_not_hide_what_many_entries_say():
+    training = [(products({"a": 4.0, "b": 1.0, "spline": 1.0}), pd.DataFrame())]
+    own = [products({"a": 1.0, "b": 4.0, "spline": 1000.0})]
+    errors = expected_errors(evidence(Staged(own, training, short=False, n_entries=1000))[:1])
+    assert errors["a"] < 1.5
+    assert errors["b"] == pytest.approx(4.0, rel=0.05)
+
+
 def test_without_room_training_counts_alone_and_without_training_the_copies():
     training, own = [(products({"a": 8.0}), pd.DataFrame())], [products({"a": 1.0})]
     assert expected_errors(evidence(Staged([], training, short=True))) == pytest.approx({"a": 8.0})

@@ -137,10 +137,20 @@ def test_a_halved_trial_hides_half_of_each_stretch_and_borders_on_what_it_did(se
 
 def test_remoteness_is_the_distance_to_the_nearest_visible_frame_of_the_channel():
     hidden = np.array([[0, 1, 1, 1, 1, 1, 0, 1], [1, 1, 1, 0, 0, 0, 0, 0]], dtype=bool).T
-    assert remoteness(hidden, np.zeros_like(hidden)) == 0
+    assert remoteness(hidden, np.zeros_like(hidden)).tolist() == [0, 0]
     within = np.zeros_like(hidden)
     within[[2, 7], 0] = True
-    assert remoteness(hidden, within) == 2
-    assert remoteness(hidden, hidden) == 3
+    assert remoteness(hidden, within).tolist() == [2, 0]
+    assert remoteness(hidden, hidden).tolist() == [3, 3]
     throughout = np.ones_like(hidden)
-    assert remoteness(throughout, throughout) == 0
+    assert remoteness(throughout, throughout).tolist() == [0, 0]
+
+
+def test_each_channel_of_a_halved_trial_keeps_the_side_of_its_own_gap():
+    hidden = np.zeros((35, 2), dtype=bool)
+    hidden[7:11, 0] = hidden[31:35, 1] = True
+    trial = np.zeros_like(hidden)
+    trial[27:31] = True
+    half = halved(hidden, trial)
+    assert np.flatnonzero(half[:, 0]).tolist() == [28, 29]
+    assert np.flatnonzero(half[:, 1]).tolist() == [29, 30]

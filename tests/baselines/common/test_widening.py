@@ -78,49 +78,75 @@ def test_variances_are_finite_whatever_is_visible(seed, share):
 
 
 class Drifting(Widened):
-    """Predicts the last visible value, and claims one variance however long a gap is."""
+    """Predicts the last visible value, and claims a power of the time since."""
+
+    def __init__(self, power=0.0):
+        self.power = power
 
     def fit(self, recordings):
         return self
 
     def as_claimed(self, recordings):
-        return [
-            Prediction.around(recording, self.held(recording.values), 1.0)
-            for recording in recordings
-        ]
+        return [self.held(recording) for recording in recordings]
 
-    def held(self, values):
-        last = np.maximum.accumulate(np.where(np.isnan(values[:, 0]), 0, np.arange(len(values))))
-        return values[last]
+    def held(self, recording):
+        frames = np.arange(len(recording.times))[:, None]
+        last = np.maximum.accumulate(np.where(recording.visible, frames, 0))
+        mean = np.take_along_axis(recording.values, last, axis=0)
+        return Prediction.around(recording, mean, np.maximum(frames - last, 1.0) ** self.power)
 
 
-def walk(n_hidden, n_frames=200, n_channels=40):
-    """Return random walks with unit steps, the last frames but ten hidden."""
-    values = np.random.default_rng(1).normal(size=(n_frames, n_channels)).cumsum(axis=0)
+def walk(*lengths, n_channels=40):
+    """Return random walks with unit steps, each with a gap that ends ten frames before the end."""
+    values = np.random.default_rng(1).normal(size=(200, n_channels)).cumsum(axis=0)
     hidden = np.zeros(values.shape, dtype=bool)
-    hidden[-n_hidden - 10 : -10] = True
+    for channel in range(n_channels):
+        hidden[190 - lengths[channel % len(lengths)] : 190, channel] = True
     channels = tuple(f"c{d}" for d in range(n_channels))
-    full = Recording("r", np.arange(n_frames) / 30, values, channels, ("",) * n_channels)
+    full = Recording("r", np.arange(200) / 30, values, channels, ("",) * n_channels)
     return full.hide(hidden)
 
 
-def test_where_copies_are_shorter_than_the_gap_the_growth_of_errors_goes_on():
-    """Squared errors of a random walk grow with the length, those that are claimed do not."""
-    recording = walk(120)
-    check = VarianceCheck.of(recording)
-    hidden = ~recording.visible
-    copy, gap = remoteness(hidden | check.copies[0], check.copies[0]), remoteness(hidden, hidden)
+def shown(recording, model, channels):
+    """Return the mean ratio of squared errors to claims in copies, and the distances there."""
+    check, hidden = VarianceCheck.of(recording), ~recording.visible
+    answers = model.as_claimed([recording.hide(mask) for mask in check.copies])
+    ratios = [
+        (recording.values - answer.mean)[:, channels] ** 2
+        / np.where(mask, answer.variance, 1.0)[:, channels]
+        for mask, answer in zip(check.copies, answers, strict=True)
+    ]
+    masks = [mask[:, channels] for mask in check.copies]
+    mean = np.mean(np.concatenate([r[m] for r, m in zip(ratios, masks, strict=True)]))
+    copy = max(remoteness(hidden | mask, mask)[channels].max() for mask in check.copies)
+    return mean, copy, remoteness(hidden, hidden)[channels].max()
+
+
+@pytest.mark.parametrize(
+    ("claimed", "least", "most"), [(0.0, 0.6, 0.6), (0.7, 0.1, 0.5), (1.0, 0.0, 0.2)]
+)
+def test_where_copies_are_shorter_than_the_gap_the_growth_of_errors_goes_on(claimed, least, most):
+    """Squared errors of a random walk grow with the length, and the claim with a power of it."""
+    recording, model, every = walk(120), Drifting(claimed), slice(None)
+    mean, copy, gap = shown(recording, model, every)
     assert copy < gap
-    assert 2 * np.sum(check.halves) == np.sum(check.copies)
-    (prediction,) = widened(Drifting(), [recording])
-    shown = np.mean(
-        [
-            (recording.values - answer.mean)[mask] ** 2
-            for mask, answer in zip(check.copies, Drifting().as_tried(check.trials), strict=False)
-        ]
-    )
-    grown = prediction.variance[hidden].mean() / shown
-    np.testing.assert_allclose(grown, (gap / copy) ** 0.6, rtol=0.05)
+    (prediction,), (before,) = widened(model, [recording]), model.as_claimed([recording])
+    hidden = ~recording.visible
+    factor = (prediction.variance[hidden] / before.variance[hidden]).mean()
+    grown = np.log(max(factor, 1.0) / max(mean, 1.0)) / np.log(gap / copy)
+    assert least - 0.05 < grown < most + 0.05
+
+
+def test_growth_is_of_channels_whose_copies_are_short():
+    recording, model = walk(4, 120), Drifting()
+    alone = walk(4)
+    hidden = ~recording.visible
+    (both,) = widened(model, [recording])
+    assert VarianceCheck.of(alone).halves == []
+    mean, _, _ = shown(recording, model, slice(0, None, 2))
+    of_short_gaps = both.variance[hidden[:, 0], 0].mean()
+    pooled = shown(recording, model, slice(None))[0]
+    assert of_short_gaps < max(mean, pooled) < both.variance[hidden[:, 1], 1].mean()
 
 
 def test_copies_that_are_as_long_as_the_gap_are_enough():

@@ -144,6 +144,7 @@ FIT_PATH = [
     ("baselines.common.recordings", "toy-interpolation-1", "trivial"),
     ("baselines.common.scaling", "toy-interpolation-1", "mohgp"),
     ("baselines.common.shortest_path", "missing-frames", "pose-viterbi"),
+    ("baselines.common.signs", "toy-interpolation-1", "mohgp"),
     ("baselines.common.threads", "toy-interpolation-1", "mohgp"),
     ("baselines.common.transitions", "missing-frames", "knn"),
     ("baselines.common.trials", "missing-frames", "lds"),

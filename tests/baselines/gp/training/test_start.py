@@ -84,6 +84,11 @@ def test_starts_differ_and_those_after_the_fifth_are_random(n, n_components, n_s
         np.testing.assert_array_equal(random.flat, perturbed(first, rng).flat)
 
 
+def test_reversed_and_moved_on_are_one_start_with_two_components_in_one_layer(case):
+    first = _start(case(np.random.default_rng(5), structure="pooled", n_times=9), 2)
+    assert len(starts(first, 7, np.random.default_rng(0))) == 6
+
+
 def test_components_exchange_their_lengthscales_in_random_starts(case):
     start = _start(case(np.random.default_rng(4), n_times=9), n_components=3)
     rng = np.random.default_rng(0)
