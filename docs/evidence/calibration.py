@@ -185,7 +185,7 @@ def tried(task: str) -> Iterator[ImputeProblem]:
 
 
 def trials() -> None:
-    """Print coverage, MSLL and CRPS of variances as claimed and as widened, and how many problems."""
+    """Print coverage, MSLL and CRPS of variances as claimed and widened, and how many problems."""
     for task, (name, make) in product(TRIED, WIDENED.items()):
         rows: list[list[float]] = []
         for problem in tried(task):
