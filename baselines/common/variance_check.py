@@ -67,8 +67,12 @@ class VarianceCheck:
         return check if check._short.any() else replace(check, halves=[])
 
     @property
+    def n_trials(self) -> int:
+        """The number of trials."""
+        return len(self.copies) + len(self.halves)
+
     def trials(self) -> list[Recording]:
-        """The recording as each trial shows it, the copies first."""
+        """Return the recording as each trial shows it, the copies first."""
         return [self.recording.hide(mask) for mask in (*self.copies, *self.halves)]
 
     def applied(self, claimed: Prediction, answers: Sequence[Prediction]) -> Prediction:

@@ -67,9 +67,9 @@ def widened(model: Widened, recordings: Sequence[Recording]) -> list[Prediction]
     recordings : sequence of Recording
     """
     checks = [VarianceCheck.of(recording) for recording in recordings]
-    trials = [trial for check in checks for trial in check.trials]
+    trials = [trial for check in checks for trial in check.trials()]
     answers = iter(model.as_tried(trials) if trials else ())
     return [
-        check.applied(claimed, list(islice(answers, len(check.trials))))
+        check.applied(claimed, list(islice(answers, check.n_trials)))
         for check, claimed in zip(checks, model.as_claimed(recordings), strict=True)
     ]

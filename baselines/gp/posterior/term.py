@@ -71,21 +71,19 @@ class TermInference:
     def simulate(self, n_samples: int, rng: np.random.Generator) -> tuple[Array, Array]:
         """Return joint prior draws of data vectors (n, P, D, N) and of the target (n, M, D)."""
         block, times = self.block, np.concatenate([self.block.times, self.times])
-        # All times once, in order, so that equal times get equal values.
-        grid, places = np.unique(times, return_inverse=True)
-        at_entries, at_times = np.split(places, [len(block.times)])
+        n_entries = len(block.times)  # drawn together, so that equal times get equal values
         # The noise of the data, then the layers' draws in data and target.
         noise = np.sqrt(self.parameters.noise[:, None] * block.noise_scale)
         data = noise * rng.standard_normal((n_samples, *noise.shape))
         curves = np.zeros((n_samples, len(self.times), noise.shape[1]))
         for name, factor in block.units.items():
-            draws = self._draw(name, grid, n_samples * factor.shape[1], rng)
+            draws = self._draw(name, times, n_samples * factor.shape[1], rng)
             draws = draws.reshape(n_samples, factor.shape[1], *draws.shape[1:])
-            data += np.einsum("pi,nitd->npdt", factor, draws[:, :, at_entries])
-            curves += np.einsum("i,nitd->ntd", self.target.weights[name], draws[:, :, at_times])
+            data += np.einsum("pi,nitd->npdt", factor, draws[:, :, :n_entries])
+            curves += np.einsum("i,nitd->ntd", self.target.weights[name], draws[:, :, n_entries:])
         for name, variance in self.target.independent_variance.items():
-            draws = self._draw(name, grid, n_samples, rng)
-            curves += np.sqrt(variance) * draws[:, at_times]
+            draws = self._draw(name, times, n_samples, rng)
+            curves += np.sqrt(variance) * draws[:, n_entries:]
         return np.where(block.observed, data, 0.0), curves
 
     def _draw(self, name: str, times: Array, n_samples: int, rng: np.random.Generator) -> Array:
