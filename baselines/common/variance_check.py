@@ -19,6 +19,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.ratios import mean_ratios
 from mocapbench.baselines.common.trials import (
     copies_or_islands,
     halved,
@@ -34,8 +35,6 @@ Array = NDArray[np.float64]
 Distances = NDArray[np.intp]
 
 _TINY = np.finfo(np.float64).tiny
-_PRIOR_ENTRIES = 10
-"""Trial entries that count in each channel as having the mean ratio over all channels."""
 _STEEPEST = 0.6
 """Largest power of the distance by which ratios grow: what two short lengths say is noisy.
 ``docs/calibration.md`` has the choice."""
@@ -89,7 +88,7 @@ class VarianceCheck:
             return claimed
         n_copies = len(self.copies)
         sums, counts = self._ratios(self.copies, answers[:n_copies])
-        factors = (sums + _PRIOR_ENTRIES * sums.sum() / counts.sum()) / (counts + _PRIOR_ENTRIES)
+        factors = mean_ratios(sums, counts)
         if self.halves:
             factors = factors * self._growth(sums, counts, answers[n_copies:])
         return Prediction(claimed.mean, claimed.variance * np.maximum(factors, 1.0))

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.estimator import GaussianProcess
+from mocapbench.baselines.gp.left_out import LeftOut
 from mocapbench.baselines.protocols import (
-    Imputer,
-    Prediction,
     SampleByFrameByChannel,
     Synthesiser,
 )
@@ -25,46 +25,20 @@ Single = TypeVar("Single", bound=GaussianProcess)
 """The model of one channel."""
 
 
-class ChannelPosteriors(Imputer, Synthesiser, Generic[Single]):
+class ChannelPosteriors(Conditioned, Synthesiser, Generic[Single]):
     """The fitted models of all channels, side by side; channels are independent."""
 
     channels_: tuple[str, ...]
     models_: tuple[Single, ...]
 
-    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictive distributions of recordings given to `fit`.
-
-        Parameters
-        ----------
-        recordings : sequence of Recording
-            Recordings given to `fit`, in any order, with the same names, times and values.
-
-        Returns
-        -------
-        list of Prediction
-            One for each recording, with a mean and a variance of shape (N, D) in the channels' own
-            units and their squares. Variances include the noise. Visible entries are copied, with
-            variance 0.
-
-        Raises
-        ------
-        sklearn.exceptions.NotFittedError
-            If `fit` has not been called.
-        ValueError
-            If a recording was not given to `fit`, or not with these times and values.
-        """
+    def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
+        """Return the posteriors of recordings, and the errors of their visible entries."""
         check_is_fitted(self)
         by_channel = [
-            model.impute([recording.select([channel]) for recording in recordings])
+            model.left_out([recording.select([channel]) for recording in recordings])
             for channel, model in zip(self.channels_, self.models_, strict=True)
         ]
-        return [
-            Prediction(
-                np.hstack([prediction.mean for prediction in predictions]),
-                np.hstack([prediction.variance for prediction in predictions]),
-            )
-            for predictions in zip(*by_channel, strict=True)
-        ]
+        return [LeftOut.side_by_side(channels) for channels in zip(*by_channel, strict=True)]
 
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator

@@ -9,9 +9,11 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.validation import check_count
+from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.covariances import LearntCovariances
+from mocapbench.baselines.gp.left_out import LeftOut
 from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
-from mocapbench.baselines.protocols import Imputer, Prediction, SampleByFrameByChannel
+from mocapbench.baselines.protocols import SampleByFrameByChannel
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["RecordingPosterior"]
@@ -19,42 +21,20 @@ __all__ = ["RecordingPosterior"]
 Array = NDArray[np.float64]
 
 
-class RecordingPosterior(LearntCovariances, Imputer):
+class RecordingPosterior(LearntCovariances, Conditioned):
     """A trained model that conditions on the recordings given to `fit`."""
 
     recordings_: Mapping[str, Recording]
     reduction_: Reduction
 
-    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictive distributions of recordings given to `fit`.
-
-        Each is conditioned on the visible entries of *all* recordings given to `fit`.
-
-        Parameters
-        ----------
-        recordings : sequence of Recording
-            Recordings given to `fit`, in any order, with the same names, times and values.
-
-        Returns
-        -------
-        list of Prediction
-            One for each recording, with a mean and a variance of shape (N, D) in the outputs' own
-            units and their squares. Variances include the noise. Visible entries are copied, with
-            variance 0.
-
-        Raises
-        ------
-        sklearn.exceptions.NotFittedError
-            If `fit` has not been called.
-        ValueError
-            If a recording was not given to `fit`, or not with these times and values.
-        """
+    def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
+        """Return the posteriors of recordings, and the errors of their visible entries."""
         check_is_fitted(self)
         terms = [self._terms(recording) for recording in recordings]
         with self._threaded_process() as process:
             curves = process.infer(terms, [recording.times for recording in recordings])
         return [
-            Prediction.around(recording, mean, variance + self.noise_)
+            LeftOut.of(recording, mean, variance, self.noise_, self.scaling_.scale)
             for recording, (mean, variance) in zip(recordings, curves, strict=True)
         ]
 

@@ -7,10 +7,12 @@
     python docs/evidence/calibration.py threshold # where pose-kriging should fall back
     python docs/evidence/calibration.py best-of   # best-of beside its candidates
     python docs/evidence/calibration.py trials    # variances as claimed, and widened by trials
+    python docs/evidence/calibration.py left-out  # the same where entries are left out one by one
 
-All but the last learn from the three training walkers of `missing-frames`. Its own test recordings
-are not used here: `mocapbench run` scores them. The last has another root seed than the benchmark,
-which hides other entries but in `golf-swings` and `upper-body-missing`, where no seed counts.
+All but the last two learn from the three training walkers of `missing-frames`. Its own test
+recordings are not used here: `mocapbench run` scores them. The last two have another root seed than
+the benchmark, which hides other entries but in `golf-swings` and `upper-body-missing`, where no
+seed counts.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -30,10 +33,15 @@ from mocapbench.baselines import (
     FAM,
     GPDM,
     GPLVM,
+    HGP,
     LDS,
+    MOA,
+    MOHGP,
     BestOf,
     ChannelKriging,
     FrameImputer,
+    GPIndependent,
+    LMCIndependent,
     LowRank,
     MakimaImputer,
     PchipImputer,
@@ -41,6 +49,7 @@ from mocapbench.baselines import (
 )
 from mocapbench.baselines.common.gaps import hidden_frames
 from mocapbench.baselines.common.widening import Widened
+from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.kriging.paths import MatchedPaths
 from mocapbench.benchmark import ImputeProblem
 from mocapbench.benchmark.problems.impute import FilledRecordings
@@ -80,6 +89,23 @@ TRIED: Mapping[str, tuple[str, int]] = {
     "toy-interpolation-1": ("test", 3),
     "toy-interpolation-2": ("test", 3),
     "toy-interpolation-3": ("test", 3),
+}
+"""By task, what its cases are named, and folds."""
+PROCESSES: Mapping[str, Callable[[], FrameImputer]] = {
+    "mohgp-3": lambda: MOHGP(n_components=3, n_restarts=1, max_iter=60),
+    "moa-3": lambda: MOA(n_components=3, max_iter=60),
+    "lmc-independent-3": lambda: LMCIndependent(n_components=3, max_iter=60),
+    "hgp": lambda: HGP(max_iter=60),
+    "gp-independent": lambda: GPIndependent(max_iter=60),
+    "mohgp-1": lambda: MOHGP(n_restarts=1, max_iter=60),
+    "moa-1": lambda: MOA(max_iter=60),
+    "lmc-independent-1": lambda: LMCIndependent(max_iter=60),
+}
+LEFT_OUT: Mapping[str, tuple[str, int]] = {
+    "toy-interpolation-1": ("test", 3),
+    "toy-interpolation-2": ("test", 3),
+    "toy-interpolation-3": ("test", 3),
+    "walking-interpolation": ("observed", 1),
 }
 """By task, what its cases are named, and folds."""
 OTHER_SEED = 7
@@ -173,9 +199,8 @@ def threshold() -> None:
             print(f"{least:5.2f} mean {ratio.mean():5.2f} largest {ratio.max():5.2f}")
 
 
-def tried(task: str) -> Iterator[ImputeProblem]:
+def tried(task: str, named: str, n_folds: int) -> Iterator[ImputeProblem]:
     """Yield problems of a task with another root seed than the benchmark."""
-    named, n_folds = TRIED[task]
     archive = bench.archive_at(os.environ["MOCAPBENCH_DATA"])
     for case in bench.TASKS.get(task).cases:
         if named in case.name and not case.synthetic:
@@ -184,18 +209,20 @@ def tried(task: str) -> Iterator[ImputeProblem]:
                 yield case.problem(bench.Seeds(OTHER_SEED, address), archive)
 
 
-def trials() -> None:
+def widening(
+    tasks: Mapping[str, tuple[str, int]], models: Mapping[str, Callable[[], FrameImputer]]
+) -> None:
     """Print coverage, MSLL and CRPS of variances as claimed and widened, and how many problems."""
-    for task, (name, make) in product(TRIED, WIDENED.items()):
+    for (task, (named, n_folds)), (name, make) in product(tasks.items(), models.items()):
         rows: list[list[float]] = []
-        for problem in tried(task):
+        for problem in tried(task, named, n_folds):
             with suppress(ValueError):
                 rows.append(calibration(make().fit(problem.train), problem))
         means = np.round(np.mean(rows, axis=0), 3)
         print(f"{task:22} {name:16}", *means, f"{len(rows)} problems", flush=True)
 
 
-def calibration(model: Widened, problem: ImputeProblem) -> list[float]:
+def calibration(model: Widened | Conditioned, problem: ImputeProblem) -> list[float]:
     """Return the coverage, MSLL and CRPS of the variances as claimed, and as widened."""
     answers = (model.as_claimed(problem.given), model.impute(problem.given))
     outcomes = [problem.outcome(FilledRecordings(tuple(answer))) for answer in answers]
@@ -209,5 +236,6 @@ if __name__ == "__main__":
         "strangers": strangers,
         "threshold": threshold,
         "best-of": best_of,
-        "trials": trials,
+        "trials": partial(widening, TRIED, WIDENED),
+        "left-out": partial(widening, LEFT_OUT, PROCESSES),
     }[sys.argv[1]]()

@@ -1,0 +1,61 @@
+"""Imputation by a process that knows the recordings, with variances that its errors bear out."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+
+from mocapbench.baselines.gp.left_out import LeftOut
+from mocapbench.baselines.protocols import Imputer, Prediction
+from mocapbench.datasets import Recording
+
+__all__ = ["Conditioned"]
+
+
+class Conditioned(Imputer):
+    """A model that is conditioned on the recordings given to `fit`."""
+
+    @abstractmethod
+    def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
+        """Return what the model claims of recordings given to `fit`, and its errors there.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If a recording was not given to `fit`, or not with these times and values.
+        """
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictive distributions of recordings given to `fit`.
+
+        Each is conditioned on the visible entries of *all* recordings given to `fit`. Its variances
+        are those of the posterior, times the mean ratio, where that is above 1, of squared errors
+        to variances of the recording's own visible entries if they are left out one by one
+        (`mocapbench.baselines.gp.left_out`). `as_claimed` has the posterior itself.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+            Recordings given to `fit`, in any order, with the same names, times and values.
+
+        Returns
+        -------
+        list of Prediction
+            One for each recording, with a mean and a variance of shape (N, D) in the channels' own
+            units and their squares. Variances include the noise. Visible entries are copied, with
+            variance 0.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If a recording was not given to `fit`, or not with these times and values.
+        """
+        return [each.widened() for each in self.left_out(recordings)]
+
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute` with the variances of the exact posterior."""
+        return [each.claimed for each in self.left_out(recordings)]

@@ -1,0 +1,94 @@
+r"""Visible entries left out one by one, and what their errors say of the claimed variances.
+
+Maximum likelihood makes variances right on average over all recordings. One of them may be less
+like the others than the rest are, and a plug-in process leaves out the doubt about its parameters.
+So each visible entry of a recording is predicted from all others, with the parameters kept. Given
+*all* entries, with the noise variance :math:`\beta` and :math:`K` the covariance of the entries,
+the curve has at entry :math:`i` the mean :math:`\mu_i = y_i - \beta (K^{-1} y)_i` and the variance
+:math:`v_i = \beta - \beta^2 (K^{-1})_{ii}`. The squared error over the variance of entry i, were
+it left out, is then
+
+.. math:: \frac{(K^{-1} y)_i^2}{(K^{-1})_{ii}} = \frac{(y_i - \mu_i)^2}{\beta - v_i} ,
+
+and costs nothing (C. E. Rasmussen and C. K. I. Williams (2006), *Gaussian Processes for Machine
+Learning*, eq. 5.12, has the left-hand side).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.baselines.common.ratios import mean_ratios
+from mocapbench.baselines.protocols import Prediction
+from mocapbench.datasets import Recording
+
+__all__ = ["LeftOut"]
+
+Array = NDArray[np.float64]
+
+_LEAST_GAP = 1e-11
+"""In standard units, the least β (β − v) that rounding leaves: v is known to some 2e-13 / β."""
+
+
+@dataclass(frozen=True, eq=False)
+class LeftOut:
+    """What a process claims of a recording, and how well it predicts what is visible there.
+
+    Parameters
+    ----------
+    claimed : Prediction
+        With variances.
+    squares : ndarray of shape (N, D)
+        The squared error over the variance of each visible entry that is left out; NaN where it is
+        hidden, or lost in rounding because the noise is tiny.
+    """
+
+    claimed: Prediction
+    squares: Array
+
+    @classmethod
+    def of(
+        cls, recording: Recording, mean: Array, variance: Array, noise: Array, scale: Array
+    ) -> Self:
+        """Return the claims and the squares of a recording.
+
+        Parameters
+        ----------
+        recording : Recording
+        mean, variance : ndarray of shape (N, D)
+            Of its noise-free curve, given all visible entries.
+        noise : ndarray of shape (D,)
+            Variance of the noise.
+        scale : ndarray of shape (D,)
+            Standard deviation of each channel, over all recordings.
+        """
+        gap = noise - variance
+        told = recording.visible & (noise * gap > _LEAST_GAP * scale**4)
+        squares = np.full(told.shape, np.nan)
+        np.divide((recording.values - mean) ** 2, gap, out=squares, where=told)
+        return cls(Prediction.around(recording, mean, variance + noise), squares)
+
+    @classmethod
+    def side_by_side(cls, channels: Sequence[Self]) -> Self:
+        """Return those of the channels of a recording as one."""
+        return cls(
+            Prediction(
+                np.hstack([channel.claimed.mean for channel in channels]),
+                np.hstack([channel.claimed.variance for channel in channels]),
+            ),
+            np.hstack([channel.squares for channel in channels]),
+        )
+
+    def widened(self) -> Prediction:
+        """Return the claims, with each channel's variances times its mean square if above 1."""
+        counts = np.isfinite(self.squares).sum(axis=0)
+        if not counts.any():
+            return self.claimed
+        factors = mean_ratios(np.nansum(self.squares, axis=0), counts)
+        variance = np.asarray(self.claimed.variance, dtype=np.float64)
+        return Prediction(self.claimed.mean, variance * np.maximum(factors, 1.0))
