@@ -21,6 +21,7 @@ from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Array
 from mocapbench.baselines.alignment.synthesis import blended, draw_cycles, draw_sequences
+from mocapbench.baselines.common.widening import Widened, widened
 from mocapbench.baselines.protocols import (
     Blender,
     Imputer,
@@ -34,7 +35,7 @@ from mocapbench.datasets import FrameByChannel, Frames, Recording
 __all__ = ["CyclicAlignment"]
 
 
-class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
+class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthesiser):
     r"""A cycle for each style around a common cycle, warped in time to fit each recording.
 
     Each recording has one style. Its frames follow that style's cycle of M states through a cyclic
@@ -196,7 +197,9 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         empty, also from a new style for this recording alone; the run with the higher bound is
         kept. The errors of a frame's visible entries then correct its hidden ones, by the
         covariance of the errors of all recordings. The result is the mixture over all runs of
-        `fit`, with equal weights: the bound does not rank their errors.
+        `fit`, with equal weights: the bound does not rank their errors. Its variances are widened
+        by trials on the recording's visible entries (``docs/calibration.md``), which the run with
+        the highest bound fills alone.
 
         Raises
         ------
@@ -204,7 +207,16 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
             If channels differ.
         """
         self._check_fitted(recordings)
-        return [self._imputed(recording) for recording in recordings]
+        return widened(self, recordings)
+
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute`, with the variances that the model itself claims."""
+        return [self._mixture(recording, self.runs_) for recording in recordings]
+
+    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
+        """Return what the run with the highest bound claims, at a share of the cost of all."""
+        best = max(self.runs_, key=lambda run: run.bounds[-1])
+        return [self._mixture(trial, [best]) for trial in trials]
 
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
@@ -271,11 +283,10 @@ class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
         self.probabilities_ = run.state.labels[list(order)]
         self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)
 
-    def _imputed(self, recording: Recording) -> Prediction:
-        """Return the mean and variance of the mixture of all runs, with equal weights."""
-        filled, spread = np.array(
-            [self._filled(recording, run.state) for run in self.runs_]
-        ).swapaxes(0, 1)
+    def _mixture(self, recording: Recording, runs: Sequence[Run]) -> Prediction:
+        """Return the mean and variance of the mixture of runs, with equal weights."""
+        members = np.array([self._filled(recording, run.state) for run in runs])
+        filled, spread = members.swapaxes(0, 1)
         mean = filled.mean(axis=0)
         variance = spread.mean(axis=0) + filled.var(axis=0)
         return Prediction.around(recording, self._unscaled(mean), variance * self.scaling_.scale**2)

@@ -71,7 +71,7 @@ def viterbi(
     scores = np.ascontiguousarray(emission.transpose(1, 2, 0))
     choices = np.zeros(scores.shape, dtype=np.intp)
     for i in range(1, len(scores)):
-        candidates = _reached(scores[i - 1], len(log_jumps)) + log_jumps
+        candidates = np.stack(_reached(scores[i - 1], len(log_jumps))) + log_jumps
         choices[i] = candidates.argmax(axis=0)
         scores[i] += candidates.max(axis=0)
     return tuple(
@@ -92,7 +92,10 @@ def _forward(emission: Array, log_jumps: Array) -> tuple[Array, Array]:
     filtered = emission[0]
     for i, evidence in enumerate(emission[1:]):
         terms = shares[i]
-        np.add(_reached(filtered, max_jump), log_jumps[:, None], out=terms)
+        for term, origins, log_jump in zip(
+            terms, _reached(filtered, max_jump), log_jumps, strict=True
+        ):
+            np.add(origins, log_jump, out=term)
         top = terms.max(axis=0)
         terms -= top
         np.exp(terms, out=terms)
@@ -115,16 +118,20 @@ def _backward(last: Array, shares: Array, frames: NDArray[np.bool_]) -> tuple[Ar
     return np.ascontiguousarray(occupancy.transpose(2, 0, 1)), counts.T
 
 
-def _reached(states: Array, max_jump: int) -> Array:
-    """Return the values (M, K) at the origin of each jump into each state: (J, M, K)."""
+def _reached(states: Array, max_jump: int) -> list[Array]:
+    """Return the values (M, K) at the origin of each jump into each state: J of them."""
     n_states = len(states)
     ring = np.concatenate([states[-max_jump:], states])
-    return np.stack([ring[max_jump - j : max_jump - j + n_states] for j in _jumps(max_jump)])
+    return [ring[max_jump - j : max_jump - j + n_states] for j in _jumps(max_jump)]
 
 
 def _left(flow: Array) -> Array:
     """Sum the probabilities (J, M, K) of jumps into states at the jumps' origins: (M, K)."""
-    return np.asarray(sum(np.roll(flow[j - 1], -j, axis=0) for j in _jumps(len(flow))))
+    ring = np.concatenate([flow, flow[:, : len(flow)]], axis=1)
+    n_states, total = flow.shape[1], np.zeros(flow.shape[1:])
+    for j, into in enumerate(ring, 1):
+        total += into[j : j + n_states]
+    return total
 
 
 def _jumps(max_jump: int) -> range:
