@@ -25,8 +25,9 @@ __all__ = ["MOA"]
 class MOA(TrendedProcess):
     r"""A Gaussian process over all channels; recordings are noisy copies of one function.
 
-    `impute` and `trend` give the posterior of that function. `sample` takes its posterior mean as
-    the trend and draws with the prior covariance around it.
+    `trend` gives the posterior of that function, and so does `impute`, with variances that the
+    visible entries of a recording bear out (`as_claimed` has the posterior itself). `sample` takes
+    its posterior mean as the trend and draws with the prior covariance around it.
 
     Parameters
     ----------

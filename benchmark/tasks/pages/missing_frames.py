@@ -67,8 +67,8 @@ PAGE = TaskPage(
         "mirror images of walkers, by the names of channels.",
         NOTHING_OVER_TIME,
         "The GPDM family knows no difference between persons, so that by itself it claims too "
-        "little variance for a new one. Its variances, and those of lds, fam and low-rank, are "
-        "widened by trials on visible frames.",
+        "little variance for a new one. Its variances, and those of lds, fam, low-rank and "
+        "cyclic-alignment, are widened by trials on visible frames.",
         "Trials are shorter than the gap: trials of half their length tell how errors grow.",
         "Four of the fifty channels are constant in training. The GPDM family leaves them out, "
         "which hardly changes errors and lowers SNR(β).",
