@@ -23,4 +23,5 @@ def mean_ratios(sums: Array, counts: Array) -> Array:
     counts : ndarray of shape (D,)
         The numbers of these entries, not all of them 0.
     """
-    return (sums + _PRIOR_ENTRIES * sums.sum() / counts.sum()) / (counts + _PRIOR_ENTRIES)
+    pooled = float(sums.sum() / counts.sum())
+    return np.asarray((sums + _PRIOR_ENTRIES * pooled) / (counts + _PRIOR_ENTRIES))

@@ -79,7 +79,7 @@ class LeftOut:
         return cls(
             Prediction(
                 np.hstack([channel.claimed.mean for channel in channels]),
-                np.hstack([channel.claimed.variance for channel in channels]),
+                np.hstack([np.asarray(channel.claimed.variance) for channel in channels]),
             ),
             np.hstack([channel.squares for channel in channels]),
         )
