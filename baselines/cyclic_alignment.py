@@ -206,15 +206,16 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         ValueError
             If channels differ.
         """
-        self._check_fitted(recordings)
         return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
+        self._check_fitted(recordings)
         return [self._mixture(recording, self.runs_) for recording in recordings]
 
     def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
         """Return what the run with the highest bound claims, at a share of the cost of all."""
+        self._check_fitted(trials)
         best = max(self.runs_, key=lambda run: run.bounds[-1])
         return [self._mixture(trial, [best]) for trial in trials]
 

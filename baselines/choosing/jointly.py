@@ -61,7 +61,7 @@ class Jointly(Imputer, Inductive):
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the posterior of each recording given itself and those of the last `fit`.
+        """Return what the process predicts of each recording beside those of the last `fit`.
 
         Raises
         ------

@@ -19,6 +19,9 @@ class Conditioned(Imputer):
     def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
         """Return what the model claims of recordings given to `fit`, and its errors there.
 
+        Errors of a recording that registration has moved mean nothing; it is complete, and nothing
+        of it is widened.
+
         Raises
         ------
         sklearn.exceptions.NotFittedError
@@ -30,9 +33,10 @@ class Conditioned(Imputer):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictive distributions of recordings given to `fit`.
 
-        Each is conditioned on the visible entries of *all* recordings given to `fit`. Its variances
-        are those of the posterior, times the mean ratio, where that is above 1, of squared errors
-        to variances of the recording's own visible entries if they are left out one by one
+        Each is conditioned on the visible entries of *all* recordings given to `fit`. The variances
+        of a channel are those of the posterior, times the mean ratio, where that is above 1, of
+        squared errors to variances of the recording's own visible entries if they are left out one
+        by one; the mean over all channels counts as ten entries in each
         (`mocapbench.baselines.gp.left_out`). `as_claimed` has the posterior itself.
 
         Parameters
@@ -54,8 +58,8 @@ class Conditioned(Imputer):
         ValueError
             If a recording was not given to `fit`, or not with these times and values.
         """
-        return [each.widened() for each in self.left_out(recordings)]
+        return [errors.widened() for errors in self.left_out(recordings)]
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute` with the variances of the exact posterior."""
-        return [each.claimed for each in self.left_out(recordings)]
+        return [errors.claimed for errors in self.left_out(recordings)]

@@ -39,6 +39,7 @@ from mocapbench.baselines import (
     MOHGP,
     BestOf,
     ChannelKriging,
+    CyclicAlignment,
     FrameImputer,
     GPIndependent,
     LMCIndependent,
@@ -74,6 +75,7 @@ MODELS: Mapping[str, Callable[[], FrameImputer]] = {
         n_latent=6, start="viterbi", subject_offset=1.0, max_iter=10, fill_iter=20, random_state=0
     ),
     "gplvm": lambda: GPLVM(start="window", max_iter=10, fill_iter=20, random_state=0),
+    "cyclic-alignment": lambda: CyclicAlignment(random_state=0),
 }
 WIDENED: Mapping[str, Callable[[], FrameImputer]] = {
     "lds": LDS,
