@@ -19,15 +19,8 @@ class Conditioned(Imputer):
     def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
         """Return what the model claims of recordings given to `fit`, and its errors there.
 
-        Errors of a recording that registration has moved mean nothing; it is complete, and nothing
-        of it is widened.
-
-        Raises
-        ------
-        sklearn.exceptions.NotFittedError
-            If `fit` has not been called.
-        ValueError
-            If a recording was not given to `fit`, or not with these times and values.
+        It raises what `impute` raises. Errors of a recording that registration has moved mean
+        nothing; it is complete, and nothing of it is widened.
         """
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
