@@ -30,7 +30,7 @@ class Conditioned(Imputer):
         of a channel are those of the posterior, times the mean ratio, where that is above 1, of
         squared errors to variances of the recording's own visible entries if they are left out one
         by one; the mean over all channels counts as ten entries in each
-        (`mocapbench.baselines.gp.left_out`). `as_claimed` has the posterior itself.
+        (``docs/calibration.md``). `as_claimed` has the posterior itself.
 
         Parameters
         ----------
