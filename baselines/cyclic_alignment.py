@@ -211,13 +211,13 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
         self._check_fitted(recordings)
-        return [self._mixture(recording, self.runs_) for recording in recordings]
+        states = [run.state for run in self.runs_]
+        return [self._mixture(recording, states) for recording in recordings]
 
     def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
         """Return what the run with the highest bound claims, at a share of the cost of all."""
         self._check_fitted(trials)
-        best = max(self.runs_, key=lambda run: run.bounds[-1])
-        return [self._mixture(trial, [best]) for trial in trials]
+        return [self._mixture(trial, [self.state_]) for trial in trials]
 
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
@@ -284,9 +284,9 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         self.probabilities_ = run.state.labels[list(order)]
         self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)
 
-    def _mixture(self, recording: Recording, runs: Sequence[Run]) -> Prediction:
-        """Return the mean and variance of the mixture of runs, with equal weights."""
-        members = np.array([self._filled(recording, run.state) for run in runs])
+    def _mixture(self, recording: Recording, states: Sequence[State]) -> Prediction:
+        """Return the mean and variance of the mixture over fitted states, with equal weights."""
+        members = np.array([self._filled(recording, state) for state in states])
         filled, spread = members.swapaxes(0, 1)
         mean = filled.mean(axis=0)
         variance = spread.mean(axis=0) + filled.var(axis=0)

@@ -122,7 +122,7 @@ def _reached(states: Array, max_jump: int) -> list[Array]:
     """Return the values (M, K) at the origin of each jump into each state: J of them."""
     n_states = len(states)
     ring = np.concatenate([states[-max_jump:], states])
-    return [ring[max_jump - j : max_jump - j + n_states] for j in _jumps(max_jump)]
+    return [ring[max_jump - j : max_jump - j + n_states] for j in range(1, max_jump + 1)]
 
 
 def _left(flow: Array) -> Array:
@@ -132,10 +132,6 @@ def _left(flow: Array) -> Array:
     for j, into in enumerate(ring, 1):
         total += into[j : j + n_states]
     return total
-
-
-def _jumps(max_jump: int) -> range:
-    return range(1, max_jump + 1)
 
 
 def _trace(final: Array, choices: NDArray[np.intp]) -> NDArray[np.intp]:
