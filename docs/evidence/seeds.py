@@ -1,8 +1,8 @@
 """Runs with other seeds beside an entrant: ``python docs/evidence/seeds.py LABEL RUN…``.
 
-Each run directory holds the same tasks, run with another ``--seed``. For each row it prints the
-mean and the standard deviation over seeds, and Welch's 95 % interval of the difference from the
-entrant LABEL.
+Each run directory holds the same tasks, run with another ``--seed``. For each row, and for all rows
+of a task together, it prints the mean and the standard deviation over seeds, and Welch's 95 %
+interval of the difference from the entrant LABEL.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from scipy.stats import ttest_ind
 
 from mocapbench import benchmark as bench
 
-METRICS = ("mlc", "mcc", "variance_ratio", "rms_per_frame", "mse")
+METRICS = ("mlc", "mcc", "variance_ratio", "rms_per_frame", "mse", "coverage_95", "crps")
+EVERY_CASE = "every case"
 
 
 def main(reference: str, runs: Sequence[str]) -> None:
@@ -28,8 +29,9 @@ def main(reference: str, runs: Sequence[str]) -> None:
         for record in store.planned():
             for metric in set(METRICS) & set(record.scores):
                 address = record.address
-                row = (address.task, address.case, metric, address.label)
-                found[row].append(record.scores[metric])
+                for case in (address.case, EVERY_CASE):
+                    row = (address.task, case, metric, address.label)
+                    found[row].append(record.scores[metric])
         for row, values in found.items():
             by_seed[row].append(float(np.mean(values)))
     for (task, case, metric, label), values in sorted(by_seed.items()):
