@@ -17,7 +17,16 @@ from scipy.stats import ttest_ind
 
 from mocapbench import benchmark as bench
 
-METRICS = ("mlc", "mcc", "variance_ratio", "rms_per_frame", "mse", "coverage_95", "crps")
+METRICS = (
+    "mlc",
+    "mcc",
+    "variance_ratio",
+    "rms_per_frame",
+    "mse",
+    "mpjpe",
+    "coverage_95",
+    "crps",
+)
 EVERY_CASE = "every case"
 
 
