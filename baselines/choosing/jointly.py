@@ -7,6 +7,7 @@ from copy import copy
 from typing import ClassVar, Self
 
 from mocapbench.baselines.common.recordings import pool
+from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import Recording
@@ -17,7 +18,7 @@ _MOST_WORK = 1.8e11
 """Σ (N D)³ over the recordings: of exact inference if each has gaps of its own."""
 
 
-class Jointly(Imputer, Inductive):
+class Jointly(Widened, Imputer, Inductive):
     """A Gaussian process that fills recordings together with those that it has learnt from.
 
     It is worth its time where the recordings to fill are among them, so that what is visible there
@@ -69,6 +70,10 @@ class Jointly(Imputer, Inductive):
             If a recording is too large beside those, or its channels differ.
         """
         return [self._given(recording).impute([recording])[0] for recording in recordings]
+
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute` with the variances of the exact posterior."""
+        return [self._given(recording).as_claimed([recording])[0] for recording in recordings]
 
     def _given(self, recording: Recording) -> GaussianProcess:
         # It comes first: of several with as many hidden entries, others are registered to it.

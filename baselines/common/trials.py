@@ -23,6 +23,7 @@ __all__ = [
     "copies",
     "copies_or_islands",
     "halved",
+    "long_copies",
     "remoteness",
     "trial_masks",
 ]
@@ -52,6 +53,11 @@ def copies(blocked: NDArray[np.bool_], gap: Frames, place: float) -> Iterator[Fr
         starts = starts_of(blocked, n_hidden)
         if len(starts):
             yield starts[int(place * len(starts))] + np.arange(n_hidden)
+
+
+def long_copies(blocked: NDArray[np.bool_], gap: Frames, place: float) -> Iterator[Frames]:
+    """Yield the `copies` of a gap of which some frame has no visible neighbour."""
+    yield from (frames for frames in copies(blocked, gap, place) if len(frames) > 2)
 
 
 def copies_or_islands(blocked: NDArray[np.bool_], gap: Frames, place: float) -> Iterator[Frames]:

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.common.ratios import mean_ratios
 from mocapbench.baselines.common.trials import (
+    Places,
     copies_or_islands,
     halved,
     remoteness,
@@ -58,9 +59,9 @@ class VarianceCheck:
     halves: Sequence[Mask]
 
     @classmethod
-    def of(cls, recording: Recording) -> Self:
-        """Choose the trials."""
-        copies = trial_masks(recording, copies_or_islands)
+    def of(cls, recording: Recording, places: Places = copies_or_islands) -> Self:
+        """Choose the trials, which hide ``places`` for the gaps."""
+        copies = trial_masks(recording, places)
         halves = [halved(~recording.visible, mask) for mask in copies]
         check = cls(recording, copies, halves)
         return check if check._short.any() else replace(check, halves=[])

@@ -23,7 +23,7 @@ __all__ = ["Relearning", "Widened", "widened"]
 
 
 class Widened(Model):
-    """A model whose variances `widened` checks when it fills recordings."""
+    """A model whose variances are checked by trials when it fills recordings."""
 
     @abstractmethod
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -12,8 +12,9 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.estimator import GaussianProcess
-from mocapbench.baselines.gp.left_out import LeftOut
+from mocapbench.baselines.gp.left_out import LeftOut, side_by_side
 from mocapbench.baselines.protocols import (
+    Prediction,
     SampleByFrameByChannel,
     Synthesiser,
 )
@@ -39,6 +40,14 @@ class ChannelPosteriors(Conditioned, Synthesiser, Generic[Single]):
             for channel, model in zip(self.channels_, self.models_, strict=True)
         ]
         return [LeftOut.side_by_side(channels) for channels in zip(*by_channel, strict=True)]
+
+    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
+        """Return what the models claim of recordings of which more is hidden."""
+        by_channel = [
+            model.as_tried([trial.select([channel]) for trial in trials])
+            for channel, model in zip(self.channels_, self.models_, strict=True)
+        ]
+        return [side_by_side(channels) for channels in zip(*by_channel, strict=True)]
 
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator

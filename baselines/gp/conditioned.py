@@ -5,6 +5,11 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 
+import numpy as np
+
+from mocapbench.baselines.common.trials import long_copies
+from mocapbench.baselines.common.variance_check import VarianceCheck
+from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.gp.left_out import LeftOut
 from mocapbench.baselines.protocols import Imputer, Prediction
 from mocapbench.datasets import Recording
@@ -12,7 +17,7 @@ from mocapbench.datasets import Recording
 __all__ = ["Conditioned"]
 
 
-class Conditioned(Imputer):
+class Conditioned(Widened, Imputer):
     """A model that is conditioned on the recordings given to `fit`."""
 
     @abstractmethod
@@ -23,14 +28,22 @@ class Conditioned(Imputer):
         nothing; it is complete, and nothing of it is widened.
         """
 
+    @abstractmethod
+    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
+        """Return what the model claims of recordings given to `fit` of which more is hidden.
+
+        Its parameters are kept.
+        """
+
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictive distributions of recordings given to `fit`.
 
         Each is conditioned on the visible entries of *all* recordings given to `fit`. The variances
-        of a channel are those of the posterior, times the mean ratio, where that is above 1, of
-        squared errors to variances of the recording's own visible entries if they are left out one
-        by one; the mean over all channels counts as ten entries in each
-        (``docs/calibration.md``). `as_claimed` has the posterior itself.
+        of a channel are those of the posterior, times the larger of two mean ratios of squared
+        errors to variances, where it is above 1: that of the recording's own visible entries if
+        they are left out one by one, and that of trials, which hide copies of gaps, three frames
+        long at the least, with the parameters kept. The mean over all channels counts as ten
+        entries in each (``docs/calibration.md``). `as_claimed` has the posterior itself.
 
         Parameters
         ----------
@@ -51,8 +64,17 @@ class Conditioned(Imputer):
         ValueError
             If a recording was not given to `fit`, or not with these times and values.
         """
-        return [errors.widened() for errors in self.left_out(recordings)]
+        return [
+            self._borne_out(recording, errors)
+            for recording, errors in zip(recordings, self.left_out(recordings), strict=True)
+        ]
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute` with the variances of the exact posterior."""
         return [errors.claimed for errors in self.left_out(recordings)]
+
+    def _borne_out(self, recording: Recording, errors: LeftOut) -> Prediction:
+        check = VarianceCheck.of(recording, long_copies)
+        tried = check.applied(errors.claimed, self.as_tried(check.trials()))
+        variances = [np.asarray(each.variance) for each in (tried, errors.widened())]
+        return Prediction(errors.claimed.mean, np.maximum(*variances))

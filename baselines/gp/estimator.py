@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import ClassVar, Self
 
@@ -177,10 +178,16 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
         self._check_parameters()
         self.scaling_ = Standardisation.of(checked)
         self.recordings_ = {recording.name: recording for recording in checked}
-        replicates = Replicates.align([self.scaling_.apply(recording) for recording in checked])
-        self.reduction_ = self.reduce(replicates)
-        self._train(replicates)
+        aligned = [self.scaling_.apply(recording) for recording in checked]
+        self._replicates = Replicates.align(aligned)
+        self.reduction_ = self.reduce(self._replicates)
+        self._train(self._replicates)
         return self
+
+    def _showing(self, number: int, trial: Recording) -> FittedProcess:
+        reduction = self.reduce(self._replicates.showing(number, trial))
+        solvers = PLANS[self.solver](KERNELS[self.kernel], reduction, self.parameters_)
+        return replace(self._process, reduction=reduction, solvers=solvers)
 
     def _train(self, replicates: Replicates) -> None:
         reduction = self.reduction_

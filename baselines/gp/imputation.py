@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -12,8 +13,9 @@ from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.covariances import LearntCovariances
 from mocapbench.baselines.gp.left_out import LeftOut
+from mocapbench.baselines.gp.posterior.fitted import FittedProcess
 from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
-from mocapbench.baselines.protocols import SampleByFrameByChannel
+from mocapbench.baselines.protocols import Prediction, SampleByFrameByChannel
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["RecordingPosterior"]
@@ -37,6 +39,10 @@ class RecordingPosterior(LearntCovariances, Conditioned):
             LeftOut.of(recording, mean, variance, self.noise_, self.scaling_.scale)
             for recording, (mean, variance) in zip(recordings, curves, strict=True)
         ]
+
+    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
+        """Return what the process claims of recordings of which more is hidden."""
+        return [self._tried(trial) for trial in trials]
 
     def posterior_covariance(self, recording: Recording, times: Frames | None = None) -> Array:
         """Return the joint covariance of a recording's curve given all visible entries.
@@ -109,6 +115,17 @@ class RecordingPosterior(LearntCovariances, Conditioned):
         curve, times = self._terms(recording), _times_or_those_of(recording, times)
         with self._threaded_process() as process:
             return process.draw(curve, times, n_samples, np.random.default_rng(random_state))
+
+    @abstractmethod
+    def _showing(self, number: int, trial: Recording) -> FittedProcess:
+        """Return the process, parameters kept, to which recording ``number`` shows a trial."""
+
+    def _tried(self, trial: Recording) -> Prediction:
+        number = list(self.recordings_).index(trial.name)
+        process = self._showing(number, trial)
+        curve = process.reduction.replicates[number]
+        ((mean, variance),) = process.infer([curve], [trial.times])
+        return Prediction.around(trial, mean, variance + self.noise_)
 
     def _terms(self, recording: Recording) -> tuple[PosteriorTerm, ...]:
         """Return the posterior terms of a recording that was given to `fit`."""

@@ -27,7 +27,7 @@ from mocapbench.baselines.common.ratios import mean_ratios
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.datasets import Recording
 
-__all__ = ["LeftOut"]
+__all__ = ["LeftOut", "side_by_side"]
 
 Array = NDArray[np.float64]
 
@@ -80,10 +80,7 @@ class LeftOut:
     def side_by_side(cls, channels: Sequence[Self]) -> Self:
         """Return those of the channels of a recording as one."""
         return cls(
-            Prediction(
-                np.hstack([channel.claimed.mean for channel in channels]),
-                np.hstack([np.asarray(channel.claimed.variance) for channel in channels]),
-            ),
+            side_by_side([channel.claimed for channel in channels]),
             np.hstack([channel.squares for channel in channels]),
         )
 
@@ -98,3 +95,11 @@ class LeftOut:
         factors = mean_ratios(np.nansum(self.squares, axis=0), counts)
         variance = np.asarray(self.claimed.variance, dtype=np.float64)
         return Prediction(self.claimed.mean, variance * np.maximum(factors, 1.0))
+
+
+def side_by_side(channels: Sequence[Prediction]) -> Prediction:
+    """Return the predictions of the channels of a recording, with variances, as one."""
+    return Prediction(
+        np.hstack([channel.mean for channel in channels]),
+        np.hstack([np.asarray(channel.variance) for channel in channels]),
+    )

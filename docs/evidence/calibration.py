@@ -8,11 +8,12 @@
     python docs/evidence/calibration.py best-of   # best-of beside its candidates
     python docs/evidence/calibration.py trials    # variances as claimed, and widened by trials
     python docs/evidence/calibration.py left-out  # the same where entries are left out one by one
+    python docs/evidence/calibration.py gaps      # the same processes in gaps of a limb
 
-All but the last two learn from the three training walkers of `missing-frames`. Its own test
-recordings are not used here: `mocapbench run` scores them. The last two have another root seed than
-the benchmark, which hides other entries but in `golf-swings` and `upper-body-missing`, where no
-seed counts.
+All but the last three learn from the three training walkers of `missing-frames`. Its own test
+recordings are not used here: `mocapbench run` scores them. The last three have another root seed
+than the benchmark, which hides other entries but in `golf-swings` and `upper-body-missing`, where
+no seed counts.
 """
 
 from __future__ import annotations
@@ -110,6 +111,15 @@ LEFT_OUT: Mapping[str, tuple[str, int]] = {
     "walking-interpolation": ("observed", 1),
 }
 """By task, what its cases are named, and folds."""
+GAPS: Mapping[str, tuple[str, int]] = {"marker-gaps": ("a limb", 4)}
+"""By task, what its cases are named, and folds: trained on others and on the recording alone."""
+GAP_FILLING: Mapping[str, Callable[[], FrameImputer]] = {
+    "mohgp-1": lambda: MOHGP(n_restarts=1, max_iter=10),
+    "moa-1": lambda: MOA(max_iter=10),
+    "lmc-independent-1": lambda: LMCIndependent(max_iter=10),
+    "hgp": lambda: HGP(max_iter=10),
+    "gp-independent": lambda: GPIndependent(max_iter=10),
+}
 OTHER_SEED = 7
 WALKS = "02_01 02_02 39_01 39_02 07_03 07_04 08_04 16_22 16_31 16_32 07_06 08_03 08_06 16_16"
 CHOICE = "02_03 02_04 02_05 02_06 02_07 02_08 02_09 02_10 09_01 09_05 09_12 11_01 39_01 39_02 39_03"
@@ -240,4 +250,5 @@ if __name__ == "__main__":
         "best-of": best_of,
         "trials": partial(widening, TRIED, WIDENED),
         "left-out": partial(widening, LEFT_OUT, PROCESSES),
+        "gaps": partial(widening, GAPS, GAP_FILLING),
     }[sys.argv[1]]()

@@ -8,8 +8,9 @@ replicates (docs/inference.md, section 2).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,7 +63,7 @@ class Replicates:
     observed: NDArray[np.bool_]
 
     @classmethod
-    def align(cls, recordings: Sequence[Recording]) -> Replicates:
+    def align(cls, recordings: Sequence[Recording]) -> Self:
         """Put recordings with the same channels on the union of their visible times."""
         seen = [recording.visible.any(axis=1) for recording in recordings]
         times = np.unique(
@@ -74,6 +75,23 @@ class Replicates:
             replicate[:, columns] = recording.values[rows].T
         observed = ~np.isnan(values)
         return cls(times, np.where(observed, values, 0.0), observed)
+
+    def showing(self, number: int, recording: Recording) -> Self:
+        """Return the replicates where one of them shows no more than a recording does.
+
+        Parameters
+        ----------
+        number : int
+            That of the replicate.
+        recording : Recording
+            With the same channels; visible where the replicate is, or at fewer entries.
+        """
+        rows = recording.visible.any(axis=1)
+        shown = np.zeros_like(self.observed[number])
+        shown[:, np.searchsorted(self.times, recording.times[rows])] = recording.visible[rows].T
+        observed = self.observed.copy()
+        observed[number] = shown
+        return replace(self, data=np.where(observed, self.data, 0.0), observed=observed)
 
     @cached_property
     def patterns(self) -> tuple[Pattern, ...]:

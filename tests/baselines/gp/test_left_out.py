@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from scipy.signal import lfilter
 
 from mocapbench.baselines.gp.left_out import LeftOut
 from mocapbench.baselines.gp.planner import PLANS
@@ -18,7 +19,7 @@ from mocapbench.baselines.lmc_independent import LMCIndependent
 from mocapbench.baselines.moa import MOA
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.baselines.protocols import Prediction
-from mocapbench.datasets import ToyProcess
+from mocapbench.datasets import Recording, ToyProcess
 
 TIMES = np.linspace(0.0, 5.0, 12)
 SHAPE = (12, 2)
@@ -31,17 +32,23 @@ def recordings():
     return (*complete, last.hide(rng.random(SHAPE) < 0.5))
 
 
+def dense(model, trial):
+    """Return mean and variance of a recording of which more is hidden, parameters kept."""
+    given = {**model.recordings_, trial.name: trial}
+    reduction = model.reduce(Replicates.align([model.scaling_.apply(r) for r in given.values()]))
+    solvers = PLANS["dense"](KERNELS[model.kernel], reduction, model.parameters_)
+    process = replace(model._process, reduction=reduction, solvers=solvers)
+    curve = reduction.replicates[list(given).index(trial.name)]
+    ((mean, variance),) = process.infer([curve], [trial.times])
+    return mean, variance + model.noise_
+
+
 def without(model, recording, entry):
     """Return the squared error over the variance of an entry that is hidden, parameters kept."""
     mask = np.zeros(recording.values.shape, dtype=bool)
     mask[entry] = True
-    given = {**model.recordings_, recording.name: recording.hide(mask)}
-    reduction = model.reduce(Replicates.align([model.scaling_.apply(r) for r in given.values()]))
-    solvers = PLANS["dense"](KERNELS[model.kernel], reduction, model.parameters_)
-    process = replace(model._process, reduction=reduction, solvers=solvers)
-    curve = reduction.replicates[list(given).index(recording.name)]
-    ((mean, variance),) = process.infer([curve], [recording.times])
-    return (recording.values[entry] - mean[entry]) ** 2 / (variance + model.noise_)[entry]
+    mean, variance = dense(model, recording.hide(mask))
+    return (recording.values[entry] - mean[entry]) ** 2 / variance[entry]
 
 
 @pytest.mark.parametrize("solver", ["dense", "latent-split"])
@@ -55,6 +62,21 @@ def test_the_closed_form_is_that_of_leaving_each_entry_out(model, solver, record
         np.testing.assert_allclose(errors.squares[recording.visible], expected, rtol=1e-6)
 
 
+@pytest.mark.parametrize("solver", ["dense", "latent-split", "auto"])
+@pytest.mark.parametrize("model", [MOHGP, MOA, LMCIndependent])
+def test_trials_are_those_of_dense_inference(model, solver, recordings):
+    fitted = model(max_iter=5, solver=solver).fit(recordings)
+    for number, first in ((0, 0), (3, 4), (3, 8)):
+        mask = np.zeros(SHAPE, dtype=bool)
+        mask[first : first + 4] = True
+        trial = recordings[number].hide(mask)
+        (tried,), (mean, variance) = fitted.as_tried([trial]), dense(fitted, trial)
+        hidden = ~trial.visible
+        np.testing.assert_allclose(tried.mean[hidden], mean[hidden], rtol=1e-6, atol=1e-9)
+        np.testing.assert_allclose(tried.variance[hidden], variance[hidden], rtol=1e-6)
+        np.testing.assert_array_equal(tried.mean[~hidden], trial.values[~hidden])
+
+
 @pytest.mark.parametrize("model", [GPIndependent, HGP])
 def test_channels_side_by_side_have_their_own_errors(model, recordings):
     fitted = model(max_iter=5).fit(recordings)
@@ -64,6 +86,17 @@ def test_channels_side_by_side_have_their_own_errors(model, recordings):
     ):
         (alone,) = single.left_out([recordings[3].select([channel])])
         np.testing.assert_array_equal(column, alone.squares[:, 0])
+
+
+@pytest.mark.parametrize("model", [GPIndependent, HGP])
+def test_channels_side_by_side_have_their_own_trials(model, recordings):
+    fitted = model(max_iter=5).fit(recordings)
+    trial = recordings[0].hide(np.indices(SHAPE)[0] // 4 == 1)
+    (tried,) = fitted.as_tried([trial])
+    for d, (channel, single) in enumerate(zip(trial.channels, fitted.models_, strict=True)):
+        (alone,) = single.as_tried([trial.select([channel])])
+        np.testing.assert_array_equal(tried.mean[:, [d]], alone.mean)
+        np.testing.assert_array_equal(tried.variance[:, [d]], alone.variance)
 
 
 def test_entries_of_which_rounding_may_decide_do_not_count(recordings):
@@ -123,3 +156,29 @@ def test_a_recording_unlike_the_others_gets_wider_intervals():
         )
     claimed, widened = np.mean(covered, axis=0)
     assert claimed < 0.9 < widened
+
+
+def test_gaps_are_tried_where_entries_left_out_one_by_one_say_little():
+    """One recording wanders off by steps as large as those by which the others stay about 0."""
+    rng, shape, hidden = np.random.default_rng(3), (200, 2), np.zeros((200, 2), dtype=bool)
+    hidden[80:120] = True
+
+    def recording(name, pull):
+        values = lfilter([1.0], [1.0, pull - 1.0], rng.normal(size=shape), axis=0)
+        return Recording(name, np.arange(200) / 30, values, ("a", "b"), ("", ""))
+
+    covered = []
+    for _ in range(5):
+        full = recording("wandering", 0.0)
+        others = [recording(f"staying {number}", 0.3) for number in range(6)]
+        given = full.hide(hidden)
+        fitted = GPIndependent(kernel="matern12", max_iter=20).fit((*others, given))
+        (errors,), (filled,) = fitted.left_out([given]), fitted.impute([given])
+        one_by_one = errors.widened()
+        np.testing.assert_array_equal(filled.mean, one_by_one.mean)
+        assert (filled.variance >= one_by_one.variance).all()
+        within = [abs(p.mean - full.values) < 1.96 * p.variance**0.5 for p in (one_by_one, filled)]
+        covered.append([inside[hidden].mean() for inside in within])
+    one_by_one, tried = np.mean(covered, axis=0)
+    assert one_by_one < 0.8
+    assert tried > 0.85
