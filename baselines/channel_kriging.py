@@ -16,9 +16,10 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import hidden_together
 from mocapbench.baselines.common.recordings import check_recordings, pool
+from mocapbench.baselines.common.rehearsing import rehearsed
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_not_negative, check_positive
-from mocapbench.baselines.common.widening import Widened, widened
+from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.kriging.left_out import left_out_scales
 from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
@@ -51,8 +52,9 @@ class ChannelKriging(Widened, Imputer, Inductive):
     Channels hidden in the same frames are filled together; where others are hidden besides, these
     are interpolated over time for the comparison.
 
-    Variances are widened by trials. What is hidden as a whole has nothing to be predicted from,
-    and tends to the recording's mean. The defaults had the least error, of values a factor of two
+    Variances are multiplied by what trials in the recording, and training recordings in its place,
+    show (``docs/calibration.md``). What is hidden as a whole has nothing to be predicted from, and
+    tends to the recording's mean. The defaults had the least error, of values a factor of two
     or more apart, where the second half of a leg or of the upper body was left out in each training
     recording of ``subject-35-missing`` in turn. Time is counted in frames.
 
@@ -136,6 +138,9 @@ class ChannelKriging(Widened, Imputer, Inductive):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return each recording filled, independently of the others given here.
 
+        Variances are those claimed, times the geometric mean of what squared errors are of them in
+        trials on the recording's visible entries and in training recordings that have its gaps.
+
         Raises
         ------
         ValueError
@@ -143,7 +148,7 @@ class ChannelKriging(Widened, Imputer, Inductive):
             `fit`, or channels that are hidden together are visible together nowhere.
         """
         check_is_fitted(self)
-        return widened(self, recordings)
+        return rehearsed(self, self.recordings_, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

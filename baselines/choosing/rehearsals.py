@@ -14,10 +14,11 @@ from mocapbench.baselines.choosing.panel import Panel
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.common.scaling import unit_scales
+from mocapbench.baselines.common.stand_ins import aligned, turns
 from mocapbench.baselines.common.trials import trial_masks
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["Products", "Rehearsals", "aligned"]
+__all__ = ["Products", "Rehearsals"]
 
 Array = NDArray[np.float64]
 Products = pd.DataFrame
@@ -25,11 +26,6 @@ Products = pd.DataFrame
 
 Mean squared errors are on the diagonal; what is beside it says which models err alike.
 """
-
-_MOST_HELD_OUT = 3
-"""Training recordings that take the place of the one to fill."""
-_MANY = 4
-"""How many times as many recordings as are held out are enough to learn from."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,14 +74,8 @@ class Rehearsals:
         The recording held out has the gaps of the one to fill. Only copies that had to be shorter
         are tried besides.
         """
-        others = sorted((r for r in self.fitted if r.name != self.given.name), key=lambda r: r.name)
-        if len(self.fitted) < 2:
-            return []
-        places = np.unique(np.linspace(0, len(others) - 1, _MOST_HELD_OUT).round().astype(int))
-        chosen = [others[place] for place in places]
-        # Where many are left to learn from, those held out share one fit.
-        turns = [chosen] if len(others) > _MANY * len(chosen) else [[one] for one in chosen]
-        return [errors for turn in turns for errors in self._held_out(turn)]
+        held_out = turns(self.fitted, self.given)
+        return [errors for turn in held_out for errors in self._held_out(turn)]
 
     def _held_out(self, recordings: Sequence[Recording]) -> list[tuple[Products, Products]]:
         names = {recording.name for recording in recordings}
@@ -128,13 +118,3 @@ def _longest(masks: Sequence[Mask]) -> int:
     return max(
         (len(run) for mask in masks for run in runs(np.asarray(mask.any(axis=1)))), default=0
     )
-
-
-def aligned(recording: Recording, masks: Sequence[Mask]) -> list[tuple[Recording, Mask]]:
-    """Cut a recording and masks to the shorter of their lengths, around the gaps."""
-    n_frames, n_masked = len(recording.times), len(masks[0])
-    length = min(n_frames, n_masked)
-    cut = recording.frames((n_frames - length) // 2 + np.arange(length))
-    middle = int(np.flatnonzero(masks[0].any(axis=1)).mean())
-    first = min(max(middle - length // 2, 0), n_masked - length)
-    return [(cut, mask[first : first + length]) for mask in masks]

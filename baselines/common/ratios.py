@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["mean_ratios"]
+from mocapbench.baselines.protocols import Prediction
+from mocapbench.datasets import Mask, Recording
+
+__all__ = ["mean_ratios", "squared_ratios"]
 
 Array = NDArray[np.float64]
 
@@ -25,3 +28,21 @@ def mean_ratios(sums: Array, counts: Array) -> Array:
     """
     pooled = float(sums.sum() / counts.sum())
     return np.asarray((sums + _PRIOR_ENTRIES * pooled) / (counts + _PRIOR_ENTRIES))
+
+
+def squared_ratios(truth: Recording, mask: Mask, answer: Prediction) -> Array:
+    """Return the sums of squared errors over claimed variances, and their numbers: (2, D).
+
+    Parameters
+    ----------
+    truth : Recording
+        With D channels.
+    mask : ndarray of shape (N, D)
+        The entries that count; those that are hidden in ``truth`` do not.
+    answer : Prediction
+        With variances.
+    """
+    known = mask & truth.visible
+    claimed = np.where(known, np.asarray(answer.variance, dtype=np.float64), 1.0)
+    errors = np.where(known, truth.values - answer.mean, 0.0)
+    return np.stack([(errors**2 / claimed).sum(axis=0), known.sum(axis=0)])

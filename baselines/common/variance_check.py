@@ -19,7 +19,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.ratios import mean_ratios
+from mocapbench.baselines.common.ratios import mean_ratios, squared_ratios
 from mocapbench.baselines.common.trials import (
     Places,
     copies_or_islands,
@@ -87,12 +87,23 @@ class VarianceCheck:
         """
         if not answers or claimed.variance is None:
             return claimed
+        factors = np.maximum(self.factors(answers), 1.0)
+        return Prediction(claimed.mean, claimed.variance * factors)
+
+    def factors(self, answers: Sequence[Prediction]) -> Array:
+        """Return by how much squared errors exceed claimed variances in the gaps: (D,).
+
+        Parameters
+        ----------
+        answers : sequence of Prediction
+            Of the `trials`, in their order.
+        """
         n_copies = len(self.copies)
         sums, counts = self._ratios(self.copies, answers[:n_copies])
         factors = mean_ratios(sums, counts)
         if self.halves:
             factors = factors * self._growth(sums, counts, answers[n_copies:])
-        return Prediction(claimed.mean, claimed.variance * np.maximum(factors, 1.0))
+        return factors
 
     def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
         """Return by what the ratio grows from the copies to the gaps: (D,)."""
@@ -121,11 +132,10 @@ class VarianceCheck:
         gap, copy, half = self._distances
         return np.asarray((half > 0) & (half < copy) & (copy < gap))
 
-    def _ratios(self, masks: Sequence[Mask], answers: Sequence[Prediction]) -> tuple[Array, Array]:
-        """Return the sum of squared errors over claimed variances, and their number, by channel."""
-        sums, counts = np.zeros((2, self.recording.values.shape[1]))
-        for mask, answer in zip(masks, answers, strict=True):
-            claimed = np.where(mask, np.asarray(answer.variance, dtype=np.float64), 1.0)
-            errors = np.where(mask, self.recording.values - answer.mean, 0.0)
-            sums, counts = sums + (errors**2 / claimed).sum(axis=0), counts + mask.sum(axis=0)
-        return sums, counts
+    def _ratios(self, masks: Sequence[Mask], answers: Sequence[Prediction]) -> Array:
+        """Return the sums of squared errors over claimed variances, and their numbers: (2, D)."""
+        by_trial = [
+            squared_ratios(self.recording, mask, answer)
+            for mask, answer in zip(masks, answers, strict=True)
+        ]
+        return np.asarray(np.sum(by_trial, axis=0))

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines import FAM, LDS, ChannelKriging, LowRank, Prediction
+from mocapbench.baselines import FAM, LDS, LowRank, Prediction
 from mocapbench.baselines.common.trials import remoteness, trial_masks
 from mocapbench.baselines.common.variance_check import VarianceCheck
 from mocapbench.baselines.common.widening import Widened, widened
@@ -34,7 +34,7 @@ class Claiming(Widened):
         return [Prediction.around(recording, 0.0, self.variance) for recording in recordings]
 
 
-@pytest.mark.parametrize("model", [LDS, LowRank, ChannelKriging, FAM])
+@pytest.mark.parametrize("model", [LDS, LowRank, FAM])
 def test_a_model_claims_the_means_that_it_fills_with(model):
     recording = noise("r", np.array([1.0, 3.0]), 150)
     fitted = model().fit([recording, noise("other", np.array([2.0, 1.0]), 150)])

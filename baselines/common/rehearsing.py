@@ -1,0 +1,102 @@
+r"""Variances that a recording's own trials and training recordings in its place have checked.
+
+Trials in the recording itself know the person, but are of copies that may be shorter than the gaps,
+or leave too little visible. Training recordings in its place, left out of training, have the gaps
+as they are. Let :math:`o_d` be the mean ratio of squared errors to claimed variances of channel d
+in the recording's own trials, :math:`t_d` the one in training, and g by how much the ratio in
+training, over all channels, is larger in gaps than in copies of them that had to be shorter. Both
+:math:`g\, o_d` and :math:`t_d` say what variances in the gap have to be multiplied by, and
+:math:`\sqrt{g\, o_d\, t_d}`, their geometric mean, is taken. It may be less than 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.base import clone
+
+from mocapbench.baselines.common.ratios import mean_ratios, squared_ratios
+from mocapbench.baselines.common.stand_ins import aligned, turns
+from mocapbench.baselines.common.variance_check import VarianceCheck
+from mocapbench.baselines.common.widening import Widened
+from mocapbench.baselines.protocols import Prediction
+from mocapbench.datasets import Mask, Recording
+
+__all__ = ["rehearsed"]
+
+Array = NDArray[np.float64]
+
+_TINY = np.finfo(np.float64).tiny
+_LEAST = 1e-4
+"""The least factor, squared: where nothing varies, trials err nowhere, and doubt would vanish."""
+
+
+def rehearsed(
+    model: Widened, learnt_from: Sequence[Recording], recordings: Sequence[Recording]
+) -> list[Prediction]:
+    """Return a model's predictions with variances that trials and training bear out.
+
+    Without training recordings to hold out, or a trial, variances are those of `widened`.
+
+    Parameters
+    ----------
+    model : Widened
+        What it claims of one recording may not depend on the others.
+    learnt_from : sequence of Recording
+        Those given to its ``fit``.
+    recordings : sequence of Recording
+    """
+    return [
+        _rehearsed(model, learnt_from, recording, claimed)
+        for recording, claimed in zip(recordings, model.as_claimed(recordings), strict=True)
+    ]
+
+
+def _rehearsed(
+    model: Widened, learnt_from: Sequence[Recording], given: Recording, claimed: Prediction
+) -> Prediction:
+    check = VarianceCheck.of(given)
+    if not check.copies:
+        return claimed
+    gaps, copies = _in_training(model, learnt_from, check)
+    if not gaps[1].any():
+        return check.applied(claimed, model.as_tried(check.trials()))
+    own = replace(check, halves=[])
+    factors = own.factors(model.as_tried(own.trials())) * mean_ratios(*gaps)
+    if copies[1].any():
+        factors *= _pooled(gaps) / (_pooled(copies) + _TINY)
+    factors = np.sqrt(np.maximum(factors, _LEAST))
+    return Prediction(claimed.mean, np.asarray(claimed.variance) * factors)
+
+
+def _in_training(model: Widened, learnt_from: Sequence[Recording], check: VarianceCheck) -> Array:
+    """Return the ratios in gaps of training recordings, and in a copy if short: (2, 2, D)."""
+    middle = check.copies[len(check.copies) // 2]
+    masks = [~check.recording.visible, *([middle] if check.halves else [])]
+    totals = np.zeros((2, 2, len(check.recording.channels)))
+    for held_out in turns(learnt_from, check.recording):
+        names = {recording.name for recording in held_out}
+        rest = clone(model).fit([r for r in learnt_from if r.name not in names])
+        for number, (cut, gap, mask) in _in_place(held_out, masks):
+            with suppress(ValueError):  # A channel may be visible nowhere else.
+                (answer,) = rest.as_claimed([cut.hide(gap | mask)])
+                totals[number] += squared_ratios(cut, mask, answer)
+    return totals
+
+
+def _in_place(
+    held_out: Sequence[Recording], masks: Sequence[Mask]
+) -> Iterator[tuple[int, tuple[Recording, Mask, Mask]]]:
+    """Yield each recording, the gaps and each of the masks, by number."""
+    for recording in held_out:
+        (_, gap), *_ = cuts = aligned(recording, masks)
+        yield from enumerate((cut, gap, mask) for cut, mask in cuts)
+
+
+def _pooled(total: Array) -> float:
+    sums, counts = total
+    return float(sums.sum() / counts.sum())

@@ -1,0 +1,51 @@
+"""Training recordings that take the place of the one to fill, left out of training.
+
+They say what a model makes of gaps as long as those to fill, which copies in the recording itself
+may not; but they know nothing of the person.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mocapbench.datasets import Mask, Recording
+
+__all__ = ["aligned", "turns"]
+
+_MOST = 3
+"""Training recordings that take the place of the one to fill."""
+_MANY = 4
+"""How many times as many recordings as are held out are enough to learn from."""
+
+
+def turns(recordings: Sequence[Recording], given: Recording) -> list[list[Recording]]:
+    """Return the recordings that are held out together, for each turn.
+
+    They are spread evenly over the recordings by name. Where many are left to learn from, those
+    held out share one turn.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        What is learnt from; the one to fill, which may be among them, is never held out.
+    given : Recording
+        The one to fill.
+    """
+    others = sorted((r for r in recordings if r.name != given.name), key=lambda r: r.name)
+    if len(recordings) < 2:
+        return []
+    places = np.unique(np.linspace(0, len(others) - 1, _MOST).round().astype(int))
+    chosen = [others[place] for place in places]
+    return [chosen] if len(others) > _MANY * len(chosen) else [[one] for one in chosen]
+
+
+def aligned(recording: Recording, masks: Sequence[Mask]) -> list[tuple[Recording, Mask]]:
+    """Cut a recording and masks to the shorter of their lengths, around the gaps."""
+    n_frames, n_masked = len(recording.times), len(masks[0])
+    length = min(n_frames, n_masked)
+    cut = recording.frames((n_frames - length) // 2 + np.arange(length))
+    middle = int(np.flatnonzero(masks[0].any(axis=1)).mean())
+    first = min(max(middle - length // 2, 0), n_masked - length)
+    return [(cut, mask[first : first + length]) for mask in masks]
