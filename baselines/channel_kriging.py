@@ -16,13 +16,13 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import hidden_together
 from mocapbench.baselines.common.recordings import check_recordings, pool
-from mocapbench.baselines.common.rehearsing import rehearsed
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_not_negative, check_positive
-from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.kriging.left_out import left_out_scales
 from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
+from mocapbench.baselines.rehearsal.rehearsing import rehearsed
+from mocapbench.baselines.rehearsal.widening import Widened
 from mocapbench.datasets import Recording
 
 __all__ = ["ChannelKriging"]

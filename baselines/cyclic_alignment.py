@@ -21,7 +21,6 @@ from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Array
 from mocapbench.baselines.alignment.synthesis import blended, draw_cycles, draw_sequences
-from mocapbench.baselines.common.widening import Widened, widened
 from mocapbench.baselines.protocols import (
     Blender,
     Imputer,
@@ -30,6 +29,7 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
+from mocapbench.baselines.rehearsal.widening import Widened, widened
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
 __all__ = ["CyclicAlignment"]

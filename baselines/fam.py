@@ -11,7 +11,6 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.widening import Relearning, widened
 from mocapbench.baselines.functional.basis import Array
 from mocapbench.baselines.functional.components import infer_scores, principal_axes
 from mocapbench.baselines.functional.cycles import Cycles
@@ -23,6 +22,7 @@ from mocapbench.baselines.functional.shifts import SHIFTS, Aligned, shift_togeth
 from mocapbench.baselines.functional.statistics import CurveStatistics
 from mocapbench.baselines.functional.validation import check_frames, check_settings
 from mocapbench.baselines.protocols import Aligner, Imputer, Inductive, Prediction, StatePath
+from mocapbench.baselines.rehearsal.widening import Relearning, widened
 from mocapbench.datasets import Recording
 
 __all__ = ["FAM"]

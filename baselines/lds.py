@@ -11,7 +11,6 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive
-from mocapbench.baselines.common.widening import Relearning, widened
 from mocapbench.baselines.protocols import (
     Imputer,
     Inductive,
@@ -19,6 +18,7 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
+from mocapbench.baselines.rehearsal.widening import Relearning, widened
 from mocapbench.baselines.state_space.em import expectation_maximisation
 from mocapbench.baselines.state_space.model import PRIORS
 from mocapbench.baselines.state_space.observations import Observations

@@ -13,8 +13,8 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.own_means import OwnMeans
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
-from mocapbench.baselines.common.widening import Relearning, widened
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
+from mocapbench.baselines.rehearsal.widening import Relearning, widened
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["LowRank"]

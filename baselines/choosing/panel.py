@@ -13,7 +13,6 @@ from typing import Self
 from mocapbench.baselines.aligned_window import AlignedWindow
 from mocapbench.baselines.channel_kriging import ChannelKriging
 from mocapbench.baselines.choosing.jointly import Jointly
-from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.fam import FAM
 from mocapbench.baselines.interpolation import (
     CubicSplineImputer,
@@ -28,6 +27,7 @@ from mocapbench.baselines.nn import NN
 from mocapbench.baselines.pca_regression import PCARegression
 from mocapbench.baselines.pose_kriging import PoseKriging
 from mocapbench.baselines.protocols import FrameImputer, Prediction
+from mocapbench.baselines.rehearsal.widening import Widened
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["CANDIDATES", "LAST_RESORT", "Panel"]

@@ -14,8 +14,8 @@ from mocapbench.baselines.choosing.panel import Panel
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.common.scaling import unit_scales
-from mocapbench.baselines.common.stand_ins import aligned, turns
-from mocapbench.baselines.common.trials import trial_masks
+from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
+from mocapbench.baselines.rehearsal.trials import trial_masks
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["Products", "Rehearsals"]

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mocapbench.baselines.common.trials import long_copies
-from mocapbench.baselines.common.variance_check import VarianceCheck
-from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.gp.left_out import LeftOut
 from mocapbench.baselines.protocols import Imputer, Prediction
+from mocapbench.baselines.rehearsal.trials import long_copies
+from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
+from mocapbench.baselines.rehearsal.widening import Widened
 from mocapbench.datasets import Recording
 
 __all__ = ["Conditioned"]

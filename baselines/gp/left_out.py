@@ -23,8 +23,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.ratios import mean_ratios
 from mocapbench.baselines.protocols import Prediction
+from mocapbench.baselines.rehearsal.ratios import mean_ratios
 from mocapbench.datasets import Recording
 
 __all__ = ["LeftOut", "side_by_side"]

@@ -22,7 +22,6 @@ from mocapbench.baselines.common.validation import (
     check_seed,
     check_share,
 )
-from mocapbench.baselines.common.widening import Widened, widened
 from mocapbench.baselines.gpdm.conditional import Conditional, Query
 from mocapbench.baselines.gpdm.dynamics import Dynamics
 from mocapbench.baselines.gpdm.kernels import RBFKernel
@@ -33,6 +32,7 @@ from mocapbench.baselines.gpdm.sequences import TrainingSequences, whitened_comp
 from mocapbench.baselines.gpdm.starts import STARTS
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import Embedded, FrameImputer, Inductive, Prediction
+from mocapbench.baselines.rehearsal.widening import Widened, widened
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["LatentVariableModel"]

@@ -50,9 +50,9 @@ from mocapbench.baselines import (
     PoseKriging,
 )
 from mocapbench.baselines.common.gaps import hidden_frames
-from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.kriging.paths import MatchedPaths
+from mocapbench.baselines.rehearsal.widening import Widened
 from mocapbench.benchmark import ImputeProblem
 from mocapbench.benchmark.problems.impute import FilledRecordings
 from mocapbench.benchmark.tasks.missing_frames import (

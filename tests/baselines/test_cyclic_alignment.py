@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocapbench.baselines.common.variance_check import VarianceCheck
 from mocapbench.baselines.cyclic_alignment import CyclicAlignment
+from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
 from mocapbench.datasets import Recording
 
 QUICK = {"n_styles": 2, "max_iter": 15, "random_state": 0, "refine_iter": 3}

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from mocapbench import baselines, benchmark, datasets
-from mocapbench.baselines import common
+from mocapbench.baselines import common, rehearsal
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.plugins import load_plugin
@@ -141,18 +141,18 @@ FIT_PATH = [
     ("baselines.common.lapack", "toy-interpolation-1", "mohgp"),
     ("baselines.common.own_means", "walking-interpolation", "low-rank"),
     ("baselines.common.prototypes", "style-clustering", "k-fam"),
-    ("baselines.common.ratios", "toy-interpolation-1", "mohgp"),
+    ("baselines.rehearsal.ratios", "toy-interpolation-1", "mohgp"),
     ("baselines.common.recordings", "toy-interpolation-1", "trivial"),
-    ("baselines.common.rehearsing", "subject-35-missing", "channel-kriging"),
+    ("baselines.rehearsal.rehearsing", "subject-35-missing", "channel-kriging"),
     ("baselines.common.scaling", "toy-interpolation-1", "mohgp"),
     ("baselines.common.shortest_path", "missing-frames", "pose-viterbi"),
     ("baselines.common.signs", "toy-interpolation-1", "mohgp"),
-    ("baselines.common.stand_ins", "subject-35-missing", "channel-kriging"),
+    ("baselines.rehearsal.stand_ins", "subject-35-missing", "channel-kriging"),
     ("baselines.common.threads", "toy-interpolation-1", "mohgp"),
     ("baselines.common.transitions", "missing-frames", "knn"),
-    ("baselines.common.trials", "missing-frames", "lds"),
-    ("baselines.common.variance_check", "missing-frames", "lds"),
-    ("baselines.common.widening", "missing-frames", "lds"),
+    ("baselines.rehearsal.trials", "missing-frames", "lds"),
+    ("baselines.rehearsal.variance_check", "missing-frames", "lds"),
+    ("baselines.rehearsal.widening", "missing-frames", "lds"),
     ("baselines.common.validation", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.prior.kernels", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.solvers.latent_split.gradient", "toy-interpolation-1", "mohgp"),
@@ -170,9 +170,12 @@ def test_code_that_poses_or_fits_is_part_of_the_fit_key(append, module, task, mo
 
 
 def test_every_module_that_models_have_in_common_is_among_those():
-    shared = {module.name for module in pkgutil.iter_modules(common.__path__)}
-    named = {module.removeprefix("baselines.common.") for module, _, _ in FIT_PATH}
-    assert shared <= named
+    shared = {
+        f"baselines.{package.__name__.rpartition('.')[2]}.{module.name}"
+        for package in (common, rehearsal)
+        for module in pkgutil.iter_modules(package.__path__)
+    }
+    assert shared <= {module for module, _, _ in FIT_PATH}
 
 
 @pytest.mark.parametrize(

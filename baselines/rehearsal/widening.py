@@ -15,8 +15,8 @@ from itertools import islice
 from sklearn.base import clone
 
 from mocapbench.baselines.common.recordings import pool
-from mocapbench.baselines.common.variance_check import VarianceCheck
 from mocapbench.baselines.protocols import Model, Prediction
+from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
 from mocapbench.datasets import Recording
 
 __all__ = ["Relearning", "Widened", "widened"]

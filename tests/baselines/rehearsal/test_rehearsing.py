@@ -5,35 +5,29 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
+from claiming import Claiming, Drifting
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines import ChannelKriging
-from mocapbench.baselines.common.ratios import mean_ratios
-from mocapbench.baselines.common.rehearsing import rehearsed
-from mocapbench.baselines.common.stand_ins import aligned, turns
-from mocapbench.baselines.common.variance_check import VarianceCheck
-from mocapbench.baselines.common.widening import Widened, widened
-from mocapbench.baselines.protocols import Prediction
+from mocapbench.baselines.rehearsal.ratios import mean_ratios
+from mocapbench.baselines.rehearsal.rehearsing import rehearsed
+from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
+from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
+from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.datasets import Recording
 
 GAP = slice(80, 110)
 
 
-class Claiming(Widened):
-    """Predicts 0 and claims one variance; it keeps what it was fitted to."""
+class Watched(Claiming):
+    """Keeps the names of what it was fitted to."""
 
     fits: ClassVar[list[list[str]]] = []
-
-    def __init__(self, variance=1.0):
-        self.variance = variance
 
     def fit(self, recordings):
         self.fits.append([recording.name for recording in recordings])
         return self
-
-    def as_claimed(self, recordings):
-        return [Prediction.around(recording, 0.0, self.variance) for recording in recordings]
 
 
 def noise(name, *scales, n_frames=200):
@@ -94,24 +88,11 @@ def walk(name):
     return Recording(name, np.arange(200) / 30, values, channels, ("",) * 30)
 
 
-class Held(Claiming):
-    """Predicts the last visible value."""
-
-    def as_claimed(self, recordings):
-        return [self.held(recording) for recording in recordings]
-
-    def held(self, recording):
-        frames = np.arange(len(recording.times))[:, None]
-        last = np.maximum.accumulate(np.where(recording.visible, frames, 0))
-        mean = np.take_along_axis(recording.values, last, axis=0)
-        return Prediction.around(recording, mean, self.variance)
-
-
 def test_errors_grow_from_copies_to_gaps_as_in_training():
     """A random walk has left the last visible value by the number of frames, squared."""
     given = with_gap(walk("new"), slice(60, 180))
     assert VarianceCheck.of(given).halves
-    factors = factor(Held(), [walk("w" * number) for number in range(5, 9)], given)
+    factors = factor(Drifting(), [walk("w" * number) for number in range(5, 9)], given)
     np.testing.assert_allclose(factors.mean(), np.arange(1, 121).mean(), rtol=0.25)
 
 
@@ -137,13 +118,13 @@ def test_doubt_does_not_vanish_where_nothing_varies():
 def test_those_held_out_are_not_learnt_from_and_share_a_turn_where_many_are_left():
     new, some, many = noise("new", 1.0), "abcd", "abcdefghijklmnop"
     for names, shared in ((some, False), (many, True)):
-        Claiming.fits.clear()
+        Watched.fits.clear()
         training = [noise(name, 1.0) for name in names]
         held_out = [[r.name for r in turn] for turn in turns([*training, new], new)]
-        rehearsed(Claiming(), [*training, new], [with_gap(new)])
+        rehearsed(Watched(), [*training, new], [with_gap(new)])
         assert (len(held_out) == 1) is shared
         assert [*chain(*held_out)] == [names[0], names[len(names) // 2], names[-1]]
-        for learnt, turn in zip(Claiming.fits, held_out, strict=True):
+        for learnt, turn in zip(Watched.fits, held_out, strict=True):
             assert {*learnt, *turn} == {*names, "new"}
             assert not set(learnt) & set(turn)
 

@@ -19,18 +19,17 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.base import clone
 
-from mocapbench.baselines.common.ratios import mean_ratios, squared_ratios
-from mocapbench.baselines.common.stand_ins import aligned, turns
-from mocapbench.baselines.common.variance_check import VarianceCheck
-from mocapbench.baselines.common.widening import Widened
 from mocapbench.baselines.protocols import Prediction
+from mocapbench.baselines.rehearsal.ratios import mean_ratios, squared_ratios
+from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
+from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
+from mocapbench.baselines.rehearsal.widening import Widened
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["rehearsed"]
 
 Array = NDArray[np.float64]
 
-_TINY = np.finfo(np.float64).tiny
 _LEAST = 1e-4
 """The least factor, squared: where nothing varies, trials err nowhere, and doubt would vanish."""
 
@@ -67,10 +66,10 @@ def _rehearsed(
         return check.applied(claimed, model.as_tried(check.trials()))
     own = replace(check, halves=[])
     factors = own.factors(model.as_tried(own.trials())) * mean_ratios(*gaps)
-    if copies[1].any():
-        factors *= _pooled(gaps) / (_pooled(copies) + _TINY)
-    factors = np.sqrt(np.maximum(factors, _LEAST))
-    return Prediction(claimed.mean, np.asarray(claimed.variance) * factors)
+    if copies[0].any():
+        factors *= _pooled(gaps) / _pooled(copies)
+    borne_out = np.asarray(claimed.variance) * np.sqrt(np.maximum(factors, _LEAST))
+    return Prediction(claimed.mean, borne_out)
 
 
 def _in_training(model: Widened, learnt_from: Sequence[Recording], check: VarianceCheck) -> Array:

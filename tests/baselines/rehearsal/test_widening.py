@@ -1,12 +1,13 @@
 import numpy as np
 import pytest
+from claiming import Claiming, Drifting
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines import FAM, LDS, LowRank, Prediction
-from mocapbench.baselines.common.trials import remoteness, trial_masks
-from mocapbench.baselines.common.variance_check import VarianceCheck
-from mocapbench.baselines.common.widening import Widened, widened
+from mocapbench.baselines import FAM, LDS, LowRank
+from mocapbench.baselines.rehearsal.trials import remoteness, trial_masks
+from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
+from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.datasets import Recording
 
 
@@ -19,19 +20,6 @@ def noise(name, scales, n_frames=200):
     channels = tuple(f"c{d}" for d in range(len(scales)))
     full = Recording(name, np.arange(n_frames) / 30, values, channels, ("",) * len(channels))
     return full.hide(hidden)
-
-
-class Claiming(Widened):
-    """Predicts 0 and claims one variance."""
-
-    def __init__(self, variance=1.0):
-        self.variance = variance
-
-    def fit(self, recordings):
-        return self
-
-    def as_claimed(self, recordings):
-        return [Prediction.around(recording, 0.0, self.variance) for recording in recordings]
 
 
 @pytest.mark.parametrize("model", [LDS, LowRank, FAM])
@@ -75,25 +63,6 @@ def test_variances_are_finite_whatever_is_visible(seed, share):
     (prediction,) = widened(Claiming(1.0), [recording])
     assert (prediction.variance[~recording.visible] >= 1.0).all()
     assert np.isfinite(prediction.variance).all()
-
-
-class Drifting(Widened):
-    """Predicts the last visible value, and claims a power of the time since."""
-
-    def __init__(self, power=0.0):
-        self.power = power
-
-    def fit(self, recordings):
-        return self
-
-    def as_claimed(self, recordings):
-        return [self.held(recording) for recording in recordings]
-
-    def held(self, recording):
-        frames = np.arange(len(recording.times))[:, None]
-        last = np.maximum.accumulate(np.where(recording.visible, frames, 0))
-        mean = np.take_along_axis(recording.values, last, axis=0)
-        return Prediction.around(recording, mean, np.maximum(frames - last, 1.0) ** self.power)
 
 
 def walk(*lengths, n_channels=40):

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines.common.gaps import runs
-from mocapbench.baselines.common.trials import (
+from mocapbench.baselines.rehearsal.trials import (
     N_TRIALS,
     copies_or_islands,
     halved,

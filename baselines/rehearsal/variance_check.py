@@ -19,15 +19,15 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.ratios import mean_ratios, squared_ratios
-from mocapbench.baselines.common.trials import (
+from mocapbench.baselines.protocols import Prediction
+from mocapbench.baselines.rehearsal.ratios import mean_ratios, squared_ratios
+from mocapbench.baselines.rehearsal.trials import (
     Places,
     copies_or_islands,
     halved,
     remoteness,
     trial_masks,
 )
-from mocapbench.baselines.protocols import Prediction
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["VarianceCheck"]
