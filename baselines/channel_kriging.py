@@ -138,8 +138,8 @@ class ChannelKriging(Widened, Imputer, Inductive):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return each recording filled, independently of the others given here.
 
-        Variances are those claimed, times the geometric mean of what squared errors are of them in
-        trials on the recording's visible entries and in training recordings that have its gaps.
+        Variances are those claimed, times the mean of two ratios of squared errors to them: in
+        trials on the recording's visible entries, and in training recordings that have its gaps.
 
         Raises
         ------

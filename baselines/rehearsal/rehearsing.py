@@ -5,8 +5,9 @@ or leave too little visible. Training recordings in its place, left out of train
 as they are. Let :math:`o_d` be the mean ratio of squared errors to claimed variances of channel d
 in the recording's own trials, :math:`t_d` the one in training, and g by how much the ratio in
 training, over all channels, is larger in gaps than in copies of them that had to be shorter. Both
-:math:`g\, o_d` and :math:`t_d` say what variances in the gap have to be multiplied by, and
-:math:`\sqrt{g\, o_d\, t_d}`, their geometric mean, is taken. It may be less than 1.
+:math:`g\, o_d` and :math:`t_d` say what variances in the gaps have to be multiplied by. Which of
+them is right is not known, and the variance of an equal mixture of both is taken: the factor is
+:math:`(g\, o_d + t_d) / 2`, which may be less than 1.
 """
 
 from __future__ import annotations
@@ -30,8 +31,8 @@ __all__ = ["rehearsed"]
 
 Array = NDArray[np.float64]
 
-_LEAST = 1e-4
-"""The least factor, squared: where nothing varies, trials err nowhere, and doubt would vanish."""
+_LEAST = 0.01
+"""The least factor: where nothing varies, trials err nowhere, and doubt would vanish."""
 
 
 def rehearsed(
@@ -64,12 +65,12 @@ def _rehearsed(
     gaps, copies = _in_training(model, learnt_from, check)
     if not gaps[1].any():
         return check.applied(claimed, model.as_tried(check.trials()))
-    own = replace(check, halves=[])
-    factors = own.factors(model.as_tried(own.trials())) * mean_ratios(*gaps)
+    copied = replace(check, halves=[])
+    own = copied.factors(model.as_tried(copied.trials()))
     if copies[0].any():
-        factors *= _pooled(gaps) / _pooled(copies)
-    borne_out = np.asarray(claimed.variance) * np.sqrt(np.maximum(factors, _LEAST))
-    return Prediction(claimed.mean, borne_out)
+        own *= _pooled(gaps) / _pooled(copies)
+    factors = np.maximum((own + mean_ratios(*gaps)) / 2.0, _LEAST)
+    return Prediction(claimed.mean, np.asarray(claimed.variance) * factors)
 
 
 def _in_training(model: Widened, learnt_from: Sequence[Recording], check: VarianceCheck) -> Array:
