@@ -144,12 +144,14 @@ class BestOf(Imputer, Inductive):
         return Rehearsals(self.recordings_, self.panel_, recording)
 
     def _mixture(self, recording: Recording) -> Prediction:
-        answers = self.panel_.impute(recording)
-        if LAST_RESORT not in answers:  # it says what nothing can fill
+        filled = self.panel_.means(recording)
+        if LAST_RESORT not in filled:  # it says what nothing can fill
             return self.panel_.models[LAST_RESORT].impute([recording])[0]
         rehearsals = self._rehearsals(recording)
-        sources = among(evidence(rehearsals), answers)
+        sources = among(evidence(rehearsals), filled)
         errors, weights = expected_errors(sources), weights_of(sources, self.shrinkage)
+        weights = {name: weight for name, weight in weights.items() if weight > 0.0}
+        answers = self.panel_.impute(recording, weights)
         means = {name: answers[name].mean for name in weights}
         mean = np.sum([weights[name] * means[name] for name in weights], axis=0)
         variance = np.zeros_like(mean)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from copy import copy
 from dataclasses import dataclass, replace
@@ -83,9 +83,10 @@ class Panel:
         models = {name: copy(model) for name, model in self.models.items()}
         return replace(self, models=_fitted(models, recordings))
 
-    def impute(self, recording: Recording) -> dict[str, Prediction]:
-        """Return the prediction of each model that can fill the recording."""
-        return self._filled(recording, lambda model: model.impute)
+    def impute(self, recording: Recording, names: Iterable[str]) -> dict[str, Prediction]:
+        """Return the predictions of some of the models, those that can fill the recording."""
+        chosen = replace(self, models={name: self.models[name] for name in names})
+        return chosen._filled(recording, lambda model: model.impute)
 
     def means(self, recording: Recording) -> dict[str, FrameByChannel]:
         """Return the means of `impute`, without the trials that only widen variances."""

@@ -32,7 +32,7 @@ class Conditioned(Widened, Imputer):
     def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
         """Return what the model claims of recordings given to `fit` of which more is hidden.
 
-        Its parameters are kept.
+        Its parameters are kept. Trials of a recording that registration has moved mean nothing.
         """
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -41,9 +41,11 @@ class Conditioned(Widened, Imputer):
         Each is conditioned on the visible entries of *all* recordings given to `fit`. The variances
         of a channel are those of the posterior, times the larger of two mean ratios of squared
         errors to variances, where it is above 1: that of the recording's own visible entries if
-        they are left out one by one, and that of trials, which hide copies of gaps, three frames
-        long at the least, with the parameters kept. The mean over all channels counts as ten
-        entries in each (``docs/calibration.md``). `as_claimed` has the posterior itself.
+        they are left out one by one, and that of trials, with the parameters kept. Trials hide
+        copies of gaps of three frames or more; where copies have to be shorter than the gap, the
+        ratio grows with the distance to visible frames as it does in them. The mean over all
+        channels counts as ten entries in each (``docs/calibration.md``). `as_claimed` has the
+        posterior itself.
 
         Parameters
         ----------

@@ -81,5 +81,11 @@ class LearntCovariances(Coregionalised):
     @contextmanager
     def _threaded_process(self) -> Iterator[FittedProcess]:
         """Give the fitted process with its threads running."""
+        with self._threaded(self._process) as process:
+            yield process
+
+    @contextmanager
+    def _threaded(self, process: FittedProcess) -> Iterator[FittedProcess]:
+        """Give a process with its threads running."""
         with thread_mapper(effective_n_jobs(self.n_jobs)) as mapper:
-            yield self._process.with_mapper(mapper)
+            yield process.with_mapper(mapper)

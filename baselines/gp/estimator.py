@@ -111,6 +111,7 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
     """
 
     family: ClassVar[str] = "Gaussian processes"
+    _replicates: Replicates
 
     def __init__(
         self,
@@ -185,9 +186,10 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
         return self
 
     def _showing(self, number: int, trial: Recording) -> FittedProcess:
-        reduction = self.reduce(self._replicates.showing(number, trial))
-        solvers = PLANS[self.solver](KERNELS[self.kernel], reduction, self.parameters_)
-        return replace(self._process, reduction=reduction, solvers=solvers)
+        fitted, reduction = self._process, self.reduce(self._replicates.showing(number, trial))
+        # A trial may break what the solver of `fit` needs, such as gaps that all outputs share.
+        solvers = PLANS["auto"](fitted.kernel, reduction, fitted.parameters)
+        return replace(fitted, reduction=reduction, solvers=solvers)
 
     def _train(self, replicates: Replicates) -> None:
         reduction = self.reduction_

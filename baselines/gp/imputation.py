@@ -41,7 +41,8 @@ class RecordingPosterior(LearntCovariances, Conditioned):
         ]
 
     def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
-        """Return what the process claims of recordings of which more is hidden."""
+        """Return what the process claims of recordings given to `fit` of which more is hidden."""
+        check_is_fitted(self)
         return [self._tried(trial) for trial in trials]
 
     def posterior_covariance(self, recording: Recording, times: Frames | None = None) -> Array:
@@ -121,24 +122,31 @@ class RecordingPosterior(LearntCovariances, Conditioned):
         """Return the process, parameters kept, to which recording ``number`` shows a trial."""
 
     def _tried(self, trial: Recording) -> Prediction:
-        number = list(self.recordings_).index(trial.name)
-        process = self._showing(number, trial)
-        curve = process.reduction.replicates[number]
-        ((mean, variance),) = process.infer([curve], [trial.times])
+        if trial.visible.all():
+            return Prediction.around(trial, trial.values, 0.0)
+        number = self._number(trial)
+        with self._threaded(self._showing(number, trial)) as process:
+            curve = process.reduction.replicates[number]
+            ((mean, variance),) = process.infer([curve], [trial.times])
         return Prediction.around(trial, mean, variance + self.noise_)
 
     def _terms(self, recording: Recording) -> tuple[PosteriorTerm, ...]:
         """Return the posterior terms of a recording that was given to `fit`."""
         self._check_fitted_to(recording)
-        return self.reduction_.replicates[list(self.recordings_).index(recording.name)]
+        return self.reduction_.replicates[self._number(recording)]
 
-    def _check_fitted_to(self, recording: Recording) -> None:
-        fitted = self.recordings_.get(recording.name)
-        if fitted is None:
+    def _number(self, recording: Recording) -> int:
+        """Return the place among the recordings given to `fit` of the one of that name."""
+        if recording.name not in self.recordings_:
             raise ValueError(
                 f"expected recordings that were given to fit, {sorted(self.recordings_)}, got "
                 f"{recording.name!r}: give it to fit together with the others"
             )
+        return list(self.recordings_).index(recording.name)
+
+    def _check_fitted_to(self, recording: Recording) -> None:
+        self._number(recording)
+        fitted = self.recordings_[recording.name]
         same = np.array_equal(fitted.times, recording.times) and np.array_equal(
             fitted.values, recording.values, equal_nan=True
         )

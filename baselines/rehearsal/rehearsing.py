@@ -23,6 +23,7 @@ from sklearn.base import clone
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.baselines.rehearsal.ratios import mean_ratios, squared_ratios
 from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
+from mocapbench.baselines.rehearsal.trials import remoteness
 from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
 from mocapbench.baselines.rehearsal.widening import Widened
 from mocapbench.datasets import Mask, Recording
@@ -31,6 +32,7 @@ __all__ = ["rehearsed"]
 
 Array = NDArray[np.float64]
 
+_TINY = np.finfo(np.float64).tiny
 _LEAST = 0.01
 """The least factor: where nothing varies, trials err nowhere, and doubt would vanish."""
 
@@ -66,19 +68,17 @@ def _rehearsed(
     if not gaps[1].any():
         return check.applied(claimed, model.as_tried(check.trials()))
     copied = replace(check, halves=[])
-    own = copied.factors(model.as_tried(copied.trials()))
-    if copies[0].any():
-        own *= _pooled(gaps) / _pooled(copies)
+    own = copied.factors(model.as_tried(copied.trials())) * _growth(gaps, copies, check.steepest)
     factors = np.maximum((own + mean_ratios(*gaps)) / 2.0, _LEAST)
     return Prediction(claimed.mean, np.asarray(claimed.variance) * factors)
 
 
 def _in_training(model: Widened, learnt_from: Sequence[Recording], check: VarianceCheck) -> Array:
     """Return the ratios in gaps of training recordings, and in a copy if short: (2, 2, D)."""
-    middle = check.copies[len(check.copies) // 2]
-    masks = [~check.recording.visible, *([middle] if check.halves else [])]
-    totals = np.zeros((2, 2, len(check.recording.channels)))
-    for held_out in turns(learnt_from, check.recording):
+    given, middle = check.recording, check.copies[len(check.copies) // 2]
+    masks = [~given.visible, *([middle] if (check.steepest > 1.0).any() else [])]
+    totals = np.zeros((2, 2, len(given.channels)))
+    for held_out in turns(learnt_from, given):
         names = {recording.name for recording in held_out}
         rest = clone(model).fit([r for r in learnt_from if r.name not in names])
         for number, (cut, gap, mask) in _in_place(held_out, masks):
@@ -91,12 +91,22 @@ def _in_training(model: Widened, learnt_from: Sequence[Recording], check: Varian
 def _in_place(
     held_out: Sequence[Recording], masks: Sequence[Mask]
 ) -> Iterator[tuple[int, tuple[Recording, Mask, Mask]]]:
-    """Yield each recording, the gaps and each of the masks, by number."""
+    """Yield each recording, the gaps and each of the masks, by number.
+
+    A recording in which the gaps reach less or further than in the one to fill, because it is
+    shorter, says nothing of them.
+    """
+    hidden, *_ = masks
     for recording in held_out:
         (_, gap), *_ = cuts = aligned(recording, masks)
-        yield from enumerate((cut, gap, mask) for cut, mask in cuts)
+        if np.array_equal(remoteness(gap, gap), remoteness(hidden, hidden)):
+            yield from enumerate((cut, gap, mask) for cut, mask in cuts)
 
 
-def _pooled(total: Array) -> float:
-    sums, counts = total
-    return float(sums.sum() / counts.sum())
+def _growth(gaps: Array, copies: Array, steepest: Array) -> Array:
+    """Return by how much ratios grow from copies to gaps: (D,), from sums over all channels."""
+    (in_gaps, n_gaps), (in_copies, n_copies) = gaps.sum(axis=1), copies.sum(axis=1)
+    if not n_copies:
+        return np.ones_like(steepest)
+    grown = (in_gaps / n_gaps + _TINY) / (in_copies / n_copies + _TINY)
+    return np.clip(grown, 1.0, steepest)

@@ -105,6 +105,13 @@ class VarianceCheck:
             factors = factors * self._growth(sums, counts, answers[n_copies:])
         return factors
 
+    @property
+    def steepest(self) -> Array:
+        """The most by which ratios may grow from the copies to the gaps, (D,); 1 if not shorter."""
+        gap, copy, _ = self._distances
+        lengthened = np.divide(gap, copy, out=np.ones(len(gap)), where=(copy > 0) & (copy < gap))
+        return np.asarray(lengthened**_STEEPEST)
+
     def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
         """Return by what the ratio grows from the copies to the gaps: (D,)."""
         short = self._short

@@ -50,7 +50,6 @@ from mocapbench.baselines import (
     PoseKriging,
 )
 from mocapbench.baselines.common.gaps import hidden_frames
-from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.kriging.paths import MatchedPaths
 from mocapbench.baselines.rehearsal.widening import Widened
 from mocapbench.benchmark import ImputeProblem
@@ -234,7 +233,7 @@ def widening(
         print(f"{task:22} {name:16}", *means, f"{len(rows)} problems", flush=True)
 
 
-def calibration(model: Widened | Conditioned, problem: ImputeProblem) -> list[float]:
+def calibration(model: Widened, problem: ImputeProblem) -> list[float]:
     """Return the coverage, MSLL and CRPS of the variances as claimed, and as widened."""
     answers = (model.as_claimed(problem.given), model.impute(problem.given))
     outcomes = [problem.outcome(FilledRecordings(tuple(answer))) for answer in answers]

@@ -82,7 +82,7 @@ def test_nothing_is_random_and_neither_order_nor_company_matters():
 def test_the_variance_includes_how_far_candidates_lie_apart():
     (prediction,) = MODEL.impute(GIVEN[:1])
     (weights,) = MODEL.weights(GIVEN[:1])
-    answers = MODEL.panel_.impute(GIVEN[0])
+    answers = MODEL.panel_.impute(GIVEN[0], weights)
     spread = sum(w * (answers[n].mean - prediction.mean) ** 2 for n, w in weights.items())
     assert (prediction.variance >= spread).all()
 

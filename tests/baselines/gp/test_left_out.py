@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.signal import lfilter
+from sklearn.exceptions import NotFittedError
 
 from mocapbench.baselines.gp.left_out import LeftOut
 from mocapbench.baselines.gp.planner import PLANS
@@ -86,6 +87,35 @@ def test_channels_side_by_side_have_their_own_errors(model, recordings):
     ):
         (alone,) = single.left_out([recordings[3].select([channel])])
         np.testing.assert_array_equal(column, alone.squares[:, 0])
+
+
+def test_a_trial_needs_no_gaps_that_all_outputs_share(recordings):
+    """The solver of `fit` may: the Kronecker one has the same frames of all outputs hidden."""
+    hidden = np.indices(SHAPE)[0] // 4 == 1
+    given = [recording.hide(hidden) for recording in recordings[:3]]
+    fitted = MOA(max_iter=5, solver="kronecker").fit(given)
+    trial = given[0].hide(np.arange(24).reshape(SHAPE) == 18)
+    (tried,), (mean, variance) = fitted.as_tried([trial]), dense(fitted, trial)
+    np.testing.assert_allclose(tried.mean[9, 0], mean[9, 0], rtol=1e-6)
+    np.testing.assert_allclose(tried.variance[9, 0], variance[9, 0], rtol=1e-6)
+    assert np.isfinite(fitted.impute(given)[0].variance).all()
+
+
+def test_trials_take_the_kernel_that_was_fitted(recordings):
+    fitted = MOHGP(max_iter=3).fit(recordings)
+    trial = recordings[0].hide(np.indices(SHAPE)[0] // 4 == 1)
+    (before,) = fitted.as_tried([trial])
+    (after,) = fitted.set_params(kernel="rbf").as_tried([trial])
+    np.testing.assert_array_equal(after.variance, before.variance)
+
+
+def test_trials_are_of_recordings_given_to_fit(recordings):
+    trial = recordings[0].hide(np.indices(SHAPE)[0] // 4 == 1)
+    with pytest.raises(NotFittedError):
+        MOHGP().as_tried([trial])
+    fitted = MOHGP(max_iter=2).fit(recordings)
+    with pytest.raises(ValueError, match="expected recordings that were given to fit"):
+        fitted.as_tried([replace(trial, name="another")])
 
 
 @pytest.mark.parametrize("model", [GPIndependent, HGP])

@@ -115,6 +115,48 @@ def test_doubt_does_not_vanish_where_nothing_varies():
     assert factors == pytest.approx(0.01)
 
 
+class Looking(Claiming):
+    """Keeps what it was asked to fill."""
+
+    seen: ClassVar[list[Recording]] = []
+
+    def as_claimed(self, recordings):
+        self.seen.extend(recordings)
+        return super().as_claimed(recordings)
+
+
+def test_training_has_the_gaps_and_a_copy_besides_where_that_is_shorter():
+    given, training = with_gap(noise("new", 1.0), slice(40, 160)), [noise(n, 1.0) for n in "abc"]
+    check = VarianceCheck.of(given)
+    middle = check.copies[1]
+    assert len(check.copies) == 3
+    assert (check.steepest > 1.0).all()
+    Looking.seen.clear()
+    rehearsed(Looking(), training, [given])
+    for name in "abc":
+        gaps, both = [r for r in Looking.seen if r.name == name]
+        np.testing.assert_array_equal(gaps.visible, given.visible)
+        np.testing.assert_array_equal(both.visible, given.visible & ~middle)
+
+
+@pytest.mark.parametrize(("n_frames", "says"), [(200, True), (40, True), (25, False)])
+def test_a_training_recording_in_which_gaps_are_shorter_says_nothing(n_frames, says):
+    given = with_gap(noise("new", 1.0))
+    training = [noise(name, 9.0, n_frames=n_frames) for name in "abc"]
+    (alone,), (prediction,) = widened(Claiming(), [given]), rehearsed(Claiming(), training, [given])
+    assert np.array_equal(prediction.variance, alone.variance) is not says
+
+
+def test_calm_training_does_not_make_doubt_explode():
+    """Clips that begin and end at rest err nowhere in copies there, and much in the gap."""
+    rng, still = np.random.default_rng(0), np.ones((200, 1))
+    still[:40] = still[160:] = 1e-4
+    training = [noise(name, 1.0) for name in "abcdef"]
+    resting = [r.with_values(r.values * still) for r in training]
+    given = with_gap(noise("new", 1.0).with_values(rng.normal(size=(200, 1))), slice(40, 160))
+    assert factor(Claiming(), resting, given) < 3.0
+
+
 def test_those_held_out_are_not_learnt_from_and_share_a_turn_where_many_are_left():
     new, some, many = noise("new", 1.0), "abcd", "abcdefghijklmnop"
     for names, shared in ((some, False), (many, True)):

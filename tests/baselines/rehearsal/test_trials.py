@@ -8,6 +8,7 @@ from mocapbench.baselines.rehearsal.trials import (
     N_TRIALS,
     copies_or_islands,
     halved,
+    long_copies,
     remoteness,
     trial_masks,
 )
@@ -28,6 +29,20 @@ def with_gaps(seed, n_frames=60):
         first, length = rng.integers(0, n_frames - 25), rng.integers(1, 25)
         hidden[first : first + length, rng.random(4) < 0.5] = True
     return recording(hidden)
+
+
+def stretches(*lengths):
+    """Return frames that are hidden but for stretches of these lengths, four hidden between two."""
+    hidden = [np.r_[np.zeros(length, dtype=bool), np.ones(4, dtype=bool)] for length in lengths]
+    return recording(np.concatenate(hidden)[:-4, None])
+
+
+@pytest.mark.parametrize(("length", "hides"), [(4, 0), (5, 0), (6, 4), (9, 4)])
+def test_long_copies_have_a_frame_without_a_visible_neighbour(length, hides):
+    """A stretch keeps a visible frame at each end; what is shorter than three is left out."""
+    masks = trial_masks(stretches(length, length, length), long_copies)
+    assert {mask.sum() for mask in masks} == ({hides} if hides else set())
+    assert trial_masks(stretches(length, length, length))
 
 
 @settings(max_examples=60, deadline=None)
