@@ -74,13 +74,11 @@ class Rehearsals:
         The recording held out has the gaps of the one to fill. Only copies that had to be shorter
         are tried besides.
         """
-        held_out = turns(self.fitted, self.given)
-        return [errors for turn in held_out for errors in self._held_out(turn)]
-
-    def _held_out(self, recordings: Sequence[Recording]) -> list[tuple[Products, Products]]:
-        names = {recording.name for recording in recordings}
-        panel = self.panel.anew([r for r in self.fitted if r.name not in names])
-        return [self._in_place_of_given(panel, recording) for recording in recordings]
+        found = []
+        for held_out, left in turns(self.fitted, self.given):
+            panel = self.panel.anew(left)
+            found += [self._in_place_of_given(panel, recording) for recording in held_out]
+        return found
 
     def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Products, Products]:
         middle = len(self.trials) // 2

@@ -123,7 +123,7 @@ class RecordingPosterior(LearntCovariances, Conditioned):
 
     def _tried(self, trial: Recording) -> Prediction:
         if trial.visible.all():
-            return Prediction.around(trial, trial.values, 0.0)
+            return Prediction.around(trial, trial.values, np.zeros_like(trial.values))
         number = self._number(trial)
         with self._threaded(self._showing(number, trial)) as process:
             curve = process.reduction.replicates[number]
@@ -132,8 +132,9 @@ class RecordingPosterior(LearntCovariances, Conditioned):
 
     def _terms(self, recording: Recording) -> tuple[PosteriorTerm, ...]:
         """Return the posterior terms of a recording that was given to `fit`."""
-        self._check_fitted_to(recording)
-        return self.reduction_.replicates[self._number(recording)]
+        number = self._number(recording)
+        self._check_unchanged(recording)
+        return self.reduction_.replicates[number]
 
     def _number(self, recording: Recording) -> int:
         """Return the place among the recordings given to `fit` of the one of that name."""
@@ -144,8 +145,7 @@ class RecordingPosterior(LearntCovariances, Conditioned):
             )
         return list(self.recordings_).index(recording.name)
 
-    def _check_fitted_to(self, recording: Recording) -> None:
-        self._number(recording)
+    def _check_unchanged(self, recording: Recording) -> None:
         fitted = self.recordings_[recording.name]
         same = np.array_equal(fitted.times, recording.times) and np.array_equal(
             fitted.values, recording.values, equal_nan=True

@@ -78,9 +78,8 @@ def _in_training(model: Widened, learnt_from: Sequence[Recording], check: Varian
     given, middle = check.recording, check.copies[len(check.copies) // 2]
     masks = [~given.visible, *([middle] if (check.steepest > 1.0).any() else [])]
     totals = np.zeros((2, 2, len(given.channels)))
-    for held_out in turns(learnt_from, given):
-        names = {recording.name for recording in held_out}
-        rest = clone(model).fit([r for r in learnt_from if r.name not in names])
+    for held_out, left in turns(learnt_from, given):
+        rest = clone(model).fit(left)
         for number, (cut, gap, mask) in _in_place(held_out, masks):
             with suppress(ValueError):  # A channel may be visible nowhere else.
                 (answer,) = rest.as_claimed([cut.hide(gap | mask)])
@@ -109,4 +108,4 @@ def _growth(gaps: Array, copies: Array, steepest: Array) -> Array:
     if not n_copies:
         return np.ones_like(steepest)
     grown = (in_gaps / n_gaps + _TINY) / (in_copies / n_copies + _TINY)
-    return np.clip(grown, 1.0, steepest)
+    return np.asarray(np.clip(grown, 1.0, steepest))

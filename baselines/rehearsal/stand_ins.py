@@ -12,7 +12,10 @@ import numpy as np
 
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["aligned", "turns"]
+__all__ = ["Turn", "aligned", "turns"]
+
+Turn = tuple[list[Recording], list[Recording]]
+"""Recordings that are held out together, and those that are left to learn from."""
 
 _MOST = 3
 """Training recordings that take the place of the one to fill."""
@@ -20,11 +23,11 @@ _MANY = 4
 """How many times as many recordings as are held out are enough to learn from."""
 
 
-def turns(recordings: Sequence[Recording], given: Recording) -> list[list[Recording]]:
-    """Return the recordings that are held out together, for each turn.
+def turns(recordings: Sequence[Recording], given: Recording) -> list[Turn]:
+    """Return who is held out and who is left, for each turn; no turn if nobody would be left.
 
-    They are spread evenly over the recordings by name. Where many are left to learn from, those
-    held out share one turn.
+    Those held out are spread evenly over the recordings by name. Where many are left to learn from,
+    they share one turn.
 
     Parameters
     ----------
@@ -38,7 +41,11 @@ def turns(recordings: Sequence[Recording], given: Recording) -> list[list[Record
         return []
     places = np.unique(np.linspace(0, len(others) - 1, _MOST).round().astype(int))
     chosen = [others[place] for place in places]
-    return [chosen] if len(others) > _MANY * len(chosen) else [[one] for one in chosen]
+    shared = len(others) > _MANY * len(chosen)
+    return [
+        (held_out, [r for r in recordings if r.name not in {one.name for one in held_out}])
+        for held_out in ([chosen] if shared else [[one] for one in chosen])
+    ]
 
 
 def aligned(recording: Recording, masks: Sequence[Mask]) -> list[tuple[Recording, Mask]]:

@@ -162,7 +162,7 @@ def test_those_held_out_are_not_learnt_from_and_share_a_turn_where_many_are_left
     for names, shared in ((some, False), (many, True)):
         Watched.fits.clear()
         training = [noise(name, 1.0) for name in names]
-        held_out = [[r.name for r in turn] for turn in turns([*training, new], new)]
+        held_out = [[r.name for r in turn] for turn, _ in turns([*training, new], new)]
         rehearsed(Watched(), [*training, new], [with_gap(new)])
         assert (len(held_out) == 1) is shared
         assert [*chain(*held_out)] == [names[0], names[len(names) // 2], names[-1]]
