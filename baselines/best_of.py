@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from typing import ClassVar, Self
 
 import numpy as np
+import pandas as pd
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
@@ -14,7 +15,7 @@ from mocapbench.baselines.choosing.weights import among, evidence, expected_erro
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
-from mocapbench.datasets import Recording
+from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["BestOf"]
 
@@ -29,15 +30,15 @@ class BestOf(Imputer, Inductive):
     the one to fill, in turn and left out of training: by what a candidate's error grows there from
     the copies to the gaps, its error is multiplied.
 
-    The weights are those of stacked regression, :math:`w = \arg\min w^\top G w` over
-    :math:`w \ge 0, \sum_i w_i = 1`. :math:`G = \sum_s G_s / \min_i G_{s,ii}` adds up the
-    sources s of evidence, each with the mean products :math:`G_{s,ij}` to expect of the errors of
-    candidates i and j, whose correlations :math:`\rho_{ij}` become
-    :math:`(1 - \lambda) \rho_{ij} + \lambda` with the ``shrinkage`` :math:`\lambda`. The
-    prediction is the mixture of the candidates' distributions: its variance includes how far they
-    lie apart. The variance of a candidate that has none is the geometric mean of its squared errors
-    :math:`G_{s,ii}`. Where copies of the gaps hide a few entries only, what they say is moved
-    towards what training says: ten more entries are supposed, in which candidates err as there.
+    Channels of one unit share their weights, those of stacked regression: :math:`w = \arg\min
+    w^\top G w` over :math:`w \ge 0, \sum_i w_i = 1`. :math:`G = \sum_s G_s / \min_i G_{s,ii}` adds
+    up the sources s of evidence, each with the mean products :math:`G_{s,ij}` to expect of the
+    errors of candidates i and j, whose correlations :math:`\rho_{ij}` become :math:`(1 - \lambda)
+    \rho_{ij} + \lambda` with the ``shrinkage`` :math:`\lambda`. The prediction is the mixture of
+    the candidates' distributions: its variance includes how far they lie apart. The variance of a
+    candidate that has none is the geometric mean of its squared errors :math:`G_{s,ii}`. Where
+    copies of the gaps hide a few entries only, what they say is moved towards what training says:
+    ten more entries are supposed, in which candidates err as there.
 
     Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``, ``pca-regression``, ``nn``,
     ``aligned-window``, ``pose-kriging``, ``channel-kriging``, and ``mohgp`` with three components
@@ -79,8 +80,8 @@ class BestOf(Imputer, Inductive):
     >>> gap = np.repeat(((times > 0.9) & (times < 1.2))[:, None], 2, axis=1)
     >>> model = BestOf().fit([line.hide(gap)])
     >>> (weights,) = model.weights([line.hide(gap)])
-    >>> round(sum(weights.values()), 9)
-    1.0
+    >>> weights.sum().round(9).to_dict()
+    {'cm': 1.0}
     >>> (prediction,) = model.impute([line.hide(gap)])
     >>> bool(np.abs(prediction.mean - values).max() < 1e-3)
     True
@@ -110,19 +111,34 @@ class BestOf(Imputer, Inductive):
         self.panel_ = Panel.of(self.recordings_)
         return self
 
-    def weights(self, recordings: Sequence[Recording]) -> list[Mapping[str, float]]:
-        """Return the weight of each candidate that can fill a recording; they sum to one.
+    def weights(self, recordings: Sequence[Recording]) -> list[pd.DataFrame]:
+        """Return the weights of the candidates that can fill a recording: (C, U).
+
+        There is a row for each candidate and a column for each unit of the channels; columns sum to
+        one.
 
         Raises
         ------
         ValueError
             If channels differ.
         """
-        checked = self._checked(recordings)
-        return [weights_of(self._sources(recording), self.shrinkage) for recording in checked]
+        return [
+            self._weights(self._sources(self._rehearsals(recording), self.panel_.means(recording)))
+            for recording in self._checked(recordings)
+        ]
 
-    def _sources(self, recording: Recording) -> Sequence[Products]:
-        return among(evidence(self._rehearsals(recording)), self.panel_.means(recording))
+    def _sources(
+        self, rehearsals: Rehearsals, names: Container[str]
+    ) -> Mapping[str, Sequence[Products]]:
+        """Return the sources of evidence on the channels of each unit."""
+        units = np.array(rehearsals.given.units)
+        return {
+            unit: among(evidence(rehearsals, units == unit), names) for unit in np.unique(units)
+        }
+
+    def _weights(self, sources: Mapping[str, Sequence[Products]]) -> pd.DataFrame:
+        by_unit = {unit: weights_of(each, self.shrinkage) for unit, each in sources.items()}
+        return pd.DataFrame(by_unit).fillna(0.0)
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the weighted mean of the candidates, and the variance of their mixture.
@@ -147,17 +163,22 @@ class BestOf(Imputer, Inductive):
         filled = self.panel_.means(recording)
         if LAST_RESORT not in filled:  # it says what nothing can fill
             return self.panel_.models[LAST_RESORT].impute([recording])[0]
-        rehearsals = self._rehearsals(recording)
-        sources = among(evidence(rehearsals), filled)
-        errors, weights = expected_errors(sources), weights_of(sources, self.shrinkage)
-        weights = {name: weight for name, weight in weights.items() if weight > 0.0}
-        answers = self.panel_.impute(recording, weights)
-        means = {name: answers[name].mean for name in weights}
-        mean = np.sum([weights[name] * means[name] for name in weights], axis=0)
-        variance = np.zeros_like(mean)
-        for name, weight in weights.items():
-            claimed = answers[name].variance
-            expected = errors.get(name, 1.0) * rehearsals.scale**2
-            own = np.broadcast_to(expected, mean.shape) if claimed is None else claimed
-            variance += weight * (own + (means[name] - mean) ** 2)
+        rehearsals, units = self._rehearsals(recording), list(recording.units)
+        sources = self._sources(rehearsals, filled)
+        weights = self._weights(sources)
+        weights = weights[(weights > 0.0).any(axis=1)]
+        errors = pd.DataFrame({unit: expected_errors(each) for unit, each in sources.items()})
+        expected = errors.reindex(weights.index).fillna(1.0)[units] * rehearsals.scale**2
+        answers = self.panel_.impute(recording, weights.index)
+        shares = weights[units].to_numpy()[:, None]
+        means = np.stack([answers[name].mean for name in weights.index])
+        claimed = np.stack([_claimed(answers[name], expected.loc[name]) for name in weights.index])
+        mean = (shares * means).sum(axis=0)
+        variance = (shares * (claimed + (means - mean) ** 2)).sum(axis=0)
         return Prediction.around(recording, mean, variance)
+
+
+def _claimed(answer: Prediction, expected: pd.Series) -> FrameByChannel:
+    """Return the variance of a candidate (N, D), or what to expect if it claims none."""
+    variance = np.asarray(expected) if answer.variance is None else answer.variance
+    return np.broadcast_to(variance, answer.mean.shape)

@@ -68,7 +68,8 @@ class PoseKriging(FrameImputer, Inductive):
     1} \sum_k w_k (\mu_k(t) - \mu(t))^2`. A single training recording says nothing about it.
 
     A recording is unlike its training if no path explains the share ``least_explained`` of its
-    variance at visible frames. It is filled from its own course over time, whatever was learnt.
+    variance at visible frames. It is filled from its own course over time, whatever was learnt, and
+    so is one that was the only one to learn from.
 
     The defaults gave the least error when each training walker of ``missing-frames`` was held out
     in turn; ``docs/calibration.md`` has the choice of ``least_explained``. Time is counted in
@@ -102,7 +103,7 @@ class PoseKriging(FrameImputer, Inductive):
         The names of the training recordings with two consecutive complete frames.
     matchers_ : list of PoseViterbi
         One for each symmetry and each of these. A recording that is filled is not matched with
-        itself, unless there is no other.
+        itself.
     total_variance_ : float
         The sum S of the channels' variances in training.
 
@@ -197,7 +198,10 @@ class PoseKriging(FrameImputer, Inductive):
     def _filled(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the mean and variance (N, D) of all frames given the visible ones."""
         visible, least = ~hidden_frames(recording), _LEAST_VARIANCE * self.total_variance_
-        paths = MatchedPaths.of(recording, self._matchers_of_others(recording.name))
+        others = self._matchers_of_others(recording.name)
+        if not others:
+            return own_course(recording.values, visible, least)
+        paths = MatchedPaths.of(recording, others)
         if paths.explained < self.least_explained:
             return own_course(recording.values, visible, least)
         every = np.tile(visible, len(self.symmetries_))
@@ -211,9 +215,9 @@ class PoseKriging(FrameImputer, Inductive):
         return np.tensordot(paths.weights, corrected, axes=1), variance
 
     def _matchers_of_others(self, name: str) -> list[PoseViterbi]:
-        """Leave out the recording to fill, which matches itself exactly, if there are others."""
+        """Leave out the recording to fill: its path through itself would seem free of error."""
         pairs = zip(cycle(self.names_), self.matchers_, strict=False)
-        return [matcher for other, matcher in pairs if other != name] or self.matchers_
+        return [matcher for other, matcher in pairs if other != name]
 
     def _images(self, frames: FrameByChannel) -> FrameByChannel:
         """Return the frames' images under all symmetries, one below the other."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -18,14 +18,19 @@ from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
 from mocapbench.baselines.rehearsal.trials import trial_masks
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["Products", "Rehearsals"]
+__all__ = ["EVERY_CHANNEL", "Channels", "Products", "Rehearsals"]
 
 Array = NDArray[np.float64]
+Channels = NDArray[np.bool_] | slice
+Errors = Mapping[str, Array]
+"""(N, D) errors of each model, by name, in units of the channels' scales; NaN if not rehearsed."""
 Products = pd.DataFrame
 """(C, C) mean products of the errors of models, by name, in units of the channels' scales.
 
 Mean squared errors are on the diagonal; what is beside it says which models err alike.
 """
+
+EVERY_CHANNEL = slice(None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,31 +61,42 @@ class Rehearsals:
         """Whether copies of the longest gap in the recording itself had to be shortened."""
         return _longest(self.trials) < _longest([~self.given.visible])
 
-    def own(self) -> list[Products]:
+    def own(self, channels: Channels = EVERY_CHANNEL) -> list[Products]:
         """Return the products of errors in the recording itself, for each trial."""
-        return [self._own(mask) for mask in self.trials]
+        return [_products(errors, channels) for errors in self._own]
 
-    def _own(self, mask: Mask) -> Products:
-        """Return those of a trial, which no model has seen in fitting."""
+    def in_training(self, channels: Channels = EVERY_CHANNEL) -> list[tuple[Products, Products]]:
+        """Return those of training recordings held out in turn, with the gaps and in a trial.
+
+        The recording held out has the gaps of the one to fill. Only copies that had to be shorter
+        are tried besides.
+        """
+        return [
+            (_products(full, channels), _products(copy, channels))
+            for full, copy in self._in_training
+        ]
+
+    @cached_property
+    def _own(self) -> list[Errors]:
+        return [self._in_trial(mask) for mask in self.trials]
+
+    def _in_trial(self, mask: Mask) -> Errors:
+        """Return the errors in a trial, which no model has seen in fitting."""
         tried = self.given.hide(mask)
         panel = self.panel
         if self.given.name in [recording.name for recording in self.fitted]:
             panel = panel.anew(pool(self.fitted, [tried]))
         return self._errors(panel, self.given, mask)
 
-    def in_training(self) -> list[tuple[Products, Products]]:
-        """Return those of training recordings held out in turn, with the gaps and in a trial.
-
-        The recording held out has the gaps of the one to fill. Only copies that had to be shorter
-        are tried besides.
-        """
+    @cached_property
+    def _in_training(self) -> list[tuple[Errors, Errors]]:
         found = []
         for held_out, left in turns(self.fitted, self.given):
             panel = self.panel.anew(left)
             found += [self._in_place_of_given(panel, recording) for recording in held_out]
         return found
 
-    def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Products, Products]:
+    def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Errors, Errors]:
         middle = len(self.trials) // 2
         short = self.trials[middle : middle + 1] if self.are_short else []
         masks = [~self.given.visible, *short]
@@ -88,28 +104,34 @@ class Rehearsals:
         cut, hidden = gaps
         full = self._errors(panel, cut, hidden)
         copies = [self._errors(panel, cut.hide(hidden), mask, cut) for _, mask in trials]
-        return full, copies[0] if copies else pd.DataFrame()
+        return full, copies[0] if copies else {}
 
     def _errors(
         self, panel: Panel, given: Recording, mask: Mask, truth: Recording | None = None
-    ) -> Products:
-        """Return the products of a panel's errors where ``mask`` hides entries of ``given``."""
+    ) -> Errors:
+        """Return a panel's errors where ``mask`` hides entries of ``given``."""
         known = mask & (truth or given).visible
         if not known.any():
-            return pd.DataFrame()
+            return {}
         values = (truth or given).values
-        errors = {
-            name: ((mean - values) / self.scale)[known]
+        return {
+            name: np.where(known, (mean - values) / self.scale, np.nan)
             for name, mean in panel.means(given.hide(mask)).items()
         }
-        stacked = np.array([*errors.values()])
-        products = stacked @ stacked.T / np.count_nonzero(known)
-        return pd.DataFrame(products, [*errors], [*errors])
 
     @cached_property
     def scale(self) -> Array:
         """(D,) the mean spread of the channels of each channel's unit: units count alike."""
         return unit_scales([*self.fitted, self.given])
+
+
+def _products(errors: Errors, channels: Channels) -> Products:
+    """Return the mean products of the errors in some of the channels, if any is rehearsed."""
+    rows = [error[:, channels][~np.isnan(error[:, channels])] for error in errors.values()]
+    if not rows or not len(rows[0]):
+        return pd.DataFrame()
+    stacked = np.array(rows)
+    return pd.DataFrame(stacked @ stacked.T / stacked.shape[1], [*errors], [*errors])
 
 
 def _longest(masks: Sequence[Mask]) -> int:

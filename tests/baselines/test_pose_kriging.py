@@ -56,6 +56,20 @@ def test_a_recording_among_its_training_is_filled_as_if_it_were_not():
     np.testing.assert_allclose(among.variance, without.variance, rtol=0.1)
 
 
+def test_the_only_recording_is_not_matched_with_itself():
+    """It would seem free of error at visible frames, and its intervals would be far too narrow."""
+    truth = walk("alone", 0, 60, style=0.3)
+    given = gap(truth, 25, 40)
+    model = PoseKriging().fit([given])
+    (prediction,) = model.impute([given])
+    visible = given.visible.all(axis=1)
+    mean, variance = own_course(given.values, visible, 1e-12 * model.total_variance_)
+    np.testing.assert_allclose(prediction.mean[~visible], mean[~visible])
+    np.testing.assert_allclose(prediction.variance[~visible], variance[~visible])
+    errors = np.abs(prediction.mean - truth.values)[25:40] / np.sqrt(prediction.variance[25:40])
+    assert errors.max() < 5.0
+
+
 def test_the_fill_moves_with_a_constant_offset():
     model = PoseKriging().fit(TRAINING)
     truth = walk("new", 5, 40)

@@ -118,10 +118,10 @@ class Staged(Rehearsals):
         object.__setattr__(self, "errors", (own, in_training, short))
         object.__setattr__(self, "trials", [np.array([[n_entries]])])
 
-    def own(self):
+    def own(self, channels):
         return self.errors[0]
 
-    def in_training(self):
+    def in_training(self, channels):
         return self.errors[1]
 
     @property
