@@ -8,9 +8,12 @@ from numpy.typing import NDArray
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["mean_ratios", "squared_ratios"]
+__all__ = ["LEAST", "mean_ratios", "squared_ratios"]
 
 Array = NDArray[np.float64]
+
+LEAST = 0.01
+"""The least factor: where nothing varies, trials err nowhere, and doubt would vanish."""
 
 _PRIOR_ENTRIES = 10
 """Entries that count in each channel as having the mean ratio over all channels."""

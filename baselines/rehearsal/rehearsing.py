@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from sklearn.base import clone
 
 from mocapbench.baselines.protocols import Prediction
-from mocapbench.baselines.rehearsal.ratios import mean_ratios, squared_ratios
+from mocapbench.baselines.rehearsal.ratios import LEAST, mean_ratios, squared_ratios
 from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
 from mocapbench.baselines.rehearsal.trials import remoteness
 from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
@@ -33,8 +33,6 @@ __all__ = ["rehearsed"]
 Array = NDArray[np.float64]
 
 _TINY = np.finfo(np.float64).tiny
-_LEAST = 0.01
-"""The least factor: where nothing varies, trials err nowhere, and doubt would vanish."""
 
 
 def rehearsed(
@@ -69,7 +67,7 @@ def _rehearsed(
         return check.applied(claimed, model.as_tried(check.trials()))
     copied = replace(check, halves=[])
     own = copied.factors(model.as_tried(copied.trials())) * _growth(gaps, copies, check.steepest)
-    factors = np.maximum((own + mean_ratios(*gaps)) / 2.0, _LEAST)
+    factors = np.maximum((own + mean_ratios(*gaps)) / 2.0, LEAST)
     return Prediction(claimed.mean, np.asarray(claimed.variance) * factors)
 
 

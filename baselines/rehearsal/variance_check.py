@@ -1,7 +1,8 @@
 r"""What a recording's own trials say of the variances that a model claims.
 
 The variance of a channel is multiplied by the mean ratio, in the trials, of squared errors to
-claimed variances, where that is above one.
+claimed variances, where that is above one. Three trials say too little to make variances as small
+as they show, but none is left larger than twice what the worst of three shows.
 
 Where copies of a channel's gap had to be shorter, they are easier: their entries lie nearer to
 visible ones. They are then tried at half their length, too. If the ratio of such channels grows
@@ -20,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.protocols import Prediction
-from mocapbench.baselines.rehearsal.ratios import mean_ratios, squared_ratios
+from mocapbench.baselines.rehearsal.ratios import LEAST, mean_ratios, squared_ratios
 from mocapbench.baselines.rehearsal.trials import (
     Places,
     copies_or_islands,
@@ -36,6 +37,10 @@ Array = NDArray[np.float64]
 Distances = NDArray[np.intp]
 
 _TINY = np.finfo(np.float64).tiny
+_SURE = 3
+"""Trials that can show variances to be too large."""
+_MARGIN = 2.0
+"""How many times as large as the worst of these trials shows variances may be."""
 _STEEPEST = 0.6
 """Largest power of the distance by which ratios grow: what two short lengths say is noisy.
 ``docs/calibration.md`` has the choice."""
@@ -87,7 +92,7 @@ class VarianceCheck:
         """
         if not answers or claimed.variance is None:
             return claimed
-        factors = np.maximum(self.factors(answers), 1.0)
+        factors = np.maximum(self.factors(answers), self._least(answers))
         return Prediction(claimed.mean, claimed.variance * factors)
 
     def factors(self, answers: Sequence[Prediction]) -> Array:
@@ -111,6 +116,14 @@ class VarianceCheck:
         gap, copy, _ = self._distances
         lengthened = np.divide(gap, copy, out=np.ones(len(gap)), where=(copy > 0) & (copy < gap))
         return np.asarray(lengthened**_STEEPEST)
+
+    def _least(self, answers: Sequence[Prediction]) -> Array:
+        """Return the least that variances may be multiplied by: (D,), at most 1."""
+        if len(self.copies) < _SURE:
+            return np.ones(len(self.recording.channels))
+        tried = zip(self.copies, answers, strict=False)
+        ratios = [mean_ratios(*squared_ratios(self.recording, *one)) for one in tried]
+        return np.asarray(np.clip(_MARGIN * np.max(ratios, axis=0) * self.steepest, LEAST, 1.0))
 
     def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
         """Return by what the ratio grows from the copies to the gaps: (D,)."""

@@ -2,8 +2,7 @@
 
 A model may claim too much of a recording that is unlike its training, such as the walk of a
 stranger. Trials hide more of the recording where the truth is visible, and the variances of the
-gaps are multiplied by what they show (`variance_check`). Means stay as they are, and no variance
-becomes smaller.
+gaps are multiplied by what they show (`variance_check`). Means stay as they are.
 """
 
 from __future__ import annotations
