@@ -10,6 +10,7 @@ from mocapbench.baselines import Model
 from mocapbench.benchmark.docstrings import source, summary
 from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.plan import entrants
+from mocapbench.benchmark.tasks.base import Entrant
 
 __all__ = ["format_entry", "library_entry", "metric_entry", "model_entry", "task_entry"]
 
@@ -50,16 +51,28 @@ def task_entry(name: str) -> Mapping[str, Any]:
 
 
 def model_entry(name: str) -> Mapping[str, Any]:
-    """Return what a model is: its sentence and papers, its abilities and parameters."""
-    model = MODELS.get(name)
+    """Return what a model is: its sentence and papers, its abilities and parameters.
+
+    The label of an entrant of a task is that of a model with parameters of its own.
+    """
+    entrant = _entrants().get(name, Entrant(name, name))
+    model = MODELS.get(entrant.model)
     return {
         "name": name,
+        **({"model": entrant.model} if entrant.model != name else {}),
         "summary": summary(model),
         "family": model.family,
         "source": source(model),
         "abilities": _abilities(model),
-        "parameters": model().get_params(),
+        "parameters": {**model().get_params(), **entrant.parameters},
     }
+
+
+def _entrants() -> Mapping[str, Entrant]:
+    """Return the entrants whose label is not the name of a model."""
+    tasks = map(TASKS.get, TASKS.names())
+    every = {entrant.label: entrant for task in tasks for entrant in task.entrants}
+    return {label: every[label] for label in sorted({*every} - {*MODELS.names()})}
 
 
 def metric_entry(name: str) -> Mapping[str, Any]:

@@ -26,13 +26,22 @@ class UsageError(ValueError):
     """The user asked for something that cannot be done; the message says what to do."""
 
 
+_MOST_NAMES = 20
+"""Known names that a message lists at most."""
+
+
 class UnknownNameError(UsageError):
     """A name that is not known, with the nearest ones that are."""
 
     def __init__(self, kind: str, name: str, known: Collection[str]) -> None:
         near = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
-        advice = f"did you mean {' or '.join(near)}?" if near else f"known: {', '.join(known)}"
+        advice = f"did you mean {' or '.join(near)}?" if near else f"known: {_some(known)}"
         super().__init__(f"unknown {kind} {name!r}: {advice}")
+
+
+def _some(names: Collection[str]) -> str:
+    more = len(names) - _MOST_NAMES
+    return ", ".join([*names][:_MOST_NAMES]) + (f" and {more} more" if more > 0 else "")
 
 
 class UnregisteredNameError(UnknownNameError):

@@ -11,11 +11,13 @@ from mocapbench.datasets import Mask, Recording
 __all__ = ["Jump", "jumps"]
 
 _RELATIVE = 1e-6
-"""Steps below this share of a channel's values are rounding."""
+"""Steps below this share of the values of a channel's unit are rounding."""
+_LONGER = 1.25
+"""How many times as long as every visible step a jump is: the longest of few says little."""
 
 
 class Jump(NamedTuple):
-    """A step between a visible and a filled frame that is longer than every visible step.
+    """A step between a visible and a filled frame that is a quarter longer than visible ones.
 
     Parameters
     ----------
@@ -51,9 +53,11 @@ def jumps(recording: Recording, target: Mask) -> list[Jump]:
     visible = recording.visible & ~target
     within = visible[1:] & visible[:-1]
     largest = np.where(within, steps, 0.0).max(axis=0, initial=0.0)
-    least = _RELATIVE * np.where(visible, np.abs(recording.values), 0.0).max(axis=0, initial=0.0)
+    units = np.array(recording.units)
+    sizes = np.where(visible, np.abs(recording.values), 0.0).max(axis=0, initial=0.0)
+    least = _RELATIVE * np.array([sizes[units == unit].max() for unit in units])
     edges = (target[1:] & visible[:-1]) | (visible[1:] & target[:-1])
-    found = edges & within.any(axis=0) & (steps > largest + least)
+    found = edges & within.any(axis=0) & (steps > _LONGER * largest + least)
     return sorted(
         (
             Jump(int(n + target[n + 1, c]), int(c), float(steps[n, c]), float(largest[c]))

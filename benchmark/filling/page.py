@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mocapbench.benchmark.figures.stick_figures import strip
+from mocapbench.benchmark.filling.edges import Jump, jumps
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of
 from mocapbench.benchmark.filling.wording import headline, left_out, ranked, remarks, units, verdict
@@ -27,7 +28,7 @@ _ROOT_PATH = frozenset({"root.tx", "root.ty", "root.tz"})
 def page_of(filled: Filled, command: str) -> FilledPage:
     """Return the page of a filled file, made by ``command``."""
     gaps, recording = filled.source.request.gaps, filled.recording
-    shown = list(_shown(recording, gaps))
+    shown = list(_shown(recording, gaps, jumps(recording, filled.source.request.target)))
     choice = filled.choice
     return FilledPage(
         file=filled.source.path.name,
@@ -45,14 +46,28 @@ def page_of(filled: Filled, command: str) -> FilledPage:
     )
 
 
-def _shown(recording: Recording, gaps: Sequence[Gap]) -> Iterator[tuple[Gap, int]]:
-    """Yield gaps at even distances, each with its channels that move most."""
+def _shown(
+    recording: Recording, gaps: Sequence[Gap], found: Sequence[Jump]
+) -> Iterator[tuple[Gap, int]]:
+    """Yield gaps, each with its channels that jump at its edges, then those that move most.
+
+    The gap with the worst jump and the longest are among them, and others at even distances.
+    """
     per_gap = min(_CHANNELS_PER_GAP, max(len(gap.channels) for gap in gaps))
-    places = np.linspace(0, len(gaps) - 1, min(len(gaps), _MOST_CURVES // per_gap))
-    for gap in (gaps[place] for place in np.unique(places.round().astype(int))):
+    count = min(len(gaps), _MOST_CURVES // per_gap)
+    worst = [n for jump in found[:1] for n, gap in enumerate(gaps) if _is_in(jump, gap)]
+    longest = max(range(len(gaps)), key=lambda n: len(gaps[n]))
+    even = np.linspace(0, len(gaps) - 1, count).round().astype(int).tolist()
+    for gap in (gaps[n] for n in sorted([*dict.fromkeys([*worst, longest, *even])][:count])):
         moved = np.ptp(recording.values[gap.start : gap.stop, list(gap.channels)], axis=0)
-        for place in np.argsort(-moved, kind="stable")[:per_gap]:
-            yield gap, gap.channels[place]
+        most = [gap.channels[place] for place in np.argsort(-moved, kind="stable")]
+        jumping = [jump.channel for jump in found if _is_in(jump, gap)]
+        for channel in [*dict.fromkeys([*jumping, *most])][:per_gap]:
+            yield gap, channel
+
+
+def _is_in(jump: Jump, gap: Gap) -> bool:
+    return jump.channel in gap.channels and gap.start <= jump.frame < gap.stop
 
 
 def _curves(
@@ -90,10 +105,15 @@ def _around(gap: Gap, n_frames: int, least: int) -> slice:
 
 def _caption(gaps: Sequence[Gap], shown: Sequence[tuple[Gap, int]]) -> str:
     n_shown = len({gap for gap, _ in shown})
-    which = "The only gap" if len(gaps) == 1 else f"{n_shown} of {len(gaps)} gaps"
+    some = f"{n_shown} of {len(gaps)} gaps, the longest among them"
+    which = "The only gap" if len(gaps) == 1 else some if n_shown < len(gaps) else "All gaps"
     most = max(len(gap.channels) for gap, _ in shown)
     them = "it" if len(gaps) == 1 else "each"
-    channels = f", with the channels that move most in {them}" if most > _CHANNELS_PER_GAP else ""
+    channels = (
+        f", with channels that jump at an edge or move most in {them}"
+        if most > _CHANNELS_PER_GAP
+        else ""
+    )
     return f"{which}{channels}. The table beside this page has every filled entry."
 
 

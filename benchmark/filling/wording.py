@@ -16,6 +16,8 @@ __all__ = ["headline", "left_out", "ranked", "remarks", "units", "verdict"]
 
 SLOW = 0.5
 """Seconds between frames from which on times are probably not in seconds."""
+_NAMED = 4
+"""Models that a remark names at most."""
 
 
 def headline(filled: Filled) -> str:
@@ -63,11 +65,23 @@ def remarks(filled: Filled) -> Iterator[str]:
             "No visible stretch is long enough for gaps of the real lengths: trial gaps are down "
             f"to {100 * choice.share:.3g} % as long, and errors in the real ones larger."
         )
+    yield from _late(filled)
     if filled.answer.variance is None:
         none = f"{filled.model} has no predictive distribution: there are no bands."
         yield f"{none} {_with_bands(filled)}".strip()
     yield from _jumps(filled)
     yield from _slow(filled)
+
+
+def _late(filled: Filled) -> Iterator[str]:
+    late = [one.model for one in filled.choice.left_out if one.late] if filled.choice else []
+    if late:
+        named, more = late[:_NAMED], len(late) - _NAMED
+        them = _listed([*named, f"{more} more"] if more > 0 else named)
+        yield (
+            f"Time was up before {them} had filled the trial gaps that the others filled: a larger "
+            "--budget may find a better model among them."
+        )
 
 
 def _with_bands(filled: Filled) -> str:
@@ -89,7 +103,7 @@ def _jumps(filled: Filled) -> Iterator[str]:
         yield (
             f"At {edges} of gaps, a channel jumps further than between any two visible frames: "
             f"{recording.channels[channel]} by {size:.3g}{unit} at frame {frame}, elsewhere by at "
-            f"most {largest:.3g}{unit}. Look at the curves before you use these entries."
+            f"most {largest:.3g}{unit}. Look at its curve before you use these entries."
         )
 
 

@@ -23,6 +23,8 @@ __all__ = ["TESTED", "Answer", "Finding", "answers"]
 TESTED = (Place.BEHIND, Place.INSEPARABLE)
 OF_TOYS = "recover"
 """A question that only generated data can answer, and no user asks."""
+_MOST_NAMES = 3
+"""Models that are named at most where their means are the same."""
 Ranked = Sequence[Standing]
 """Standings, best first."""
 
@@ -53,8 +55,8 @@ class Answer:
     question, ask : str
         Its title, and the question in one sentence.
     model : str
-        The model that is best in more than half of its tasks, and there better than the reference;
-        empty where none is.
+        The model that alone is best in more than half of its tasks, and there better than the
+        reference; empty where none is.
     findings : tuple of Finding
         One for each task, those that ``model`` leads first.
     sure : str
@@ -80,7 +82,11 @@ def answers(tasks: Sequence[TaskResults]) -> list[Answer]:
 
 
 def _answer(question: Question, group: Sequence[tuple[TaskResults, Ranked]]) -> Answer:
-    leaders = Counter(ranked[0].label for task, ranked in group if not _beaten(task, ranked[0]))
+    leaders = Counter(
+        ranked[0].label
+        for task, ranked in group
+        if len(_tied(ranked)) == 1 and not _beaten(task, ranked[0])
+    )
     model, most = leaders.most_common(1)[0] if leaders else ("", 0)
     named = model if 2 * most > len(group) else ""
     first = sorted(group, key=lambda pair: pair[1][0].label != named)
@@ -95,7 +101,7 @@ def _answer(question: Question, group: Sequence[tuple[TaskResults, Ranked]]) -> 
 
 def _finding(results: TaskResults, ranked: Ranked) -> Finding:
     best, second = ranked[0], _next(ranked)
-    text = f"{best.label} {_mean(results, best)}"
+    text = f"{_listed(_tied(ranked))} {_mean(results, best)}"
     if second is not None:
         text += f", next {second.label} {_mean(results, second)}{_margin(results, second)}"
     text += f"; no better than {reference_of(results)}" if _beaten(results, best) else ""
@@ -103,9 +109,24 @@ def _finding(results: TaskResults, ranked: Ranked) -> Finding:
     return Finding(slug("task", results.layout.name), title, text)
 
 
+def _tied(ranked: Ranked) -> list[str]:
+    """Return the best and those whose mean is the same."""
+    best, *others = ranked
+    same = [one for one in others if one.complete and math.isclose(one.mean, best.mean)]
+    return [one.label for one in [best, *same]]
+
+
+def _listed(labels: Sequence[str]) -> str:
+    """Return the labels in a row, with the number of those beyond `_MOST_NAMES`."""
+    more = len(labels) - _MOST_NAMES
+    *most, last = [*labels[:_MOST_NAMES], f"{more} more"] if more > 0 else labels
+    return f"{', '.join(most)} and {last}, alike:" if most else last
+
+
 def _next(ranked: Ranked) -> Standing | None:
-    """Return the best of the others that has every score."""
-    return next((other for other in ranked[1:] if other.complete), None)
+    """Return the best of those that have every score and another mean than the first."""
+    tied = _tied(ranked)
+    return next((one for one in ranked[1:] if one.complete and one.label not in tied), None)
 
 
 def _mean(results: TaskResults, standing: Standing) -> str:
@@ -122,6 +143,8 @@ def _margin(results: TaskResults, second: Standing) -> str:
 
 def _lead(ranked: Ranked) -> Place | None:
     """Return what the test says of the lead; None without a rival."""
+    if len(_tied(ranked)) > 1:
+        return Place.INSEPARABLE
     second = _next(ranked)
     return second.standing if second else None
 

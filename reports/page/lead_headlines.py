@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Place, Standing, standings
 from mocapbench.reports.page.headline import Headline, cases_phrase, same_places
@@ -30,6 +32,9 @@ def _lead(results: TaskResults, metric: str, best: Standing, *others: Standing) 
     if following is None:
         (mean,) = same_places(best.mean)
         return f"is best over {where} by {title}, {mean}; no other entrant has every score."
+    if math.isclose(following.mean, best.mean):
+        (mean,) = same_places(best.mean)
+        return f"is level with {following.label} over {where} by {title}, {mean}."
     sentence = f"is best over {where} by {title}: {_margin(best, following)}."
     return " ".join(filter(None, (sentence, _interpolation(results, best, *others))))
 

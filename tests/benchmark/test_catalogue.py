@@ -55,3 +55,11 @@ def test_a_task_is_all_that_json_can_hold(name):
 def test_a_library_says_which_files_it_reads():
     assert library_entry("cmu")["layout"] == list(CMULibrary.layout)
     assert all(library_entry(name)["summary"] for name in LIBRARIES.names())
+
+
+def test_the_label_of_an_entrant_is_a_model_with_the_parameters_that_tasks_set():
+    entry = model_entry("mohgp-3")
+    assert entry["name"] == "mohgp-3"
+    assert entry["model"] == "mohgp"
+    assert entry["parameters"]["n_components"] == 3
+    assert "model" not in model_entry("mohgp")

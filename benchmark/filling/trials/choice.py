@@ -77,8 +77,9 @@ def choose(
     count = _common(runners)
     if count == 0:
         raise UsageError(
-            f"{question.given.name}: expected a model that fills a trial gap within {budget:g} s, "
-            f"got none ({runners[0].model}: {runners[0].trouble}); raise --budget"
+            f"{question.given.name}: expected a model that fills a trial gap in its part of the "
+            f"budget of {budget:g} s, got none ({runners[0].model}: {runners[0].trouble}); raise "
+            "--budget"
         )
     return _ranked(question, trials[:count], runners)
 

@@ -170,22 +170,32 @@ class _Placement:
             self.blocked[placed.stop :] = True
 
     def within(self, turns: _Turns) -> None:
-        """Place copies of the episodes whose turn it is, as many as a trial may hide, or one."""
+        """Place copies of the episodes whose turn it is, as many as a trial may hide, or one.
+
+        One that does not fit beside others as it is waits for the next trial, where it is the
+        first; there it is shortened if need be.
+        """
         room = _HIDDEN_SHARE * (self.stop - self.start)
         hidden = 0
         for _ in range(turns.per_trial):
             episode = turns.next()
             if hidden and hidden + len(episode) > room:
                 return
+            shares = _SHARES[:1] if self.episodes else _SHARES
+            placed = self._put(episode, self.start, self.stop, shares)
+            if placed is None and hidden:
+                return
             hidden += len(episode)
             turns.done()
-            if self._put(episode, self.start, self.stop) is None:
+            if placed is None:
                 for gap in episode.gaps if len(episode.gaps) > 1 else ():
                     self._put(Episode((gap,)), self.start, self.stop)
 
-    def _put(self, episode: Episode, first: int, stop: int) -> Episode | None:
-        """Place an episode within [first, stop), shortened if need be; None if it does not fit."""
-        for share in _SHARES:
+    def _put(
+        self, episode: Episode, first: int, stop: int, shares: Sequence[float] = _SHARES
+    ) -> Episode | None:
+        """Place an episode within [first, stop), with one of the shares; None if it fits not."""
+        for share in shares:
             shorter = episode.shortened(share)
             places = free_places(shorter, self.blocked)
             places = places[(places >= first) & (places + len(shorter) <= stop)]

@@ -36,6 +36,8 @@ class Runner:
         To the first trials, in order.
     trouble : str
         Why it has no more of them.
+    late : bool
+        Whether that is because its time, or the budget, was used up.
     windows : int
         Into how many windows it had the longest trial cut; 0 if into none.
     seconds : float
@@ -45,13 +47,14 @@ class Runner:
     model: str
     answers: list[Answer] = field(default_factory=list)
     trouble: str = ""
+    late: bool = False
     windows: int = 0
     seconds: float = 0.0
 
     def take(self, attempt: Attempt) -> None:
         """Take note of how an attempt ended."""
         self.seconds += attempt.seconds
-        self.trouble = attempt.trouble
+        self.trouble, self.late = attempt.trouble, attempt.slow
         self.windows = max(self.windows, attempt.windows)
         if attempt.answer is not None:
             self.answers.append(attempt.answer)
@@ -121,6 +124,7 @@ class _Lap:
             runner, left = self._ready.popleft(), self._deadline - time.monotonic()
             if left <= 0:
                 runner.trouble = runner.trouble or "the budget was used up before its turn"
+                runner.late = True
                 continue
             question = self._questions[len(runner.answers)]
             seconds = min(self._limit, left)

@@ -79,7 +79,10 @@ class AcclaimFormat(Format):
         try:
             return read_motion(path, self.skeleton(path))
         except AcclaimError as error:
-            advice = "export the motion again, without NaN: gaps are named, not written"
+            advice = (
+                "export the motion again, whole and without NaN: a file may be cut short, and gaps "
+                "are named, not written"
+            )
             raise _plain(error, advice) from error
 
 

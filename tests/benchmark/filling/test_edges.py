@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.benchmark.filling.edges import Jump, jumps
+from mocapbench.datasets import Recording
 
 
 def test_the_truth_does_not_jump(waves, hidden):
@@ -48,3 +49,23 @@ def test_a_gap_at_the_end_has_one_edge(waves, hidden):
     values[target] += 90.0
     (found,) = jumps(recording.with_values(values), target)
     assert found.frame == n_frames - 5
+
+
+def test_a_step_that_is_hardly_longer_than_visible_ones_is_no_jump():
+    values = np.array([[0.0], [1.0], [0.0], [1.1], [0.0], [1.0], [0.0]])
+    recording = Recording("r", np.arange(7.0), values, ("a",), ("mm",))
+    target = np.zeros((7, 1), dtype=bool)
+    target[3] = True
+    assert jumps(recording, target) == []
+    values[3] = 1.3
+    assert {jump.frame for jump in jumps(recording.with_values(values), target)} == {3}
+
+
+def test_rounding_is_relative_to_channels_of_the_same_unit():
+    """A channel that is constantly 0 is filled with what is left of arithmetic in degrees."""
+    values = np.column_stack([np.zeros(7), 90.0 * np.sin(np.arange(7)), np.arange(7.0)])
+    recording = Recording("r", np.arange(7.0), values, ("a", "b", "c"), ("deg", "deg", "cm"))
+    target = np.zeros((7, 3), dtype=bool)
+    target[3, 0] = True
+    values[3, 0] = 7e-6
+    assert jumps(recording.with_values(values), target) == []

@@ -1,5 +1,7 @@
 """The page of a filled file: which figures of its motion are filled."""
 
+from pathlib import Path
+
 import format_files
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ from mocapbench.benchmark.filling.page import page_of
 from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.request import Request
 from mocapbench.benchmark.filling.sources import Source
-from mocapbench.datasets import AcclaimFormat
+from mocapbench.datasets import AcclaimFormat, CSVFormat
 
 
 @pytest.mark.parametrize("length", [1, 2, 4, 5, 12, 30])
@@ -26,3 +28,20 @@ def test_figures_show_filled_frames_and_frames_of_the_file_beside_them(tmp_path,
     assert {*groups} == {"filled", "in the file"}
     assert groups[-1] == "in the file"
     assert (groups[0] == "filled") == (start == 0)
+
+
+def test_the_gap_that_jumps_and_the_longest_are_drawn(waves, hidden):
+    """Of many gaps a few are drawn, but those that a remark names are among them."""
+    whole = waves(1000)
+    blocks = [(20 + 30 * n, 22 + 30 * n, [0, 1, 2, 3]) for n in range(30)]
+    target = hidden(*blocks, (770, 790, [0, 1, 2, 3]), n_frames=1000)
+    values = whole.values.copy()
+    values[140:142, 3] += 100.0
+    request = Request(whole.hide(target), target, ())
+    source = Source(Path("waves.csv"), CSVFormat(), request, ())
+    answer = Answer(values[target], np.ones(int(target.sum())))
+    page = page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill")
+    spans = {(curve.channel, span[0]) for curve in page.curves for span in curve.gaps}
+    assert ("root.ty", whole.times[139]) in spans
+    assert whole.times[769] in {start for _, start in spans}
+    assert "4 of 30 gaps, the longest among them" in page.caption

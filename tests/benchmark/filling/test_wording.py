@@ -11,6 +11,7 @@ from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.request import Request
 from mocapbench.benchmark.filling.sources import Source
 from mocapbench.benchmark.filling.trials.choice import Choice
+from mocapbench.benchmark.filling.trials.race import Runner
 from mocapbench.benchmark.filling.trials.ranking import rank
 from mocapbench.benchmark.filling.trials.scores import Scores
 from mocapbench.benchmark.filling.wording import headline, ranked, remarks, verdict
@@ -124,3 +125,13 @@ def test_the_ranking_notes_the_choice_and_what_is_not_separable(filled):
     assert [row.name for row in rows] == ["one", "two"]
     assert rows[0].note == "chosen, fitted to windows"
     assert rows[1].note.startswith("not separable from one")
+
+
+def test_models_that_had_no_time_are_said(filled):
+    late = tuple(Runner(f"slow {n}", trouble="too slow", late=True) for n in range(6))
+    broken = Runner("broken", trouble="ValueError")
+    choice = replace(choice_of({"one": [1, 2]}), left_out=(*late[:3], broken, *late[3:]))
+    (said,) = remarks(filled(choice))
+    assert "slow 0, slow 1, slow 2, slow 3 and 2 more" in said
+    assert "--budget" in said
+    assert list(remarks(filled(replace(choice, left_out=(broken,))))) == []

@@ -172,3 +172,16 @@ def test_generated_cases_beside_recordings_enter_no_mean(small):
     cases = (CaseLayout("x", {}), CaseLayout("y", {}, synthetic=True))
     bundle = small({"x": {"a": [1.0]}, "y": {"a": [9.0]}}, cases=cases)
     assert board_cells(results_of(bundle))["a"].value == 1.0
+
+
+@pytest.mark.parametrize(
+    ("scores", "said"),
+    [
+        ({"a": [1.0], "b": [1.0], "c": [2.0]}, "a and b, alike: 1.00, next c 2.00"),
+        ({name: [1.0] for name in "abcde"}, "a, b, c and 2 more, alike: 1.00"),
+    ],
+)
+def test_models_with_the_same_mean_are_told_apart_by_nothing(small, scores, said):
+    (answer,) = answers([results_of(small({"row": scores}))])
+    assert answer.model == ""
+    assert answer.findings[0].text == said

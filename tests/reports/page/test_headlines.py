@@ -180,3 +180,8 @@ def test_the_next_best_is_one_model_over_all_cases(small):
 def test_a_model_that_lacks_a_case_is_not_next_best(small):
     values = {"one": {"a": [1.0], "b": [2.0]}, "two": {"a": [1.0], "c": [3.0]}}
     assert "by MSE, 1.00; no other entrant has every score." in lead_of(results_of(small(values)))
+
+
+def test_two_with_the_same_mean_are_level(small):
+    text = lead_of(results_of(small({"row": {"a": [0.5], "b": [0.5], "c": [0.7]}})))
+    assert text.startswith("a is level with b over the only case by MSE, 0.50.")

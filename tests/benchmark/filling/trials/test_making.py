@@ -98,3 +98,12 @@ def test_the_same_seed_makes_the_same_trials(seed):
     one, two = (make_trials(asked, np.random.default_rng(seed)) for _ in range(2))
     for first, second in zip(one, two, strict=True):
         np.testing.assert_array_equal(first.question.target, second.question.target)
+
+
+def test_no_gap_is_shortened_that_fits_once_another_trial_has_the_room():
+    """Beside the copy of a long gap there may be no room for a second, but alone there is."""
+    asked = question([(10, 8, 0), (50, 30, 1), (120, 30, 2)])
+    for seed in range(10):
+        trials = make_trials(asked, np.random.default_rng(seed))
+        assert {trial.share for trial in trials} == {1.0}
+        assert {len(unit) for trial in trials for unit in trial.units} == {8, 30}
