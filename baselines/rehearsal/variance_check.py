@@ -2,7 +2,7 @@ r"""What a recording's own trials say of the variances that a model claims.
 
 The variance of a channel is multiplied by the mean ratio, in the trials, of squared errors to
 claimed variances, where that is above one. Three trials say too little to make variances as small
-as they show, but none is left larger than twice what the worst of three shows.
+as they show, but none is left larger than four times what the worst of three shows.
 
 Where copies of a channel's gap had to be shorter, they are easier: their entries lie nearer to
 visible ones. They are then tried at half their length, too. If the ratio of such channels grows
@@ -39,7 +39,7 @@ Distances = NDArray[np.intp]
 _TINY = np.finfo(np.float64).tiny
 _SURE = 3
 """Trials that can show variances to be too large."""
-_MARGIN = 2.0
+_MARGIN = 4.0
 """How many times as large as the worst of these trials shows variances may be."""
 _STEEPEST = 0.6
 """Largest power of the distance by which ratios grow: what two short lengths say is noisy.

@@ -41,7 +41,7 @@ def test_means_stay_and_variances_lie_between_what_trials_show_and_what_is_claim
     np.testing.assert_array_equal(after.mean, before.mean)
     assert (after.variance[recording.visible] == 0.0).all()
     mean, worst = ratios(recording, model)
-    expected = np.maximum(mean, np.clip(2.0 * worst, 0.01, 1.0))
+    expected = np.maximum(mean, np.clip(4.0 * worst, 0.01, 1.0))
     np.testing.assert_allclose(after.variance[90] / claim, expected)
 
 
@@ -76,7 +76,7 @@ def test_a_marker_that_travels_is_not_doubted_by_the_length_of_its_way():
     model = LDS(n_states=10).fit([given])
     (claimed,), (prediction,) = model.as_claimed([given]), model.impute([given])
     errors = np.abs(prediction.mean - values)[hidden] / np.sqrt(prediction.variance[hidden])
-    assert prediction.variance[hidden].max() < 0.02 * claimed.variance[hidden].max()
+    assert prediction.variance[hidden].max() < 0.05 * claimed.variance[hidden].max()
     assert errors.max() < 3.0
 
 
