@@ -21,7 +21,7 @@ __all__ = ["BestOf"]
 
 
 class BestOf(Imputer, Inductive):
-    r"""The mean of several models that errs least in rehearsals of the gaps.
+    r"""The mean of several models, weighted by how well each fills copies of the gaps.
 
     A model that is best on walks may be bad for someone who stands still. For every recording to
     fill, copies of its gaps are therefore hidden where its entries are visible, and every candidate

@@ -15,10 +15,10 @@ from mocapbench.benchmark.tasks.base import Entrant
 __all__ = ["format_entry", "library_entry", "metric_entry", "model_entry", "task_entry"]
 
 _ABILITIES = {
-    "Imputer": "imputes any mask",
-    "FrameImputer": "imputes whole frames",
+    "Imputer": "fills any gaps",
+    "FrameImputer": "fills gaps of whole frames",
     "Inductive": "new recordings too",
-    "Interpolator": "interpolates each channel",
+    "Interpolator": "fills each channel by itself",
     "Synthesiser": "synthesises",
     "Clusterer": "clusters",
     "Aligner": "aligns",
@@ -55,7 +55,9 @@ def model_entry(name: str) -> Mapping[str, Any]:
 
     The label of an entrant of a task is that of a model with parameters of its own.
     """
-    entrant = _entrants().get(name, Entrant(name, name))
+    entrant = Entrant(name, name)
+    if name not in MODELS.names():
+        entrant = _entrants().get(name, entrant)
     model = MODELS.get(entrant.model)
     return {
         "name": name,

@@ -26,7 +26,7 @@ def hidden_frames(recording: Recording) -> NDArray[np.bool_]:
     if partial:
         raise ValueError(
             f"recording {recording.name!r}: expected frames all visible or all hidden, "
-            f"got {partial} hidden in part; use a model that imputes any mask"
+            f"got {partial} hidden in part; use a model that fills any gaps"
         )
     return whole
 

@@ -38,9 +38,9 @@ def test_markup_and_leading_line_breaks_are_left_out():
 
 
 def test_an_ability_that_follows_from_another_is_not_named():
-    assert model_entry("knn")["abilities"] == ["imputes any mask", "new recordings too"]
-    assert "imputes any mask" not in model_entry("cubic-spline")["abilities"]
-    assert "imputes whole frames" in model_entry("pose-viterbi")["abilities"]
+    assert model_entry("knn")["abilities"] == ["fills any gaps", "new recordings too"]
+    assert "fills any gaps" not in model_entry("cubic-spline")["abilities"]
+    assert "fills gaps of whole frames" in model_entry("pose-viterbi")["abilities"]
 
 
 @pytest.mark.parametrize("name", TASKS.names())
