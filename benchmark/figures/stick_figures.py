@@ -39,7 +39,7 @@ def strip(motion: Recording, body: Body, groups: Sequence[str], title: str = "")
     places[..., 2] += STRIDE * np.arange(n_figures)[:, None]
     return Panel(
         f"{title}every {np.diff(motion.times[frames]).mean():.2g} s",
-        f"cm; figures are set {STRIDE:g} cm apart, wherever the body went",
+        "cm, set apart",
         "height, cm",
         tuple(
             _sticks(body.skeleton, figure, groups[frame])
