@@ -12,7 +12,18 @@ from typing import IO
 
 from mocapbench.benchmark.errors import UsageError
 
-__all__ = ["atomic_write", "is_writable", "require_writable_folder", "target_of", "words_of"]
+__all__ = [
+    "ENTRIES",
+    "atomic_write",
+    "is_writable",
+    "require_writable_folder",
+    "target_of",
+    "words_of",
+]
+
+ENTRIES = ".entries.csv"
+"""How the name of a table of filled entries ends, which `mocapbench fill` writes beside a file."""
+
 
 _READABLE = 0o644
 _SUFFIX = ".tmp"

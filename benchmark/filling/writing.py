@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write, require_writable_folder
+from mocapbench.benchmark.files import ENTRIES, atomic_write, require_writable_folder
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.reports import csv_text
 
@@ -41,9 +41,7 @@ def outputs_of(files: Sequence[Path], folder: Path) -> list[Outputs]:
         raise UsageError(f"--out: expected a folder, got the file {folder}; name another")
     require_writable_folder("--out", folder)
     outputs = [
-        Outputs(
-            folder / file.name, *(folder / f"{file.name}.{end}" for end in ("entries.csv", "html"))
-        )
+        Outputs(folder / file.name, *(folder / f"{file.name}{end}" for end in (ENTRIES, ".html")))
         for file in files
     ]
     paths = [path for written in outputs for path in written]

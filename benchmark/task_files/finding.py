@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from mocapbench.benchmark.files import ENTRIES
 from mocapbench.benchmark.registry import FORMATS
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.settings import NONE, OTHERS, Settings
@@ -47,7 +48,7 @@ def readable_files(folder: Path) -> tuple[str, ...]:
     """Return the paths of all files below ``folder`` that have a registered suffix, in order."""
     suffixes = {suffix for name in FORMATS.names() for suffix in FORMATS.get(name).suffixes}
     files = (path for path in sorted(folder.rglob("*")) if path.suffix.lower() in suffixes)
-    return tuple(path.relative_to(folder).as_posix() for path in files if path.is_file())
+    return tuple(path.relative_to(folder).as_posix() for path in files if _is_recording(path))
 
 
 def _matching(
@@ -68,5 +69,10 @@ def _files(pattern: str, folder: Path) -> list[str]:
     return [
         path.relative_to(folder).as_posix()
         for path in sorted(folder.glob(pattern))
-        if path.is_file()
+        if _is_recording(path)
     ]
+
+
+def _is_recording(path: Path) -> bool:
+    """Return whether a path is a file, and not what `mocapbench fill` has written beside one."""
+    return path.is_file() and not path.name.endswith(ENTRIES)

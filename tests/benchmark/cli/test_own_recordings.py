@@ -246,6 +246,14 @@ def test_the_first_task_file_runs_as_it_stands(cli, own, records, recordings, tm
     assert path.read_text() == text
 
 
+def test_tables_of_filled_entries_are_no_recordings(cli, own, task_file, tmp_path):
+    folder = walks(tmp_path / "folder")
+    (folder / "walk 01.csv.entries.csv").write_text("frame,time,channel,unit,mean,sd\n")
+    assert cli("init", tmp_path / "first.toml", "--recordings", folder) == 0
+    assert "entries.csv" not in cli.printed + (tmp_path / "first.toml").read_text()
+    assert own(task_file(WAYS["whole-frames"], models='["linear"]'), folder=folder) == 0
+
+
 def test_a_first_task_file_of_nothing_is_refused(cli, tmp_path):
     (tmp_path / "empty").mkdir()
     (tmp_path / "timeless").mkdir()
