@@ -179,7 +179,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
 
         A recording takes the length of cycle and the shift at which its visible entries are closest
         to the reference curve. The length is at most a quarter beyond those of the fitted ones.
-        Variances are widened by trials on the recording's visible entries
+        Variances are checked by trials on the recording's visible entries
         (``docs/calibration.md``).
 
         Raises

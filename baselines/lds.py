@@ -137,7 +137,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return mean and variance of the hidden entries given the visible ones of each recording.
 
-        Variances are those of the smoother, widened by trials on the recording's visible entries
+        Variances are those of the smoother, checked by trials on the recording's visible entries
         (``docs/calibration.md``).
 
         Raises

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.gaps import hidden_frames, runs
+from mocapbench.baselines.common.gaps import runs, visible_frames
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import (
     check_not_negative,
@@ -197,13 +197,13 @@ class PoseKriging(FrameImputer, Inductive):
 
     def _filled(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the mean and variance (N, D) of all frames given the visible ones."""
-        visible, least = ~hidden_frames(recording), _LEAST_VARIANCE * self.total_variance_
+        visible, least = visible_frames(recording), _LEAST_VARIANCE * self.total_variance_
         others = self._matchers_of_others(recording.name)
         if not others:
-            return own_course(recording.values, visible, least)
+            return self._own_course(recording)
         paths = MatchedPaths.of(recording, others)
         if paths.explained < self.least_explained:
-            return own_course(recording.values, visible, least)
+            return self._own_course(recording)
         every = np.tile(visible, len(self.symmetries_))
         given = ConditionedFrames(self._covariance(paths.mean), _NOISE, every)
         residuals = [self._images(recording.values - path)[every] for path in paths.paths]
@@ -213,6 +213,12 @@ class PoseKriging(FrameImputer, Inductive):
         scales = given.doubt_of_scale * given.scales(residual, least)
         variance = np.outer(given.variance[:n_frames], scales) + paths.doubt(corrected)
         return np.tensordot(paths.weights, corrected, axes=1), variance
+
+    def _own_course(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
+        visible = visible_frames(recording)
+        # One frame tells nothing of how far channels go: no further than in all of training.
+        least = _LEAST_VARIANCE if visible.sum() > 1 else 1.0
+        return own_course(recording.values, visible, least * self.total_variance_)
 
     def _matchers_of_others(self, name: str) -> list[PoseViterbi]:
         """Leave out the recording to fill: its path through itself would seem free of error."""

@@ -17,7 +17,7 @@ from scipy.interpolate import CubicSpline
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.gaps import complete_stretches, hidden_frames
+from mocapbench.baselines.common.gaps import complete_stretches, visible_frames
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
@@ -145,9 +145,7 @@ class PoseViterbi(FrameImputer, Inductive):
         ValueError
             If a frame is hidden in part, or no frame is visible.
         """
-        visible = ~hidden_frames(recording)
-        if not visible.any():
-            raise ValueError(f"recording {recording.name!r}: expected a visible frame, got none")
+        visible = visible_frames(recording)
         emission = np.zeros((len(visible), len(self.frames_)))
         known = recording.values[visible]
         emission[visible] = euclidean_distances(known, self.frames_, squared=True)

@@ -1,5 +1,12 @@
 from .archives import archive_at, fetch_command, full_paths, require_recordings
-from .catalogue import format_entry, library_entry, metric_entry, model_entry, task_entry
+from .catalogue import (
+    entrant_entry,
+    format_entry,
+    library_entry,
+    metric_entry,
+    model_entry,
+    task_entry,
+)
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
 from .figures.alignment import Alignments
@@ -123,6 +130,7 @@ __all__ = [
     "compare",
     "data_totals",
     "draft",
+    "entrant_entry",
     "error_parts",
     "explain",
     "explanation_table",

@@ -8,11 +8,18 @@ from typing import Any
 from mocapbench import baselines
 from mocapbench.baselines import Model
 from mocapbench.benchmark.docstrings import source, summary
+from mocapbench.benchmark.errors import UnregisteredNameError
 from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.plan import entrants
-from mocapbench.benchmark.tasks.base import Entrant
 
-__all__ = ["format_entry", "library_entry", "metric_entry", "model_entry", "task_entry"]
+__all__ = [
+    "entrant_entry",
+    "format_entry",
+    "library_entry",
+    "metric_entry",
+    "model_entry",
+    "task_entry",
+]
 
 _ABILITIES = {
     "Imputer": "fills any gaps",
@@ -51,30 +58,39 @@ def task_entry(name: str) -> Mapping[str, Any]:
 
 
 def model_entry(name: str) -> Mapping[str, Any]:
-    """Return what a model is: its sentence and papers, its abilities and parameters.
-
-    The label of an entrant of a task is that of a model with parameters of its own.
-    """
-    entrant = Entrant(name, name)
-    if name not in MODELS.names():
-        entrant = _entrants().get(name, entrant)
-    model = MODELS.get(entrant.model)
+    """Return what a model is: its sentence and papers, its abilities and parameters."""
+    model = MODELS.get(name)
     return {
         "name": name,
-        **({"model": entrant.model} if entrant.model != name else {}),
         "summary": summary(model),
         "family": model.family,
         "source": source(model),
         "abilities": _abilities(model),
-        "parameters": {**model().get_params(), **entrant.parameters},
+        "parameters": model().get_params(),
     }
 
 
-def _entrants() -> Mapping[str, Entrant]:
-    """Return the entrants whose label is not the name of a model."""
-    tasks = map(TASKS.get, TASKS.names())
-    every = {entrant.label: entrant for task in tasks for entrant in task.entrants}
-    return {label: every[label] for label in sorted({*every} - {*MODELS.names()})}
+def entrant_entry(label: str) -> Mapping[str, Any]:
+    """Return what a model is, or a label of the scoreboard, with the parameters that tasks set.
+
+    Raises
+    ------
+    UnregisteredNameError
+        If it is neither.
+    """
+    tasks = [TASKS.get(name) for name in TASKS.names()]
+    every = [(task.name, entrant) for task in tasks for entrant in task.entrants]
+    models = {entrant.label: entrant.model for _, entrant in every}
+    models |= {name: name for name in MODELS.names()}
+    if label not in models:
+        raise UnregisteredNameError(MODELS.kind, label, sorted(models))
+    own = {"name": label, "model": models[label]} if label != models[label] else {}
+    set_by = {
+        task: ", ".join(f"{name}={value!r}" for name, value in entrant.parameters.items())
+        for task, entrant in every
+        if entrant.label == label and entrant.parameters
+    }
+    return {**model_entry(models[label]), **own, "set by tasks": set_by}
 
 
 def metric_entry(name: str) -> Mapping[str, Any]:

@@ -34,7 +34,7 @@ from .slopes.values import (
     Unpaired,
 )
 from .spreadsheet import csv_text
-from .text import counted
+from .text import counted, listed
 
 __all__ = [
     "Band",
@@ -73,6 +73,7 @@ __all__ = [
     "Unpaired",
     "counted",
     "csv_text",
+    "listed",
     "render",
     "render_changes",
     "render_filled",

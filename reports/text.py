@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from urllib.parse import quote
 
 import numpy as np
@@ -13,6 +13,7 @@ __all__ = [
     "cell_anchor",
     "counted",
     "decimals",
+    "listed",
     "number",
     "plus_minus",
     "slug",
@@ -31,6 +32,13 @@ def slug(*names: str) -> str:
 def cell_anchor(task: str, case: str, label: str) -> str:
     """Return the address on the page of what is known of one cell, without the ``#``."""
     return "cell=" + "/".join(quote(name, safe="") for name in (task, case, label))
+
+
+def listed(names: Sequence[str], most: int) -> str:
+    """Return one or more names in a row, the first ``most`` of them: "a, b and 3 more"."""
+    more = len(names) - most
+    *others, last = [*names[:most], f"{more} more"] if more > 0 else names
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def decimals(values: Iterable[float]) -> int:

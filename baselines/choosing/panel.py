@@ -89,7 +89,7 @@ class Panel:
         return chosen._filled(recording, lambda model: model.impute)
 
     def means(self, recording: Recording) -> dict[str, FrameByChannel]:
-        """Return the means of `impute`, without the trials that only widen variances."""
+        """Return the means of `impute`, without the trials that variances need."""
         filled = self._filled(recording, _without_trials)
         return {name: prediction.mean for name, prediction in filled.items()}
 

@@ -9,7 +9,14 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets import FrameByChannel, Mask, Recording
 
-__all__ = ["complete_stretches", "frames_alike", "hidden_frames", "hidden_together", "runs"]
+__all__ = [
+    "complete_stretches",
+    "frames_alike",
+    "hidden_frames",
+    "hidden_together",
+    "runs",
+    "visible_frames",
+]
 
 
 def hidden_frames(recording: Recording) -> NDArray[np.bool_]:
@@ -29,6 +36,20 @@ def hidden_frames(recording: Recording) -> NDArray[np.bool_]:
             f"got {partial} hidden in part; use a model that fills any gaps"
         )
     return whole
+
+
+def visible_frames(recording: Recording) -> NDArray[np.bool_]:
+    """Return which frames (N,) are visible.
+
+    Raises
+    ------
+    ValueError
+        If a frame is hidden in part, or none is visible.
+    """
+    visible = ~hidden_frames(recording)
+    if not visible.any():
+        raise ValueError(f"recording {recording.name!r}: expected a visible frame, got none")
+    return visible
 
 
 def frames_alike(mask: Mask) -> Iterator[tuple[NDArray[np.intp], NDArray[np.bool_]]]:

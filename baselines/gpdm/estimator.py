@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.gaps import hidden_frames
+from mocapbench.baselines.common.gaps import visible_frames
 from mocapbench.baselines.common.recordings import check_channels
 from mocapbench.baselines.common.validation import (
     check_choice,
@@ -116,7 +116,7 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the mean and variance of hidden frames given the training and visible frames.
 
-        Variances are those given the most probable latent positions, widened by trials on the
+        Variances are those given the most probable latent positions, checked by trials on the
         recording's visible frames (``docs/calibration.md``).
 
         Raises
@@ -133,9 +133,7 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
         return [self._filled(recording) for recording in recordings]
 
     def _filled(self, recording: Recording) -> Prediction:
-        visible = ~hidden_frames(recording)
-        if not visible.any():
-            raise ValueError(f"recording {recording.name!r}: expected a visible frame, got none")
+        visible = visible_frames(recording)
         offset = self.subject_offset * self.matcher_.residual(recording)
         query = Query(self._scaled(recording.values - offset), visible)
         x = STARTS[self.start](self.conditional_, query)

@@ -2,7 +2,8 @@ r"""What a recording's own trials say of the variances that a model claims.
 
 The variance of a channel is multiplied by the mean ratio, in the trials, of squared errors to
 claimed variances, where that is above one. Three trials say too little to make variances as small
-as they show, but none is left larger than four times what the worst of three shows.
+as they show, but none is left larger than four times what the worst of three shows, and none less
+than a hundredth of what is claimed.
 
 Where copies of a channel's gap had to be shorter, they are easier: their entries lie nearer to
 visible ones. They are then tried at half their length, too. If the ratio of such channels grows

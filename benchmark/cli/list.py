@@ -40,6 +40,8 @@ class _Listing(NamedTuple):
 
     registry: Registry[Any]
     entry: Callable[[str], Entry]
+    details: Callable[[str], Entry]
+    """All there is to say of one; of the others it may take longer."""
     columns: Mapping[str, str]
     """What the table shows of an entry besides its name, and under which heads."""
 
@@ -61,7 +63,8 @@ def list_registered(
     """
     load_plugins(plugin)
     listing = _listing(kind)
-    entries = [listing.entry(name) for name in names or listing.registry.names()]
+    every = map(listing.entry, listing.registry.names())
+    entries = [*(map(listing.details, names) if names else every)]
     if as_json:
         typer.echo(json.dumps(entries, indent=1, default=str))
         return
@@ -78,19 +81,19 @@ def _listing(kind: Kind) -> _Listing:
     match kind:
         case Kind.TASKS:
             columns = {"title": "title", "cases": "cases", "reference": "from"}
-            return _Listing(bench.TASKS, bench.task_entry, columns)
+            return _Listing(bench.TASKS, bench.task_entry, bench.task_entry, columns)
         case Kind.MODELS:
             columns = {"summary": "what it is", "abilities": "abilities"}
-            return _Listing(bench.MODELS, bench.model_entry, columns)
+            return _Listing(bench.MODELS, bench.model_entry, bench.entrant_entry, columns)
         case Kind.METRICS:
             columns = {"title": "title", "better": "better", "of": "of"}
-            return _Listing(bench.METRICS, bench.metric_entry, columns)
+            return _Listing(bench.METRICS, bench.metric_entry, bench.metric_entry, columns)
         case Kind.LIBRARIES:
             columns = {"summary": "what it is", "layout": "reads"}
-            return _Listing(bench.LIBRARIES, bench.library_entry, columns)
+            return _Listing(bench.LIBRARIES, bench.library_entry, bench.library_entry, columns)
         case Kind.FORMATS:
             columns = {"summary": "what it is", "suffixes": "files", "needs": "needs"}
-            return _Listing(bench.FORMATS, bench.format_entry, columns)
+            return _Listing(bench.FORMATS, bench.format_entry, bench.format_entry, columns)
 
 
 def _table(listing: _Listing, entries: Sequence[Entry]) -> Table:

@@ -11,7 +11,7 @@ from mocapbench.datasets import Mask, Recording
 __all__ = ["Jump", "jumps"]
 
 _RELATIVE = 1e-6
-"""Steps below this share of the values of a channel's unit are rounding."""
+"""Steps below this share of the values of a channel's unit, if it has one, are rounding."""
 _LONGER = 1.25
 """How many times as long as every visible step a jump is: the longest of few says little."""
 
@@ -53,9 +53,11 @@ def jumps(recording: Recording, target: Mask) -> list[Jump]:
     visible = recording.visible & ~target
     within = visible[1:] & visible[:-1]
     largest = np.where(within, steps, 0.0).max(axis=0, initial=0.0)
-    units = np.array(recording.units)
+    alike = np.array(
+        [unit or name for unit, name in zip(recording.units, recording.channels, strict=True)]
+    )
     sizes = np.where(visible, np.abs(recording.values), 0.0).max(axis=0, initial=0.0)
-    least = _RELATIVE * np.array([sizes[units == unit].max() for unit in units])
+    least = _RELATIVE * np.array([sizes[alike == one].max() for one in alike])
     edges = (target[1:] & visible[:-1]) | (visible[1:] & target[:-1])
     found = edges & within.any(axis=0) & (steps > _LONGER * largest + least)
     return sorted(

@@ -57,8 +57,10 @@ def _shown(
     count = min(len(gaps), _MOST_CURVES // per_gap)
     worst = [n for jump in found[:1] for n, gap in enumerate(gaps) if _is_in(jump, gap)]
     longest = max(range(len(gaps)), key=lambda n: len(gaps[n]))
-    even = np.linspace(0, len(gaps) - 1, count).round().astype(int).tolist()
-    for gap in (gaps[n] for n in sorted([*dict.fromkeys([*worst, longest, *even])][:count])):
+    named = {*worst, longest}
+    n_even = count - len(named) if count < len(gaps) else count
+    even = np.linspace(0, len(gaps) - 1, n_even).round().astype(int).tolist()
+    for gap in (gaps[n] for n in sorted({*named, *even})):
         moved = np.ptp(recording.values[gap.start : gap.stop, list(gap.channels)], axis=0)
         most = [gap.channels[place] for place in np.argsort(-moved, kind="stable")]
         jumping = [jump.channel for jump in found if _is_in(jump, gap)]

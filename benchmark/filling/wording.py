@@ -10,7 +10,7 @@ from mocapbench.benchmark.filling.edges import jumps
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.metrics.statistics import FEWEST_UNITS
-from mocapbench.reports import RankedModel
+from mocapbench.reports import RankedModel, listed
 
 __all__ = ["headline", "left_out", "ranked", "remarks", "units", "verdict"]
 
@@ -41,7 +41,7 @@ def verdict(filled: Filled) -> str:
     others = [model for model in ranking.sharing if model != ranking.order[0]]
     if not others:
         return f"Its lead over {ranking.order[1]} is more than chance, over {trials}."
-    return f"Its lead over {_listed(others)} could be chance, over {trials}."
+    return f"Its lead over {listed(others, len(others))} could be chance, over {trials}."
 
 
 def remarks(filled: Filled) -> Iterator[str]:
@@ -76,11 +76,9 @@ def remarks(filled: Filled) -> Iterator[str]:
 def _late(filled: Filled) -> Iterator[str]:
     late = [one.model for one in filled.choice.left_out if one.late] if filled.choice else []
     if late:
-        named, more = late[:_NAMED], len(late) - _NAMED
-        them = _listed([*named, f"{more} more"] if more > 0 else named)
         yield (
-            f"Time was up before {them} had filled the trial gaps that the others filled: a larger "
-            "--budget may find a better model among them."
+            f"Time was up before {listed(late, _NAMED)} had filled the trial gaps that the others "
+            "filled: a larger --budget may find a better model among them."
         )
 
 
@@ -159,8 +157,3 @@ def _note(choice: Choice, model: str, *, chosen: str) -> str:
 def _windows(count: int) -> str:
     one = "a window around the gap"
     return one if count == 1 else f"{count} windows around the gaps, each on its own"
-
-
-def _listed(names: list[str]) -> str:
-    *most, last = names
-    return f"{', '.join(most)} and {last}" if most else last

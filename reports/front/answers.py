@@ -16,7 +16,7 @@ from mocapbench.reports.front.board_cells import (
     is_generated,
     reference_of,
 )
-from mocapbench.reports.text import counted, number, slug
+from mocapbench.reports.text import counted, listed, number, slug
 
 __all__ = ["TESTED", "Answer", "Finding", "answers"]
 
@@ -95,13 +95,15 @@ def _answer(question: Question, group: Sequence[tuple[TaskResults, Ranked]]) -> 
         question.ask,
         named,
         tuple(_finding(task, ranked) for task, ranked in first),
-        _sure([_lead(ranked) for _, ranked in first]),
+        _sure([_lead(ranked) for _, ranked in first if len(_tied(ranked)) == 1]),
     )
 
 
 def _finding(results: TaskResults, ranked: Ranked) -> Finding:
     best, second = ranked[0], _next(ranked)
-    text = f"{_listed(_tied(ranked))} {_mean(results, best)}"
+    tied = _tied(ranked)
+    alike = ", alike:" if len(tied) > 1 else ""
+    text = f"{listed(tied, _MOST_NAMES)}{alike} {_mean(results, best)}"
     if second is not None:
         text += f", next {second.label} {_mean(results, second)}{_margin(results, second)}"
     text += f"; no better than {reference_of(results)}" if _beaten(results, best) else ""
@@ -114,13 +116,6 @@ def _tied(ranked: Ranked) -> list[str]:
     best, *others = ranked
     same = [one for one in others if one.complete and math.isclose(one.mean, best.mean)]
     return [one.label for one in [best, *same]]
-
-
-def _listed(labels: Sequence[str]) -> str:
-    """Return the labels in a row, with the number of those beyond `_MOST_NAMES`."""
-    more = len(labels) - _MOST_NAMES
-    *most, last = [*labels[:_MOST_NAMES], f"{more} more"] if more > 0 else labels
-    return f"{', '.join(most)} and {last}, alike:" if most else last
 
 
 def _next(ranked: Ranked) -> Standing | None:
@@ -143,8 +138,6 @@ def _margin(results: TaskResults, second: Standing) -> str:
 
 def _lead(ranked: Ranked) -> Place | None:
     """Return what the test says of the lead; None without a rival."""
-    if len(_tied(ranked)) > 1:
-        return Place.INSEPARABLE
     second = _next(ranked)
     return second.standing if second else None
 
@@ -153,7 +146,8 @@ def _sure(leads: Sequence[Place | None]) -> str:
     """Return how many leads are more than chance, how many may be chance, how many not tested."""
     counts = [(leads.count(place), place) for place in (*TESTED, Place.UNTESTED)]
     told = "; ".join(f"{count} {place.value}" for count, place in counts if count)
-    return f"{counted(len(leads), 'lead')}: {told}" if told else "no rival"
+    alone = "no rival" if leads else "no lead"
+    return f"{counted(len(leads), 'lead')}: {told}" if told else alone
 
 
 def _beaten(results: TaskResults, best: Standing) -> bool:

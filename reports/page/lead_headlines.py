@@ -7,8 +7,12 @@ import math
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Place, Standing, standings
 from mocapbench.reports.page.headline import Headline, cases_phrase, same_places
+from mocapbench.reports.text import listed
 
 __all__ = ["lead_headlines"]
+
+_MOST_NAMES = 3
+"""Entrants that are named at most where their means are the same."""
 
 
 def lead_headlines(results: TaskResults, metric: str) -> list[Headline]:
@@ -33,8 +37,9 @@ def _lead(results: TaskResults, metric: str, best: Standing, *others: Standing) 
         (mean,) = same_places(best.mean)
         return f"is best over {where} by {title}, {mean}; no other entrant has every score."
     if math.isclose(following.mean, best.mean):
+        same = [one.label for one in others if one.complete and math.isclose(one.mean, best.mean)]
         (mean,) = same_places(best.mean)
-        return f"is level with {following.label} over {where} by {title}, {mean}."
+        return f"is level with {listed(same, _MOST_NAMES)} over {where} by {title}, {mean}."
     sentence = f"is best over {where} by {title}: {_margin(best, following)}."
     return " ".join(filter(None, (sentence, _interpolation(results, best, *others))))
 

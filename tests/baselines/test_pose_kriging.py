@@ -70,6 +70,17 @@ def test_the_only_recording_is_not_matched_with_itself():
     assert errors.max() < 5.0
 
 
+def test_of_one_visible_frame_nothing_is_sure():
+    truth = walk("alone", 0, 40)
+    hidden = np.ones((40, 3), dtype=bool)
+    with pytest.raises(ValueError, match="recording 'alone': expected a visible frame, got none"):
+        PoseKriging().fit([truth]).impute([truth.hide(hidden)])
+    hidden[20] = False
+    (prediction,) = PoseKriging().fit([truth]).impute([truth.hide(hidden)])
+    errors = np.abs(prediction.mean - truth.values) / np.sqrt(np.maximum(prediction.variance, 1e-9))
+    assert errors.max() < 3.0
+
+
 def test_the_fill_moves_with_a_constant_offset():
     model = PoseKriging().fit(TRAINING)
     truth = walk("new", 5, 40)

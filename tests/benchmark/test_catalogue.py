@@ -5,7 +5,8 @@ import json
 import pytest
 
 from mocapbench.baselines import Imputer
-from mocapbench.benchmark.catalogue import library_entry, model_entry, task_entry
+from mocapbench.benchmark.catalogue import entrant_entry, library_entry, model_entry, task_entry
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES, MODELS, TASKS
 from mocapbench.datasets import CMULibrary
 
@@ -57,9 +58,19 @@ def test_a_library_says_which_files_it_reads():
     assert all(library_entry(name)["summary"] for name in LIBRARIES.names())
 
 
-def test_the_label_of_an_entrant_is_a_model_with_the_parameters_that_tasks_set():
-    entry = model_entry("mohgp-3")
-    assert entry["name"] == "mohgp-3"
-    assert entry["model"] == "mohgp"
-    assert entry["parameters"]["n_components"] == 3
-    assert "model" not in model_entry("mohgp")
+@pytest.mark.parametrize(("label", "model"), [("mohgp-3", "mohgp"), ("hgp", "hgp")])
+def test_a_label_is_a_model_with_the_parameters_that_each_task_sets(label, model):
+    entry = entrant_entry(label)
+    assert entry["name"] == label
+    assert entry.get("model", label) == model
+    assert entry["parameters"] == model_entry(model)["parameters"]
+    for name, parameters in entry["set by tasks"].items():
+        entrants = {each.label: each for each in TASKS.get(name).entrants}
+        for parameter, value in entrants[label].parameters.items():
+            assert f"{parameter}={value!r}" in parameters
+    assert "kernel='rbf'" in entry["set by tasks"]["toy-interpolation-1"]
+
+
+def test_a_label_that_is_not_known_is_told_the_nearest():
+    with pytest.raises(UsageError, match="unknown model 'mohgp-33': did you mean mohgp-3"):
+        entrant_entry("mohgp-33")

@@ -29,6 +29,8 @@ _HIDDEN_SHARE = 0.15
 """Of the frames, that a trial may hide besides the real gaps, unless one gap alone is longer."""
 _COPIES = 10
 """Episodes in a trial, where the recording has fewer and room for more."""
+_REPEATS = 10
+"""Trials that may repeat others before no more are made."""
 _SHARES = (1.0, 0.5, 0.25, 0.125)
 """By which episodes are shortened that fit nowhere."""
 
@@ -61,17 +63,21 @@ class Trial:
 def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
     """Return trials of the gaps that a question asks for; none if there is no room for any.
 
-    No two are alike: the first that repeats another is the last that is made.
+    No two are alike: some that repeat others are made again, and then no more.
     """
     trials: list[Trial] = []
     made: set[tuple[float, bytes]] = set()
+    repeats = 0
     used = np.zeros(len(question.given.times), dtype=bool)
     turns = _Turns(_interior(question), rng)
     most = min(MOST_TRIALS, max(FEWEST_TRIALS, MOST_ENTRIES // question.target.size))
     while len(trials) < most and sum(len(trial.units) for trial in trials) < ENOUGH_GAPS:
         trial = _trial(question, used, turns, rng)
-        if trial is None or (like := _hidden_where(trial)) in made:
+        if trial is None or repeats > _REPEATS:
             break
+        if (like := _hidden_where(trial)) in made:
+            repeats += 1
+            continue
         made.add(like)
         trials.append(trial)
     return trials
@@ -172,18 +178,19 @@ class _Placement:
     def within(self, turns: _Turns) -> None:
         """Place copies of the episodes whose turn it is, as many as a trial may hide, or one.
 
-        One that does not fit beside others as it is waits for the next trial, where it is the
-        first; there it is shortened if need be.
+        One that does not fit beside those as it is waits for the next trial, where it is the first;
+        there it is shortened if need be.
         """
         room = _HIDDEN_SHARE * (self.stop - self.start)
-        hidden = 0
+        hidden, at_the_ends = 0, len(self.episodes)
         for _ in range(turns.per_trial):
             episode = turns.next()
             if hidden and hidden + len(episode) > room:
                 return
-            shares = _SHARES[:1] if self.episodes else _SHARES
+            beside = len(self.episodes) > at_the_ends
+            shares = _SHARES[:1] if beside else _SHARES
             placed = self._put(episode, self.start, self.stop, shares)
-            if placed is None and hidden:
+            if placed is None and beside:
                 return
             hidden += len(episode)
             turns.done()

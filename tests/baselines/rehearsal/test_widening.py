@@ -54,6 +54,21 @@ def ratios(recording, model):
     return mean_ratios(*np.sum(shown, axis=0)), np.max([mean_ratios(*one) for one in shown], axis=0)
 
 
+def test_where_copies_are_shorter_variances_keep_room_for_errors_to_grow():
+    recording, model = walk(80), Drifting(3.0)
+    check, hidden = VarianceCheck.of(recording), ~recording.visible
+    assert len(check.copies) == 3
+    assert (check.steepest > 1.0).all()
+    answers = zip(check.copies, model.as_tried(check.trials()), strict=False)
+    worst = np.max([mean_ratios(*squared_ratios(recording, m, a)) for m, a in answers], axis=0)
+    expected = np.clip(4.0 * worst * check.steepest, 0.01, 1.0)
+    (before,), (after,) = model.as_claimed([recording]), widened(model, [recording])
+    ratios = after.variance[hidden] / before.variance[hidden]
+    factors = np.broadcast_to(expected, hidden.shape)[hidden]
+    np.testing.assert_allclose(ratios, factors)
+    assert np.median(factors) < 1.0
+
+
 def test_fewer_than_three_trials_make_no_variance_smaller():
     hidden = np.zeros((60, 1), dtype=bool)
     hidden[8:56] = True

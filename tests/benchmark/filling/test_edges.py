@@ -61,6 +61,15 @@ def test_a_step_that_is_hardly_longer_than_visible_ones_is_no_jump():
     assert {jump.frame for jump in jumps(recording.with_values(values), target)} == {3}
 
 
+def test_channels_without_a_unit_have_nothing_in_common():
+    values = np.column_stack([1e-4 * np.sin(np.arange(9)), np.full(9, 101325.0)])
+    recording = Recording("r", np.arange(9.0), values, ("knee", "pressure"), ("", ""))
+    target = np.zeros((9, 2), dtype=bool)
+    target[4, 0] = True
+    values[4, 0] = 0.08
+    assert {jump.channel for jump in jumps(recording.with_values(values), target)} == {0}
+
+
 def test_rounding_is_relative_to_channels_of_the_same_unit():
     """A channel that is constantly 0 is filled with what is left of arithmetic in degrees."""
     values = np.column_stack([np.zeros(7), 90.0 * np.sin(np.arange(7)), np.arange(7.0)])

@@ -11,7 +11,7 @@ from mocapbench.benchmark.filling.page import page_of
 from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.request import Request
 from mocapbench.benchmark.filling.sources import Source
-from mocapbench.datasets import AcclaimFormat, CSVFormat
+from mocapbench.datasets import AcclaimFormat, CSVFormat, Recording
 
 
 @pytest.mark.parametrize("length", [1, 2, 4, 5, 12, 30])
@@ -45,3 +45,33 @@ def test_the_gap_that_jumps_and_the_longest_are_drawn(waves, hidden):
     assert ("root.ty", whole.times[139]) in spans
     assert whole.times[769] in {start for _, start in spans}
     assert "4 of 30 gaps, the longest among them" in page.caption
+
+
+def test_the_channel_that_jumps_is_drawn_however_little_it_moves():
+    rng = np.random.default_rng(0)
+    values = 50.0 * np.sin(np.arange(100) / 9)[:, None] + np.arange(8.0)
+    values[:, 5] = 0.01 * rng.normal(size=100)
+    channels = tuple("abcdefgh")
+    whole = Recording("r", np.arange(100) / 50, values, channels, ("deg",) * 8)
+    target = np.zeros(values.shape, dtype=bool)
+    target[40:60] = True
+    filled = values.copy()
+    filled[40:60, 5] += 3.0
+    source = Source(Path("r.csv"), CSVFormat(), Request(whole.hide(target), target, ()), ())
+    answer = Answer(filled[target], np.ones(int(target.sum())))
+    page = page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill")
+    assert page.curves[0].channel == "f"
+    assert "f by" in " ".join(page.remarks)
+
+
+def test_gaps_of_the_whole_file_are_drawn(waves, hidden):
+    whole = waves(1000)
+    blocks = [(20 + 30 * n, 22 + 30 * n, [0, 1, 2, 3]) for n in range(30)]
+    target = hidden(*blocks, (110, 130, [0, 1, 2, 3]), n_frames=1000)
+    values = whole.values.copy()
+    values[50:52, 3] += 100.0
+    source = Source(Path("waves.csv"), CSVFormat(), Request(whole.hide(target), target, ()), ())
+    answer = Answer(values[target], np.ones(int(target.sum())))
+    page = page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill")
+    starts = {curve.gaps[0][0] for curve in page.curves}
+    assert {whole.times[49], whole.times[109], whole.times[889]} <= starts

@@ -184,4 +184,5 @@ def test_generated_cases_beside_recordings_enter_no_mean(small):
 def test_models_with_the_same_mean_are_told_apart_by_nothing(small, scores, said):
     (answer,) = answers([results_of(small({"row": scores}))])
     assert answer.model == ""
+    assert answer.sure == "no lead"
     assert answer.findings[0].text == said

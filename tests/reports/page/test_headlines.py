@@ -185,3 +185,5 @@ def test_a_model_that_lacks_a_case_is_not_next_best(small):
 def test_two_with_the_same_mean_are_level(small):
     text = lead_of(results_of(small({"row": {"a": [0.5], "b": [0.5], "c": [0.7]}})))
     assert text.startswith("a is level with b over the only case by MSE, 0.50.")
+    text = lead_of(results_of(small({"row": {name: [0.5] for name in "abcdef"}})))
+    assert text.startswith("a is level with b, c, d and 2 more over the only case by MSE, 0.50.")

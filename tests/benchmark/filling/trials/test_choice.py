@@ -129,6 +129,14 @@ def test_nothing_starts_after_the_budget(waves, hidden):
     (runner,) = race(["linear"], [trial], workers, 0.0, lambda *_: None)
     assert not workers.limits
     assert "budget" in runner.trouble
+    assert runner.late
+
+
+def test_models_that_are_slow_are_late_and_no_others(waves, hidden):
+    mask = hidden((50, 58, [0]))
+    trial = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[0]
+    runners = race(["linear", "hold"], [trial], Here(slow=("hold",)), 60.0, lambda *_: None)
+    assert {runner.model: runner.late for runner in runners} == {"linear": False, "hold": True}
 
 
 def test_progress_counts_answers(waves, hidden):

@@ -107,3 +107,29 @@ def test_no_gap_is_shortened_that_fits_once_another_trial_has_the_room():
         trials = make_trials(asked, np.random.default_rng(seed))
         assert {trial.share for trial in trials} == {1.0}
         assert {len(unit) for trial in trials for unit in trial.units} == {8, 30}
+
+
+def test_a_gap_at_an_end_takes_no_trial_from_the_others():
+    """Beside the copy at the end, a long gap has room only if it is shortened."""
+    target = np.zeros((120, 3), dtype=bool)
+    target[:8, 0] = target[50:90, 1] = True
+    values = np.arange(360.0).reshape(120, 3)
+    whole = Recording("r", np.arange(120) / 10, values, ("a", "b", "c"), ("", "", ""))
+    for seed in range(5):
+        trials = make_trials(Question(whole.hide(target), target), np.random.default_rng(seed))
+        copies = [episode for trial in trials for episode in trial.originals]
+        channels = [gap.channels for episode in copies for gap in episode.gaps]
+        assert channels.count((1,)) >= len(trials) // 2 > 0
+
+
+def test_a_repeated_trial_is_not_the_end():
+    """Little room in two channels makes copies alike, but others are still to be had."""
+    target = np.zeros((400, 3), dtype=bool)
+    target[100:140, 0] = target[200:230, 2] = target[300:306, 1] = True
+    hidden = target.copy()
+    hidden[:60, 0] = hidden[160:, 0] = hidden[:60, 1] = hidden[160:, 1] = True
+    values = np.arange(1200.0).reshape(400, 3)
+    whole = Recording("r", np.arange(400) / 10, values, ("a", "b", "c"), ("", "", ""))
+    for seed in range(5):
+        trials = make_trials(Question(whole.hide(hidden), target), np.random.default_rng(seed))
+        assert len(trials) > 5
