@@ -14,6 +14,13 @@ from mocapbench.benchmark.filling.sources import Source
 from mocapbench.datasets import AcclaimFormat, CSVFormat, Recording
 
 
+def page_for(whole, target, filled):
+    """Return the page of a file of which the target was filled with these values."""
+    source = Source(Path("waves.csv"), CSVFormat(), Request(whole.hide(target), target, ()), ())
+    answer = Answer(filled[target], np.ones(int(target.sum())))
+    return page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill")
+
+
 @pytest.mark.parametrize("length", [1, 2, 4, 5, 12, 30])
 @pytest.mark.parametrize("start", [0, 1, 20])
 def test_figures_show_filled_frames_and_frames_of_the_file_beside_them(tmp_path, start, length):
@@ -37,10 +44,7 @@ def test_the_gap_that_jumps_and_the_longest_are_drawn(waves, hidden):
     target = hidden(*blocks, (770, 790, [0, 1, 2, 3]), n_frames=1000)
     values = whole.values.copy()
     values[140:142, 3] += 100.0
-    request = Request(whole.hide(target), target, ())
-    source = Source(Path("waves.csv"), CSVFormat(), request, ())
-    answer = Answer(values[target], np.ones(int(target.sum())))
-    page = page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill")
+    page = page_for(whole, target, values)
     spans = {(curve.channel, span[0]) for curve in page.curves for span in curve.gaps}
     assert ("root.ty", whole.times[139]) in spans
     assert whole.times[769] in {start for _, start in spans}
@@ -57,9 +61,7 @@ def test_the_channel_that_jumps_is_drawn_however_little_it_moves():
     target[40:60] = True
     filled = values.copy()
     filled[40:60, 5] += 3.0
-    source = Source(Path("r.csv"), CSVFormat(), Request(whole.hide(target), target, ()), ())
-    answer = Answer(filled[target], np.ones(int(target.sum())))
-    page = page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill")
+    page = page_for(whole, target, filled)
     assert page.curves[0].channel == "f"
     assert "f by" in " ".join(page.remarks)
 
@@ -70,8 +72,6 @@ def test_gaps_of_the_whole_file_are_drawn(waves, hidden):
     target = hidden(*blocks, (110, 130, [0, 1, 2, 3]), n_frames=1000)
     values = whole.values.copy()
     values[50:52, 3] += 100.0
-    source = Source(Path("waves.csv"), CSVFormat(), Request(whole.hide(target), target, ()), ())
-    answer = Answer(values[target], np.ones(int(target.sum())))
-    page = page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill")
+    page = page_for(whole, target, values)
     starts = {curve.gaps[0][0] for curve in page.curves}
     assert {whole.times[49], whole.times[109], whole.times[889]} <= starts
