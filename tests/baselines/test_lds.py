@@ -49,10 +49,11 @@ def test_a_new_walk_is_filled_whatever_is_hidden(frames, channels):
 
 def test_the_variance_grows_towards_the_middle_of_a_gap_and_contains_the_noise():
     model = LDS(2).fit(WALKS)
-    (prediction,) = model.impute([hidden(walk("new"), slice(10, 22))])
-    gap = prediction.variance[10:22]
-    assert (gap[5:7] > gap[[0, 11]]).all()
-    assert (gap > model.parameters_.noise * model.scaling_.scale**2).all()
+    given = hidden(walk("new"), slice(10, 22))
+    (claimed,), (prediction,) = model.as_claimed([given]), model.impute([given])
+    for gap in (claimed.variance[10:22], prediction.variance[10:22]):
+        assert (gap[5:7] > gap[[0, 11]]).all()
+    assert (claimed.variance[10:22] > model.parameters_.noise * model.scaling_.scale**2).all()
 
 
 def test_units_do_not_matter():
