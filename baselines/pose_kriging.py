@@ -200,10 +200,10 @@ class PoseKriging(FrameImputer, Inductive):
         visible, least = visible_frames(recording), _LEAST_VARIANCE * self.total_variance_
         others = self._matchers_of_others(recording.name)
         if not others:
-            return self._own_course(recording)
+            return self._own_course(recording, visible)
         paths = MatchedPaths.of(recording, others)
         if paths.explained < self.least_explained:
-            return self._own_course(recording)
+            return self._own_course(recording, visible)
         every = np.tile(visible, len(self.symmetries_))
         given = ConditionedFrames(self._covariance(paths.mean), _NOISE, every)
         residuals = [self._images(recording.values - path)[every] for path in paths.paths]
@@ -214,8 +214,9 @@ class PoseKriging(FrameImputer, Inductive):
         variance = np.outer(given.variance[:n_frames], scales) + paths.doubt(corrected)
         return np.tensordot(paths.weights, corrected, axes=1), variance
 
-    def _own_course(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
-        visible = visible_frames(recording)
+    def _own_course(
+        self, recording: Recording, visible: NDArray[np.bool_]
+    ) -> tuple[FrameByChannel, FrameByChannel]:
         # One frame tells nothing of how far channels go: no further than in all of training.
         least = _LEAST_VARIANCE if visible.sum() > 1 else 1.0
         return own_course(recording.values, visible, least * self.total_variance_)

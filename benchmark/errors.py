@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Collection
 from enum import IntEnum
 
-__all__ = ["ExitCode", "UnknownNameError", "UnregisteredNameError", "UsageError"]
+__all__ = ["ExitCode", "UnknownNameError", "UnregisteredNameError", "UsageError", "first_of"]
 
 
 class ExitCode(IntEnum):
@@ -30,18 +30,23 @@ _MOST_NAMES = 20
 """Known names that a message lists at most."""
 
 
+def first_of(names: Collection[str], most: int) -> str:
+    """Return the first ``most`` names, and how many more there are."""
+    more = len(names) - most
+    return ", ".join([*names][:most]) + (f" and {more} more" if more > 0 else "")
+
+
 class UnknownNameError(UsageError):
     """A name that is not known, with the nearest ones that are."""
 
     def __init__(self, kind: str, name: str, known: Collection[str]) -> None:
         near = difflib.get_close_matches(name, known, n=3, cutoff=0.4)
-        advice = f"did you mean {' or '.join(near)}?" if near else f"known: {_some(known)}"
+        advice = (
+            f"did you mean {' or '.join(near)}?"
+            if near
+            else f"known: {first_of(known, _MOST_NAMES)}"
+        )
         super().__init__(f"unknown {kind} {name!r}: {advice}")
-
-
-def _some(names: Collection[str]) -> str:
-    more = len(names) - _MOST_NAMES
-    return ", ".join([*names][:_MOST_NAMES]) + (f" and {more} more" if more > 0 else "")
 
 
 class UnregisteredNameError(UnknownNameError):

@@ -105,7 +105,7 @@ class VarianceCheck:
             Of the `trials`, in their order.
         """
         n_copies = len(self.copies)
-        sums, counts = self._ratios(self.copies, answers[:n_copies])
+        sums, counts = self._ratios(self.copies, answers[:n_copies]).sum(axis=0)
         factors = mean_ratios(sums, counts)
         if self.halves:
             factors = factors * self._growth(sums, counts, answers[n_copies:])
@@ -122,15 +122,16 @@ class VarianceCheck:
         """Return the least that variances may be multiplied by: (D,), at most 1."""
         if len(self.copies) < _SURE:
             return np.ones(len(self.recording.channels))
-        tried = zip(self.copies, answers, strict=False)
-        ratios = [mean_ratios(*squared_ratios(self.recording, *one)) for one in tried]
-        return np.asarray(np.clip(_MARGIN * np.max(ratios, axis=0) * self.steepest, LEAST, 1.0))
+        by_trial = self._ratios(self.copies, answers[: len(self.copies)])
+        worst = np.max([mean_ratios(*one) for one in by_trial], axis=0)
+        return np.asarray(np.clip(_MARGIN * worst * self.steepest, LEAST, 1.0))
 
     def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
         """Return by what the ratio grows from the copies to the gaps: (D,)."""
         short = self._short
         gap, copy, half = (distances[short] for distances in self._distances)
-        less, fewer = (each[short].sum() for each in self._ratios(self.halves, answers))
+        halves = self._ratios(self.halves, answers).sum(axis=0)
+        less, fewer = (each[short].sum() for each in halves)
         steps = (sums[short].sum() / counts[short].sum() + _TINY) / (less / fewer + _TINY)
         power = np.clip(np.log(steps) / np.log(copy / half).mean(), 0.0, _STEEPEST)
         growth = np.ones(len(short))
@@ -154,9 +155,10 @@ class VarianceCheck:
         return np.asarray((half > 0) & (half < copy) & (copy < gap))
 
     def _ratios(self, masks: Sequence[Mask], answers: Sequence[Prediction]) -> Array:
-        """Return the sums of squared errors over claimed variances, and their numbers: (2, D)."""
-        by_trial = [
-            squared_ratios(self.recording, mask, answer)
-            for mask, answer in zip(masks, answers, strict=True)
-        ]
-        return np.asarray(np.sum(by_trial, axis=0))
+        """Return the sums of squared errors over claims, and their numbers, by trial: (T, 2, D)."""
+        return np.array(
+            [
+                squared_ratios(self.recording, mask, answer)
+                for mask, answer in zip(masks, answers, strict=True)
+            ]
+        )

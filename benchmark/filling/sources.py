@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.errors import UsageError, first_of
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.request import Entries, Request, select
 from mocapbench.benchmark.formats import format_for
@@ -94,7 +94,7 @@ def _require_seen(question: Question) -> None:
     unseen = question.target.any(axis=0) & ~seen
     if unseen.any():
         names = [question.given.channels[k] for k in np.flatnonzero(unseen)]
-        some = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+        some = first_of(names, 3)
         raise UsageError(
             f"{question.given.name}: expected a visible entry of every channel to fill, got none "
             f"of {some}; name the other channels with --channels, or --train files that have these"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from mocapbench.benchmark.errors import first_of
 from mocapbench.benchmark.files import ENTRIES
 from mocapbench.benchmark.registry import FORMATS
 from mocapbench.benchmark.task_files.document import Document
@@ -58,8 +59,7 @@ def _matching(
     for pattern, paths in found.items():
         if not paths:
             there = readable_files(folder)
-            more = f" and {len(there) - _SHOWN} more" if len(there) > _SHOWN else ""
-            holds = f"it holds {', '.join(there[:_SHOWN])}{more}" if there else "it holds none"
+            holds = f"it holds {first_of(there, _SHOWN) or 'none'}"
             expected = f"files in {folder} that match {pattern!r}"
             raise document.error(key, expected, "none", f"of recordings {holds}")
     return tuple(dict.fromkeys(path for paths in found.values() for path in paths))

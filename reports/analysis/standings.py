@@ -8,6 +8,7 @@ the best, one may well be better than another.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
@@ -22,7 +23,10 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.text import counted
 
-__all__ = ["Place", "Standing", "standings"]
+__all__ = ["MOST_LEVEL", "Place", "Standing", "level_with_best", "standings"]
+
+MOST_LEVEL = 3
+"""Labels that are named at most where their means are the same."""
 
 
 class Place(Enum):
@@ -97,6 +101,18 @@ def standings(
         are one family.
     """
     return _standings(cells(results, metric, cases))
+
+
+def level_with_best(found: Sequence[Standing]) -> list[Standing]:
+    """Return the other standings whose mean is the best one's, to rounding; complete ones alone.
+
+    Parameters
+    ----------
+    found : sequence of Standing
+        As `standings` returns them, one or more.
+    """
+    best, *others = found
+    return [one for one in others if one.complete and math.isclose(one.mean, best.mean)]
 
 
 def _standings(scored: Cells) -> tuple[Standing, ...]:

@@ -8,7 +8,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.standings import Place, Standing, standings
+from mocapbench.reports.analysis.standings import (
+    MOST_LEVEL,
+    Place,
+    Standing,
+    level_with_best,
+    standings,
+)
 from mocapbench.reports.bundle.questions import QUESTIONS, Question
 from mocapbench.reports.front.board_cells import (
     board_cells,
@@ -23,8 +29,6 @@ __all__ = ["TESTED", "Answer", "Finding", "answers"]
 TESTED = (Place.BEHIND, Place.INSEPARABLE)
 OF_TOYS = "recover"
 """A question that only generated data can answer, and no user asks."""
-_MOST_NAMES = 3
-"""Models that are named at most where their means are the same."""
 Ranked = Sequence[Standing]
 """Standings, best first."""
 
@@ -85,7 +89,7 @@ def _answer(question: Question, group: Sequence[tuple[TaskResults, Ranked]]) -> 
     leaders = Counter(
         ranked[0].label
         for task, ranked in group
-        if len(_tied(ranked)) == 1 and not _beaten(task, ranked[0])
+        if not level_with_best(ranked) and not _beaten(task, ranked[0])
     )
     model, most = leaders.most_common(1)[0] if leaders else ("", 0)
     named = model if 2 * most > len(group) else ""
@@ -95,15 +99,16 @@ def _answer(question: Question, group: Sequence[tuple[TaskResults, Ranked]]) -> 
         question.ask,
         named,
         tuple(_finding(task, ranked) for task, ranked in first),
-        _sure([_lead(ranked) for _, ranked in first if len(_tied(ranked)) == 1]),
+        _sure([_lead(ranked) for _, ranked in first if not level_with_best(ranked)]),
     )
 
 
 def _finding(results: TaskResults, ranked: Ranked) -> Finding:
     best, second = ranked[0], _next(ranked)
-    tied = _tied(ranked)
-    alike = ", alike:" if len(tied) > 1 else ""
-    text = f"{listed(tied, _MOST_NAMES)}{alike} {_mean(results, best)}"
+    level = level_with_best(ranked)
+    alike = ", alike:" if level else ""
+    names = listed([one.label for one in [best, *level]], MOST_LEVEL)
+    text = f"{names}{alike} {_mean(results, best)}"
     if second is not None:
         text += f", next {second.label} {_mean(results, second)}{_margin(results, second)}"
     text += f"; no better than {reference_of(results)}" if _beaten(results, best) else ""
@@ -111,17 +116,10 @@ def _finding(results: TaskResults, ranked: Ranked) -> Finding:
     return Finding(slug("task", results.layout.name), title, text)
 
 
-def _tied(ranked: Ranked) -> list[str]:
-    """Return the best and those whose mean is the same."""
-    best, *others = ranked
-    same = [one for one in others if one.complete and math.isclose(one.mean, best.mean)]
-    return [one.label for one in [best, *same]]
-
-
 def _next(ranked: Ranked) -> Standing | None:
     """Return the best of those that have every score and another mean than the first."""
-    tied = _tied(ranked)
-    return next((one for one in ranked[1:] if one.complete and one.label not in tied), None)
+    level = level_with_best(ranked)
+    return next((one for one in ranked[1:] if one.complete and one not in level), None)
 
 
 def _mean(results: TaskResults, standing: Standing) -> str:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import math
-
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.standings import Place, Standing, standings
+from mocapbench.reports.analysis.standings import (
+    MOST_LEVEL,
+    Place,
+    Standing,
+    level_with_best,
+    standings,
+)
 from mocapbench.reports.page.headline import Headline, cases_phrase, same_places
 from mocapbench.reports.text import listed
 
 __all__ = ["lead_headlines"]
-
-_MOST_NAMES = 3
-"""Entrants that are named at most where their means are the same."""
 
 
 def lead_headlines(results: TaskResults, metric: str) -> list[Headline]:
@@ -36,10 +37,10 @@ def _lead(results: TaskResults, metric: str, best: Standing, *others: Standing) 
     if following is None:
         (mean,) = same_places(best.mean)
         return f"is best over {where} by {title}, {mean}; no other entrant has every score."
-    if math.isclose(following.mean, best.mean):
-        same = [one.label for one in others if one.complete and math.isclose(one.mean, best.mean)]
+    if level := level_with_best([best, *others]):
         (mean,) = same_places(best.mean)
-        return f"is level with {listed(same, _MOST_NAMES)} over {where} by {title}, {mean}."
+        names = listed([one.label for one in level], MOST_LEVEL)
+        return f"is level with {names} over {where} by {title}, {mean}."
     sentence = f"is best over {where} by {title}: {_margin(best, following)}."
     return " ".join(filter(None, (sentence, _interpolation(results, best, *others))))
 

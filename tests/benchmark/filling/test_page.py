@@ -37,14 +37,19 @@ def test_figures_show_filled_frames_and_frames_of_the_file_beside_them(tmp_path,
     assert (groups[0] == "filled") == (start == 0)
 
 
+def page_of_many(whole, hidden, longest, jump):
+    """Return the page of 30 short gaps, of which one is longer and one jumps in one channel."""
+    blocks = [(20 + 30 * n, 22 + 30 * n, [0, 1, 2, 3]) for n in range(30)]
+    target = hidden(*blocks, (longest, longest + 20, [0, 1, 2, 3]), n_frames=1000)
+    values = whole.values.copy()
+    values[jump : jump + 2, 3] += 100.0
+    return page_for(whole, target, values)
+
+
 def test_the_gap_that_jumps_and_the_longest_are_drawn(waves, hidden):
     """Of many gaps a few are drawn, but those that a remark names are among them."""
     whole = waves(1000)
-    blocks = [(20 + 30 * n, 22 + 30 * n, [0, 1, 2, 3]) for n in range(30)]
-    target = hidden(*blocks, (770, 790, [0, 1, 2, 3]), n_frames=1000)
-    values = whole.values.copy()
-    values[140:142, 3] += 100.0
-    page = page_for(whole, target, values)
+    page = page_of_many(whole, hidden, longest=770, jump=140)
     spans = {(curve.channel, span[0]) for curve in page.curves for span in curve.gaps}
     assert ("root.ty", whole.times[139]) in spans
     assert whole.times[769] in {start for _, start in spans}
@@ -68,10 +73,6 @@ def test_the_channel_that_jumps_is_drawn_however_little_it_moves():
 
 def test_gaps_of_the_whole_file_are_drawn(waves, hidden):
     whole = waves(1000)
-    blocks = [(20 + 30 * n, 22 + 30 * n, [0, 1, 2, 3]) for n in range(30)]
-    target = hidden(*blocks, (110, 130, [0, 1, 2, 3]), n_frames=1000)
-    values = whole.values.copy()
-    values[50:52, 3] += 100.0
-    page = page_for(whole, target, values)
+    page = page_of_many(whole, hidden, longest=110, jump=50)
     starts = {curve.gaps[0][0] for curve in page.curves}
     assert {whole.times[49], whole.times[109], whole.times[889]} <= starts
