@@ -6,7 +6,7 @@ import itertools
 import pickle
 import time
 from collections.abc import Collection
-from concurrent.futures import FIRST_COMPLETED, Future, wait
+from concurrent.futures import Future
 from contextlib import ExitStack
 from functools import lru_cache
 from pathlib import Path
@@ -25,7 +25,7 @@ from mocapbench.benchmark.runs.execution.child import (
 )
 from mocapbench.benchmark.runs.execution.scratch import scratch_folder
 from mocapbench.benchmark.runs.execution.worker import load_plugins_once
-from mocapbench.benchmark.runs.execution.worker_pool import worker_pool
+from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 from mocapbench.benchmark.runs.machine import memory_share
 
 __all__ = ["Workers"]
@@ -51,7 +51,7 @@ class Workers:
     def __enter__(self) -> Self:
         with ExitStack() as resources:
             self._folder = resources.enter_context(scratch_folder())
-            self._pool = worker_pool(self.count)
+            self._pool = WorkerPool(self.count)
             self._resources = resources.pop_all()
         return self
 
@@ -61,8 +61,7 @@ class Workers:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self._pool.stop()  # type: ignore[no-untyped-call]
-        self._pool.join()
+        self._pool.stop()
         self._resources.close()
 
     def keep(self, question: Question) -> Path:
@@ -73,13 +72,11 @@ class Workers:
 
     def submit(self, model: str, question: Path, seconds: float) -> Future[Attempt]:
         """Have a model answer a question as soon as a worker is free, within so many seconds."""
-        arguments = (model, question, seconds, self._memory, self._plugins)
-        future: Future[Attempt] = self._pool.schedule(_answered, arguments)
-        return future
+        return self._pool.submit(_answered, model, question, seconds, self._memory, self._plugins)
 
     def ended(self, futures: Collection[Future[Attempt]]) -> Collection[Future[Attempt]]:
         """Wait until one or more of ``futures`` have ended, and return them."""
-        return wait(futures, return_when=FIRST_COMPLETED).done
+        return self._pool.ended(futures)
 
     def result(self, future: Future[Attempt]) -> Attempt:
         """Return how an attempt ended, whose worker may have died."""

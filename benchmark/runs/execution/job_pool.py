@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import signal
 from collections.abc import Collection
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
+from concurrent.futures import CancelledError, Future
 
 from pebble import ProcessExpired
 
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.execution.worker import run_job
-from mocapbench.benchmark.runs.execution.worker_pool import worker_pool
+from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
 
 __all__ = ["JobPool"]
@@ -33,17 +33,17 @@ class JobPool:
     """
 
     def __init__(self, n_workers: int, config: WorkerConfig, spool: Spool) -> None:
-        self._pool = worker_pool(n_workers)
+        self._pool = WorkerPool(n_workers)
         self._config = config
         self._spool = spool
 
     def submit(self, work: Work) -> Future[Outcome]:
         """Have a worker run a job as soon as one is free."""
-        return self._pool.schedule(run_job, (work, self._config, self._spool))
+        return self._pool.submit(run_job, work, self._config, self._spool)
 
     def ended(self, futures: Collection[Future[Outcome]]) -> Collection[Future[Outcome]]:
         """Wait until one or more of ``futures`` have ended, and return them."""
-        return wait(futures, return_when=FIRST_COMPLETED).done
+        return self._pool.ended(futures)
 
     def outcome(self, future: Future[Outcome], job: Job) -> Outcome:
         """Return the job's outcome, or one that says why its worker gave none."""
@@ -59,7 +59,4 @@ class JobPool:
 
     def stop(self, futures: Collection[Future[Outcome]]) -> None:
         """Kill the workers with what they run; the jobs of ``futures`` are cancelled."""
-        for future in futures:
-            future.cancel()
-        self._pool.stop()  # type: ignore[no-untyped-call]
-        self._pool.join()
+        self._pool.stop(futures)

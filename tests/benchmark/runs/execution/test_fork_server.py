@@ -7,26 +7,33 @@ import sys
 import time
 
 import psutil
+import pytest
 from threadpoolctl import threadpool_info
 
 from mocapbench import benchmark as bench
-from mocapbench.benchmark.runs.execution.worker_pool import worker_pool
+from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 
 
-def test_workers_come_from_the_server_that_was_started_ahead():
+@pytest.fixture
+def pool():
+    """Return a worker, which starts with the first job."""
+    workers = WorkerPool(1)
+    yield workers
+    workers.stop()
+
+
+def test_workers_come_from_the_server_that_was_started_ahead(pool):
     bench.fork_server()
     servers = {child.pid for child in psutil.Process().children()}
     bench.fork_server()
     assert {child.pid for child in psutil.Process().children()} == servers
-    with worker_pool(1) as pool:
-        assert pool.schedule(os.getppid).result() in servers
+    assert pool.submit(os.getppid).result() in servers
 
 
-def test_workers_have_one_thread_and_this_process_keeps_its_environment(monkeypatch):
+def test_workers_have_one_thread_and_this_process_keeps_its_environment(monkeypatch, pool):
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
-    with worker_pool(1) as pool:
-        libraries = pool.schedule(threadpool_info).result()
-        asked = pool.schedule(os.getenv, ("OMP_NUM_THREADS",)).result()
+    libraries = pool.submit(threadpool_info).result()
+    asked = pool.submit(os.getenv, "OMP_NUM_THREADS").result()
     assert libraries
     assert {library["num_threads"] for library in libraries} == {1}
     assert asked == "1"
