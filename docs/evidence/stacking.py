@@ -6,8 +6,9 @@ It is reported in `docs/calibration.md`.
 
     python docs/evidence/stacking.py [HELD_OUT]
 
-prints the error of the mean with each shrinkage, relative to the best candidate of the task. Of
-each case, so many training recordings are held out in turn and have the gaps of the test.
+prints the error of the mean with each shrinkage, relative to the best candidate of the task, for
+the channels of each unit. Of each case, so many training recordings are held out in turn and have
+the gaps of the test.
 Recordings are read from the folders in the environment variable MOCAPBENCH_DATA.
 """
 
@@ -23,7 +24,7 @@ import pandas as pd
 from mocapbench import benchmark as bench
 from mocapbench.baselines import BestOf
 from mocapbench.baselines.choosing.rehearsals import Rehearsals, aligned
-from mocapbench.baselines.choosing.weights import evidence, weights_of
+from mocapbench.baselines.choosing.weights import among, evidence, weights_of
 from mocapbench.datasets import Recording
 
 TASKS = ("subject-35-missing", "upper-body-missing", "missing-frames", "golf-swings")
@@ -45,26 +46,32 @@ def turns(task: str, n_held_out: int) -> Iterator[tuple[list[Recording], Recordi
             yield train[:k] + train[k + 1 :], whole.hide(gaps), whole
 
 
-def errors(train: list[Recording], given: Recording, whole: Recording) -> dict[str, float]:
-    """Return the root mean squared error of each candidate and of the mean, by shrinkage."""
+def errors(train: list[Recording], given: Recording, whole: Recording) -> Iterator[pd.Series]:
+    """Yield for each unit the root mean squared errors of candidates, and of means by shrinkage."""
     model = BestOf().fit(train)
-    means = {name: answer.mean for name, answer in model.panel_.impute(given).items()}
-    sources = evidence(Rehearsals(model.recordings_, model.panel_, given))
-    for shrinkage in SHRINKAGES:
-        weights = weights_of(sources, shrinkage)
-        means[f"{shrinkage:g}"] = np.sum([w * means[n] for n, w in weights.items()], axis=0)
-    hidden = ~given.visible
-    return {n: float(np.sqrt(np.mean((m - whole.values)[hidden] ** 2))) for n, m in means.items()}
+    means = model.panel_.means(given)
+    rehearsals = Rehearsals(model.recordings_, model.panel_, given)
+    units = np.array(given.units)
+    for unit in np.unique(units[~given.visible.all(axis=0)]):
+        channels = units == unit
+        sources = among(evidence(rehearsals, channels), means)
+        for shrinkage in SHRINKAGES:
+            weights = weights_of(sources, shrinkage)
+            means[f"{shrinkage:g}"] = np.sum([w * means[n] for n, w in weights.items()], axis=0)
+        off = {n: (m - whole.values)[~given.visible & channels] for n, m in means.items()}
+        yield pd.Series({n: np.sqrt(np.mean(e**2)) for n, e in off.items()}, name=unit)
 
 
 def main(n_held_out: str = "3") -> None:
-    """Print a line for each task."""
+    """Print a line for each task and unit."""
     for task in TASKS:
-        rows = [errors(*turn) for turn in turns(task, int(n_held_out))]
-        table = pd.DataFrame(rows).dropna(axis=1).mean()
-        shown = [f"{shrinkage:g}" for shrinkage in SHRINKAGES]
-        best = table.drop(shown).idxmin()
-        print(task, len(rows), "best:", best, (table[shown] / table[best]).round(3).to_dict())
+        rows = pd.DataFrame([row for turn in turns(task, int(n_held_out)) for row in errors(*turn)])
+        for unit, of_unit in rows.groupby(level=0):
+            table = of_unit.dropna(axis=1).mean()
+            shown = [f"{shrinkage:g}" for shrinkage in SHRINKAGES]
+            best = table.drop(shown).idxmin()
+            ratios = (table[shown] / table[best]).round(3).to_dict()
+            print(f"{task} {unit or 'place'} {len(of_unit)} best: {best} {ratios}")
 
 
 if __name__ == "__main__":
