@@ -6,6 +6,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,9 @@ class Scale(ABC):
     start, stop : float
         Where the ends are, in pixels.
     """
+
+    about_means: ClassVar[str]
+    """What a reader is told of the means on it."""
 
     low: float
     high: float
@@ -64,6 +68,8 @@ class Scale(ABC):
 class LinearScale(Scale):
     """Equal differences take equal lengths."""
 
+    about_means: ClassVar[str] = ""
+
     @staticmethod
     def forward(values: Array) -> Array:  # noqa: D102
         return values
@@ -80,6 +86,8 @@ class LinearScale(Scale):
 
 class LogScale(Scale):
     """Equal ratios take equal lengths; all values are positive."""
+
+    about_means: ClassVar[str] = "On a logarithmic axis points are geometric means over folds."
 
     @staticmethod
     def forward(values: Array) -> Array:  # noqa: D102

@@ -108,3 +108,9 @@ class Scoreboard:
         """The questions, each with the number of its columns."""
         runs = groupby(column.question for column in self.columns)
         return [(question, len(list(run))) for question, run in runs]
+
+    @property
+    def has_beaten(self) -> bool:
+        """Whether a model is no better than the reference of a task."""
+        cells = (cell for _, rows in self.groups for row in rows for cell in row.cells)
+        return any(cell is not None and cell.beaten for cell in cells)

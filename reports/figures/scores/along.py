@@ -89,7 +89,8 @@ class _Panel:
             *(group(styles[label], _band(curves[label], x, y)) for label in sure),
             *(group(styles[n], _curve(curves[n], x, y, styles[n]), title=n) for n in curves),
         ]
-        return axes.draw(marks, f"{title} along {self.column}: {heading}"), remark(y)
+        notes = " ".join(filter(None, (y.about_means, remark(y))))
+        return axes.draw(marks, f"{title} along {self.column}: {heading}"), notes
 
     def _curves(self, cases: Sequence[CaseLayout]) -> dict[str, dict[float, list[float]]]:
         """Return the values by label and place along the column, in ascending order."""

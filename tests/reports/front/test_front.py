@@ -81,6 +81,12 @@ def test_what_is_no_better_than_the_reference_is_marked(small):
     assert reference_of(results_of(small({"row": {"a": [1.0]}}))) is None
 
 
+@pytest.mark.parametrize(("loser", "said"), [(3.0, True), (1.5, False)])
+def test_the_key_of_the_mark_is_there_where_something_has_it(small, loser, said):
+    results = results_of(small({"row": {"a": [1.0], "trivial": [2.0], "b": [loser]}}))
+    assert scoreboard([results], {"Models": ["a", "b"]}).has_beaten == said
+
+
 def test_a_style_names_the_shade_and_the_mark():
     styles = [BoardCell("", 0.0, name).style for _, name in SHADES]
     assert styles == [f"shade-{place}" for place in range(len(SHADES))]

@@ -93,8 +93,8 @@ def test_an_axis_that_spans_little_is_remarked_on(drawn):
 
 @pytest.fixture
 def along(drawn):
-    def along(columns, **options):
-        results, styles = drawn(_values(*"abcd"), **options)
+    def along(columns, values=None, **options):
+        results, styles = drawn(values or _values(*"abcd"), **options)
         cases = tuple(
             replace(case, columns=own)
             for case, own in zip(results.layout.cases, columns, strict=False)
@@ -116,6 +116,13 @@ def test_cases_alike_in_all_other_columns_share_a_panel(along):
     assert len(lines) == len(LABELS)
     assert _bands(arm) == 3
     assert [key.label for key in figure.legend] == list(LABELS)
+
+
+@pytest.mark.parametrize(("spread", "said"), [((1.0, 2.0), False), ((1.0, 100.0), True)])
+def test_points_that_are_geometric_means_are_said_to_be(along, spread, said):
+    values = {case: {"knn": list(spread)} for case in "ab"}
+    caption = along(TWO_PANELS[:2], values).caption
+    assert ("geometric means over folds" in caption) == said
 
 
 def _bands(root):
