@@ -54,4 +54,4 @@ class UnregisteredNameError(UnknownNameError):
 
     def __str__(self) -> str:
         remedy = "if a file of your own defines it, name that file with --plugin or --task-file"
-        return f"{super().__str__()}; {remedy}"
+        return f"{super().__str__()} ({remedy})"

@@ -85,7 +85,8 @@ def _filled(model: type[FrameImputer], question: Question) -> Prediction:
         truth=(asked.given.values,),  # nobody scores here, and nobody knows it
         unit=Unit.natural(len(asked.given.channels)),
     )
-    fitted = problem.fit(build_model(model, {}, _SEED))
+    fitted = build_model(model, {}, _SEED)
+    problem.fit(fitted)
     (prediction,) = problem.solve(fitted, _SEED).predictions
     spread = partial(_over_channels, question, asked)
     variance = None if prediction.variance is None else spread(prediction.variance)

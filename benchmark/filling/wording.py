@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import takewhile
 
 import numpy as np
 
-from mocapbench.benchmark.filling.edges import jumps
+from mocapbench.benchmark.filling.cautions import cautions
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.metrics.statistics import FEWEST_UNITS
@@ -14,8 +15,6 @@ from mocapbench.reports import RankedModel, listed
 
 __all__ = ["headline", "left_out", "ranked", "remarks", "units", "verdict"]
 
-SLOW = 0.5
-"""Seconds between frames from which on times are probably not in seconds."""
 _NAMED = 4
 """Models that a remark names at most."""
 
@@ -69,8 +68,7 @@ def remarks(filled: Filled) -> Iterator[str]:
     if filled.answer.variance is None:
         none = f"{filled.model} has no predictive distribution: there are no bands."
         yield f"{none} {_with_bands(filled)}".strip()
-    yield from _jumps(filled)
-    yield from _slow(filled)
+    yield from cautions(filled)
 
 
 def _late(filled: Filled) -> Iterator[str]:
@@ -83,36 +81,17 @@ def _late(filled: Filled) -> Iterator[str]:
 
 
 def _with_bands(filled: Filled) -> str:
-    """Return the best model with bands that trials cannot tell apart from the choice."""
+    """Return the best model with bands that trials cannot tell apart from the choice.
+
+    Models that are behind one that trials do tell apart are not meant: they err so differently from
+    gap to gap that trials tell nothing of them.
+    """
     if filled.choice is None or filled.failed or filled.choice.ranking.n < FEWEST_UNITS:
         return ""
     ranking = filled.choice.ranking
-    alike = [m for m in ranking.sharing if ranking.scores[m].coverage is not None]
+    leading = takewhile(lambda model: model in ranking.sharing, ranking.order)
+    alike = [model for model in leading if ranking.scores[model].coverage is not None]
     return f"Trials cannot tell it apart from {alike[0]}, which has bands." if alike else ""
-
-
-def _jumps(filled: Filled) -> Iterator[str]:
-    recording = filled.recording
-    found = jumps(recording, filled.source.request.target)
-    if found:
-        frame, channel, size, largest = found[0]
-        unit = f" {recording.units[channel]}".rstrip()
-        edges = "one edge" if len(found) == 1 else f"{len(found)} edges"
-        yield (
-            f"At {edges} of gaps, a channel jumps further than between any two visible frames: "
-            f"{recording.channels[channel]} by {size:.3g}{unit} at frame {frame}, elsewhere by at "
-            f"most {largest:.3g}{unit}. Look at its curve before you use these entries."
-        )
-
-
-def _slow(filled: Filled) -> Iterator[str]:
-    times = filled.source.request.given.times
-    interval = (times[-1] - times[0]) / max(len(times) - 1, 1)
-    if interval > SLOW:
-        yield (
-            f"Frames are {interval:.3g} s apart, which is long for motion: if the file's times are "
-            "in milliseconds, divide them by 1000."
-        )
 
 
 def ranked(filled: Filled) -> Iterator[RankedModel]:

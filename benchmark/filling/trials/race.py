@@ -2,7 +2,8 @@
 
 How long a model takes is not known beforehand. All models are therefore tried with a short limit
 first; those that keep to it have all their trials done before the others are tried again, with a
-limit that is four times as long.
+limit that is four times as long. Those go on until they have all their trials, one after another:
+of several that had some of them each, none could be compared.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ from mocapbench.benchmark.filling.workers import Workers
 
 __all__ = ["Runner", "race"]
 
-_LIMITS = (1 / 32, 1 / 8, 1 / 2)
-"""Of the budget, that one attempt may take in each round."""
+_ROUNDS = ((1 / 32, deque.append), (1 / 8, deque.appendleft), (1 / 2, deque.appendleft))
+"""Of the budget, what one attempt may take; and where a model goes that has more trials to do."""
 
 
 @dataclass(eq=False)
@@ -84,8 +85,8 @@ def race(
     deadline = time.monotonic() + budget
     runners = [Runner(model) for model in models]
     waiting = list(runners)
-    for limit in _LIMITS:
-        lap = _Lap(waiting, questions, workers, deadline, limit * budget)
+    for limit, rejoin in _ROUNDS:
+        lap = _Lap(waiting, questions, workers, deadline, limit=limit * budget, rejoin=rejoin)
         lap.run(lambda: watch(sum(len(r.answers) for r in runners), len(models) * len(trials)))
         waiting = lap.slow
     return runners
@@ -100,11 +101,13 @@ class _Lap:
         questions: Sequence[Path],
         workers: Workers,
         deadline: float,
+        *,
         limit: float,
+        rejoin: Callable[[deque[Runner], Runner], None],
     ) -> None:
         self._ready = deque(runners)
         self._questions, self._workers = questions, workers
-        self._deadline, self._limit = deadline, limit
+        self._deadline, self._limit, self._rejoin = deadline, limit, rejoin
         self._running: dict[Future[Attempt], Runner] = {}
         self.slow: list[Runner] = []
         """Those that took longer than the limit."""
@@ -135,4 +138,4 @@ class _Lap:
         if attempt.slow:
             self.slow.append(runner)
         elif attempt.answer is not None and len(runner.answers) < len(self._questions):
-            self._ready.append(runner)
+            self._rejoin(self._ready, runner)

@@ -1,4 +1,4 @@
-"""Scores of trials: the error of each trial gap, in which degrees and centimetres count alike."""
+"""Scores of trials: an error of each trial gap, in which each unit of channels counts alike."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ __all__ = ["Scores", "scores_of", "weights_of"]
 Array = NDArray[np.float64]
 
 _WITHIN_95 = float(ndtri(0.975))
+_LEAST = 1e-9
+"""Errors, in units of a channel's scale, below which models are equally good but for rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,8 +29,9 @@ class Scores:
     Parameters
     ----------
     errors : ndarray of shape (n,)
-        One per trial gap: the root mean squared error over its entries, each divided by the scale
-        of its channel.
+        One per trial gap: the geometric mean over units of the root mean squared error over its
+        entries in that unit, divided by their scale. So a few channels in centimetres count as much
+        as many in degrees, and twice the error in either is as bad.
     rmse : mapping of str to float
         By unit, the root mean squared error over all entries, in that unit.
     coverage : float or None
@@ -63,9 +66,11 @@ def scores_of(trials: Sequence[Trial], answers: Sequence[Answer], scale: Array) 
 
 def _errors(trial: Trial, answer: Answer, scale: Array) -> Iterator[float]:
     _, channels = np.nonzero(trial.question.target)
+    units = np.array(trial.question.given.units)[channels]
     squares = ((answer.mean - trial.truth) / scale[channels]) ** 2
-    for unit in trial.units:
-        yield float(np.sqrt(squares[unit].mean()))
+    for gap in trial.units:
+        means = [squares[gap][units[gap] == unit].mean() for unit in np.unique(units[gap])]
+        yield float(np.exp(np.log(np.maximum(np.sqrt(means), _LEAST)).mean()))
 
 
 def _by_unit(pairs: Sequence[tuple[Trial, Answer]]) -> Mapping[str, float]:

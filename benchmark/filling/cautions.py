@@ -1,0 +1,65 @@
+"""What makes the entries that were filled in doubtful, as the page and the terminal say it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mocapbench.benchmark.filling.edges import jumps
+from mocapbench.benchmark.filling.filler import Filled
+
+__all__ = ["cautions"]
+
+SLOW = 0.5
+"""Seconds between frames from which on times are probably not in seconds."""
+_FEW = 10
+"""Visible frames of a channel below which nothing can be learnt from it."""
+
+
+def cautions(filled: Filled) -> Iterator[str]:
+    """Yield that little is visible, that a channel jumps, and that frames are far apart."""
+    yield from _few_visible(filled)
+    yield from _jumps(filled)
+    yield from _slow(filled)
+
+
+def _few_visible(filled: Filled) -> Iterator[str]:
+    given, target = filled.source.request.given, filled.source.request.target
+    filling = target.any(axis=0)
+    counts = given.visible[:, filling].sum(axis=0)
+    least = int(counts.min())
+    if least < _FEW and not filled.source.train:
+        channel, are = np.array(given.channels)[filling][counts.argmin()], _are(least)
+        yield (
+            f"Of {channel}, only {least} {are} visible, too few to learn from: trust neither what "
+            "was filled in nor its bands, or name similar recordings with --train."
+        )
+
+
+def _are(n_frames: int) -> str:
+    return "frame is" if n_frames == 1 else "frames are"
+
+
+def _jumps(filled: Filled) -> Iterator[str]:
+    recording = filled.recording
+    found = jumps(recording, filled.source.request.target)
+    if found:
+        frame, channel, size, largest = found[0]
+        unit = f" {recording.units[channel]}".rstrip()
+        edges = "one edge" if len(found) == 1 else f"{len(found)} edges"
+        yield (
+            f"At {edges} of gaps, a channel jumps further than between any two visible frames: "
+            f"{recording.channels[channel]} by {size:.3g}{unit} at frame {frame}, elsewhere by at "
+            f"most {largest:.3g}{unit}. Look at its curve before you use these entries."
+        )
+
+
+def _slow(filled: Filled) -> Iterator[str]:
+    times = filled.source.request.given.times
+    interval = (times[-1] - times[0]) / max(len(times) - 1, 1)
+    if interval > SLOW:
+        yield (
+            f"Frames are {interval:.3g} s apart, which is long for motion: if the file's times are "
+            "in milliseconds, divide them by 1000."
+        )
