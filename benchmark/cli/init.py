@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench import reports
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins, require_writable
 from mocapbench.benchmark.errors import UsageError
@@ -44,7 +45,8 @@ def init(
         file.write(draft.text.encode())
     for reason in draft.left_out:
         console.print(f"left out: {reason}", soft_wrap=True, highlight=False)
-    console.print(f"{task_file}: a task on {len(draft.tests)} recordings of {recordings}")
+    count = reports.counted(len(draft.tests), "recording")
+    console.print(f"{task_file}: a task on {count} of {recordings}")
     command = shlex.join(
         [
             *("mocapbench", "run", "--recordings", str(recordings), "--task-file", str(task_file)),

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from textwrap import wrap
 
-from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.formats import format_for
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.task_files.building import build_task
 from mocapbench.benchmark.task_files.checking import checked, require_folder
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
-from mocapbench.benchmark.task_files.finding import readable_files
-from mocapbench.datasets import FormatError, Recording, check_alike
+from mocapbench.benchmark.task_files.grouping import largest_group
 
 __all__ = ["Draft", "draft"]
 
@@ -54,7 +51,7 @@ class Draft:
 
 
 def draft(file: str, folder: Path, rate: float | None) -> Draft:
-    """Return a task file for the recordings of a folder that are like the first one.
+    """Return a task file for the most recordings of a folder that are alike.
 
     Parameters
     ----------
@@ -70,7 +67,7 @@ def draft(file: str, folder: Path, rate: float | None) -> Draft:
         If no recording there can be used.
     """
     require_folder(folder)
-    tests, left_out = _alike(folder, rate)
+    tests, left_out = largest_group(folder, rate)
     content = _Content(tests, _patterns(tests, left_out), rate)
     for hide in _HIDE:
         try:
@@ -82,27 +79,6 @@ def draft(file: str, folder: Path, rate: float | None) -> Draft:
         able = [name for name in MODELS.names() if task.accepts(MODELS.get(name))]
         return Draft(content.text(hide, able), tests, left_out)
     raise failure
-
-
-def _alike(folder: Path, rate: float | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the files that can be read and are like the first of them, and why others are not."""
-    recordings: dict[str, Recording] = {}
-    left_out = []
-    for path in readable_files(folder):
-        try:
-            recording = replace(format_for(path).read(folder / path, rate), name=path)
-            check_alike([*list(recordings.values())[:1], recording])
-            recordings[path] = recording
-        except FormatError as error:
-            left_out.append(str(error))
-    if not recordings:
-        reasons = "; ".join(left_out[:3]) or "it has none of a known suffix"
-        raise UsageError(
-            f"--recordings: expected files in {folder} that can be read, got none: {reasons}; "
-            "`mocapbench list formats` shows what can be read, and --rate 120 gives frames per "
-            "second to files without times"
-        )
-    return tuple(recordings), tuple(left_out)
 
 
 def _patterns(tests: tuple[str, ...], left_out: tuple[str, ...]) -> list[str]:

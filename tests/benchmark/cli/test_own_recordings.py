@@ -7,6 +7,7 @@ import tomllib
 import numpy as np
 import pytest
 from format_files import GAIT, markers, write_acclaim, write_csv, write_trc
+from own_files import write_csv as write_waves
 
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.store import Store
@@ -244,6 +245,39 @@ def test_the_first_task_file_runs_as_it_stands(cli, own, records, recordings, tm
     assert cli("init", path, "--recordings", recordings) == 2
     assert "which exists; choose another name" in cli.printed
     assert path.read_text() == text
+
+
+def test_the_first_task_file_takes_channels_in_any_order(cli, own, tmp_path):
+    folder, path = tmp_path / "folder", tmp_path / "first.toml"
+    for name, channels in (("a", ("hip.x", "hip.y")), ("b", ("hip.y", "hip.x"))):
+        write_waves(folder / f"{name}.csv", channels=channels)
+    assert cli("init", path, "--recordings", folder) == 0
+    assert "a task on 2 recordings of" in cli.printed
+    assert "left out" not in cli.printed
+    assert tomllib.loads(path.read_text())["files"] == ["*.csv"]
+    assert own(path, folder=folder, more=["--models", "linear", "--folds", "1"]) == 0
+
+
+@pytest.mark.parametrize("odd", [{"channels": ("hip.x",)}, {"rate": 100.0}], ids=str)
+def test_the_first_task_file_takes_the_most_files_that_are_alike(cli, tmp_path, odd):
+    folder, path = tmp_path / "folder", tmp_path / "first.toml"
+    write_waves(folder / "a.csv", **odd)
+    for name in ("b", "c"):
+        write_waves(folder / f"{name}.csv")
+    assert cli("init", path, "--recordings", folder) == 0
+    assert cli.printed.count("left out: ") == cli.printed.count("left out: a.csv: expected ") == 1
+    assert "a task on 2 recordings of" in cli.printed
+    assert tomllib.loads(path.read_text())["files"] == ["b.csv", "c.csv"]
+
+
+def test_of_groups_of_one_size_the_first_task_file_takes_the_first(cli, tmp_path):
+    folder, path = tmp_path / "folder", tmp_path / "first.toml"
+    write_waves(folder / "a.csv")
+    write_waves(folder / "b.csv", channels=("hip.x",))
+    assert cli("init", path, "--recordings", folder) == 0
+    assert "left out: b.csv: expected " in cli.printed
+    assert "a task on 1 recording of" in cli.printed
+    assert tomllib.loads(path.read_text())["files"] == ["a.csv"]
 
 
 def test_tables_of_filled_entries_are_no_recordings(cli, own, task_file, tmp_path):
