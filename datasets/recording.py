@@ -45,8 +45,8 @@ class Recording:
     Raises
     ------
     ValueError
-        If shapes disagree, times are not finite and strictly increasing, an entry is infinite, or
-        channel names repeat.
+        If shapes disagree, times are not finite and strictly increasing, an entry is infinite,
+        channel names repeat, or channels or units are a single string.
 
     See Also
     --------
@@ -86,11 +86,20 @@ class Recording:
         for field, value in (
             ("times", _frozen(self.times)),
             ("values", _frozen(self.values)),
-            ("channels", tuple(self.channels)),
-            ("units", tuple(self.units)),
+            ("channels", self._names("channels")),
+            ("units", self._names("units")),
         ):
             object.__setattr__(self, field, value)
         self._validate()
+
+    def _names(self, field: str) -> tuple[str, ...]:
+        names: str | Sequence[str] = getattr(self, field)
+        if isinstance(names, str):  # it would be taken as one name per letter
+            raise ValueError(
+                f"recording {self.name!r}: expected {field} to be a sequence of one string per "
+                f"channel, got the string {names!r}"
+            )
+        return tuple(names)
 
     def _validate(self) -> None:
         expected = (len(self.times), len(self.channels))
@@ -126,8 +135,26 @@ class Recording:
         return replace(self, values=np.asarray(values, dtype=np.float64))
 
     def hide(self, hidden: ArrayLike) -> Recording:
-        """Return a copy whose entries are NaN where ``hidden`` (N, D) is True."""
-        return self.with_values(np.where(np.asarray(hidden, dtype=bool), np.nan, self.values))
+        """Return a copy whose entries are NaN where ``hidden`` is True.
+
+        Parameters
+        ----------
+        hidden : array_like of bool, shape (N, D), (N, 1) or (1, D)
+            An axis of length 1 stands for all frames or all channels.
+
+        Raises
+        ------
+        ValueError
+            If ``hidden`` is not boolean, or of another shape.
+        """
+        mask, shape = np.asarray(hidden), self.values.shape
+        fits = mask.ndim == 2 and all(n in (1, m) for n, m in zip(mask.shape, shape, strict=True))
+        if mask.dtype != np.bool_ or not fits:
+            raise ValueError(
+                f"recording {self.name!r}: expected True or False for each entry to hide, of shape "
+                f"{shape} (times, channels), got {mask.dtype} of shape {mask.shape}"
+            )
+        return self.with_values(np.where(mask, np.nan, self.values))
 
     def select(self, channels: Sequence[str]) -> Recording:
         """Return the named channels, in the order given.

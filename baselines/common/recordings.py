@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,9 +28,10 @@ def check_recordings(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
     Raises
     ------
     ValueError
-        If there is no recording, channels differ, or a name repeats.
+        If it is no sequence of recordings, there is none, channels or units differ, or a name
+        repeats.
     """
-    checked = tuple(recordings)
+    checked = _listed(recordings)
     if not checked:
         raise ValueError("expected at least one recording, got none")
     check_channels(checked, checked[0].channels)
@@ -42,18 +43,44 @@ def check_recordings(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
 
 
 def check_channels(recordings: Sequence[Recording], channels: tuple[str, ...]) -> None:
-    """Check that every recording has the given channels, in the same order.
+    """Check that every recording has the given channels, in the same order and the same units.
 
     Raises
     ------
     ValueError
-        If a recording has other channels.
+        If it is no sequence of recordings, or one has other channels, or other units than the
+        first.
     """
-    for recording in recordings:
+    checked = _listed(recordings)
+    for recording in checked:
         if recording.channels != channels:
             raise ValueError(
                 f"recording {recording.name!r}: expected channels {channels}, "
                 f"got {recording.channels}; select the same channels of every recording"
+            )
+        _check_units(checked[0], recording)
+
+
+def _listed(recordings: object) -> tuple[Recording, ...]:
+    """Return the recordings as a tuple, or say what was given in their place."""
+    kind = type(recordings).__name__
+    if not isinstance(recordings, Iterable):
+        raise ValueError(f"expected a sequence of Recordings, got {kind}; put one into a list")
+    listed = tuple(recordings)
+    for item in listed:
+        if not isinstance(item, Recording):
+            raise ValueError(
+                f"expected a sequence of Recordings, got {kind} of {type(item).__name__}"
+            )
+    return listed
+
+
+def _check_units(first: Recording, other: Recording) -> None:
+    for channel, one, two in zip(first.channels, first.units, other.units, strict=True):
+        if one != two:
+            raise ValueError(
+                f"recording {other.name!r}: expected channel {channel!r} in unit {one!r} as in "
+                f"recording {first.name!r}, got {two!r}; convert one of the recordings"
             )
 
 
@@ -95,9 +122,9 @@ def pool(fitted: Sequence[Recording], given: Sequence[Recording]) -> tuple[Recor
     Raises
     ------
     ValueError
-        If there is no recording, or channels differ.
+        If ``given`` is no sequence of recordings, there is none, or channels or units differ.
     """
-    by_name = {recording.name: recording for recording in (*fitted, *given)}
+    by_name = {recording.name: recording for recording in (*fitted, *_listed(given))}
     return check_recordings(tuple(by_name.values()))
 
 

@@ -14,6 +14,7 @@ from mocapbench.benchmark.runs.fitting.trained import Trained
 from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.datasets import Archive
+from mocapbench.metrics import Metric, Score
 
 __all__ = ["Evaluation", "evaluate"]
 
@@ -81,8 +82,9 @@ def _scored(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -
 def _scores(job: Job, problem: Problem[Any], fit: Fit) -> dict[str, Any]:
     """Score by every metric that is defined for this outcome."""
     outcome = problem.outcome(problem.answer_type.from_arrays(fit.arrays))
-    metrics = [METRICS.get(name) for name in job.metrics]
-    scores = {metric.name: metric(outcome) for metric in metrics if metric.applies(outcome)}
+    scores: dict[str, Score] = {}
+    for name in job.metrics:
+        scores |= _scored_by(METRICS.get(name), outcome)
     if not scores:
         raise ValueError(
             f"none of the metrics {', '.join(job.metrics)} is defined for the answer of "
@@ -96,6 +98,23 @@ def _scores(job: Job, problem: Problem[Any], fit: Fit) -> dict[str, Any]:
         },
         "left_out": {name: score.left_out for name, score in scores.items() if score.left_out},
     }
+
+
+def _scored_by(metric: Metric[Any], outcome: object) -> dict[str, Score]:
+    """Return the score by the metric's name, or nothing where the metric is not defined."""
+    try:
+        if not metric.applies(outcome):
+            return {}
+        score: object = metric(outcome)
+    except MemoryError:  # for `Job.failed`, which says what to do
+        raise
+    except BaseException as error:
+        raised = f"{type(error).__name__}: {error}"
+        raise RuntimeError(f"the metric {metric.name!r} raised {raised}") from error
+    if not isinstance(score, Score):
+        kind = type(score).__name__
+        raise ValueError(f"expected the metric {metric.name!r} to return a Score, got {kind}")
+    return {metric.name: score}
 
 
 def _provenance(job: Job, config: WorkerConfig) -> dict[str, str]:

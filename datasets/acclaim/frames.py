@@ -9,7 +9,7 @@ from functools import cached_property
 from io import StringIO
 from itertools import accumulate, islice
 
-from mocapbench.datasets.acclaim.text import Line, finite_floats
+from mocapbench.datasets.acclaim.text import FINITE_NUMBERS, Line, finite_floats
 
 __all__ = ["Frame", "Layout", "frames"]
 
@@ -123,7 +123,7 @@ class Frame:
                 return finite_floats([word for words in block for word in words[1:]])
         wrong = next(k for k, words in enumerate(block) if not _is_segment(words, shape[k]))
         name, count = shape[wrong]
-        raise self.line(1 + wrong).error(f"segment {name!r} with {count} finite numbers")
+        raise self.line(1 + wrong).error(f"segment {name!r} with {count} {FINITE_NUMBERS}")
 
 
 def frames(text: str, file: str, start: int, size: int) -> Iterator[Frame]:

@@ -17,7 +17,15 @@ from typing import BinaryIO
 
 from mocapbench.datasets.acclaim.errors import AcclaimError
 
-__all__ = ["MAX_LINE", "Line", "content_lines", "finite_floats", "name_list", "read_text"]
+__all__ = [
+    "FINITE_NUMBERS",
+    "MAX_LINE",
+    "Line",
+    "content_lines",
+    "finite_floats",
+    "name_list",
+    "read_text",
+]
 
 MAX_LINE = 4096
 """Longest line in bytes that is accepted; the CMU database has lines of about a hundred."""
@@ -27,6 +35,9 @@ _CHUNK = 2**16
 _SHOWN = 60
 _SHOWN_NAMES = 400  # all segments of the CMU database's skeletons
 _HUGE = 1e100  # far from where arithmetic on the values could overflow
+
+FINITE_NUMBERS = f"finite numbers, {-_HUGE:g} to {_HUGE:g}"
+"""What `finite_floats` accepts, for errors."""
 
 
 def finite_floats(words: Sequence[str]) -> list[float]:
@@ -42,7 +53,7 @@ def finite_floats(words: Sequence[str]) -> list[float]:
     joined = "".join(words)
     plain = joined.isascii() and "_" not in joined
     if not plain or not all(map(isfinite, values)) or max(map(abs, values), default=0.0) > _HUGE:
-        raise ValueError(f"expected finite numbers, got {words}")
+        raise ValueError(f"expected {FINITE_NUMBERS}, got {words}")
     return values
 
 
@@ -86,7 +97,7 @@ class Line:
             with suppress(ValueError):
                 return tuple(finite_floats(words))
         # Not in the clause: an error keeps the one before it, and with that the parser's frames.
-        raise self.error(f"{self.words[0]!r} with {stop - start} finite numbers")
+        raise self.error(f"{self.words[0]!r} with {stop - start} {FINITE_NUMBERS}")
 
 
 def content_lines(text: str, file: str) -> Iterator[Line]:

@@ -43,7 +43,7 @@ def recording_of(
     ------
     FormatError
         If there is no frame or no channel, two channels share a name, a time is not finite or not
-        after the one before, or a value is infinite.
+        after the one before, or a value is infinite or too large to be a measurement.
     """
     if not len(times) or not channels:
         raise FormatError(
@@ -83,7 +83,7 @@ def _check_values(file: str, values: FrameByChannel, channels: Sequence[str]) ->
     for frame, channel in np.argwhere(np.abs(values) > _HUGE)[:1]:
         raise FormatError(
             file,
-            "finite numbers, or nothing where an entry is missing",
+            f"finite numbers, {-_HUGE:g} to {_HUGE:g}, or nothing where an entry is missing",
             f"{values[frame, channel]:g} at frame {frame} of {channels[channel]}",
             "leave the entry empty",
         )

@@ -96,6 +96,6 @@ def test_what_it_refuses():
     with pytest.raises(ValueError, match="'new': expected a visible frame beside frames 0 to 19"):
         model.impute([hide(new, *range(20))])
     with pytest.raises(ValueError, match="1 hidden in part"):
-        model.impute([new.hide(np.eye(20, 2) * [1, 0])])
+        model.impute([new.hide(np.eye(20, 2, dtype=bool) & [True, False])])
     with pytest.raises(ValueError, match="n_windows of at least 1"):
         AlignedWindow(n_windows=0).fit([new])

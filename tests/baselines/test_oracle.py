@@ -46,7 +46,7 @@ def test_it_is_the_joint_gaussian_conditioned(seed, n_masks):
 
 def test_a_child_that_shows_nothing_is_predicted_from_its_siblings():
     process, recordings, _ = drawn(0)
-    given = [*recordings[:-1], recordings[-1].hide(np.ones((len(TIMES), 2)))]
+    given = [*recordings[:-1], recordings[-1].hide(np.ones((len(TIMES), 2), dtype=bool))]
     mean, variance = brute_force(process, given)
     prediction = Oracle().inform(process).fit(given).impute(given[-1:])[0]
     np.testing.assert_allclose(prediction.mean, mean[-1], atol=1e-9)
@@ -90,7 +90,7 @@ def test_what_it_refuses():
     with pytest.raises(ValueError, match=r"expected recordings given to fit, .*, got"):
         Oracle().inform(process).fit(recordings[:-1]).impute(recordings[-1:])
     with pytest.raises(ValueError, match="visible entries to condition on"):
-        Oracle().inform(process).fit([recordings[0].hide(np.ones((len(TIMES), 2)))])
+        Oracle().inform(process).fit([recordings[0].hide(np.ones((len(TIMES), 2), dtype=bool))])
 
 
 def test_the_trend_is_the_parent_given_the_children():

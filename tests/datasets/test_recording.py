@@ -40,6 +40,31 @@ def test_hiding_twice_hides_both(first, second):
     np.testing.assert_array_equal(both.values, recorded(VALUES).hide(first | second).values)
 
 
+@pytest.mark.parametrize("mask", [[[False], [True], [True], [False]], [[False, True, False]]])
+def test_a_mask_may_be_one_for_all_channels_or_for_all_frames(mask):
+    hidden = np.broadcast_to(mask, VALUES.shape)
+    np.testing.assert_array_equal(recorded(VALUES).hide(mask).visible, ~hidden)
+
+
+@pytest.mark.parametrize(
+    ("hidden", "got"),
+    [
+        ([0, 1, 2], r"int64 of shape \(3,\)"),
+        (slice(1, 3), r"object of shape \(\)"),
+        (True, r"bool of shape \(\)"),
+        ([True, False, True], r"bool of shape \(3,\)"),
+        (np.ones((3, 3), dtype=bool), r"bool of shape \(3, 3\)"),
+        (np.ones((1, 4, 3), dtype=bool), r"bool of shape \(1, 4, 3\)"),
+        (np.ones((4, 3)), r"float64 of shape \(4, 3\)"),
+    ],
+    ids=str,
+)
+def test_what_is_no_mask_hides_nothing(hidden, got):
+    expected = rf"'r': expected True or False .* of shape \(4, 3\) \(times, channels\), got {got}"
+    with pytest.raises(ValueError, match=expected):
+        recorded(VALUES).hide(hidden)
+
+
 @given(st.permutations("abc"), st.integers(0, 3))
 def test_selection_follows_the_names(order, n):
     chosen = recorded(VALUES).select(order[:n])
@@ -66,6 +91,8 @@ def test_frames_keep_their_times():
         ({"values": VALUES[:, :2]}, r"shape \(4, 3\)"),
         ({"channels": ("a", "b", "a")}, "distinct"),
         ({"units": ("deg", "deg")}, "one unit for each"),
+        ({"units": "deg"}, "units to be .* one string per channel, got the string 'deg'"),
+        ({"channels": "abc"}, "channels to be .* one string per channel, got the string 'abc'"),
         ({"times": [0, 1, 1, 2]}, "increasing"),
         ({"times": [0, 1, np.nan, 2]}, "increasing"),
         ({"values": np.where(VALUES == 5, np.inf, VALUES)}, "infinity"),

@@ -3,14 +3,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.baselines.common.recordings import check_visible, pool, visible_moments
+from mocapbench.baselines.common.recordings import (
+    check_channels,
+    check_recordings,
+    check_visible,
+    pool,
+    visible_moments,
+)
 from mocapbench.datasets import Recording
 
 
-def recording(name, values):
+def recording(name, values, unit=""):
     values = np.asarray(values, dtype=float)
     channels = tuple(f"c{d}" for d in range(values.shape[1]))
-    return Recording(name, np.arange(len(values)), values, channels, ("",) * len(channels))
+    return Recording(name, np.arange(len(values)), values, channels, (unit,) * len(channels))
 
 
 @given(seed=st.integers(0, 2**32 - 1))
@@ -37,3 +43,39 @@ def test_a_pool_has_each_name_once_as_given_to_impute():
 def test_a_channel_visible_nowhere_is_named():
     with pytest.raises(ValueError, match=r"got none of \['c1'\]"):
         check_visible([recording("a", [[1.0, np.nan]]), recording("b", [[1.0, np.nan]])])
+
+
+CHECKS = {
+    "fit": check_recordings,
+    "impute": lambda given: check_channels(given, ("c0",)),
+    "both": lambda given: pool([], given),
+}
+
+
+@pytest.mark.parametrize("check", CHECKS.values(), ids=CHECKS)
+def test_recordings_in_different_units_are_refused(check):
+    given = [recording("a", [[1.0]], "mm"), recording("b", [[2.0]], "deg")]
+    with pytest.raises(ValueError, match=r"'b': expected channel 'c0' in unit 'mm' as .*'a', got"):
+        check(given)
+
+
+@pytest.mark.parametrize("check", CHECKS.values(), ids=CHECKS)
+@pytest.mark.parametrize(
+    ("given", "got"),
+    [
+        (recording("a", [[1.0]]), "Recording; put one into a list"),
+        (None, "NoneType"),
+        (np.zeros((3, 1)), "ndarray of ndarray"),
+        ([np.zeros((3, 1))], "list of ndarray"),
+        ("a.csv", "str of str"),
+    ],
+    ids=lambda value: type(value).__name__,
+)
+def test_what_is_no_sequence_of_recordings_is_refused(check, given, got):
+    with pytest.raises(ValueError, match=f"expected a sequence of Recordings, got {got}"):
+        check(given)
+
+
+def test_recordings_given_to_fit_and_impute_have_the_same_units():
+    with pytest.raises(ValueError, match="in unit 'mm' as in recording 'a', got 'deg'"):
+        pool([recording("a", [[1.0]], "mm")], [recording("b", [[2.0]], "deg")])

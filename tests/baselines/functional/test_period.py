@@ -39,7 +39,8 @@ def test_units_of_time_and_a_late_start_mean_nothing(waves):
 
 
 def test_a_recording_without_a_cycle_takes_the_median_of_the_others(waves):
-    drift = Recording("drift", np.arange(40) / 30, np.arange(80.0).reshape(40, 2), "ab", ("", ""))
+    values = np.arange(80.0).reshape(40, 2)
+    drift = Recording("drift", np.arange(40) / 30, values, ("a", "b"), ("", ""))
     short = waves([20.0]).recordings[0].frames([0, 1, 2])
     *cyclic, one, two = cycle_periods([*waves([20.0, 24.0, 28.0]).recordings, drift, short])
     assert one == two == np.median(cyclic)

@@ -111,6 +111,7 @@ def test_a_last_frame_that_was_cut_short_is_dropped_with_a_warning(
         (("thigh -20 5 1", "thigh -20 5 nan"), 6, "finite"),
         (("thigh -20 5 1", "thigh -20 5 inf"), 6, "finite"),
         (("thigh -20 5 1", "thigh -20 5 1e400"), 6, "finite"),
+        (("thigh -20 5 1", "thigh -20 5 1e200"), 6, "-1e+100 to 1e+100"),
         (("thigh -22", "thigh twenty"), 16, "finite"),
         (("arm 15 -75", "wing 15 -75"), 7, "that remain: arm"),
         (("arm 15 -75", "thigh -20 5 1"), 7, "that remain: arm"),

@@ -71,6 +71,14 @@ def test_what_is_not_a_plain_finite_number_is_refused(word):
         finite_floats(["1", word])
 
 
+@pytest.mark.parametrize("word", ["1e200", "-1e200"])
+def test_the_limit_of_numbers_is_named(word):
+    with pytest.raises(ValueError, match=r"finite numbers, -1e\+100 to 1e\+100, got"):
+        finite_floats([word])
+    with pytest.raises(AcclaimError, match=r"with 1 finite numbers, -1e\+100 to 1e\+100, got"):
+        Line("a.amc", 7, f"shin {word}").floats(1, 2)
+
+
 def test_an_error_shows_the_beginning_of_a_long_line():
     error = Line("a.amc", 7, "x" * 1000).error("a number")
     assert str(error).startswith("a.amc, line 7: expected a number, got 'xxx")

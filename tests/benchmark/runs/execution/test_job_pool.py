@@ -28,8 +28,8 @@ BY_METRIC = {
     "sleeps": ("timeout", "killed after 2 s"),
     "hangs": ("timeout", "killed after 2 s"),
     "dies": ("failed", "exit code 7"),
-    "exits": ("failed", "SystemExit: 5"),
-    "raises": ("failed", "RuntimeError: the metric raised"),
+    "exits": ("failed", "the metric 'exits' raised SystemExit: 5"),
+    "raises": ("failed", "the metric 'raises' raised RuntimeError: the metric raised"),
     "hoards": ("out-of-memory", "raise --memory"),
     "litters": ("ok", ""),
 }

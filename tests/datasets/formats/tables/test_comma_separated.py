@@ -99,6 +99,10 @@ def test_rotations_are_unwrapped_in_and_wrapped_out(read, tmp_path):
             "finite numbers, .* got inf at frame 0 of hip; leave the entry empty",
         ),
         ("time,hip\n0,1e999\n", "finite numbers, .* got inf at frame 0 of hip"),
+        (
+            "time,hip\n0,-1e200\n",
+            r"numbers, -1e\+100 to 1e\+100, .* got -1e\+200 at frame 0 of hip",
+        ),
         ("time,hip,hip\n0,1,2\n", "channels with different names, got 'hip' 2 times; rename"),
     ],
 )

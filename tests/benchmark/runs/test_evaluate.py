@@ -1,0 +1,67 @@
+"""A record of a job that a metric fails names the metric."""
+
+import resource
+
+import pytest
+
+from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.registry import METRICS
+from mocapbench.benchmark.runs.evaluate import evaluate
+from mocapbench.benchmark.runs.job import Work, WorkerConfig
+from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.record import Status
+from mocapbench.metrics import Direction, Imputation, Metric
+
+CONFIG = WorkerConfig(None, (), 600.0, resource.RLIM_INFINITY, 1, {})
+
+
+def _raises(outcome):
+    return {}["x"]
+
+
+def _hoards(outcome):
+    raise MemoryError
+
+
+def _nothing(outcome):
+    return None
+
+
+FAULTS = {
+    "a float": ({"statistic": lambda outcome: 0.5}, "to return a Score, got float"),
+    "nothing": ({"statistic": _nothing}, "to return a Score, got NoneType"),
+    "an error": ({"statistic": _raises}, "the metric 'mine' raised KeyError: 'x'"),
+    "in defined": ({"defined": _raises}, "the metric 'mine' raised KeyError: 'x'"),
+}
+
+
+@pytest.fixture
+def record(monkeypatch):
+    """Return a function from a metric's fields to the record of a job that it scores."""
+
+    def record(**fields):
+        fields = {"statistic": _nothing, **fields}
+        metric = Metric("mine", "Mine", Direction.LOWER, Imputation, **fields)
+        monkeypatch.setattr(METRICS, "_added", {**METRICS._added, "mine": metric})
+        task, archive = "toy-interpolation-1", archive_at(None)
+        request = Request("smoke", (task,), ("trivial",), metrics=("mine",), folds=1)
+        job = plan(request, archive)[0]
+        return evaluate(Work(job, None), CONFIG, archive).record
+
+    return record
+
+
+@pytest.mark.parametrize(("fields", "message"), FAULTS.values(), ids=FAULTS)
+def test_the_message_names_the_metric(record, fields, message):
+    failed = record(**fields)
+    assert failed.status is Status.FAILED
+    assert "the metric 'mine'" in failed.message
+    assert message in failed.message
+
+
+def test_the_traceback_shows_where_the_metric_failed(record):
+    assert 'return {}["x"]' in record(statistic=_raises).traceback
+
+
+def test_a_metric_that_needs_too_much_memory_is_no_fault_of_the_metric(record):
+    assert record(statistic=_hoards).status is Status.OUT_OF_MEMORY
