@@ -8,13 +8,14 @@ from numpy.typing import NDArray
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["LEAST", "mean_ratios", "squared_ratios"]
+__all__ = ["LEAST", "geometric_ratios", "mean_ratios", "squared_ratios"]
 
 Array = NDArray[np.float64]
 
 LEAST = 0.01
 """The least factor: where nothing varies, trials err nowhere, and doubt would vanish."""
 
+_TINY = np.finfo(np.float64).tiny
 _PRIOR_ENTRIES = 10
 """Entries that count in each channel as having the mean ratio over all channels."""
 
@@ -31,6 +32,17 @@ def mean_ratios(sums: Array, counts: Array) -> Array:
     """
     pooled = float(sums.sum() / counts.sum())
     return np.asarray((sums + _PRIOR_ENTRIES * pooled) / (counts + _PRIOR_ENTRIES))
+
+
+def geometric_ratios(sums: Array, counts: Array) -> Array:
+    """Return the ratio in each channel, moved towards that of all channels by its logarithm, (D,).
+
+    Unlike `mean_ratios` it can be far below the ratio of all: where one channel's claims are much
+    too large and those of others are not, their mean is that of the others.
+    """
+    pooled = np.log(sums.sum() / counts.sum() + _TINY)
+    own = np.log(sums / np.maximum(counts, 1) + _TINY)
+    return np.asarray(np.exp((counts * own + _PRIOR_ENTRIES * pooled) / (counts + _PRIOR_ENTRIES)))
 
 
 def squared_ratios(truth: Recording, mask: Mask, answer: Prediction) -> Array:

@@ -3,7 +3,7 @@ r"""What a recording's own trials say of the variances that a model claims.
 The variance of a channel is multiplied by the mean ratio, in the trials, of squared errors to
 claimed variances, where that is above one. Three trials say too little to make variances as small
 as they show, but none is left larger than four times what the worst of three shows, and none less
-than a hundredth of what is claimed.
+than a ten-thousandth of what is claimed.
 
 Where copies of a channel's gap had to be shorter, they are easier: their entries lie nearer to
 visible ones. They are then tried at half their length, too. If the ratio of such channels grows
@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.protocols import Prediction
-from mocapbench.baselines.rehearsal.ratios import LEAST, mean_ratios, squared_ratios
+from mocapbench.baselines.rehearsal.ratios import geometric_ratios, mean_ratios, squared_ratios
 from mocapbench.baselines.rehearsal.trials import (
     Places,
     copies_or_islands,
@@ -42,6 +42,8 @@ _SURE = 3
 """Trials that can show variances to be too large."""
 _MARGIN = 4.0
 """How many times as large as the worst of these trials shows variances may be."""
+_LEAST = 1e-4
+"""The least factor of variances: where nothing varies, trials err nowhere."""
 _STEEPEST = 0.6
 """Largest power of the distance by which ratios grow: what two short lengths say is noisy.
 ``docs/calibration.md`` has the choice."""
@@ -123,8 +125,8 @@ class VarianceCheck:
         if len(self.copies) < _SURE:
             return np.ones(len(self.recording.channels))
         by_trial = self._ratios(self.copies, answers[: len(self.copies)])
-        worst = np.max([mean_ratios(*one) for one in by_trial], axis=0)
-        return np.asarray(np.clip(_MARGIN * worst * self.steepest, LEAST, 1.0))
+        worst = np.max([geometric_ratios(*one) for one in by_trial], axis=0)
+        return np.asarray(np.clip(_MARGIN * worst * self.steepest, _LEAST, 1.0))
 
     def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
         """Return by what the ratio grows from the copies to the gaps: (D,)."""
