@@ -50,10 +50,17 @@ def _read(folder: Path, rate: float | None) -> tuple[list[Recording], list[str]]
     recordings, unreadable = [], []
     for path in readable_files(folder):
         try:
-            recordings.append(replace(format_for(path).read(folder / path, rate), name=path))
+            recordings.append(_recording(folder, path, rate))
         except FormatError as error:
             unreadable.append(str(error))
     return recordings, unreadable
+
+
+def _recording(folder: Path, path: str, rate: float | None) -> Recording:
+    recording = format_for(path).read(folder / path, rate)
+    if len(recording.times) < 2:
+        raise FormatError(path, "two or more frames", "1", "leave the file out")
+    return replace(recording, name=path)
 
 
 def _groups(recordings: Sequence[Recording]) -> list[list[Recording]]:

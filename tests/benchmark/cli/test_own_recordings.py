@@ -270,6 +270,16 @@ def test_the_first_task_file_takes_the_most_files_that_are_alike(cli, tmp_path, 
     assert tomllib.loads(path.read_text())["files"] == ["b.csv", "c.csv"]
 
 
+def test_the_first_task_file_leaves_out_a_single_frame(cli, tmp_path):
+    folder, path = tmp_path / "folder", tmp_path / "first.toml"
+    write_waves(folder / "b.csv")
+    head, frame, *_ = (folder / "b.csv").read_text().splitlines()
+    (folder / "a.csv").write_text(f"{head}\n{frame}\n")
+    assert cli("init", path, "--recordings", folder, "--rate", 30) == 0
+    assert "left out: a.csv: expected two or more frames, got 1" in cli.printed
+    assert "a task on 1 recording of" in cli.printed
+
+
 def test_of_groups_of_one_size_the_first_task_file_takes_the_first(cli, tmp_path):
     folder, path = tmp_path / "folder", tmp_path / "first.toml"
     write_waves(folder / "a.csv")
