@@ -33,7 +33,7 @@ def _few_visible(filled: Filled) -> Iterator[str]:
         channel, are = np.array(given.channels)[filling][counts.argmin()], _are(least)
         yield (
             f"Of {channel}, only {least} {are} visible, too few to learn from: trust neither what "
-            "was filled in nor its bands, or name similar recordings with --train."
+            "was filled in nor any bands, or name similar recordings with --train."
         )
 
 

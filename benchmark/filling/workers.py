@@ -96,7 +96,9 @@ def _answered(
     try:
         made: Attempt = call_in_child(attempt, model, asked, memory, timeout=seconds)
     except TimeoutError:
-        made = Attempt(None, f"was stopped after {seconds:.2g} s, when its time was up", slow=True)
+        made = Attempt(
+            None, f"was stopped after {round(seconds, 2):g} s, when its time was up", slow=True
+        )
     except ProcessDiedError as error:
         made = Attempt(None, f"its process died with exit code {error.exit_code}")
     finally:

@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 _WITHIN_95 = float(ndtri(0.975))
 _LEAST = 1e-9
 """Errors, in units of a channel's scale, below which models are equally good but for rounding."""
+_SHARE = 1e-3
+"""Of the error in another unit, that an error counts as at least: no unit outweighs all others."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +33,8 @@ class Scores:
     errors : ndarray of shape (n,)
         One per trial gap: the geometric mean over units of the root mean squared error over its
         entries in that unit, divided by their scale. So a few channels in centimetres count as much
-        as many in degrees, and twice the error in either is as bad.
+        as many in degrees, and twice the error in either is as bad, unless it is a thousandth of
+        the other.
     rmse : mapping of str to float
         By unit, the root mean squared error over all entries, in that unit.
     coverage : float or None
@@ -70,7 +73,8 @@ def _errors(trial: Trial, answer: Answer, scale: Array) -> Iterator[float]:
     squares = ((answer.mean - trial.truth) / scale[channels]) ** 2
     for gap in trial.units:
         means = [squares[gap][units[gap] == unit].mean() for unit in np.unique(units[gap])]
-        yield float(np.exp(np.log(np.maximum(np.sqrt(means), _LEAST)).mean()))
+        errors = np.sqrt(means)
+        yield float(np.exp(np.log(np.maximum(errors, max(_LEAST, _SHARE * errors.max()))).mean()))
 
 
 def _by_unit(pairs: Sequence[tuple[Trial, Answer]]) -> Mapping[str, float]:

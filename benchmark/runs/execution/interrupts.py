@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from types import FrameType
+from typing import Any
 
 __all__ = ["interrupts_later"]
 
@@ -18,18 +20,28 @@ def interrupts_later() -> Iterator[None]:
 
     Python runs handlers between any two steps of the main thread. One that raises between the
     taking of a lock and the block that gives it back leaves the lock taken, and whoever waits for
-    it waits for ever. Signals without a handler of Python's, and other threads, are as before.
+    it waits for ever. Of several signals, which all end the process, the first strikes. Signals
+    without a handler of Python's, and other threads, are as before.
     """
     caught: list[int] = []
-    before = {}
+    before: dict[int, Callable[[int, FrameType | None], Any]] = {}
+    held = True
+
+    def later(number: int, frame: FrameType | None) -> None:
+        if held:
+            caught.append(number)
+        else:  # another signal struck before this handler was put back
+            before[number](number, frame)
+
     try:
         if threading.current_thread() is threading.main_thread():
-            for number in _ENDING:
-                if callable(signal.getsignal(number)):
-                    before[number] = signal.signal(number, lambda each, _: caught.append(each))
+            before |= {n: old for n in _ENDING if callable(old := signal.getsignal(n))}
+            for number in before:
+                signal.signal(number, later)
         yield
     finally:
-        for number in reversed(before):  # the first was held back first, and is so to the last
-            signal.signal(number, before[number])
-        for struck in caught[:1]:
-            signal.raise_signal(struck)
+        held = False
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        for number in caught[:1]:
+            signal.raise_signal(number)

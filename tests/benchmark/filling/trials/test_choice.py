@@ -195,6 +195,18 @@ def test_each_unit_counts_alike_however_many_channels_have_it(waves, hidden):
         assert far / near == pytest.approx(np.sqrt(1.5 / (0.1 * 1.2)))
 
 
+def test_a_unit_without_error_does_not_outweigh_the_others(waves, hidden):
+    """Where a body stands still, an interpolation is exact there and may be bad elsewhere."""
+    mask = hidden((50, 54, [0, 1, 2, 3]))
+    trial = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[0]
+    units = np.nonzero(trial.question.target)[1] == 3
+    exact_there, good = (
+        choice.scores_of([trial], [Answer(trial.truth + off, None)], np.ones(4)).errors[0]
+        for off in (np.where(units, 0.0, 1.0), np.where(units, 1e-6, 0.01))
+    )
+    assert good < exact_there
+
+
 def test_errors_of_rounding_are_no_lead(waves, hidden):
     mask = hidden((50, 54, [0]))
     trial = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[0]
