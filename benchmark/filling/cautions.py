@@ -8,6 +8,7 @@ import numpy as np
 
 from mocapbench.benchmark.filling.edges import jumps
 from mocapbench.benchmark.filling.filler import Filled
+from mocapbench.reports import counted
 
 __all__ = ["cautions"]
 
@@ -30,15 +31,13 @@ def _few_visible(filled: Filled) -> Iterator[str]:
     counts = given.visible[:, filling].sum(axis=0)
     least = int(counts.min())
     if least < _FEW and not filled.source.train:
-        channel, are = np.array(given.channels)[filling][counts.argmin()], _are(least)
+        channel = np.array(given.channels)[filling][counts.argmin()]
+        are = "is" if least == 1 else "are"
         yield (
-            f"Of {channel}, only {least} {are} visible, too few to learn from: trust neither what "
-            "was filled in nor any bands, or name similar recordings with --train."
+            f"Of {channel}, only {counted(least, 'frame')} {are} visible, too few to learn from: "
+            "trust neither what was filled in nor any bands, or name similar recordings with "
+            "--train."
         )
-
-
-def _are(n_frames: int) -> str:
-    return "frame is" if n_frames == 1 else "frames are"
 
 
 def _jumps(filled: Filled) -> Iterator[str]:

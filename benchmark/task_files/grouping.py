@@ -11,7 +11,7 @@ from mocapbench.benchmark.formats import format_for
 from mocapbench.benchmark.task_files.finding import readable_files
 from mocapbench.datasets import FormatError, Recording, check_alike
 
-__all__ = ["largest_group"]
+__all__ = ["check_alike_in_any_order", "largest_group"]
 
 
 def largest_group(folder: Path, rate: float | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -40,9 +40,20 @@ def largest_group(folder: Path, rate: float | None) -> tuple[tuple[str, ...], tu
         )
     first = max(_groups(recordings), key=len)[0]
     reasons = {recording.name: _difference(first, recording) for recording in recordings}
-    alike = (name for name, reason in reasons.items() if not reason)
-    left_out = (*unreadable, *filter(None, reasons.values()))
-    return tuple(dict.fromkeys((first.name, *alike))), left_out
+    alike = tuple(name for name, reason in reasons.items() if not reason)
+    return alike, (*unreadable, *filter(None, reasons.values()))
+
+
+def check_alike_in_any_order(first: Recording, other: Recording) -> None:
+    """Refuse other channels, units or rates; another order of the channels does not matter.
+
+    Raises
+    ------
+    FormatError
+        If they differ.
+    """
+    same = {*first.channels} == {*other.channels}
+    check_alike([first, other.select(first.channels) if same else other])
 
 
 def _read(folder: Path, rate: float | None) -> tuple[list[Recording], list[str]]:
@@ -77,10 +88,9 @@ def _groups(recordings: Sequence[Recording]) -> list[list[Recording]]:
 
 
 def _difference(first: Recording, other: Recording) -> str:
-    """Return what keeps two apart, if anything; the order of the channels does not."""
-    same = {*first.channels} == {*other.channels}
+    """Return what keeps two apart, if anything."""
     try:
-        check_alike([first, other.select(first.channels) if same else other])
+        check_alike_in_any_order(first, other)
     except FormatError as error:
         return str(error)
     return ""

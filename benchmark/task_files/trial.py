@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mocapbench.benchmark.task_files.document import Document
+from mocapbench.benchmark.task_files.grouping import check_alike_in_any_order
 from mocapbench.benchmark.task_files.hidden_settings import Hidden
 from mocapbench.benchmark.task_files.hiding import HidingError, Place
 from mocapbench.benchmark.task_files.library import address_of
@@ -19,7 +20,6 @@ from mocapbench.datasets import (
     Mask,
     Recording,
     RecordingUnavailable,
-    check_alike,
 )
 
 __all__ = ["Trial"]
@@ -62,7 +62,8 @@ class Trial:
         first, complete = self._selected(tests[0]), True
         for path in dict.fromkeys((*tests, *training)):
             recording = self._selected(path)
-            self._check_alike(first, recording)
+            with self._blaming("files", path):
+                check_alike_in_any_order(first, recording)
             complete &= bool(recording.visible.all())
             if path in tests:
                 self._hide(recording, path)
@@ -87,12 +88,6 @@ class Trial:
             got = f"{len(selected.times)}"
             raise self.document.error("frames", expected, got, advice)
         return selected
-
-    def _check_alike(self, first: Recording, other: Recording) -> None:
-        """Refuse other channels, units or rates; another order of the channels does not matter."""
-        same = {*first.channels} == {*other.channels}
-        with self._blaming("files", other.name):
-            check_alike([first, other.select(first.channels) if same else other])
 
     def _hide(self, recording: Recording, path: str) -> None:
         for variant in self.hidden.variants:
