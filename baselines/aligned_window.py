@@ -79,8 +79,8 @@ class AlignedWindow(FrameImputer, Inductive):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     runs_ : list of ndarray (n, D)
         The stretches of frames without hidden entries.
 
@@ -132,7 +132,7 @@ class AlignedWindow(FrameImputer, Inductive):
         if self.n_windows < 1:
             raise ValueError(f"expected n_windows of at least 1, got {self.n_windows}")
         checked = check_recordings(recordings)
-        self.channels_ = checked[0].channels
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.runs_ = [
             recording.values[run]
             for recording in checked
@@ -150,7 +150,7 @@ class AlignedWindow(FrameImputer, Inductive):
             complete stretch of training is long enough.
         """
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
         return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
 
     def _filled(self, recording: Recording) -> FrameByChannel:

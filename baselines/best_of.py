@@ -56,8 +56,8 @@ class BestOf(Imputer, Inductive):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     recordings_ : tuple of Recording
         The recordings given to `fit`, by which candidates are rehearsed.
     panel_ : Panel
@@ -107,7 +107,7 @@ class BestOf(Imputer, Inductive):
         # In the order of names, so that the order given does not affect results.
         checked = check_recordings(recordings)
         self.recordings_ = tuple(sorted(checked, key=lambda recording: recording.name))
-        self.channels_ = checked[0].channels
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.panel_ = Panel.of(self.recordings_)
         return self
 
@@ -153,7 +153,7 @@ class BestOf(Imputer, Inductive):
 
     def _checked(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
         return recordings
 
     def _rehearsals(self, recording: Recording) -> Rehearsals:

@@ -155,7 +155,8 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
         check_settings(**self.get_params())
         checked = check_recordings(recordings)
         check_frames(checked)
-        self.learnt_from_, self.channels_ = checked, checked[0].channels
+        self.learnt_from_ = checked
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         # Recordings are sorted by name, so that their order does not affect results.
         order = np.argsort([recording.name for recording in checked], kind="stable")
         ordered = [checked[k] for k in order]
@@ -242,7 +243,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
 
     def _checked(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
         check_frames(recordings)
         return recordings
 

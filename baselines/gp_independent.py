@@ -43,8 +43,8 @@ class GPIndependent(Channelwise[LMCIndependent]):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     models_ : tuple of D LMCIndependent
         The model of each channel.
     log_likelihood_ : float

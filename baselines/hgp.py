@@ -61,8 +61,8 @@ class HGP(Channelwise[MOHGP], Trended):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     models_ : tuple of D MOHGP
         The model of each channel.
     log_likelihood_ : float

@@ -28,8 +28,8 @@ class _Interpolation(Interpolator, Inductive):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
     """
@@ -43,7 +43,7 @@ class _Interpolation(Interpolator, Inductive):
             If there is no recording, channels differ, or a name repeats.
         """
         checked = check_recordings(recordings)
-        self.channels_ = checked[0].channels
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.mean_, _ = visible_moments(checked)
         return self
 
@@ -57,7 +57,7 @@ class _Interpolation(Interpolator, Inductive):
             given to `fit`.
         """
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
         return [Prediction.around(recording, self._curves(recording)) for recording in recordings]
 
     def _curves(self, recording: Recording) -> FrameByChannel:
@@ -93,8 +93,8 @@ class HoldImputer(_Interpolation):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
 
@@ -132,8 +132,8 @@ class LinearImputer(_Interpolation):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
 
@@ -173,8 +173,8 @@ class PchipImputer(_Interpolation):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
 
@@ -223,8 +223,8 @@ class MakimaImputer(_Interpolation):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
 
@@ -275,8 +275,8 @@ class CubicSplineImputer(_Interpolation):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     mean_ : ndarray of shape (D,)
         Mean of each channel's visible entries; NaN if it has none.
 

@@ -122,7 +122,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         # In the order of names, so that the order given does not affect results.
         ordered = sorted(check_recordings(recordings), key=lambda recording: recording.name)
         self.learnt_from_ = tuple(ordered)
-        self.channels_ = ordered[0].channels
+        self.channels_, self.units_ = ordered[0].channels, ordered[0].units
         self.scaling_ = Standardisation.of(ordered)
         data = self._observations(ordered)
         first = start(initial_states(data, self.n_states), data, PRIORS)
@@ -146,7 +146,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
             If channels differ.
         """
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
         return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:

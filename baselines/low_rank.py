@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import log
 from typing import ClassVar, Self
 
 import numpy as np
@@ -25,6 +26,11 @@ _ENTRIES_PER_LOADING = 10
 """Visible entries that a loading needs: fewer do not determine it (a rule of thumb)."""
 _LEAST_NOISE = 1e-6
 """Least variance of the noise, in units of the variance within recordings."""
+_PRIOR_NOISE = 0.05
+"""The noise that is expected before anything is seen, in the same units; it counts as one entry.
+
+Where few entries are visible together, loadings may fit them exactly, and the likelihood then grows
+without bound as the noise vanishes (a Heywood case)."""
 
 
 class LowRank(Relearning, Imputer, Inductive):
@@ -33,7 +39,8 @@ class LowRank(Relearning, Imputer, Inductive):
     A frame is :math:`y = m + S (W x + \varepsilon)` with latent :math:`x \sim N(0, I_q)` and noise
     :math:`\varepsilon \sim N(0, \sigma^2 I)`. The mean m is the recording's own, of its visible
     entries, and the scale S that within recordings. W and σ² maximise the likelihood of all visible
-    entries of the recordings given to `fit`, by EM from the principal axes of the covariances of
+    entries of the recordings given to `fit`, times a prior of σ² that is worth one more entry with
+    an error of 0.05 (in units of S squared), by EM from the principal axes of the covariances of
     entries visible together. Complete frames are not needed.
 
     The number q of components is the least that holds ``explained_variance`` of the start's
@@ -52,22 +59,23 @@ class LowRank(Relearning, Imputer, Inductive):
     max_iter : int, default=100
         Largest number of iterations of EM.
     tolerance : float, default=1e-5
-        EM stops when the log-likelihood gains less than this for each visible entry; positive.
+        EM stops when the objective gains less than this for each visible entry; positive.
 
     Attributes
     ----------
     learnt_from_ : tuple of Recording
         The recordings given to `fit`.
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     own_means_ : OwnMeans
         The scale S, and the means of channels over all recordings.
     loadings_ : ndarray of shape (D, q)
         W, in units of S.
     noise_variance_ : float
         σ², in units of S squared.
-    log_likelihood_ : ndarray of shape (n_iterations + 1,)
-        Log-likelihood of the visible entries in units of S, at the start and after each iteration.
+    objective_ : ndarray of shape (n_iterations_ + 1,)
+        Log-likelihood of the visible entries in units of S plus the logarithm of the prior, at the
+        start and after each iteration.
     n_iterations_, converged_ : int, bool
 
     References
@@ -120,7 +128,8 @@ class LowRank(Relearning, Imputer, Inductive):
         check_count("max_iter", self.max_iter, 1)
         check_positive("tolerance", self.tolerance)
         checked = check_recordings(recordings)
-        self.learnt_from_, self.channels_ = checked, checked[0].channels
+        self.learnt_from_ = checked
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.own_means_ = OwnMeans.of(checked)
         frames = _Frames.of(np.concatenate([self.own_means_.apply(one) for one in checked]))
         self._learn(frames, *_start(frames, self.explained_variance))
@@ -128,16 +137,16 @@ class LowRank(Relearning, Imputer, Inductive):
 
     def _learn(self, frames: _Frames, loadings: Array, noise: float) -> None:
         posterior = _Posterior.of(frames, loadings, noise)
-        values = [posterior.log_likelihood]
+        values = [posterior.log_likelihood + _log_prior(noise)]
         least_gain = self.tolerance * max(float(frames.seen.sum()), 1.0)
         self.converged_ = False
         while not self.converged_ and len(values) <= self.max_iter:
             loadings, noise = _maximised(frames, posterior)
             posterior = _Posterior.of(frames, loadings, noise)
-            values.append(posterior.log_likelihood)
+            values.append(posterior.log_likelihood + _log_prior(noise))
             self.converged_ = values[-1] - values[-2] < least_gain
         self.loadings_, self.noise_variance_ = loadings, noise
-        self.log_likelihood_, self.n_iterations_ = np.array(values), len(values) - 1
+        self.objective_, self.n_iterations_ = np.array(values), len(values) - 1
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the mean and variance of hidden entries given the visible ones of their frame.
@@ -149,7 +158,7 @@ class LowRank(Relearning, Imputer, Inductive):
             `fit`.
         """
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
         return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -217,19 +226,31 @@ def _maximised(frames: _Frames, posterior: _Posterior) -> tuple[Array, float]:
     cross = frames.values.T @ latents
     loadings = np.asarray(np.linalg.solve(second, cross[..., None])[..., 0], dtype=np.float64)
     residual = (frames.values**2).sum() - (loadings * cross).sum()
-    return loadings, max(float(residual) / max(frames.seen.sum(), 1.0), _LEAST_NOISE)
+    return loadings, _noise(float(residual), float(frames.seen.sum()))
+
+
+def _noise(squares: float, n_entries: float) -> float:
+    """Return the most probable noise after so many entries with that sum of squared errors."""
+    return max((squares + _PRIOR_NOISE) / (n_entries + 1.0), _LEAST_NOISE)
+
+
+def _log_prior(noise: float) -> float:
+    """Return the logarithm of the prior, up to a constant: that of one entry."""
+    return -0.5 * (log(noise) + _PRIOR_NOISE / noise)
 
 
 def _start(frames: _Frames, explained: float) -> tuple[Array, float]:
     """Return the loadings and noise that fit the covariances of entries visible together.
 
-    They are the maximum of the likelihood if all frames are complete: Tipping and Bishop, eq. (7).
+    They are the maximum of the objective if all frames are complete: Tipping and Bishop, eq. (7),
+    and eq. (8) for the noise, with the prior.
     """
     together = np.maximum(frames.seen.T @ frames.seen, 1.0)
     eigenvalues, axes = np.linalg.eigh(frames.values.T @ frames.values / together)
     eigenvalues, axes = np.maximum(eigenvalues[::-1], 0.0), axes[:, ::-1]
     q = _n_components(frames, eigenvalues, explained)
-    noise = max(float(eigenvalues[q:].mean()), _LEAST_NOISE)
+    n_frames = float(frames.seen.sum()) / len(eigenvalues)
+    noise = _noise(n_frames * float(eigenvalues[q:].sum()), n_frames * (len(eigenvalues) - q))
     return axes[:, :q] * np.sqrt(np.maximum(eigenvalues[:q] - noise, 0.0)), noise
 
 

@@ -87,6 +87,8 @@ class MOHGP(TrendedProcess):
 
     Attributes
     ----------
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     parameters_ : Parameters
         Maximum-likelihood parameters, for outputs in standard units.
     log_likelihood_ : float

@@ -37,8 +37,8 @@ class NN(Imputer, Inductive):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     frames_ : ndarray of shape (M, D)
         All training frames, NaN where hidden.
     weights_ : ndarray of shape (D,)
@@ -93,7 +93,7 @@ class NN(Imputer, Inductive):
             number of at least 0 for each channel.
         """
         checked = check_recordings(recordings)
-        self.channels_ = checked[0].channels
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.frames_ = stack(checked)
         self.weights_ = _weights(self.weights, self.channels_)
         return self
@@ -108,7 +108,7 @@ class NN(Imputer, Inductive):
             shares a visible channel with the frame to fill.
         """
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
         return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
 
     def _filled(self, recording: Recording) -> FrameByChannel:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_outputs, check_recordings
+from mocapbench.baselines.common.recordings import check_channels, check_outputs, check_recordings
 from mocapbench.baselines.protocols import (
     Imputer,
     Informed,
@@ -133,6 +133,7 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
         check_is_fitted(self, "process_", msg="expected a generating process: call inform first")
         checked = check_recordings(recordings)
         check_outputs(checked, self.process_)
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.times_ = np.unique(np.concatenate([recording.times for recording in checked]))
         self._parent = self.process_.parent.covariance(self.times_)
         self._within = self.process_.child.covariance(self.times_)
@@ -185,9 +186,10 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
         Raises
         ------
         ValueError
-            If a recording was not given to `fit`.
+            If a recording was not given to `fit`, or channels or units differ.
         """
         check_is_fitted(self, "times_")
+        check_channels(recordings, self.channels_, self.units_)
         return [self._prediction(recording) for recording in recordings]
 
     def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:

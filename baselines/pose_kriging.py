@@ -95,8 +95,8 @@ class PoseKriging(FrameImputer, Inductive):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     symmetries_ : tuple of Image
         The motion itself, and its mirror image where training looks like it.
     names_ : tuple of str
@@ -168,7 +168,7 @@ class PoseKriging(FrameImputer, Inductive):
         check_share("symmetry", self.symmetry)
         check_share("least_explained", self.least_explained)
         checked = check_recordings(recordings)
-        self.channels_ = checked[0].channels
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         usable = [recording for recording in checked if _has_step(recording)]
         if not usable:
             raise ValueError("expected two consecutive complete frames in training, got none")
@@ -192,7 +192,7 @@ class PoseKriging(FrameImputer, Inductive):
             If channels differ, a frame is hidden in part, or no frame is visible.
         """
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
         return [Prediction.around(recording, *self._filled(recording)) for recording in recordings]
 
     def _filled(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:

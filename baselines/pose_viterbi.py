@@ -50,8 +50,8 @@ class PoseViterbi(FrameImputer, Inductive):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     frames_ : ndarray of shape (S, D)
         The complete training frames, and the states between them.
     transition_ : ndarray of shape (S, S)
@@ -104,7 +104,7 @@ class PoseViterbi(FrameImputer, Inductive):
         check_share("subject_offset", self.subject_offset)
         check_count("steps", self.steps, 1)
         checked = check_recordings(recordings)
-        self.channels_ = checked[0].channels
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         stretches = [_refined(each, self.steps) for each in complete_stretches(checked)]
         self.frames_ = np.concatenate(stretches)
         following = np.concatenate([_follows(len(each), self.steps) for each in stretches])
@@ -120,7 +120,7 @@ class PoseViterbi(FrameImputer, Inductive):
             If channels differ, a frame is hidden in part, or no frame is visible.
         """
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
         return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
 
     def residual(self, recording: Recording) -> NDArray[np.float64]:

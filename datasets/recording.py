@@ -86,14 +86,13 @@ class Recording:
         for field, value in (
             ("times", _frozen(self.times)),
             ("values", _frozen(self.values)),
-            ("channels", self._names("channels")),
-            ("units", self._names("units")),
+            ("channels", self._names("channels", self.channels)),
+            ("units", self._names("units", self.units)),
         ):
             object.__setattr__(self, field, value)
         self._validate()
 
-    def _names(self, field: str) -> tuple[str, ...]:
-        names: str | Sequence[str] = getattr(self, field)
+    def _names(self, field: str, names: str | Sequence[str]) -> tuple[str, ...]:
         if isinstance(names, str):  # it would be taken as one name per letter
             raise ValueError(
                 f"recording {self.name!r}: expected {field} to be a sequence of one string per "
@@ -162,16 +161,17 @@ class Recording:
         Raises
         ------
         ValueError
-            If a channel is not in the recording.
+            If ``channels`` is one string, or a channel is not in the recording.
         """
-        missing = [name for name in channels if name not in self.channels]
+        names = self._names("channels", channels)
+        missing = [name for name in names if name not in self.channels]
         if missing:
             raise ValueError(f"recording {self.name!r} has no channels {missing}")
-        columns = [self.channels.index(name) for name in channels]
+        columns = [self.channels.index(name) for name in names]
         return replace(
             self,
             values=self.values[:, columns],
-            channels=tuple(channels),
+            channels=names,
             units=tuple(self.units[column] for column in columns),
         )
 

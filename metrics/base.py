@@ -46,9 +46,18 @@ class Direction(Enum):
         }[self]
 
 
+def _as_numbers(outcome: object, *fields: str) -> None:
+    """Make those fields of a frozen ``outcome`` that are not None arrays of numbers."""
+    for name in fields:
+        if (value := getattr(outcome, name)) is not None:
+            object.__setattr__(outcome, name, np.asarray(value, dtype=np.float64))
+
+
 @dataclass(frozen=True, eq=False)
 class Imputation:
     """Truth and prediction of hidden entries; recordings are concatenated along the frames.
+
+    Nested lists are taken as arrays.
 
     Parameters
     ----------
@@ -76,7 +85,7 @@ class Imputation:
     Raises
     ------
     ValueError
-        On access to `poses`, if the outcome has no ``place_joints``.
+        If ``hidden`` is not boolean; on access to `poses`, if the outcome has no ``place_joints``.
     """
 
     truth: Array
@@ -89,6 +98,15 @@ class Imputation:
     units: tuple[str, ...] = ()
     place_joints: Callable[[], ImputedPoses] | None = None
 
+    def __post_init__(self) -> None:
+        _as_numbers(self, "truth", "mean", "variance", "visible_mean", "visible_variance", "scales")
+        mask = np.asarray(self.hidden)
+        if mask.dtype != np.bool_:  # numbers would be taken as frames
+            raise ValueError(
+                f"expected hidden to be True or False for each entry, got numbers of {mask.dtype}"
+            )
+        object.__setattr__(self, "hidden", mask)
+
     @cached_property
     def poses(self) -> ImputedPoses:
         """The joints of truth and prediction in space."""
@@ -98,6 +116,8 @@ class Imputation:
 @dataclass(frozen=True, eq=False)
 class Synthesis:
     """Sampled recordings, and the reference recordings to compare them with.
+
+    Nested lists are taken as arrays.
 
     Parameters
     ----------
@@ -118,6 +138,9 @@ class Synthesis:
     samples: Array
     references: Array
     place_joints: Callable[[], SampledPoses] | None = None
+
+    def __post_init__(self) -> None:
+        _as_numbers(self, "samples", "references")
 
     @cached_property
     def poses(self) -> SampledPoses:

@@ -1,10 +1,14 @@
 """The conformance kit, over everything registered."""
 
+from dataclasses import replace
+
 import pytest
 from format_files import sample
 
+from mocapbench.baselines import FrameImputer
 from mocapbench.benchmark.registry import FORMATS, METRICS, MODELS, TASKS
 from mocapbench.benchmark.testing import check_format, check_metric, check_task, model_checks
+from mocapbench.benchmark.testing.subject import GAP, Subject, problem
 
 CHECKS = [
     pytest.param(name, check, id=f"{name}-{check.__name__}")
@@ -16,6 +20,18 @@ CHECKS = [
 @pytest.mark.parametrize(("name", "check"), CHECKS)
 def test_a_model_conforms(name, check):
     check(MODELS.get(name))
+
+
+FILLERS = [name for name in MODELS.names() if issubclass(MODELS.get(name), FrameImputer)]
+
+
+@pytest.mark.parametrize("name", FILLERS)
+def test_a_model_refuses_to_fill_in_other_units_than_those_of_fit(name):
+    recordings = problem(GAP)
+    model = Subject(MODELS.get(name)).fitted(recordings)
+    other = replace(recordings[-1], units=("deg",) * 2)
+    with pytest.raises(ValueError, match="in unit"):
+        model.impute([other])
 
 
 @pytest.mark.parametrize("name", TASKS.names())

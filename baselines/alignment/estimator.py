@@ -48,7 +48,7 @@ class CycleAligner(Aligner):
         """
         check_settings(**self.get_params())
         checked = check_recordings(recordings)
-        self.channels_ = checked[0].channels
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         ordered = sorted(checked, key=lambda recording: recording.name)
         self.scaling_ = Standardisation.of(ordered)
         self.names_ = tuple(recording.name for recording in ordered)
@@ -96,7 +96,7 @@ class CycleAligner(Aligner):
 
     def _check_fitted(self, recordings: Sequence[Recording]) -> None:
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
 
     def _aligned(self, recording: Recording) -> StatePath:
         if recording.name in self.fitted_:

@@ -34,7 +34,7 @@ def check_recordings(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
     checked = _listed(recordings)
     if not checked:
         raise ValueError("expected at least one recording, got none")
-    check_channels(checked, checked[0].channels)
+    check_channels(checked, checked[0].channels, checked[0].units)
     names = [recording.name for recording in checked]
     if len(set(names)) != len(names):
         repeated = sorted({name for name in names if names.count(name) > 1})
@@ -42,23 +42,23 @@ def check_recordings(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
     return checked
 
 
-def check_channels(recordings: Sequence[Recording], channels: tuple[str, ...]) -> None:
+def check_channels(
+    recordings: Sequence[Recording], channels: tuple[str, ...], units: tuple[str, ...]
+) -> None:
     """Check that every recording has the given channels, in the same order and the same units.
 
     Raises
     ------
     ValueError
-        If it is no sequence of recordings, or one has other channels, or other units than the
-        first.
+        If it is no sequence of recordings, or one has other channels or units.
     """
-    checked = _listed(recordings)
-    for recording in checked:
+    for recording in _listed(recordings):
         if recording.channels != channels:
             raise ValueError(
                 f"recording {recording.name!r}: expected channels {channels}, "
                 f"got {recording.channels}; select the same channels of every recording"
             )
-        _check_units(checked[0], recording)
+        _check_units(recording, units)
 
 
 def _listed(recordings: object) -> tuple[Recording, ...]:
@@ -75,12 +75,12 @@ def _listed(recordings: object) -> tuple[Recording, ...]:
     return listed
 
 
-def _check_units(first: Recording, other: Recording) -> None:
-    for channel, one, two in zip(first.channels, first.units, other.units, strict=True):
-        if one != two:
+def _check_units(recording: Recording, units: tuple[str, ...]) -> None:
+    for channel, expected, got in zip(recording.channels, units, recording.units, strict=True):
+        if got != expected:
             raise ValueError(
-                f"recording {other.name!r}: expected channel {channel!r} in unit {one!r} as in "
-                f"recording {first.name!r}, got {two!r}; convert one of the recordings"
+                f"recording {recording.name!r}: expected channel {channel!r} in unit {expected!r} "
+                f"as in the other recordings, got {got!r}; convert one of them"
             )
 
 

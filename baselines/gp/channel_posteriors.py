@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.recordings import check_channels
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.left_out import LeftOut, side_by_side
@@ -30,11 +31,13 @@ class ChannelPosteriors(Conditioned, Synthesiser, Generic[Single]):
     """The fitted models of all channels, side by side; channels are independent."""
 
     channels_: tuple[str, ...]
+    units_: tuple[str, ...]
     models_: tuple[Single, ...]
 
     def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
         """Return the posteriors of recordings, and the errors of their visible entries."""
         check_is_fitted(self)
+        check_channels(recordings, self.channels_, self.units_)
         by_channel = [
             model.left_out([recording.select([channel]) for recording in recordings])
             for channel, model in zip(self.channels_, self.models_, strict=True)

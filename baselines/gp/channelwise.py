@@ -9,7 +9,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from mocapbench.baselines.common.recordings import check_recordings
-from mocapbench.baselines.common.validation import check_positive
+from mocapbench.baselines.common.validation import check_positive, check_seed
 from mocapbench.baselines.gp.channel_posteriors import ChannelPosteriors, Single
 from mocapbench.datasets import Recording
 
@@ -117,7 +117,7 @@ class Channelwise(ChannelPosteriors[Single]):
         """
         checked = check_recordings(recordings)
         models = self._unfitted(checked[0].channels)
-        self.channels_ = tuple(models)
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.models_ = tuple(
             model.fit([recording.select([channel]) for recording in checked])
             for channel, model in models.items()
@@ -131,6 +131,7 @@ class Channelwise(ChannelPosteriors[Single]):
 
     def _unfitted(self, channels: Sequence[str]) -> Mapping[str, Single]:
         """Return a model to fit for each channel; a warm start takes the channel's previous one."""
+        check_seed("random_state", self.random_state)
         settings = self.get_params() | {"random_state": np.random.default_rng(self.random_state)}
         if self.max_seconds is not None:
             check_positive("max_seconds", self.max_seconds)

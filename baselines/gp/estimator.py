@@ -19,6 +19,7 @@ from mocapbench.baselines.common.validation import (
     check_count,
     check_jobs,
     check_positive,
+    check_seed,
     components_of,
 )
 from mocapbench.baselines.gp.imputation import RecordingPosterior
@@ -175,6 +176,7 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
             If the covariance is singular at a start.
         """
         checked = check_recordings(recordings)
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.tree_ = self.grow([recording.name for recording in checked])
         self._check_parameters()
         self.scaling_ = Standardisation.of(checked)
@@ -257,6 +259,7 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
         if self.max_seconds is not None:
             check_positive("max_seconds", self.max_seconds)
         check_jobs(self.n_jobs)
+        check_seed("random_state", self.random_state)
         check_choice("kernel", self.kernel, KERNELS)
         check_choice("solver", self.solver, PLANS)
         check_choice("sampled_trend", self.sampled_trend, TRENDS)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.recordings import check_channels
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.covariances import LearntCovariances
@@ -26,12 +27,15 @@ Array = NDArray[np.float64]
 class RecordingPosterior(LearntCovariances, Conditioned):
     """A trained model that conditions on the recordings given to `fit`."""
 
+    channels_: tuple[str, ...]
+    units_: tuple[str, ...]
     recordings_: Mapping[str, Recording]
     reduction_: Reduction
 
     def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
         """Return the posteriors of recordings, and the errors of their visible entries."""
         check_is_fitted(self)
+        check_channels(recordings, self.channels_, self.units_)
         terms = [self._terms(recording) for recording in recordings]
         with self._threaded_process() as process:
             curves = process.infer(terms, [recording.times for recording in recordings])

@@ -75,7 +75,7 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
         self._check_parameters()
         dynamics, learning = self._dynamics(), self._learning()
         self.sequences_ = TrainingSequences.of(recordings)
-        self.channels_ = recordings[0].channels
+        self.channels_, self.units_ = recordings[0].channels, recordings[0].units
         self.matcher_ = PoseViterbi().fit(recordings)
         self.frame_seconds_ = float(np.median(np.diff(recordings[0].times)))
         y = self.sequences_.y
@@ -125,7 +125,7 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
             If channels differ, a frame is hidden in part, or no frame is visible.
         """
         check_is_fitted(self)
-        check_channels(recordings, self.channels_)
+        check_channels(recordings, self.channels_, self.units_)
         return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:

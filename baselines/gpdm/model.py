@@ -84,8 +84,8 @@ class GPDM(DynamicalModel):
 
     Attributes
     ----------
-    channels_ : tuple of D str
-        The channels of the recordings given to `fit`.
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     sequences_ : TrainingSequences
         The training frames.
     estimate_ : PointEstimate

@@ -71,6 +71,8 @@ def test_fit_keeps_the_constructor_parameters(model, recordings):
         ({"tol": float("nan")}, "tol"),
         ({"max_seconds": -1.0}, "max_seconds"),
         ({"max_seconds": "long"}, "max_seconds"),
+        ({"random_state": "q"}, "random_state to be None, an integer"),
+        ({"random_state": -1}, "random_state to be None, an integer"),
         ({"n_components": {"grandchild": 1}}, "for each of the layers"),
         ({"n_components": {}}, "for each of the layers"),
         ({"n_components": {"parent": 1, "child": 1, "pet": 1}}, "for each of the layers"),

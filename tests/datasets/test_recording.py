@@ -78,6 +78,12 @@ def test_an_unknown_channel_cannot_be_selected():
         recorded(VALUES).select(["a", "d"])
 
 
+def test_a_string_is_no_list_of_channels():
+    """It would be taken as one name per letter."""
+    with pytest.raises(ValueError, match=r"expected channels .* got the string 'ab'"):
+        recorded(VALUES).select("ab")
+
+
 def test_frames_keep_their_times():
     some = recorded(VALUES).frames([1, 3])
     np.testing.assert_array_equal(some.times, [1, 3])

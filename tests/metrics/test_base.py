@@ -118,3 +118,21 @@ def test_visible_entries_do_not_count(draw, make, metric):
         visible_variance=outcome.visible_variance,
     )
     assert metric(changed).value == metric(outcome).value
+
+
+@pytest.mark.parametrize(
+    "metric",
+    [m for m in METRICS if m.outcome in (Imputation, Synthesis)],
+    ids=lambda m: m.name,
+)
+def test_lists_count_as_arrays(metric, outcomes):
+    outcome = outcomes[metric.outcome]
+    arrays = {name: v for name, v in vars(outcome).items() if isinstance(v, np.ndarray)}
+    lists = dataclasses.replace(outcome, **{name: v.tolist() for name, v in arrays.items()})
+    assert metric(lists).value == metric(outcome).value
+
+
+def test_a_mask_of_numbers_is_refused(make):
+    """Zeros and ones would be taken as the numbers of frames."""
+    with pytest.raises(ValueError, match=r"expected hidden to be True or False .* of int64"):
+        make(np.zeros((2, 2)), 1.0, hidden=[[0, 1], [1, 0]])
