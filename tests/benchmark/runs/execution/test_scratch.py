@@ -11,11 +11,11 @@ import pytest
 from mocapbench.benchmark.runs.execution.scratch import scratch_folder
 
 HOLD_ONE = (
-    "import time\n"
+    "import os, time\n"
     "from mocapbench.benchmark.runs.execution.scratch import scratch_folder\n"
     "with scratch_folder() as folder:\n"
     "    (folder / 'file').write_text('mine')\n"
-    "    print(folder, flush=True)\n"
+    "    os.write(1, f'{folder}\\n'.encode())\n"
     "    time.sleep(600)\n"
 )
 
@@ -66,7 +66,7 @@ def test_that_of_a_killed_process_goes_when_the_next_is_made(tmp_path, other):
 
 
 def test_it_lives_while_a_child_of_its_killed_maker_does(tmp_path):
-    fork = HOLD_ONE.replace("    print", "    __import__('os').fork()\n    print", 1)
+    fork = HOLD_ONE.replace("    os.write", "    os.fork()\n    os.write", 1)
     with subprocess.Popen(
         [sys.executable, "-c", fork], stdout=subprocess.PIPE, text=True, start_new_session=True
     ) as maker:
