@@ -76,7 +76,7 @@ class Conditioned(Widened, Imputer):
         return [errors.claimed for errors in self.left_out(recordings)]
 
     def _borne_out(self, recording: Recording, errors: LeftOut) -> Prediction:
-        check = VarianceCheck.of(recording, long_copies)
-        tried = check.applied(errors.claimed, self.as_tried(check.trials()))
-        variances = [np.asarray(each.variance) for each in (tried, errors.widened())]
-        return Prediction(errors.claimed.mean, np.maximum(*variances))
+        check, factors = VarianceCheck.of(recording, long_copies), errors.factors()
+        if check.copies:
+            factors = np.maximum(factors, check.factors(self.as_tried(check.trials())))
+        return Prediction(errors.claimed.mean, np.asarray(errors.claimed.variance) * factors)

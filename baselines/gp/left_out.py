@@ -25,7 +25,8 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.baselines.rehearsal.ratios import mean_ratios
-from mocapbench.datasets import Recording
+from mocapbench.baselines.rehearsal.variance_check import STEEPEST
+from mocapbench.datasets import Mask, Recording
 
 __all__ = ["LeftOut", "side_by_side"]
 
@@ -36,6 +37,10 @@ _RESOLVED = 1e-11
 
 On walks of 39 channels the latent split knows v to 2e-13 / β or better (``docs/inference.md``).
 """
+_AS_CLAIMED = 200
+"""Entries as good as claimed that count besides, before variances become smaller.
+
+``docs/calibration.md`` has the choice."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,17 +89,45 @@ class LeftOut:
             np.hstack([channel.squares for channel in channels]),
         )
 
-    def widened(self) -> Prediction:
-        """Return the claims, with each channel's variances times its mean square if above 1.
+    def factors(self) -> Array:
+        """Return what each channel's claimed variances are to be multiplied by: (D,).
 
-        The mean over all channels counts as ten entries in each (`mean_ratios`).
+        The mean square of the channel, in which the mean over all channels counts as ten entries
+        (`mean_ratios`), but never less than what all entries together bear out.
         """
         counts = np.isfinite(self.squares).sum(axis=0)
+        sums = np.nansum(self.squares, axis=0)
         if not counts.any():
-            return self.claimed
-        factors = mean_ratios(np.nansum(self.squares, axis=0), counts)
-        variance = np.asarray(self.claimed.variance, dtype=np.float64)
-        return Prediction(self.claimed.mean, variance * np.maximum(factors, 1.0))
+            return np.ones(len(counts))
+        return np.maximum(mean_ratios(sums, counts), self._least(sums.sum(), counts.sum()))
+
+    def _least(self, total: float, count: int) -> float:
+        """Return the least factor, at most 1: 200 entries that are as claimed count besides.
+
+        Where gaps lie farther from what is visible than the entries that were left out, the ratio
+        is taken to grow as steeply as trials ever let it.
+        """
+        left_out = np.isfinite(self.squares)
+        gaps = np.asarray(self.claimed.variance) > 0.0
+        visible = ~gaps
+        farther = max(_mean_distance(visible, gaps) / _mean_distance(visible, left_out), 1.0)
+        ratio = (total + _AS_CLAIMED) / (count + _AS_CLAIMED)
+        return float(min(ratio * farther**STEEPEST, 1.0))
+
+
+def _mean_distance(visible: Mask, entries: Mask) -> float:
+    """Return the mean number of frames from ``entries`` (N, D) to the nearest other visible one.
+
+    Those without another visible entry in their channel do not count; 1 where none has one.
+    """
+    frames = np.arange(len(visible), dtype=np.float64)[:, None]
+    nowhere = np.full((1, visible.shape[1]), np.inf)
+    last = np.maximum.accumulate(np.where(visible, frames, -np.inf))
+    next_ = np.minimum.accumulate(np.where(visible, frames, np.inf)[::-1])[::-1]
+    before, after = np.vstack([-nowhere, last[:-1]]), np.vstack([next_[1:], nowhere])
+    distances = np.minimum(frames - before, after - frames)[entries]
+    known = distances[np.isfinite(distances)]
+    return float(known.mean()) if len(known) else 1.0
 
 
 def side_by_side(channels: Sequence[Prediction]) -> Prediction:

@@ -32,7 +32,7 @@ from mocapbench.baselines.rehearsal.trials import (
 )
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["VarianceCheck"]
+__all__ = ["STEEPEST", "VarianceCheck"]
 
 Array = NDArray[np.float64]
 Distances = NDArray[np.intp]
@@ -44,7 +44,7 @@ _MARGIN = 4.0
 """How many times as large as the worst of these trials shows variances may be."""
 _LEAST = 1e-4
 """The least factor of variances: where nothing varies, trials err nowhere."""
-_STEEPEST = 0.6
+STEEPEST = 0.6
 """Largest power of the distance by which ratios grow: what two short lengths say is noisy.
 ``docs/calibration.md`` has the choice."""
 
@@ -118,7 +118,7 @@ class VarianceCheck:
         """The most by which ratios may grow from the copies to the gaps, (D,); 1 if not shorter."""
         gap, copy, _ = self._distances
         lengthened = np.divide(gap, copy, out=np.ones(len(gap)), where=(copy > 0) & (copy < gap))
-        return np.asarray(lengthened**_STEEPEST)
+        return np.asarray(lengthened**STEEPEST)
 
     def _least(self, answers: Sequence[Prediction]) -> Array:
         """Return the least that variances may be multiplied by: (D,), at most 1."""
@@ -135,7 +135,7 @@ class VarianceCheck:
         halves = self._ratios(self.halves, answers).sum(axis=0)
         less, fewer = (each[short].sum() for each in halves)
         steps = (sums[short].sum() / counts[short].sum() + _TINY) / (less / fewer + _TINY)
-        power = np.clip(np.log(steps) / np.log(copy / half).mean(), 0.0, _STEEPEST)
+        power = np.clip(np.log(steps) / np.log(copy / half).mean(), 0.0, STEEPEST)
         growth = np.ones(len(short))
         growth[short] = (gap / copy) ** power
         return growth

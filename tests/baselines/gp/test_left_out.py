@@ -149,16 +149,48 @@ def test_entries_of_which_rounding_may_decide_do_not_count(recordings):
     squares=arrays(np.float64, SHAPE, elements=st.floats(0.0, 9.0)),
     seen=arrays(np.bool_, SHAPE),
 )
-def test_variances_grow_by_the_mean_square_and_never_shrink(squares, seen):
-    """The mean over all channels counts as ten entries in each."""
-    claimed = Prediction(np.ones(SHAPE), np.full(SHAPE, 2.0))
-    widened = LeftOut(claimed, np.where(seen, squares, np.nan)).widened()
-    np.testing.assert_array_equal(widened.mean, claimed.mean)
-    pooled = squares[seen].mean() if seen.any() else 1.0
+def test_variances_follow_the_mean_square(squares, seen):
+    """Of a channel, and never below that of all, in which 200 entries count that are as claimed.
+
+    The mean over all channels counts as ten entries in each.
+    """
+    claimed = Prediction(np.ones(SHAPE), np.where(seen, 0.0, 2.0))
+    factors = LeftOut(claimed, np.where(seen, squares, np.nan)).factors()
+    if not seen.any():
+        np.testing.assert_array_equal(factors, 1.0)
+        return
+    pooled = squares[seen].mean()
+    # The nearest other visible frame of the gaps, and of the entries that were left out.
+    gaps, entries = mean_distance(seen, ~seen), mean_distance(seen, seen)
+    of_all = (squares[seen].sum() + 200.0) / (seen.sum() + 200.0)
+    least = min(of_all * max(gaps / entries, 1.0) ** 0.6, 1.0)
     for channel in range(SHAPE[1]):
         own = squares[seen[:, channel], channel]
-        factor = max(1.0, (own.sum() + 10.0 * pooled) / (len(own) + 10.0))
-        np.testing.assert_allclose(widened.variance[:, channel], 2.0 * factor)
+        factor = max(least, (own.sum() + 10.0 * pooled) / (len(own) + 10.0))
+        np.testing.assert_allclose(factors[channel], factor)
+
+
+def mean_distance(visible, entries):
+    """Return how many frames entries are from the nearest other visible one, one by one."""
+    distances = []
+    for frame, channel in np.argwhere(entries):
+        others = np.setdiff1d(np.flatnonzero(visible[:, channel]), [frame])
+        distances.extend(np.abs(others - frame).min(keepdims=True) if len(others) else [])
+    return np.mean(distances) if distances else 1.0
+
+
+def test_entries_between_visible_ones_say_less_of_longer_gaps():
+    """Most of 4,000 visible entries are far better predicted than claimed."""
+    hidden = np.zeros((100, 50), dtype=bool)
+    hidden[40:60] = True
+    squares = np.where(hidden, np.nan, 0.25)
+    long, short = (
+        LeftOut(Prediction(np.ones(hidden.shape), np.where(mask, 2.0, 0.0)), squares).factors()
+        for mask in (hidden, hidden & (np.arange(100)[:, None] == 50))
+    )
+    assert (short < 0.5).all()
+    # Hidden entries are 1 to 10 frames from visible ones, those left out 1.
+    np.testing.assert_allclose(long, short * 5.5**0.6)
 
 
 def test_complete_recordings_have_nothing_to_widen_though_they_have_moved(recordings):
@@ -204,7 +236,8 @@ def test_gaps_are_tried_where_entries_left_out_one_by_one_say_little():
         given = full.hide(hidden)
         fitted = GPIndependent(kernel="matern12", max_iter=20).fit((*others, given))
         (errors,), (filled,) = fitted.left_out([given]), fitted.impute([given])
-        one_by_one = errors.widened()
+        variance = errors.claimed.variance * errors.factors()
+        one_by_one = replace(errors.claimed, variance=variance)
         np.testing.assert_array_equal(filled.mean, one_by_one.mean)
         assert (filled.variance >= one_by_one.variance).all()
         within = [abs(p.mean - full.values) < 1.96 * p.variance**0.5 for p in (one_by_one, filled)]
