@@ -7,9 +7,11 @@ from typing import ClassVar, Self
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
+from mocapbench.baselines.choosing.parts import parts_of
 from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
@@ -30,7 +32,8 @@ class BestOf(Imputer, Inductive):
     the one to fill, in turn and left out of training: by what a candidate's error grows there from
     the copies to the gaps, its error is multiplied.
 
-    Channels of one unit share their weights, those of stacked regression: :math:`w = \arg\min
+    Channels of one unit share their weights, and have others for gaps in all channels if there are
+    gaps of other kinds besides. Weights are those of stacked regression: :math:`w = \arg\min
     w^\top G w` over :math:`w \ge 0, \sum_i w_i = 1`. :math:`G = \sum_s G_s / \min_i G_{s,ii}` adds
     up the sources s of evidence, each with the mean products :math:`G_{s,ij}` to expect of the
     errors of candidates i and j, whose correlations :math:`\rho_{ij}` become :math:`(1 - \lambda)
@@ -115,7 +118,8 @@ class BestOf(Imputer, Inductive):
         """Return the weights of the candidates that can fill a recording: (C, U).
 
         There is a row for each candidate and a column for each unit of the channels; columns sum to
-        one.
+        one. Where a recording has gaps in all channels and others, there is a second column for
+        each unit, such as ``"deg, whole frames"``, which is that of gaps in all channels.
 
         Raises
         ------
@@ -130,15 +134,18 @@ class BestOf(Imputer, Inductive):
     def _sources(
         self, rehearsals: Rehearsals, names: Container[str]
     ) -> Mapping[str, Sequence[Products]]:
-        """Return the sources of evidence on the channels of each unit."""
-        units = np.array(rehearsals.given.units)
+        """Return the sources of evidence on each part of the gaps."""
+        found = {
+            name: (evidence(rehearsals, part) for part in parts)
+            for name, parts in parts_of(rehearsals.given).items()
+        }
         return {
-            unit: among(evidence(rehearsals, units == unit), names) for unit in np.unique(units)
+            name: among(next(filter(None, sources), []), names) for name, sources in found.items()
         }
 
     def _weights(self, sources: Mapping[str, Sequence[Products]]) -> pd.DataFrame:
-        by_unit = {unit: weights_of(each, self.shrinkage) for unit, each in sources.items()}
-        return pd.DataFrame(by_unit).fillna(0.0)
+        by_part = {part: weights_of(each, self.shrinkage) for part, each in sources.items()}
+        return pd.DataFrame(by_part).fillna(0.0)
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the weighted mean of the candidates, and the variance of their mixture.
@@ -163,22 +170,29 @@ class BestOf(Imputer, Inductive):
         filled = self.panel_.means(recording)
         if LAST_RESORT not in filled:  # it says what nothing can fill
             return self.panel_.models[LAST_RESORT].impute([recording])[0]
-        rehearsals, units = self._rehearsals(recording), list(recording.units)
+        rehearsals = self._rehearsals(recording)
         sources = self._sources(rehearsals, filled)
         weights = self._weights(sources)
         weights = weights[(weights > 0.0).any(axis=1)]
-        errors = pd.DataFrame({unit: expected_errors(each) for unit, each in sources.items()})
-        expected = errors.reindex(weights.index).fillna(1.0)[units] * rehearsals.scale**2
-        answers = self.panel_.impute(recording, weights.index)
-        shares = weights[units].to_numpy()[:, None]
-        means = np.stack([answers[name].mean for name in weights.index])
-        claimed = np.stack([_claimed(answers[name], expected.loc[name]) for name in weights.index])
+        errors = pd.DataFrame({part: expected_errors(each) for part, each in sources.items()})
+        errors = errors.reindex(weights.index).fillna(1.0)
+        filled_by = self.panel_.impute(recording, weights.index)
+        answers = [filled_by[name] for name in weights.index]
+        shares, expected = (_spread(table, recording) for table in (weights, errors))
+        means = np.stack([answer.mean for answer in answers])
+        claimed = np.stack(list(map(_claimed, answers, expected * rehearsals.scale**2)))
         mean = (shares * means).sum(axis=0)
         variance = (shares * (claimed + (means - mean) ** 2)).sum(axis=0)
         return Prediction.around(recording, mean, variance)
 
 
-def _claimed(answer: Prediction, expected: pd.Series) -> FrameByChannel:
+def _spread(by_part: pd.DataFrame, recording: Recording) -> NDArray[np.float64]:
+    """Return a table of candidates and parts for every entry: (C, N, D)."""
+    parts, hidden = parts_of(recording), ~recording.visible
+    entries = np.stack([parts[name][0].entries(hidden) for name in map(str, by_part)])
+    return np.tensordot(by_part.to_numpy(), entries, 1)
+
+
+def _claimed(answer: Prediction, expected: FrameByChannel) -> FrameByChannel:
     """Return the variance of a candidate (N, D), or what to expect if it claims none."""
-    variance = np.asarray(expected) if answer.variance is None else answer.variance
-    return np.broadcast_to(variance, answer.mean.shape)
+    return expected if answer.variance is None else answer.variance

@@ -18,6 +18,7 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
+from mocapbench.baselines.rehearsal.left_out import LeftOut
 from mocapbench.baselines.rehearsal.widening import Relearning, widened
 from mocapbench.baselines.state_space.em import expectation_maximisation
 from mocapbench.baselines.state_space.model import PRIORS
@@ -151,11 +152,22 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
-        data = self._observations(recordings)
+        return [errors.claimed for errors in self._left_out(recordings)]
+
+    def least_factors(self, recordings: Sequence[Recording]) -> list[float]:
+        """Return what variances may be multiplied by, by the errors of entries left out."""
+        return [errors.least for errors in self._left_out(recordings)]
+
+    def _left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
+        data, scale = self._observations(recordings), self.scaling_.scale
         mean, variance = moments(self.parameters_, smoothed(self.parameters_, data))
         means = map(self.scaling_.restore, data.unpad(mean))
-        variances = data.unpad(variance * self.scaling_.scale**2)
-        return list(map(Prediction.around, recordings, means, variances))
+        curves = data.unpad((variance - self.parameters_.noise) * scale**2)
+        noise = self.parameters_.noise * scale**2
+        return [
+            LeftOut.of(recording, one, curve, noise, scale)
+            for recording, one, curve in zip(recordings, means, curves, strict=True)
+        ]
 
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator

@@ -11,6 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from mocapbench.baselines.choosing.panel import Panel
+from mocapbench.baselines.choosing.parts import EVERYTHING, Part
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.common.scaling import unit_scales
@@ -18,19 +19,39 @@ from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
 from mocapbench.baselines.rehearsal.trials import trial_masks
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["EVERY_CHANNEL", "Channels", "Products", "Rehearsals"]
+__all__ = ["Products", "Rehearsals"]
 
 Array = NDArray[np.float64]
-Channels = NDArray[np.bool_] | slice
-Errors = Mapping[str, Array]
-"""(N, D) errors of each model, by name, in units of the channels' scales; NaN if not rehearsed."""
 Products = pd.DataFrame
 """(C, C) mean products of the errors of models, by name, in units of the channels' scales.
 
 Mean squared errors are on the diagonal; what is beside it says which models err alike.
 """
 
-EVERY_CHANNEL = slice(None)
+
+@dataclass(frozen=True, eq=False)
+class Errors:
+    """What models err in a rehearsal.
+
+    Parameters
+    ----------
+    by_model : mapping of str to ndarray (N, D)
+        In units of the channels' scales; NaN if not rehearsed.
+    hidden : ndarray of bool (N, D)
+        What models did not see.
+    """
+
+    by_model: Mapping[str, Array]
+    hidden: Mask
+
+    def products(self, part: Part) -> Products:
+        """Return the mean products of the errors in a part, if any of it is rehearsed."""
+        parts = [part.of(error, self.hidden) for error in self.by_model.values()]
+        rows = [errors[~np.isnan(errors)] for errors in parts]
+        if not rows or not len(rows[0]):
+            return pd.DataFrame()
+        stacked, names = np.array(rows), [*self.by_model]
+        return pd.DataFrame(stacked @ stacked.T / stacked.shape[1], names, names)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,20 +82,22 @@ class Rehearsals:
         """Whether copies of the longest gap in the recording itself had to be shortened."""
         return _longest(self.trials) < _longest([~self.given.visible])
 
-    def own(self, channels: Channels = EVERY_CHANNEL) -> list[Products]:
+    def own(self, part: Part = EVERYTHING) -> list[Products]:
         """Return the products of errors in the recording itself, for each trial."""
-        return [_products(errors, channels) for errors in self._own]
+        return [errors.products(part) for errors in self._own]
 
-    def in_training(self, channels: Channels = EVERY_CHANNEL) -> list[tuple[Products, Products]]:
+    def n_entries(self, part: Part) -> float:
+        """Return how many entries of a part the trials hide, in all."""
+        hidden = ~self.given.visible
+        return float(sum(part.of(trial, hidden | trial).sum() for trial in self.trials))
+
+    def in_training(self, part: Part = EVERYTHING) -> list[tuple[Products, Products]]:
         """Return those of training recordings held out in turn, with the gaps and in a trial.
 
         The recording held out has the gaps of the one to fill. Only copies that had to be shorter
         are tried besides.
         """
-        return [
-            (_products(full, channels), _products(copy, channels))
-            for full, copy in self._in_training
-        ]
+        return [(full.products(part), copy.products(part)) for full, copy in self._in_training]
 
     @cached_property
     def _own(self) -> list[Errors]:
@@ -104,34 +127,26 @@ class Rehearsals:
         cut, hidden = gaps
         full = self._errors(panel, cut, hidden)
         copies = [self._errors(panel, cut.hide(hidden), mask, cut) for _, mask in trials]
-        return full, copies[0] if copies else {}
+        return full, copies[0] if copies else Errors({}, hidden)
 
     def _errors(
         self, panel: Panel, given: Recording, mask: Mask, truth: Recording | None = None
     ) -> Errors:
         """Return a panel's errors where ``mask`` hides entries of ``given``."""
-        known = mask & (truth or given).visible
+        known, tried = mask & (truth or given).visible, given.hide(mask)
         if not known.any():
-            return {}
+            return Errors({}, ~tried.visible)
         values = (truth or given).values
-        return {
+        by_model = {
             name: np.where(known, (mean - values) / self.scale, np.nan)
-            for name, mean in panel.means(given.hide(mask)).items()
+            for name, mean in panel.means(tried).items()
         }
+        return Errors(by_model, ~tried.visible)
 
     @cached_property
     def scale(self) -> Array:
         """(D,) the mean spread of the channels of each channel's unit: units count alike."""
         return unit_scales([*self.fitted, self.given])
-
-
-def _products(errors: Errors, channels: Channels) -> Products:
-    """Return the mean products of the errors in some of the channels, if any is rehearsed."""
-    rows = [error[:, channels][~np.isnan(error[:, channels])] for error in errors.values()]
-    if not rows or not len(rows[0]):
-        return pd.DataFrame()
-    stacked = np.array(rows)
-    return pd.DataFrame(stacked @ stacked.T / stacked.shape[1], [*errors], [*errors])
 
 
 def _longest(masks: Sequence[Mask]) -> int:

@@ -11,7 +11,8 @@ from scipy.linalg import solve_triangular
 from scipy.optimize import nnls
 
 from mocapbench.baselines.choosing.panel import LAST_RESORT
-from mocapbench.baselines.choosing.rehearsals import EVERY_CHANNEL, Channels, Products, Rehearsals
+from mocapbench.baselines.choosing.parts import EVERYTHING, Part
+from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 
 __all__ = ["among", "evidence", "expected_errors", "weights_of"]
 
@@ -23,8 +24,8 @@ _RIDGE = 1e-9
 """Added to correlations, so that models that agree share their weight."""
 
 
-def evidence(rehearsals: Rehearsals, channels: Channels = EVERY_CHANNEL) -> Sequence[Products]:
-    """Return the products of errors to expect in the gaps of channels, by each source there is.
+def evidence(rehearsals: Rehearsals, part: Part = EVERYTHING) -> Sequence[Products]:
+    """Return the products of errors to expect in a part of the gaps, by each source there is.
 
     The sources are copies of the gaps in the recording itself, which knows the person, and training
     recordings that take its place, which know such gaps in such motions. Where copies had to be
@@ -35,7 +36,7 @@ def evidence(rehearsals: Rehearsals, channels: Channels = EVERY_CHANNEL) -> Sequ
     """
     if rehearsals.given.visible.all():
         return []
-    own, in_training = _mean(rehearsals.own(channels)), rehearsals.in_training(channels)
+    own, in_training = _mean(rehearsals.own(part)), rehearsals.in_training(part)
     gaps = _mean(with_gaps for with_gaps, _ in in_training)
     copies = _mean(with_copies for _, with_copies in in_training) if rehearsals.are_short else gaps
     both = [name for name in own if name in gaps and name in copies]
@@ -43,8 +44,8 @@ def evidence(rehearsals: Rehearsals, channels: Channels = EVERY_CHANNEL) -> Sequ
         return [alone for alone in [own if gaps.empty else gaps] if not alone.empty]
     own, gaps, copies = (each.loc[both, both] for each in (own, gaps, copies))
     growth = np.sqrt(np.diag(gaps) / np.diag(copies))
-    n_entries = float(sum(trial[:, channels].sum() for trial in rehearsals.trials))
-    return [_steadied(own * np.outer(growth, growth), gaps, n_entries), gaps]
+    grown = own * np.outer(growth, growth)
+    return [_steadied(grown, gaps, rehearsals.n_entries(part)), gaps]
 
 
 def _steadied(own: Products, gaps: Products, n_entries: float) -> Products:

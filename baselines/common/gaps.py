@@ -16,6 +16,7 @@ __all__ = [
     "hidden_together",
     "runs",
     "visible_frames",
+    "whole_gaps",
 ]
 
 
@@ -73,6 +74,17 @@ def runs(frames: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
     index = np.flatnonzero(frames)
     breaks = np.flatnonzero(np.diff(index) > 1) + 1
     return [run for run in np.split(index, breaks) if len(run)]
+
+
+def whole_gaps(hidden: Mask) -> list[NDArray[np.intp]]:
+    """Return the gaps that most channels have in common, and that all are hidden in: their frames.
+
+    In few channels that are hidden here and there, frames in which all are hidden by chance are no
+    such gap.
+    """
+    beside = np.pad(hidden, ((1, 1), (0, 0)))
+    whole = runs(np.asarray(hidden.all(axis=1)))
+    return [gap for gap in whole if np.mean(~(beside[gap[0]] | beside[gap[-1] + 2])) > 0.5]
 
 
 def complete_stretches(recordings: Sequence[Recording]) -> list[FrameByChannel]:

@@ -13,12 +13,12 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.recordings import check_channels
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.estimator import GaussianProcess
-from mocapbench.baselines.gp.left_out import LeftOut, side_by_side
 from mocapbench.baselines.protocols import (
     Prediction,
     SampleByFrameByChannel,
     Synthesiser,
 )
+from mocapbench.baselines.rehearsal.left_out import LeftOut, side_by_side
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["ChannelPosteriors", "Single"]

@@ -13,10 +13,10 @@ from mocapbench.baselines.common.recordings import check_channels
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.covariances import LearntCovariances
-from mocapbench.baselines.gp.left_out import LeftOut
 from mocapbench.baselines.gp.posterior.fitted import FittedProcess
 from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
 from mocapbench.baselines.protocols import Prediction, SampleByFrameByChannel
+from mocapbench.baselines.rehearsal.left_out import LeftOut
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["RecordingPosterior"]

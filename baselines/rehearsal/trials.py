@@ -1,6 +1,7 @@
 """Trials: more of a recording is hidden, like its gaps, where the truth is visible.
 
-A trial hides copies of the gaps elsewhere: of the same lengths, in the same channels. The real gaps
+A trial hides copies of the gaps elsewhere: of the same lengths, in the same channels; those of gaps
+in all channels hide whole frames. The real gaps
 stay hidden. Places are spread evenly over the visible frames and draw no random numbers, so that a
 recording has the same trials wherever it is filled. A gap that reaches an end of the recording has
 visible frames on one side only, and so have its copies: they hide the first frames that are
@@ -9,12 +10,12 @@ visible, or the last ones.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.gaps import hidden_together, runs
+from mocapbench.baselines.common.gaps import hidden_together, runs, whole_gaps
 from mocapbench.datasets import Mask, Recording
 
 __all__ = [
@@ -89,9 +90,11 @@ def trial_masks(recording: Recording, places: Places = copies) -> list[Mask]:
     """
     hidden = ~recording.visible
     masks = [np.zeros_like(hidden) for _ in range(N_TRIALS)]
-    for columns in hidden_together(hidden):
+    for columns, gaps in _alike(hidden):
         for number, mask in enumerate(masks):
-            for frames in _tried(hidden[:, columns[0]], places, (number + 0.5) / N_TRIALS):
+            blocked = np.asarray((hidden | _widened(mask))[:, columns].any(axis=1))
+            spent = int(mask[:, columns].any(axis=1).sum())
+            for frames in _tried(blocked, spent, gaps, places, (number + 0.5) / N_TRIALS):
                 mask[np.ix_(frames, columns)] = True
     unlike = {mask.tobytes(): mask for mask in masks}
     return [mask for mask in unlike.values() if mask.any()]
@@ -138,25 +141,46 @@ def _half(hidden: NDArray[np.bool_], frames: Frames) -> Frames:
     return frames[first : first + length]
 
 
-def _tried(hidden: NDArray[np.bool_], places: Places, place: float) -> Iterator[Frames]:
-    """Yield the frames that stand for a channel's gaps, the first at ``place`` (0 to 1)."""
-    blocked, room = hidden.copy(), _MOST_HIDDEN * np.count_nonzero(~hidden)
+def _alike(hidden: Mask) -> Iterator[tuple[Frames, list[Frames]]]:
+    """Yield channels that have gaps together, and these gaps: first those that all channels have.
+
+    In what is left, channels that are hidden at the same frames belong together.
+    """
+    whole = whole_gaps(hidden)
+    if whole:
+        yield np.arange(hidden.shape[1]), whole
+    known = {(gap[0], gap[-1]) for gap in whole}
+    for columns in hidden_together(hidden):
+        gaps = runs(hidden[:, columns[0]])
+        yield columns, [gap for gap in gaps if (gap[0], gap[-1]) not in known]
+
+
+def _widened(mask: Mask) -> Mask:
+    """Return a mask (N, D) with the frames before and after what it hides."""
+    beside = np.pad(mask, ((1, 1), (0, 0)))
+    return beside[:-2] | beside[1:-1] | beside[2:]
+
+
+def _tried(
+    blocked: NDArray[np.bool_], spent: int, gaps: Sequence[Frames], places: Places, place: float
+) -> Iterator[Frames]:
+    """Yield the frames that stand for gaps, the first at ``place`` (0 to 1).
+
+    They are free of what is blocked; ``spent`` frames that were visible have been hidden before.
+    """
+    blocked, room = blocked.copy(), _MOST_HIDDEN * np.count_nonzero(~blocked)
     taken = 0
-    for gap in sorted(runs(hidden), key=len, reverse=True):
+    for gap in sorted(gaps, key=len, reverse=True):
         if taken and taken + len(gap) > room:
             continue
-        frames = _placed(blocked, places(blocked, gap, place % 1.0))
+        most = (np.count_nonzero(~blocked) - spent) // 2
+        alternatives = places(blocked, gap, place % 1.0)
+        none = np.empty(0, dtype=np.intp)
+        frames = next((each for each in alternatives if len(each) <= most), none)
         if len(frames):
             blocked[max(frames[0] - 1, 0) : frames[-1] + 2] = True
             taken, place = taken + len(frames), place + _GOLDEN
             yield frames
-
-
-def _placed(blocked: NDArray[np.bool_], alternatives: Iterator[Frames]) -> Frames:
-    """Return the first of the alternatives that leaves enough visible; no frames if none does."""
-    most = np.count_nonzero(~blocked) // 2
-    fitting = (frames for frames in alternatives if len(frames) <= most)
-    return next(fitting, np.empty(0, dtype=np.intp))
 
 
 def _at_an_end(blocked: NDArray[np.bool_], gap: Frames) -> bool:

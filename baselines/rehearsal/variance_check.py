@@ -83,7 +83,9 @@ class VarianceCheck:
         """Return the recording as each trial shows it, the copies first."""
         return [self.recording.hide(mask) for mask in (*self.copies, *self.halves)]
 
-    def applied(self, claimed: Prediction, answers: Sequence[Prediction]) -> Prediction:
+    def applied(
+        self, claimed: Prediction, answers: Sequence[Prediction], least: float = 1.0
+    ) -> Prediction:
         """Return a prediction with variances that the answers to the trials bear out.
 
         Parameters
@@ -92,10 +94,12 @@ class VarianceCheck:
             Of the recording.
         answers : sequence of Prediction
             Of the `trials`, in their order.
+        least : float, default=1.0
+            What variances may be multiplied by if trials bear out as little; at most 1.
         """
         if not answers or claimed.variance is None:
             return claimed
-        factors = np.maximum(self.factors(answers), self._least(answers))
+        factors = np.maximum(self.factors(answers), np.minimum(self._least(answers), least))
         return Prediction(claimed.mean, claimed.variance * factors)
 
     def factors(self, answers: Sequence[Prediction]) -> Array:

@@ -32,6 +32,13 @@ class Widened(Model):
         """Return what it claims of recordings of which more is hidden."""
         return self.as_claimed(trials)
 
+    def least_factors(self, recordings: Sequence[Recording]) -> list[float]:
+        """Return what variances in each recording may at least be multiplied by, at most 1.
+
+        It is 1 if nothing but trials tells that a model claims too much.
+        """
+        return [1.0] * len(recordings)
+
 
 class Relearning(Widened):
     """A model that learns anew for the trials of a recording from which it has learnt.
@@ -68,7 +75,8 @@ def widened(model: Widened, recordings: Sequence[Recording]) -> list[Prediction]
     checks = [VarianceCheck.of(recording) for recording in recordings]
     trials = [trial for check in checks for trial in check.trials()]
     answers = iter(model.as_tried(trials) if trials else ())
+    least, claims = model.least_factors(recordings), model.as_claimed(recordings)
     return [
-        check.applied(claimed, list(islice(answers, check.n_trials)))
-        for check, claimed in zip(checks, model.as_claimed(recordings), strict=True)
+        check.applied(claimed, list(islice(answers, check.n_trials)), factor)
+        for check, claimed, factor in zip(checks, claims, least, strict=True)
     ]

@@ -116,13 +116,16 @@ class Staged(Rehearsals):
         object.__setattr__(self, "given", _Gap())
         object.__setattr__(self, "panel", recording)
         object.__setattr__(self, "errors", (own, in_training, short))
-        object.__setattr__(self, "trials", [np.array([[n_entries]])])
+        object.__setattr__(self, "hides", n_entries)
 
-    def own(self, channels):
+    def own(self, part):
         return self.errors[0]
 
-    def in_training(self, channels):
+    def in_training(self, part):
         return self.errors[1]
+
+    def n_entries(self, part):
+        return self.hides
 
     @property
     def are_short(self):

@@ -19,7 +19,7 @@ def _rows():
 
 
 def _module(path):
-    prefix = "" if path.startswith("common/") else "gp."
+    prefix = "" if path.startswith(("common/", "rehearsal/")) else "gp."
     return import_module("mocapbench.baselines." + prefix + path.replace("/", "."))
 
 

@@ -87,6 +87,17 @@ def test_copies_of_a_gap_that_reaches_an_end_have_visible_frames_on_one_side_onl
         assert len(copy) == length or 4 * len(copy) > 60 - length
 
 
+def test_a_gap_in_all_channels_beside_others_has_whole_frames_as_copies():
+    hidden = np.zeros((100, 4), dtype=bool)
+    hidden[40:45] = True
+    hidden[10:18, 0], hidden[45:50, 3] = True, True  # the second continues the gap in all
+    for mask in trial_masks(recording(hidden)):
+        (whole,) = runs(mask.all(axis=1))
+        assert len(whole) == 5
+        lengths = [sorted(map(len, runs(column))) for column in mask.T]
+        assert lengths == [[5, 8], [5], [5], [5, 10]]
+
+
 def test_frames_hidden_as_a_whole_have_whole_frames_as_copies():
     hidden = np.zeros((50, 3), dtype=bool)
     hidden[4:35] = True

@@ -141,6 +141,7 @@ FIT_PATH = [
     ("baselines.common.lapack", "toy-interpolation-1", "mohgp"),
     ("baselines.common.own_means", "walking-interpolation", "low-rank"),
     ("baselines.common.prototypes", "style-clustering", "k-fam"),
+    ("baselines.rehearsal.left_out", "toy-interpolation-1", "mohgp"),
     ("baselines.rehearsal.ratios", "toy-interpolation-1", "mohgp"),
     ("baselines.common.recordings", "toy-interpolation-1", "trivial"),
     ("baselines.rehearsal.rehearsing", "subject-35-missing", "channel-kriging"),

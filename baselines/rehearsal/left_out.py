@@ -99,19 +99,20 @@ class LeftOut:
         sums = np.nansum(self.squares, axis=0)
         if not counts.any():
             return np.ones(len(counts))
-        return np.maximum(mean_ratios(sums, counts), self._least(sums.sum(), counts.sum()))
+        return np.maximum(mean_ratios(sums, counts), self.least)
 
-    def _least(self, total: float, count: int) -> float:
-        """Return the least factor, at most 1: 200 entries that are as claimed count besides.
+    @property
+    def least(self) -> float:
+        """The least factor that they bear out, at most 1: 200 entries as claimed count besides.
 
         Where gaps lie farther from what is visible than the entries that were left out, the ratio
         is taken to grow as steeply as trials ever let it.
         """
         left_out = np.isfinite(self.squares)
+        ratio = (np.nansum(self.squares) + _AS_CLAIMED) / (left_out.sum() + _AS_CLAIMED)
         gaps = np.asarray(self.claimed.variance) > 0.0
         visible = ~gaps
         farther = max(_mean_distance(visible, gaps) / _mean_distance(visible, left_out), 1.0)
-        ratio = (total + _AS_CLAIMED) / (count + _AS_CLAIMED)
         return float(min(ratio * farther**STEEPEST, 1.0))
 
 
