@@ -14,7 +14,11 @@ from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
 from mocapbench.baselines.choosing.parts import parts_of
 from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
-from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.recordings import (
+    check_channels,
+    check_recordings,
+    check_spread,
+)
 from mocapbench.baselines.common.validation import check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
@@ -103,12 +107,13 @@ class BestOf(Imputer, Inductive):
         Raises
         ------
         ValueError
-            If a parameter is out of range, there is no recording, channels differ, or a name
-            repeats.
+            If a parameter is out of range, there is no recording, channels differ, a name
+            repeats, or a channel has a single visible entry.
         """
         check_share("shrinkage", self.shrinkage)
         # In the order of names, so that the order given does not affect results.
         checked = check_recordings(recordings)
+        check_spread(checked)
         self.recordings_ = tuple(sorted(checked, key=lambda recording: recording.name))
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.panel_ = Panel.of(self.recordings_)

@@ -12,7 +12,11 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.own_means import OwnMeans
-from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.recordings import (
+    check_channels,
+    check_recordings,
+    check_spread,
+)
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.baselines.rehearsal.widening import Relearning, widened
@@ -121,13 +125,14 @@ class LowRank(Relearning, Imputer, Inductive):
         Raises
         ------
         ValueError
-            If a parameter is out of range, there is no recording, channels differ, or a name
-            repeats.
+            If a parameter is out of range, there is no recording, channels differ, a name
+            repeats, or a channel has a single visible entry.
         """
         check_share("explained_variance", self.explained_variance)
         check_count("max_iter", self.max_iter, 1)
         check_positive("tolerance", self.tolerance)
         checked = check_recordings(recordings)
+        check_spread(checked)
         self.learnt_from_ = checked
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.own_means_ = OwnMeans.of(checked)

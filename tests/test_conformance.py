@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from format_files import sample
 
 from mocapbench.baselines import FrameImputer
 from mocapbench.benchmark.registry import FORMATS, METRICS, MODELS, TASKS
 from mocapbench.benchmark.testing import check_format, check_metric, check_task, model_checks
-from mocapbench.benchmark.testing.subject import GAP, Subject, problem
+from mocapbench.benchmark.testing.subject import COMPLETE, GAP, Subject, problem
 
 CHECKS = [
     pytest.param(name, check, id=f"{name}-{check.__name__}")
@@ -32,6 +33,19 @@ def test_a_model_refuses_to_fill_in_other_units_than_those_of_fit(name):
     other = replace(recordings[-1], units=("deg",) * 2)
     with pytest.raises(ValueError, match="in unit"):
         model.impute([other])
+
+
+@pytest.mark.parametrize("name", sorted({*FILLERS} - {"oracle", "trivial"}))
+def test_a_model_claims_nothing_of_channels_that_are_seen_once(name):
+    (recording,) = COMPLETE[:1]
+    """Unless it is a reference, which knows the process, or has the moments of what is visible."""
+    once = recording.hide(np.arange(len(recording.times))[:, None] != 10)
+    try:
+        (prediction,) = Subject(MODELS.get(name)).fitted([once]).impute([once])
+    except ValueError as error:
+        assert "expected" in str(error)
+    else:
+        assert prediction.variance is None
 
 
 @pytest.mark.parametrize("name", TASKS.names())

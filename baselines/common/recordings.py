@@ -13,6 +13,7 @@ __all__ = [
     "check_channels",
     "check_outputs",
     "check_recordings",
+    "check_spread",
     "check_visible",
     "pool",
     "stack",
@@ -112,6 +113,26 @@ def check_visible(recordings: Sequence[Recording]) -> None:
     if not seen.all():
         channels = [recordings[0].channels[d] for d in np.flatnonzero(~seen)]
         raise ValueError(f"expected a visible entry of every channel, got none of {channels}")
+
+
+def check_spread(recordings: Sequence[Recording]) -> None:
+    """Check that no channel has a single visible entry in all recordings together.
+
+    One tells nothing of how far a channel goes, so that no interval around it means anything.
+
+    Raises
+    ------
+    ValueError
+        If one has.
+    """
+    counts = (~np.isnan(stack(recordings))).sum(axis=0)
+    if (counts == 1).any():
+        channels = [recordings[0].channels[d] for d in np.flatnonzero(counts == 1)]
+        raise ValueError(
+            f"expected at least two visible entries of every channel, got one of {channels}, which "
+            "tells nothing of how far it goes: learn from recordings that show more of it, or "
+            "leave it out with Recording.select"
+        )
 
 
 def pool(fitted: Sequence[Recording], given: Sequence[Recording]) -> tuple[Recording, ...]:

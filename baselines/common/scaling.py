@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.recordings import visible_moments
+from mocapbench.baselines.common.recordings import check_spread, visible_moments
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["Standardisation", "unit_scales"]
@@ -42,7 +42,7 @@ class Standardisation:
         Raises
         ------
         ValueError
-            If an output is nowhere visible.
+            If an output is nowhere visible, or in one entry only.
         """
         mean, variance = visible_moments(recordings)
         if np.isnan(mean).any():
@@ -51,6 +51,7 @@ class Standardisation:
                 f"expected every channel to have a visible entry in some recording, got none for "
                 f"{unseen}: leave these channels out with Recording.select"
             )
+        check_spread(recordings)
         counts = np.sum([recording.visible.sum(axis=0) for recording in recordings], axis=0)
         return cls(mean, np.where(_constant(mean, variance), 1.0, np.sqrt(variance)), counts)
 

@@ -40,6 +40,8 @@ N_TRIALS = 3
 """Trials of a recording."""
 _MOST_HIDDEN = 0.15
 """Of a channel's visible frames, that a trial hides, unless one gap alone is longer."""
+_LEAST_LEFT = 2
+"""Frames that stay visible in a trial: one tells nothing of how far a channel goes."""
 _SHARES = (1.0, 0.5, 0.25, 0.125, 0.0625)
 """By which a gap is shortened that fits nowhere."""
 _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
@@ -173,7 +175,8 @@ def _tried(
     for gap in sorted(gaps, key=len, reverse=True):
         if taken and taken + len(gap) > room:
             continue
-        most = (np.count_nonzero(~blocked) - spent) // 2
+        free = np.count_nonzero(~blocked)
+        most = min((free - spent) // 2, free - _LEAST_LEFT)
         alternatives = places(blocked, gap, place % 1.0)
         none = np.empty(0, dtype=np.intp)
         frames = next((each for each in alternatives if len(each) <= most), none)

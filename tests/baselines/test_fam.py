@@ -165,7 +165,6 @@ def test_it_is_fitted_with_entries_missing():
     "walks",
     [
         WALKS[:1],
-        [WALKS[0].frames([5])],
         [_walk(str(k), n, k) for k, n in enumerate((1, 2, 5))],
         [*WALKS[:2], WALKS[2].with_values(np.ones_like(WALKS[2].values))],
         [walk.with_values(walk.values * [1, 0, 1, 0] + [0, 7, 0, 0]) for walk in WALKS[:3]],
@@ -176,7 +175,6 @@ def test_it_is_fitted_with_entries_missing():
     ],
     ids=[
         "a single recording",
-        "a single frame",
         "recordings shorter than a cycle",
         "a recording that stands still",
         "constant channels",

@@ -105,15 +105,6 @@ def test_a_channel_that_nobody_shows_is_refused():
         LDS().fit([hidden(w, slice(None), 2) for w in WALKS])
 
 
-def test_a_single_frame_is_its_own_mean():
-    one = WALKS[0].frames(np.array([3]))
-    with pytest.warns(UserWarning, match="got 0"):
-        model = LDS().fit([one])
-    (prediction,) = model.impute([hidden(WALKS[0], slice(None))])
-    np.testing.assert_allclose(prediction.mean, np.broadcast_to(one.values, (40, 3)), atol=1e-8)
-    assert np.isfinite(prediction.variance).all()
-
-
 def test_recordings_of_one_frame_have_no_dynamics():
     frames = [Recording(f"{k}", [0.0], WALKS[0].values[[k]], CHANNELS, UNITS) for k in range(20)]
     model = LDS(2).fit(frames)

@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 from mocapbench.baselines.common.recordings import (
     check_channels,
     check_recordings,
+    check_spread,
     check_visible,
     pool,
     visible_moments,
@@ -79,3 +80,11 @@ def test_what_is_no_sequence_of_recordings_is_refused(check, given, got):
 def test_recordings_given_to_fit_and_impute_have_the_same_units():
     with pytest.raises(ValueError, match="in unit 'mm' as in the other recordings, got 'deg'"):
         pool([recording("a", [[1.0]], "mm")], [recording("b", [[2.0]], "deg")])
+
+
+def test_one_visible_entry_tells_nothing_of_a_channels_spread():
+    once, never = recording("a", [[1.0], [np.nan]]), recording("b", [[np.nan]])
+    with pytest.raises(ValueError, match=r"at least two visible entries .* got one of \['c0'\]"):
+        check_spread([once, never])
+    check_spread([once, recording("b", [[1.0]])])
+    check_spread([never])

@@ -87,6 +87,15 @@ def test_copies_of_a_gap_that_reaches_an_end_have_visible_frames_on_one_side_onl
         assert len(copy) == length or 4 * len(copy) > 60 - length
 
 
+@pytest.mark.parametrize(("n_visible", "n_trials"), [(1, 0), (2, 0), (3, 1)])
+def test_a_trial_leaves_two_frames(n_visible, n_trials):
+    hidden = np.ones((12, 1), dtype=bool)
+    hidden[4 : 4 + n_visible] = False
+    masks = trial_masks(recording(hidden))
+    assert (len(masks) > 0) == (n_trials > 0)
+    assert all((~(hidden | mask)).sum() >= 2 for mask in masks)
+
+
 def test_a_gap_in_all_channels_beside_others_has_whole_frames_as_copies():
     hidden = np.zeros((100, 4), dtype=bool)
     hidden[40:45] = True
