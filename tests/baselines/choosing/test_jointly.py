@@ -84,12 +84,12 @@ def test_it_learns_from_recordings_to_fill():
         Jointly(MOHGP()).fit([walk("one"), walk("two")])
 
 
-def test_recordings_that_would_take_minutes_are_refused(model):
+def test_recordings_that_would_take_long_are_refused(model):
     large = [walk(name, n_frames=100, n_channels=50) for name in ("one", "two")]
-    with pytest.raises(ValueError, match=r"add up to at most 1.8e\+11, got 3.8e\+11"):
+    with pytest.raises(ValueError, match=r"at most 1.8e\+11, .* got 3.8e\+11 and 3e\+06"):
         Jointly(MOHGP()).fit(large)
-    with pytest.raises(ValueError, match=r"at most 200 frames, .* got one of 201"):
-        model.impute([gap(walk("long", n_frames=201))])
+    with pytest.raises(ValueError, match=r"of frames to 3e\+06, got 2.7e\+07 and 3.4e\+06"):
+        model.impute([gap(walk("long", n_frames=150))])
 
 
 @pytest.mark.parametrize("name", ["mohgp", "mohgp-registered"])
