@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import hidden_frames, runs
+from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
@@ -69,8 +70,9 @@ class AlignedWindow(FrameImputer, Inductive):
     The error of a window is the sum of squared differences at the visible frames beside the gap;
     where the gap touches an end of the recording, these lie on one side only. The fill is the
     unweighted mean of the best windows, neither shifted nor scaled. Gaps are filled independently.
-    Time is counted in frames, so that all recordings should have the same frame rate. There is no
-    predictive distribution.
+    Time is counted in frames, so that all recordings should have the same frame rate. Where
+    channels have several units, degrees and radians count as degrees, and mm, cm and m as the CMU
+    database's unit of length, 5.64 cm. There is no predictive distribution.
 
     Parameters
     ----------
@@ -82,7 +84,7 @@ class AlignedWindow(FrameImputer, Inductive):
     channels_, units_ : tuple of D str
         The channels of the recordings given to `fit`, and their units.
     runs_ : list of ndarray (n, D)
-        The stretches of frames without hidden entries.
+        The stretches of frames without hidden entries, in the units in which errors are measured.
 
     Notes
     -----
@@ -135,7 +137,7 @@ class AlignedWindow(FrameImputer, Inductive):
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.runs_ = [
             recording.values[run]
-            for recording in checked
+            for recording in map(in_pose_units, checked)
             for run in runs(np.asarray(recording.visible.all(axis=1)))
         ]
         return self
@@ -151,7 +153,10 @@ class AlignedWindow(FrameImputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
-        return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
+        return [
+            from_pose_units(recording, self._filled(in_pose_units(recording)))
+            for recording in recordings
+        ]
 
     def _filled(self, recording: Recording) -> FrameByChannel:
         hidden = hidden_frames(recording)

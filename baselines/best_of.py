@@ -36,6 +36,7 @@ class BestOf(Imputer, Inductive):
     the one to fill, in turn and left out of training: by what a candidate's error grows there from
     the copies to the gaps, its error is multiplied.
 
+    Results do not depend on whether angles are in degrees or radians, and lengths in mm, cm or m.
     Channels of one unit share their weights, and have others for gaps in all channels if there are
     gaps of other kinds besides. Weights are those of stacked regression: :math:`w = \arg\min
     w^\top G w` over :math:`w \ge 0, \sum_i w_i = 1`. :math:`G = \sum_s G_s / \min_i G_{s,ii}` adds

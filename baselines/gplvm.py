@@ -40,9 +40,10 @@ class GPLVM(LatentVariableModel):
     channels_, units_ : tuple of D str
         The channels of the recordings given to `fit`, and their units.
     sequences_ : TrainingSequences
-        The training frames.
+        The training frames. Where channels have several units, they are in degrees and the CMU
+        database's unit of length, 5.64 cm, not in radians, mm, cm or m.
     estimate_ : PointEstimate
-        Latent positions and parameters.
+        Latent positions and parameters; the scales W are in the reciprocals of these units.
     conditional_ : Conditional
         The distribution of a further sequence.
     kernel_properties_ : dict of str to float

@@ -12,6 +12,7 @@ from sklearn.neighbors import NearestNeighbors
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import hidden_frames, runs
+from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import (
     check_recordings,
     check_visible,
@@ -40,7 +41,8 @@ class KNN(Imputer, Inductive):
     (``mocapbench.baselines.common.transitions``). Any other recording is filled by scikit-learn's
     ``KNNImputer`` on the stacked frames of all recordings. Time is one more column, scaled to the
     median standard deviation of the channels. Where frames are equally near, in time alone, their
-    order and the names of their recordings decide.
+    order and the names of their recordings decide. Where channels have several units, degrees and
+    radians count as degrees, and mm, cm and m as the CMU database's unit of length, 5.64 cm.
 
     Both use the recordings given to `fit` and the visible entries of the recording to fill. There
     is no predictive distribution.
@@ -124,10 +126,11 @@ class KNN(Imputer, Inductive):
             no two consecutive frames are visible from which to learn a transition.
         """
         check_is_fitted(self)
-        return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
+        return [from_pose_units(recording, self._filled(recording)) for recording in recordings]
 
     def _filled(self, recording: Recording) -> FrameByChannel:
-        pooled = pool(self.recordings_, [recording])
+        pooled = [in_pose_units(each) for each in pool(self.recordings_, [recording])]
+        recording = in_pose_units(recording)
         complete = recording.visible.all(axis=1)
         whole = complete == recording.visible.any(axis=1)
         fill = _fill_frames if whole.all() and not complete.all() else _fill_entries

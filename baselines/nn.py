@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from sklearn.metrics.pairwise import nan_euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.pose_units import pose_factors
 from mocapbench.baselines.common.recordings import check_channels, check_recordings, stack
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
@@ -23,31 +24,36 @@ Array = NDArray[np.float64]
 class NN(Imputer, Inductive):
     r"""Copy hidden entries from the training frame that is nearest over the visible entries.
 
-    The distance is the mean squared difference over the entries that are visible in both frames.
-    An entry is copied from the nearest training frame in which it is visible, so that partly hidden
-    training frames are used too. A wholly hidden frame is first interpolated linearly in time, and
-    the interpolated frame is matched. There is no predictive distribution.
+    The distance is the mean squared difference over the entries that are visible in both frames. An
+    entry is copied from the nearest training frame in which it is visible, so that partly hidden
+    training frames are used too. Where channels have several units, degrees and radians count as
+    degrees, and mm, cm and m as the CMU database's unit of length, 5.64 cm. A wholly hidden frame
+    is first interpolated linearly in time, and the interpolated frame is matched. There is no
+    predictive distribution.
 
     Parameters
     ----------
     weights : mapping of str to float or None, default=None
         What the differences of a channel are multiplied by, at least 0, for every channel; None
-        stands for 1. The standard deviations by which channels were divided give the distance in
-        the units that they had before.
+        stands for 1. Where channels have several units, these are differences in degrees or 5.64
+        cm, as above, so that the weights do not depend on which units they are. The standard
+        deviations by which channels were divided give the distance in the units that they had
+        before.
 
     Attributes
     ----------
     channels_, units_ : tuple of D str
         The channels of the recordings given to `fit`, and their units.
     frames_ : ndarray of shape (M, D)
-        All training frames, NaN where hidden.
+        All training frames in the channels' units, NaN where hidden.
     weights_ : ndarray of shape (D,)
-        The weight of each channel.
+        What differences in the channel's unit are multiplied by: its weight times the factor, if
+        there are several units, that turns radians into degrees, or mm, cm or m into 5.64 cm.
 
     Notes
     -----
     With :math:`V_{ti}` the channels visible both in frame t and in training frame i, and weights
-    :math:`w_d`, channel d is copied from
+    :math:`w_d` (``weights_``), channel d is copied from
 
     .. math::
 
@@ -95,7 +101,7 @@ class NN(Imputer, Inductive):
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.frames_ = stack(checked)
-        self.weights_ = _weights(self.weights, self.channels_)
+        self.weights_ = _weights(self.weights, self.channels_) * pose_factors(self.units_)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

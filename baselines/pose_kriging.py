@@ -21,6 +21,7 @@ from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import runs, visible_frames
+from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import (
     check_not_negative,
@@ -73,7 +74,8 @@ class PoseKriging(FrameImputer, Inductive):
 
     The defaults gave the least error when each training walker of ``missing-frames`` was held out
     in turn; ``docs/calibration.md`` has the choice of ``least_explained``. Time is counted in
-    frames, not seconds.
+    frames, not seconds. Where channels have several units, degrees and radians count as degrees,
+    and mm, cm and m as the CMU database's unit of length, 5.64 cm.
 
     Parameters
     ----------
@@ -102,10 +104,10 @@ class PoseKriging(FrameImputer, Inductive):
     names_ : tuple of str
         The names of the training recordings with two consecutive complete frames.
     matchers_ : list of PoseViterbi
-        One for each symmetry and each of these. A recording that is filled is not matched with
-        itself.
+        One for each symmetry and each of these, in the units in which they are compared. A
+        recording that is filled is not matched with itself.
     total_variance_ : float
-        The sum S of the channels' variances in training.
+        The sum S of the channels' variances in training, in the units in which they are compared.
 
     References
     ----------
@@ -169,7 +171,7 @@ class PoseKriging(FrameImputer, Inductive):
         check_share("least_explained", self.least_explained)
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        usable = [recording for recording in checked if _has_step(recording)]
+        usable = [in_pose_units(recording) for recording in checked if _has_step(recording)]
         if not usable:
             raise ValueError("expected two consecutive complete frames in training, got none")
         self.names_ = tuple(recording.name for recording in usable)
@@ -193,7 +195,10 @@ class PoseKriging(FrameImputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
-        return [Prediction.around(recording, *self._filled(recording)) for recording in recordings]
+        return [
+            from_pose_units(recording, *self._filled(in_pose_units(recording)))
+            for recording in recordings
+        ]
 
     def _filled(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the mean and variance (N, D) of all frames given the visible ones."""

@@ -18,6 +18,7 @@ from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import complete_stretches, visible_frames
+from mocapbench.baselines.common.pose_units import in_pose_units, pose_factors
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
@@ -36,7 +37,9 @@ class PoseViterbi(FrameImputer, Inductive):
     costs the squared difference between the frame that would follow and the frame jumped to. With
     several states a frame, a motion a little slower or faster than training costs little. No jump
     leaves the last frame of a stretch. Time is counted in frames, so that all recordings should
-    have the same frame rate. There is no predictive distribution.
+    have the same frame rate. Where channels have several units, degrees and radians count as
+    degrees, and mm, cm and m as the CMU database's unit of length, 5.64 cm. There is no predictive
+    distribution.
 
     Parameters
     ----------
@@ -53,7 +56,8 @@ class PoseViterbi(FrameImputer, Inductive):
     channels_, units_ : tuple of D str
         The channels of the recordings given to `fit`, and their units.
     frames_ : ndarray of shape (S, D)
-        The complete training frames, and the states between them.
+        The complete training frames, and the states between them, in the units in which costs are
+        measured.
     transition_ : ndarray of shape (S, S)
         The cost of going from state (row) to state (column); infinite where it is not allowed.
 
@@ -105,7 +109,8 @@ class PoseViterbi(FrameImputer, Inductive):
         check_count("steps", self.steps, 1)
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        stretches = [_refined(each, self.steps) for each in complete_stretches(checked)]
+        moved = [in_pose_units(recording) for recording in checked]
+        stretches = [_refined(each, self.steps) for each in complete_stretches(moved)]
         self.frames_ = np.concatenate(stretches)
         following = np.concatenate([_follows(len(each), self.steps) for each in stretches])
         self.transition_ = self.smoothness * _jumps(self.frames_, following, self.steps)
@@ -124,7 +129,9 @@ class PoseViterbi(FrameImputer, Inductive):
         return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
 
     def residual(self, recording: Recording) -> NDArray[np.float64]:
-        """Return the mean residual (D,) of the cheapest path at the visible frames.
+        """Return the mean residual (D,) of the cheapest path, in the channels' units.
+
+        It is that at the visible frames.
 
         Raises
         ------
@@ -138,7 +145,7 @@ class PoseViterbi(FrameImputer, Inductive):
         return match + self.subject_offset * _mean_residual(recording, match)
 
     def match(self, recording: Recording) -> FrameByChannel:
-        """Return the training frames (N, D) of the cheapest path.
+        """Return the training frames (N, D) of the cheapest path, in the channels' units.
 
         Raises
         ------
@@ -147,9 +154,10 @@ class PoseViterbi(FrameImputer, Inductive):
         """
         visible = visible_frames(recording)
         emission = np.zeros((len(visible), len(self.frames_)))
-        known = recording.values[visible]
+        known = in_pose_units(recording).values[visible]
         emission[visible] = euclidean_distances(known, self.frames_, squared=True)
-        return np.asarray(self.frames_[cheapest_path(emission, self.transition_)])
+        match = self.frames_[cheapest_path(emission, self.transition_)]
+        return np.asarray(match / pose_factors(recording.units))
 
 
 def _mean_residual(recording: Recording, match: FrameByChannel) -> NDArray[np.float64]:

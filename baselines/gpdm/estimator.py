@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import visible_frames
-from mocapbench.baselines.common.recordings import check_channels
+from mocapbench.baselines.common.pose_units import in_pose_units, pose_factors
+from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import (
     check_choice,
     check_count,
@@ -74,10 +75,11 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
         """
         self._check_parameters()
         dynamics, learning = self._dynamics(), self._learning()
-        self.sequences_ = TrainingSequences.of(recordings)
-        self.channels_, self.units_ = recordings[0].channels, recordings[0].units
-        self.matcher_ = PoseViterbi().fit(recordings)
-        self.frame_seconds_ = float(np.median(np.diff(recordings[0].times)))
+        checked = check_recordings(recordings)
+        self.sequences_ = TrainingSequences.of([in_pose_units(each) for each in checked])
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.matcher_ = PoseViterbi().fit(checked)
+        self.frame_seconds_ = float(np.median(np.diff(checked[0].times)))
         y = self.sequences_.y
         x = whitened_components(y, self.n_latent)
         posterior = JointPosterior(
@@ -159,14 +161,17 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
         return self._unscaled(self.conditional_.reconstruction.marginals(positions)[0])
 
     def _units(self) -> Array:
-        """Return the inverse scales (D,); a constant channel has the prior's bound (κ² N)^(−½)."""
+        """Return the inverse scales (D,) in the channels' units.
+
+        A constant channel has the prior's bound (κ² N)^(−½).
+        """
         units = np.full(len(self.channels_), 1.0 / (KAPPA * np.sqrt(len(self.sequences_.y))))
         units[self.sequences_.moving] = 1.0 / self.estimate_.scales
-        return units
+        return units / pose_factors(self.units_)
 
     def _scaled(self, values: FrameByChannel) -> Array:
         """Return the moving channels in the model's units; hidden entries become zero."""
-        moving = self.sequences_.moving
+        moving, values = self.sequences_.moving, values * pose_factors(self.units_)
         poses = (values - self.sequences_.mean)[:, moving] * self.estimate_.scales
         return np.nan_to_num(poses, nan=0.0)
 
@@ -175,4 +180,4 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
         values = np.broadcast_to(self.sequences_.mean, (*poses.shape[:-1], len(self.channels_)))
         values = values.copy()
         values[..., self.sequences_.moving] += poses / self.estimate_.scales
-        return values
+        return np.asarray(values / pose_factors(self.units_))

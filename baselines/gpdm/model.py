@@ -48,8 +48,10 @@ class GPDM(DynamicalModel):
     that of an observation at this trajectory; it does not include the trajectory's uncertainty.
 
     Channels that are constant in training are left out with a warning. They are filled with their
-    constant value and the variance 1/(κ² N), the bound that the prior of the scales implies. Time
-    is counted in frames, so that all recordings should have the same frame rate.
+    constant value and the variance 1/(κ² N), the bound that the prior of the scales implies. Where
+    channels have several units, degrees and radians count as degrees, and mm, cm and m as the CMU
+    database's unit of length, 5.64 cm; if all have the same one, that prior is in it. Time is
+    counted in frames, so that all recordings should have the same frame rate.
 
     Parameters
     ----------
@@ -87,9 +89,10 @@ class GPDM(DynamicalModel):
     channels_, units_ : tuple of D str
         The channels of the recordings given to `fit`, and their units.
     sequences_ : TrainingSequences
-        The training frames.
+        The training frames. Where channels have several units, they are in degrees and the CMU
+        database's unit of length, 5.64 cm, not in radians, mm, cm or m.
     estimate_ : PointEstimate
-        Latent positions and parameters.
+        Latent positions and parameters; the scales W are in the reciprocals of these units.
     conditional_ : Conditional
         The distribution of a further sequence.
     kernel_properties_ : dict of str to float
