@@ -141,13 +141,8 @@ class BestOf(Imputer, Inductive):
         self, rehearsals: Rehearsals, names: Container[str]
     ) -> Mapping[str, Sequence[Products]]:
         """Return the sources of evidence on each part of the gaps."""
-        found = {
-            name: (evidence(rehearsals, part) for part in parts)
-            for name, parts in parts_of(rehearsals.given).items()
-        }
-        return {
-            name: among(next(filter(None, sources), []), names) for name, sources in found.items()
-        }
+        parts = parts_of(rehearsals.given)
+        return {name: among(evidence(rehearsals, part), names) for name, part in parts.items()}
 
     def _weights(self, sources: Mapping[str, Sequence[Products]]) -> pd.DataFrame:
         by_part = {part: weights_of(each, self.shrinkage) for part, each in sources.items()}
@@ -194,9 +189,10 @@ class BestOf(Imputer, Inductive):
 
 def _spread(by_part: pd.DataFrame, recording: Recording) -> NDArray[np.float64]:
     """Return a table of candidates and parts for every entry: (C, N, D)."""
-    parts, hidden = parts_of(recording), ~recording.visible
-    entries = np.stack([parts[name][0].entries(hidden) for name in map(str, by_part)])
-    return np.tensordot(by_part.to_numpy(), entries, 1)
+    spread = np.empty((len(by_part), *recording.values.shape))
+    for name, part in parts_of(recording).items():
+        spread[:, part.entries(~recording.visible)] = by_part[[name]].to_numpy()
+    return spread
 
 
 def _claimed(answer: Prediction, expected: FrameByChannel) -> FrameByChannel:

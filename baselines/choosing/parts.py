@@ -7,7 +7,7 @@ rehearsed, and weighed, apart.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,22 +22,22 @@ __all__ = ["EVERYTHING", "Part", "parts_of"]
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """Channels, and the frames of gaps in all channels, the others, or both.
+    """Channels, and all frames or those of gaps in all channels.
 
     Parameters
     ----------
     channels : ndarray of bool, shape (D,), or slice
-    whole : tuple of bool
-        Whether the frames are those of gaps in all channels.
+    only_whole : bool
+        Whether it has only frames of gaps in all channels.
     """
 
     channels: NDArray[np.bool_] | slice
-    whole: tuple[bool, ...] = (True, False)
+    only_whole: bool = False
 
     def entries(self, hidden: Mask) -> Mask:
         """Return the entries (N, D) of the part, if ``hidden`` is what is hidden."""
         entries = np.zeros(hidden.shape, dtype=bool)
-        entries[:, self.channels] = np.isin(_in_whole_gaps(hidden), self.whole)[:, None]
+        entries[:, self.channels] = (_in_whole_gaps(hidden) | (not self.only_whole))[:, None]
         return entries
 
     def of(self, values: NDArray[Any], hidden: Mask) -> NDArray[Any]:
@@ -48,21 +48,21 @@ class Part:
 EVERYTHING = Part(slice(None))
 
 
-def parts_of(recording: Recording) -> Mapping[str, Sequence[Part]]:
-    """Return the parts of a recording by name, each followed by what stands in for it.
+def parts_of(recording: Recording) -> Mapping[str, Part]:
+    """Return the parts of a recording by name; an entry belongs to the last one that has it.
 
-    A part of which nothing is rehearsed takes the weights of the next. Gaps in all channels, which
-    are the harder ones, stand in for others, but not the other way round.
+    Each unit is a part. Where a recording has gaps in all channels and others, those in all
+    channels are parts of their own, since they are harder. What is rehearsed of them counts for the
+    other gaps, too, but not the other way round.
     """
     units, hidden = np.array(recording.units), ~recording.visible
     whole = _in_whole_gaps(hidden)
     mixed = bool(whole.any() and hidden[~whole].any())
-    parts: dict[str, Sequence[Part]] = {}
+    parts: dict[str, Part] = {}
     for unit in np.unique(units):
-        every = Part(units == unit)
-        parts[str(unit)] = [Part(every.channels, (False,)), every] if mixed else [every]
+        parts[str(unit)] = Part(units == unit)
         if mixed:
-            parts[f"{unit}, whole frames"] = [Part(every.channels, (True,))]
+            parts[f"{unit}, whole frames"] = Part(units == unit, only_whole=True)
     return parts
 
 

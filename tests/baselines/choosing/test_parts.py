@@ -24,11 +24,11 @@ def scattered(seed, share=0.4):
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10_000), st.floats(0.0, 0.95))
-def test_every_entry_belongs_to_one_part(seed, share):
+def test_every_entry_belongs_to_the_part_of_its_unit(seed, share):
     hidden = scattered(seed, share)
-    given = recording(hidden, ("deg", "mm", "deg", "mm", "mm"))
-    parts = [part.entries(hidden) for part, *_ in parts_of(given).values()]
-    np.testing.assert_array_equal(np.sum(parts, axis=0), 1)
+    parts = parts_of(recording(hidden, ("deg", "mm", "deg", "mm", "mm")))
+    entries = [parts[unit].entries(hidden) for unit in ("deg", "mm")]
+    np.testing.assert_array_equal(np.sum(entries, axis=0), 1)
     assert EVERYTHING.entries(hidden).all()
 
 
@@ -41,7 +41,7 @@ def test_gaps_of_one_kind_are_a_part_for_each_unit():
     parts = parts_of(recording(whole | limb, units))
     assert [*parts] == ["deg", "deg, whole frames", "mm", "mm, whole frames"]
     np.testing.assert_array_equal(
-        np.flatnonzero(parts["deg, whole frames"][0].entries(whole | limb)[:, 0]), np.arange(10, 15)
+        np.flatnonzero(parts["deg, whole frames"].entries(whole | limb)[:, 0]), np.arange(10, 15)
     )
 
 
@@ -69,9 +69,8 @@ def test_gaps_in_channels_do_not_choose_what_fills_whole_frames():
     truth = Recording("r", times[:, 0], values, tuple(map(str, range(18))), ("mm",) * 18)
     given = truth.hide(hidden)
     model = BestOf().fit([given])
-    weights = model.weights([given])[0]
-    assert weights["mm"]["pca-regression"] > 0.5
-    assert weights["mm, whole frames"]["pca-regression"] < 0.01
+    weights = model.weights([given])[0]["mm, whole frames"]
+    assert weights["pca-regression"] < 0.01
     (filled,), (linear,) = model.impute([given]), LinearImputer().fit([given]).impute([given])
     errors = [np.sqrt(np.mean((p.mean - values)[250:256] ** 2)) for p in (filled, linear)]
     assert errors[0] < errors[1]
