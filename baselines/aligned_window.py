@@ -18,6 +18,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.gaps import hidden_frames, runs
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -129,10 +130,10 @@ class AlignedWindow(FrameImputer, Inductive):
         Raises
         ------
         ValueError
-            If ``n_windows`` is below 1, there is no recording, channels differ, or a name repeats.
+            If ``n_windows`` is no integer of at least 1, there is no recording, channels differ, or
+            a name repeats.
         """
-        if self.n_windows < 1:
-            raise ValueError(f"expected n_windows of at least 1, got {self.n_windows}")
+        check_count("n_windows", self.n_windows, 1)
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.runs_ = [

@@ -21,6 +21,7 @@ from mocapbench.baselines.common.recordings import (
     visible_moments,
 )
 from mocapbench.baselines.common.transitions import Steps, fill_gap
+from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -108,11 +109,10 @@ class KNN(Imputer, Inductive):
         Raises
         ------
         ValueError
-            If ``n_neighbors`` is below 1, there is no recording, channels differ, or a name
-            repeats.
+            If ``n_neighbors`` is no integer of at least 1, there is no recording, channels differ,
+            or a name repeats.
         """
-        if self.n_neighbors < 1:
-            raise ValueError(f"expected n_neighbors of at least 1, got {self.n_neighbors}")
+        check_count("n_neighbors", self.n_neighbors, 1)
         self.recordings_ = check_recordings(recordings)
         return self
 

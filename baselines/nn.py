@@ -12,6 +12,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.pose_units import pose_factors
 from mocapbench.baselines.common.recordings import check_channels, check_recordings, stack
+from mocapbench.baselines.common.validation import check_not_negative
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -140,12 +141,15 @@ def _weights(weights: Mapping[str, float] | None, channels: tuple[str, ...]) -> 
     """Return the weight of each channel: (D,)."""
     if weights is None:
         return np.ones(len(channels))
+    if not isinstance(weights, Mapping):
+        raise ValueError(
+            f"expected weights to be None or a mapping of channels to numbers, got {weights!r}"
+        )
     if lacking := [name for name in channels if name not in weights]:
         raise ValueError(f"expected a weight of every channel, got none of {lacking}")
-    values = np.array([weights[name] for name in channels], dtype=np.float64)
-    if not (np.isfinite(values) & (values >= 0)).all():
-        raise ValueError(f"expected weights of at least 0, got {dict(weights)}")
-    return values
+    for name in channels:
+        check_not_negative(f"weights of {name!r}", weights[name])
+    return np.array([weights[name] for name in channels], dtype=np.float64)
 
 
 def _donated(distances: Array, channel: Array) -> Array:

@@ -1,5 +1,6 @@
 """The conformance kit, over everything registered."""
 
+import inspect
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,17 @@ from mocapbench.benchmark.registry import FORMATS, METRICS, MODELS, TASKS
 from mocapbench.benchmark.testing import check_format, check_metric, check_task, model_checks
 from mocapbench.benchmark.testing.subject import COMPLETE, GAP, Subject, problem
 
+
+def is_documented(parameter, value):
+    """Return whether the annotation of a parameter has values like this one."""
+    kinds = parameter.annotation.split(" | ")
+    return (
+        (value is None and "None" in kinds)
+        or (value == 1.5 and "float" in kinds)
+        or (value == -1 and parameter.name == "n_jobs")
+    )
+
+
 CHECKS = [
     pytest.param(name, check, id=f"{name}-{check.__name__}")
     for name in MODELS.names()
@@ -21,6 +33,23 @@ CHECKS = [
 @pytest.mark.parametrize(("name", "check"), CHECKS)
 def test_a_model_conforms(name, check):
     check(MODELS.get(name))
+
+
+PARAMETERS = [
+    pytest.param(name, parameter, wrong, id=f"{name}-{parameter.name}-{wrong!r}")
+    for name in MODELS.names()
+    for parameter in inspect.signature(MODELS.get(name)).parameters.values()
+    for wrong in ("x", None, -1, 1.5, float("nan"))
+    if not is_documented(parameter, wrong)
+]
+
+
+@pytest.mark.parametrize(("name", "parameter", "wrong"), PARAMETERS)
+def test_a_model_refuses_a_wrong_parameter_by_its_name(name, parameter, wrong):
+    model = Subject(MODELS.get(name)).build(**{parameter.name: wrong})
+    with pytest.raises(ValueError, match=rf"expected {parameter.name}\b.*, got ") as raised:
+        model.fit(problem(GAP))
+    assert repr(wrong) in str(raised.value)
 
 
 FILLERS = [name for name in MODELS.names() if issubclass(MODELS.get(name), FrameImputer)]

@@ -17,6 +17,7 @@ from mocapbench.baselines.common.threads import thread_mapper
 from mocapbench.baselines.common.validation import (
     check_choice,
     check_count,
+    check_flag,
     check_jobs,
     check_positive,
     check_seed,
@@ -258,6 +259,8 @@ class GaussianProcess(RecordingPosterior, NewRecordings):
         check_positive("tol", self.tol)
         if self.max_seconds is not None:
             check_positive("max_seconds", self.max_seconds)
+        for name in ("warm_start", "verbose"):
+            check_flag(name, getattr(self, name))
         check_jobs(self.n_jobs)
         check_seed("random_state", self.random_state)
         check_choice("kernel", self.kernel, KERNELS)

@@ -45,7 +45,8 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
     """Poses as smooth functions of latent positions, which have a prior.
 
     A subclass provides the prior and the learning algorithm. Its constructor stores ``n_latent``,
-    ``start``, ``subject_offset``, ``fill_iter`` and ``random_state``; see `GPDM`.
+    ``start``, ``subject_offset``, ``max_iter``, ``n_steps``, ``fill_iter`` and ``random_state``;
+    see `GPDM`.
     """
 
     family: ClassVar[str] = "Latent dynamics"
@@ -53,6 +54,8 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
     n_latent: int
     start: str
     subject_offset: float
+    max_iter: int
+    n_steps: int
     fill_iter: int
     random_state: int | np.random.Generator | None
 
@@ -99,7 +102,7 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
         return self
 
     def _check_parameters(self) -> None:
-        for name in ("n_latent", "fill_iter"):
+        for name in ("n_latent", "max_iter", "n_steps", "fill_iter"):
             check_count(name, getattr(self, name), 1)
         check_choice("start", self.start, STARTS)
         check_share("subject_offset", self.subject_offset)

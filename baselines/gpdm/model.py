@@ -171,8 +171,7 @@ class GPDM(DynamicalModel):
 
     def _check_parameters(self) -> None:
         super()._check_parameters()
-        for name in ("max_iter", "n_steps", "n_samples"):
-            check_count(name, getattr(self, name), 1)
+        check_count("n_samples", self.n_samples, 1)
         check_choice("learning", self.learning, self._learnings())
         check_choice("dynamics", self.dynamics, _KERNELS)
         check_choice("predicts", self.predicts, _CARRY)

@@ -97,5 +97,5 @@ def test_what_it_refuses():
         model.impute([hide(new, *range(20))])
     with pytest.raises(ValueError, match="1 hidden in part"):
         model.impute([new.hide(np.eye(20, 2, dtype=bool) & [True, False])])
-    with pytest.raises(ValueError, match="n_windows of at least 1"):
+    with pytest.raises(ValueError, match="n_windows to be an integer of at least 1"):
         AlignedWindow(n_windows=0).fit([new])

@@ -88,7 +88,7 @@ def test_what_cannot_be_filled_is_refused(train, new, message):
 
 
 def test_it_needs_a_neighbour():
-    with pytest.raises(ValueError, match="n_neighbors of at least 1"):
+    with pytest.raises(ValueError, match="n_neighbors to be an integer of at least 1"):
         KNN(n_neighbors=0).fit([recording("train", [[1.0]])])
 
 
