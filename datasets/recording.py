@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["FrameByChannel", "Frames", "Mask", "Recording"]
+__all__ = ["FrameByChannel", "Frames", "Mask", "Recording", "numbers"]
 
 Frames = NDArray[np.float64]
 """(N,) one value per frame."""
@@ -18,9 +19,26 @@ Mask = NDArray[np.bool_]
 """(N, D) True or False for each entry of a recording."""
 
 
-def _frozen(array: ArrayLike) -> NDArray[np.float64]:
+def numbers(what: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return ``values`` as an array of floats, NaN for None.
+
+    Raises
+    ------
+    ValueError
+        If they are complex, text or dates, or rows differ in length; ``what`` names them.
+    """
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind in "biufO":
+            return np.asarray(array, dtype=np.float64)
+        got = f"an array of {array.dtype}"
+    except (TypeError, ValueError) as error:
+        got = f"others: {error}"
+    raise ValueError(f"expected {what} to be real numbers, in rows of the same length, got {got}")
+
+
+def _frozen(copy: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return a copy on immutable bytes, which no model can make writeable again."""
-    copy = np.asarray(array, dtype=np.float64)
     return np.frombuffer(copy.tobytes(), dtype=np.float64).reshape(copy.shape)
 
 
@@ -45,8 +63,9 @@ class Recording:
     Raises
     ------
     ValueError
-        If shapes disagree, times are not finite and strictly increasing, an entry is infinite,
-        channel names repeat, or channels or units are a single string.
+        If shapes disagree, times are not finite and strictly increasing, an entry is infinite or no
+        real number, channel names repeat, the name is no string, or channels or units are no
+        sequence of strings.
 
     See Also
     --------
@@ -83,24 +102,37 @@ class Recording:
     units: tuple[str, ...]
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise ValueError(f"expected the name of a recording to be a string, got {self.name!r}")
         for field, value in (
-            ("times", _frozen(self.times)),
-            ("values", _frozen(self.values)),
+            ("times", self._numbers("times", self.times)),
+            ("values", self._numbers("values", self.values)),
             ("channels", self._names("channels", self.channels)),
             ("units", self._names("units", self.units)),
         ):
             object.__setattr__(self, field, value)
         self._validate()
 
+    def _numbers(self, field: str, values: ArrayLike) -> NDArray[np.float64]:
+        return _frozen(numbers(f"{field} of recording {self.name!r}", values))
+
     def _names(self, field: str, names: str | Sequence[str]) -> tuple[str, ...]:
-        if isinstance(names, str):  # it would be taken as one name per letter
-            raise ValueError(
-                f"recording {self.name!r}: expected {field} to be a sequence of one string per "
-                f"channel, got the string {names!r}"
-            )
-        return tuple(names)
+        # A single string would be taken as one name per letter.
+        if isinstance(names, Iterable) and not isinstance(names, str):
+            listed = tuple(names)
+            if all(isinstance(name, str) for name in listed):
+                return listed
+        raise ValueError(
+            f"recording {self.name!r}: expected {field} to be a sequence of one string per "
+            f"channel, got {'the string ' if isinstance(names, str) else ''}{names!r}"
+        )
 
     def _validate(self) -> None:
+        if self.times.ndim != 1:
+            raise ValueError(
+                f"recording {self.name!r}: expected times of shape (N,), one a frame, "
+                f"got shape {self.times.shape}"
+            )
         expected = (len(self.times), len(self.channels))
         if self.values.shape != expected:
             raise ValueError(
@@ -113,11 +145,24 @@ class Recording:
                 f"got {len(self.channels)} names ({len(set(self.channels))} distinct) "
                 f"and {len(self.units)} units"
             )
-        if not (np.isfinite(self.times).all() and (np.diff(self.times) > 0).all()):
-            raise ValueError(f"recording {self.name!r}: expected finite, strictly increasing times")
+        self._validate_times()
         if np.isinf(self.values).any():
             raise ValueError(
                 f"recording {self.name!r}: expected finite values or NaN, got infinity"
+            )
+
+    def _validate_times(self) -> None:
+        if not np.isfinite(self.times).all():
+            raise ValueError(
+                f"recording {self.name!r}: expected finite, strictly increasing times, "
+                "got NaN or infinity; leave those frames out"
+            )
+        falls = np.flatnonzero(np.diff(self.times) <= 0)
+        if falls.size:
+            before, after = self.times[falls[0]], self.times[falls[0] + 1]
+            raise ValueError(
+                f"recording {self.name!r}: expected finite, strictly increasing times, got "
+                f"{after} after {before}; sort the frames, and leave out those that repeat a time"
             )
 
     def __reduce__(self) -> tuple[type[Recording], tuple[object, ...]]:
@@ -176,6 +221,28 @@ class Recording:
         )
 
     def frames(self, index: ArrayLike) -> Recording:
-        """Return the frames of a list of 0-based indices; they keep their times."""
-        rows = np.asarray(index, dtype=np.intp)
+        """Return the frames of a list of 0-based indices; they keep their times.
+
+        A mask (N,) of True or False stands for the indices at which it is True.
+
+        Raises
+        ------
+        ValueError
+            If ``index`` is neither, an index is out of range, or indices do not increase.
+        """
+        rows = self._rows(np.asarray(index))
         return replace(self, times=self.times[rows], values=self.values[rows])
+
+    def _rows(self, index: NDArray[Any]) -> NDArray[np.intp]:
+        n_frames = len(self.times)
+        if index.dtype == np.bool_ and index.shape == (n_frames,):
+            return np.flatnonzero(index)
+        if index.dtype.kind in "iuf" and index.ndim == 1:  # Rounded numbers may be floats.
+            with np.errstate(invalid="ignore"):
+                rows = index.astype(np.intp)
+            if ((rows == index) & (-n_frames <= rows) & (rows < n_frames)).all():
+                return rows
+        raise ValueError(
+            f"recording {self.name!r}: expected a list of indices of its {n_frames} frames, or "
+            f"True or False for each, got {index.dtype} of shape {index.shape}: {index!r}"
+        )

@@ -84,6 +84,30 @@ def test_a_string_is_no_list_of_channels():
         recorded(VALUES).select("ab")
 
 
+@pytest.mark.parametrize(
+    "index",
+    [[1, 3], [1.0, 3.0], [False, True, False, True], np.array([-3, -1])],
+    ids=str,
+)
+def test_frames_are_those_of_indices_or_of_a_mask(index):
+    np.testing.assert_array_equal(recorded(VALUES).frames(index).values, VALUES[[1, 3]])
+
+
+@pytest.mark.parametrize(
+    "index",
+    [None, "ab", 1, [[0, 1]], [0.5], [np.nan], [True, False], np.ones((4, 3), bool), [4], [-5]],
+    ids=str,
+)
+def test_what_is_neither_indices_nor_a_mask_has_no_frames(index):
+    with pytest.raises(ValueError, match=r"'r': expected a list of indices of its 4 frames.*, got"):
+        recorded(VALUES).frames(index)
+
+
+@pytest.mark.parametrize("index", [[], np.zeros(4, dtype=bool)], ids=str)
+def test_a_recording_may_have_no_frames(index):
+    assert recorded(VALUES).frames(index).values.shape == (0, 3)
+
+
 def test_frames_keep_their_times():
     some = recorded(VALUES).frames([1, 3])
     np.testing.assert_array_equal(some.times, [1, 3])
@@ -99,8 +123,19 @@ def test_frames_keep_their_times():
         ({"units": ("deg", "deg")}, "one unit for each"),
         ({"units": "deg"}, "units to be .* one string per channel, got the string 'deg'"),
         ({"channels": "abc"}, "channels to be .* one string per channel, got the string 'abc'"),
-        ({"times": [0, 1, 1, 2]}, "increasing"),
-        ({"times": [0, 1, np.nan, 2]}, "increasing"),
+        ({"units": None}, "units to be .* one string per channel, got None"),
+        ({"units": ("deg", None, "cm")}, "units to be .* one string per channel, got "),
+        ({"channels": (1, 2, 3)}, r"channels to be .* one string per channel, got \(1, 2, 3\)"),
+        ({"name": None}, "name of a recording to be a string, got None"),
+        ({"times": [0, 1, 1, 2]}, "increasing times, got 1.0 after 1.0; sort"),
+        ({"times": [0, 2, 1, 3]}, "increasing times, got 1.0 after 2.0; sort"),
+        ({"times": [0, 1, np.nan, 2]}, "increasing times, got NaN or infinity"),
+        ({"times": np.arange(4)[:, None]}, r"times of shape \(N,\), .*got shape \(4, 1\)"),
+        ({"times": None}, r"times of shape \(N,\), .*got shape \(\)"),
+        ({"times": "abc"}, "times of recording 'r' to be real numbers, .* got an array of <U3"),
+        ({"values": VALUES + 1j}, "values of recording 'r' to be real .* got an array of complex"),
+        ({"values": [[1.0], [1.0, 2.0]]}, "values of recording 'r' to be .* of the same length"),
+        ({"values": [["a", None, 1.0]] * 4}, "values of recording 'r' to be real .* got others"),
         ({"values": np.where(VALUES == 5, np.inf, VALUES)}, "infinity"),
     ],
 )
