@@ -15,6 +15,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_outputs, check_recordings
+from mocapbench.baselines.common.validation import check_sampling
 from mocapbench.baselines.protocols import Misinformed, SampleByFrameByChannel, Synthesiser
 from mocapbench.datasets import Frames, Recording, ToyProcess
 from mocapbench.datasets.process import draw_gaussian
@@ -79,8 +80,15 @@ class Control(Synthesiser, Misinformed):
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Return ``n_samples`` recordings of as many parents, noise included: (n, N, D)."""
+        """Return ``n_samples`` recordings of as many parents, noise included: (n, N, D).
+
+        Raises
+        ------
+        ValueError
+            If times do not increase, or the number of samples or the seed is invalid.
+        """
         check_is_fitted(self, "process_")
+        times = check_sampling(times, n_samples, random_state)
         rng = np.random.default_rng(random_state)
-        curves = draw_gaussian(rng, self.process_.covariance(np.asarray(times)), n_samples)
+        curves = draw_gaussian(rng, self.process_.covariance(times), n_samples)
         return curves.reshape(n_samples, self.process_.n_outputs, -1).transpose(0, 2, 1)

@@ -20,6 +20,7 @@ from scipy.linalg import cho_factor, cho_solve
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels, check_outputs, check_recordings
+from mocapbench.baselines.common.validation import check_sampling, check_times
 from mocapbench.baselines.protocols import (
     Imputer,
     Informed,
@@ -195,6 +196,7 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
     def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the exact conditional mean and variance of g at ``times`` (M,): (M, D) each."""
         check_is_fitted(self, "times_")
+        times = check_times(times)
         mean, covariance = self._trend(times)
         shape = self.process_.n_outputs, len(times)
         return mean.reshape(shape).T, np.diag(covariance).reshape(shape).T
@@ -205,10 +207,15 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
         """Return new children of the same parent, given all visible entries: (n, N, D).
 
         The parent is drawn once from its posterior and shared by all; noise is included.
+
+        Raises
+        ------
+        ValueError
+            If times do not increase, or the number of samples or the seed is invalid.
         """
         check_is_fitted(self, "times_")
+        times = check_sampling(times, n_samples, random_state)
         rng = np.random.default_rng(random_state)
-        times = np.asarray(times, dtype=np.float64)
         mean, covariance = self._trend(times)
         within = self.process_.child.covariance(times)
         within += self.process_.noise * np.eye(len(within))

@@ -9,6 +9,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.validation import check_sampling
 from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
@@ -70,8 +71,15 @@ class Replay(Synthesiser):
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
-        """Return ``n_samples`` of the recordings, drawn with replacement, at ``times`` (N,)."""
+        """Return ``n_samples`` of the recordings, drawn with replacement, at ``times`` (N,).
+
+        Raises
+        ------
+        ValueError
+            If times do not increase, or the number of samples or the seed is invalid.
+        """
         check_is_fitted(self)
+        times = check_sampling(times, n_samples, random_state)
         chosen = np.random.default_rng(random_state).choice(len(self.recordings_), n_samples)
         replayed = np.stack([_at(times, recording) for recording in self.recordings_])
         return np.asarray(replayed[chosen])

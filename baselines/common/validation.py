@@ -7,6 +7,10 @@ from numbers import Integral, Real
 from typing import TypeGuard
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from mocapbench.datasets import Frames
+from mocapbench.datasets.recording import numbers
 
 __all__ = [
     "check_choice",
@@ -15,8 +19,10 @@ __all__ = [
     "check_jobs",
     "check_not_negative",
     "check_positive",
+    "check_sampling",
     "check_seed",
     "check_share",
+    "check_times",
     "components_of",
 ]
 
@@ -60,6 +66,41 @@ def check_seed(name: str, value: object) -> None:
             f"expected {name} to be None, an integer of at least 0 or a numpy.random.Generator, "
             f"got {value!r}"
         )
+
+
+def check_times(times: ArrayLike, *, increasing: bool = False) -> Frames:
+    """Return times as an array (N,) of floats.
+
+    Raises
+    ------
+    ValueError
+        If there is none, they are no finite numbers, or do not increase where they should.
+    """
+    checked = numbers("times", times)
+    if checked.ndim != 1 or not checked.size:
+        raise ValueError(f"expected one or more times of shape (N,), got shape {checked.shape}")
+    if not np.isfinite(checked).all():
+        raise ValueError("expected finite times, got NaN or infinity")
+    falls = np.flatnonzero(np.diff(checked) <= 0)
+    if increasing and falls.size:
+        before, after = checked[falls[0]], checked[falls[0] + 1]
+        raise ValueError(f"expected increasing times, got {after} after {before}; sort them")
+    return checked
+
+
+def check_sampling(
+    times: ArrayLike, n_samples: object, random_state: object, *, increasing: bool = True
+) -> Frames:
+    """Return the times (N,) of samples to draw, after checking their number and seed too.
+
+    Raises
+    ------
+    ValueError
+        If one of them is invalid; see `check_times`.
+    """
+    check_count("n_samples", n_samples, 1)
+    check_seed("random_state", random_state)
+    return check_times(times, increasing=increasing)
 
 
 def check_jobs(value: object) -> None:

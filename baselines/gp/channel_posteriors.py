@@ -11,6 +11,7 @@ from scipy.linalg import block_diag
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels
+from mocapbench.baselines.common.validation import check_sampling
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.protocols import (
@@ -76,9 +77,10 @@ class ChannelPosteriors(Conditioned, Synthesiser, Generic[Single]):
         sklearn.exceptions.NotFittedError
             If `fit` has not been called.
         ValueError
-            If the number of recordings is not a positive integer.
+            If the number of recordings is not a positive integer, or times or the seed are invalid.
         """
         check_is_fitted(self)
+        check_sampling(times, n_samples, random_state, increasing=False)
         rng = np.random.default_rng(random_state)
         return np.dstack([model.sample(times, n_samples, rng) for model in self.models_])
 

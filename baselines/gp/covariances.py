@@ -12,6 +12,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.threads import thread_mapper
+from mocapbench.baselines.common.validation import check_choice, check_times
 from mocapbench.baselines.gp.posterior.fitted import FittedProcess
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.reduction.tree import Tree
@@ -72,11 +73,12 @@ class LearntCovariances(Coregionalised):
         ------
         sklearn.exceptions.NotFittedError
             If `fit` has not been called.
-        KeyError
-            If the model has no such layer.
+        ValueError
+            If the model has no such layer, or times are no finite numbers.
         """
         check_is_fitted(self)
-        return self._process.prior_covariance(layer, np.asarray(times, dtype=np.float64))
+        check_choice("layer", layer, self.layers)
+        return self._process.prior_covariance(layer, check_times(times))
 
     @contextmanager
     def _threaded_process(self) -> Iterator[FittedProcess]:

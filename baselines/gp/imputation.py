@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels
-from mocapbench.baselines.common.validation import check_count
+from mocapbench.baselines.common.validation import check_count, check_seed, check_times
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.covariances import LearntCovariances
 from mocapbench.baselines.gp.posterior.fitted import FittedProcess
@@ -117,6 +117,7 @@ class RecordingPosterior(LearntCovariances, Conditioned):
         """
         check_is_fitted(self)
         check_count("n_samples", n_samples, 1)
+        check_seed("random_state", random_state)
         curve, times = self._terms(recording), _times_or_those_of(recording, times)
         with self._threaded_process() as process:
             return process.draw(curve, times, n_samples, np.random.default_rng(random_state))
@@ -162,4 +163,4 @@ class RecordingPosterior(LearntCovariances, Conditioned):
 
 
 def _times_or_those_of(recording: Recording, times: Frames | None) -> Frames:
-    return recording.times if times is None else np.asarray(times, dtype=np.float64)
+    return recording.times if times is None else check_times(times)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.validation import check_count
+from mocapbench.baselines.common.validation import check_sampling
 from mocapbench.baselines.gp.covariances import LearntCovariances
 from mocapbench.baselines.gp.posterior.trends import TRENDS
 from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
@@ -47,12 +47,11 @@ class NewRecordings(LearntCovariances, Synthesiser):
         sklearn.exceptions.NotFittedError
             If `fit` has not been called.
         ValueError
-            If the number of recordings is not a positive integer.
+            If the number of recordings is not a positive integer, or times or the seed are invalid.
         """
         check_is_fitted(self)
-        check_count("n_samples", n_samples, 1)
+        times = check_sampling(times, n_samples, random_state, increasing=False)
         rng = np.random.default_rng(random_state)
-        times = np.asarray(times, dtype=np.float64)
         with self._threaded_process() as process:
             trend = TRENDS[self.sampled_trend](process, times, rng)
             layers = self.layers[1:] or self.layers

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.validation import check_times
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm
 from mocapbench.baselines.protocols import Trended
@@ -33,6 +33,8 @@ class TrendedProcess(GaussianProcess, Trended):
         ------
         sklearn.exceptions.NotFittedError
             If `fit` has not been called.
+        ValueError
+            If times are no finite numbers.
         """
         check_is_fitted(self)
         return self._infer(self.reduction_.trend, times)
@@ -42,5 +44,5 @@ class TrendedProcess(GaussianProcess, Trended):
     ) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the posterior mean and variance of a curve."""
         with self._threaded_process() as process:
-            (inferred,) = process.infer([curve], [np.asarray(times, dtype=np.float64)])
+            (inferred,) = process.infer([curve], [check_times(times)])
         return inferred

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.validation import check_count, check_sampling, check_seed
 from mocapbench.baselines.gpdm.estimator import LatentVariableModel
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
 from mocapbench.baselines.gpdm.rollout import fair_trajectories, mean_trajectory
@@ -42,8 +43,14 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
         Each starts at the first position of a random training sequence. Trajectories are drawn by
         hybrid Monte Carlo (GPDM §5.1), and poses from their joint distribution given the
         trajectory, at the training frame rate and then interpolated linearly.
+
+        Raises
+        ------
+        ValueError
+            If times do not increase, or the number of samples or the seed is invalid.
         """
         check_is_fitted(self)
+        times = check_sampling(times, n_samples, random_state)
         rng = np.random.default_rng(random_state)
         n_frames = int(np.ceil((times[-1] - times[0]) / self.frame_seconds_ - 1e-6)) + 1
         n_frames = max(n_frames, self.order + 1)
@@ -56,6 +63,9 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
     ) -> tuple[Array, Array]:
         """Return the mean prediction (N, d) and samples (n, N, d) from the first training frame."""
         check_is_fitted(self)
+        for name, value in (("n_frames", n_frames), ("n_samples", n_samples)):
+            check_count(name, value, 1)
+        check_seed("random_state", random_state)
         dynamics, first = self.conditional_.dynamics, self._first(self._origins()[0])
         sampler = HybridMonteCarlo(n_samples, _BURN_IN, _LEAPS, _STEP)
         rng = np.random.default_rng(random_state)
