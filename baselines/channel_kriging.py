@@ -15,7 +15,7 @@ from scipy.linalg import cho_factor, cho_solve
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import hidden_together
-from mocapbench.baselines.common.recordings import check_recordings, pool
+from mocapbench.baselines.common.recordings import check_channels, check_recordings, pool
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_not_negative, check_positive
 from mocapbench.baselines.kriging.left_out import left_out_scales
@@ -148,6 +148,7 @@ class ChannelKriging(Widened, Imputer, Inductive):
             `fit`, or channels that are hidden together are visible together nowhere.
         """
         check_is_fitted(self)
+        check_channels(recordings, self.recordings_[0].channels, self.recordings_[0].units)
         return rehearsed(self, self.recordings_, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -21,6 +21,11 @@ from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Array
 from mocapbench.baselines.alignment.synthesis import blended, draw_cycles, draw_sequences
+from mocapbench.baselines.common.validation import (
+    check_count,
+    check_sampling,
+    check_seed,
+)
 from mocapbench.baselines.protocols import (
     Blender,
     Imputer,
@@ -31,6 +36,7 @@ from mocapbench.baselines.protocols import (
 )
 from mocapbench.baselines.rehearsal.widening import Widened, widened
 from mocapbench.datasets import FrameByChannel, Frames, Recording
+from mocapbench.datasets.recording import numbers
 
 __all__ = ["CyclicAlignment"]
 
@@ -206,6 +212,7 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         ValueError
             If channels differ.
         """
+        self._check_fitted(recordings)
         return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -226,8 +233,14 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
 
         Each has the style and the pace of a random fitted recording, and a new cycle of that style.
         Of ``times`` (N,) only the number counts.
+
+        Raises
+        ------
+        ValueError
+            If times do not increase, or the number of samples or the seed is invalid.
         """
         check_is_fitted(self)
+        times = check_sampling(times, n_samples, random_state)
         rng = np.random.default_rng(random_state)
         return self._unscaled(draw_sequences(self.state_, n_samples, len(times), rng))
 
@@ -236,6 +249,10 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
     ) -> SampleByFrameByChannel:
         """Draw cycles (n, M, D) of a style, without noise."""
         check_is_fitted(self)
+        if style not in range(self.n_styles):
+            raise ValueError(f"expected style to be from 0 to {self.n_styles - 1}, got {style!r}")
+        check_count("n_samples", n_samples, 1)
+        check_seed("random_state", random_state)
         rng = np.random.default_rng(random_state)
         return self._unscaled(draw_cycles(self.state_, style, n_samples, rng))
 
@@ -250,7 +267,7 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
             If the weights are not (N, n_styles), are negative, or a row's sum is not 1.
         """
         check_is_fitted(self)
-        return self._unscaled(blended(self.state_, np.asarray(weights, dtype=np.float64)))
+        return self._unscaled(blended(self.state_, numbers("weights", weights)))
 
     def _hyperparameters(self) -> Hyperparameters:
         return Hyperparameters(self.regularisation, PRIORS[self.prior])

@@ -14,6 +14,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.gaps import hidden_frames, runs
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import (
+    check_channels,
     check_recordings,
     check_visible,
     pool,
@@ -126,6 +127,7 @@ class KNN(Imputer, Inductive):
             no two consecutive frames are visible from which to learn a transition.
         """
         check_is_fitted(self)
+        check_channels(recordings, self.recordings_[0].channels, self.recordings_[0].units)
         return [from_pose_units(recording, self._filled(recording)) for recording in recordings]
 
     def _filled(self, recording: Recording) -> FrameByChannel:

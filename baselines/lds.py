@@ -10,7 +10,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.validation import check_count, check_positive
+from mocapbench.baselines.common.validation import check_count, check_positive, check_sampling
 from mocapbench.baselines.protocols import (
     Imputer,
     Inductive,
@@ -159,6 +159,8 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         return [errors.least for errors in self._left_out(recordings)]
 
     def _left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
+        if not len(recordings):
+            return []
         data, scale = self._observations(recordings), self.scaling_.scale
         mean, variance = moments(self.parameters_, smoothed(self.parameters_, data))
         means = map(self.scaling_.restore, data.unpad(mean))
@@ -175,8 +177,14 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         """Draw recordings from the distribution of the first state on, noise included: (n, N, D).
 
         Of ``times`` (N,) only the number counts: frames are at the interval of the fitted ones.
+
+        Raises
+        ------
+        ValueError
+            If times do not increase, or the number of samples or the seed is invalid.
         """
         check_is_fitted(self)
+        times = check_sampling(times, n_samples, random_state)
         rng = np.random.default_rng(random_state)
         return self.scaling_.restore(drawn(self.parameters_, n_samples, len(times), rng))
 

@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import frames_alike
 from mocapbench.baselines.common.own_means import OwnMeans
-from mocapbench.baselines.common.recordings import check_recordings, pool
+from mocapbench.baselines.common.recordings import check_channels, check_recordings, pool
 from mocapbench.baselines.common.validation import check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
@@ -117,6 +117,7 @@ class PCARegression(Imputer, Inductive):
             `fit`.
         """
         check_is_fitted(self)
+        check_channels(recordings, self.recordings_[0].channels, self.recordings_[0].units)
         return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
 
     def _filled(self, recording: Recording) -> FrameByChannel:

@@ -2,15 +2,16 @@
 
 import inspect
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 from format_files import sample
 
-from mocapbench.baselines import FrameImputer
+from mocapbench.baselines import FrameImputer, Synthesiser
 from mocapbench.benchmark.registry import FORMATS, METRICS, MODELS, TASKS
 from mocapbench.benchmark.testing import check_format, check_metric, check_task, model_checks
-from mocapbench.benchmark.testing.subject import COMPLETE, GAP, Subject, problem
+from mocapbench.benchmark.testing.subject import COMPLETE, GAP, TIMES, Subject, problem
 
 
 def is_documented(parameter, value):
@@ -52,6 +53,12 @@ def test_a_model_refuses_a_wrong_parameter_by_its_name(name, parameter, wrong):
     assert repr(wrong) in str(raised.value)
 
 
+@pytest.fixture(scope="module")
+def fitted():
+    """Return a registered model fitted to recordings one of which has a gap, by its name."""
+    return cache(lambda name: Subject(MODELS.get(name)).fitted(problem(GAP)))
+
+
 FILLERS = [name for name in MODELS.names() if issubclass(MODELS.get(name), FrameImputer)]
 
 
@@ -66,8 +73,8 @@ def test_a_model_refuses_to_fill_in_other_units_than_those_of_fit(name):
 
 @pytest.mark.parametrize("name", sorted({*FILLERS} - {"oracle", "trivial"}))
 def test_a_model_claims_nothing_of_channels_that_are_seen_once(name):
-    (recording,) = COMPLETE[:1]
     """Unless it is a reference, which knows the process, or has the moments of what is visible."""
+    (recording,) = COMPLETE[:1]
     once = recording.hide(np.arange(len(recording.times))[:, None] != 10)
     try:
         (prediction,) = Subject(MODELS.get(name)).fitted([once]).impute([once])
@@ -75,6 +82,58 @@ def test_a_model_claims_nothing_of_channels_that_are_seen_once(name):
         assert "expected" in str(error)
     else:
         assert prediction.variance is None
+
+
+NO_RECORDINGS = {
+    "None": None,
+    "a string": "ab",
+    "an array": COMPLETE[0].values,
+    "one recording": COMPLETE[0],
+    "arrays": [COMPLETE[0].values],
+    "an iterator": iter(COMPLETE),
+}
+
+
+@pytest.mark.parametrize("name", FILLERS)
+@pytest.mark.parametrize("wrong", NO_RECORDINGS.values(), ids=NO_RECORDINGS)
+def test_an_imputer_wants_a_list_of_recordings(fitted, name, wrong):
+    with pytest.raises(ValueError, match="expected a sequence of Recordings, got"):
+        fitted(name).impute(wrong)
+
+
+@pytest.mark.parametrize("name", FILLERS)
+def test_an_imputer_fills_no_recordings(fitted, name):
+    assert fitted(name).impute([]) == []
+
+
+SYNTHESISERS = [name for name in MODELS.names() if issubclass(MODELS.get(name), Synthesiser)]
+DRAWS = [
+    ({"times": None}, "times"),
+    ({"times": "ab"}, "times to be real numbers"),
+    ({"times": [0.0, 1j]}, "times to be real numbers"),
+    ({"times": [0.0, np.nan]}, "finite times"),
+    ({"times": np.zeros((3, 1))}, "times of shape"),
+    ({"times": []}, "times of shape"),
+    *(({"n_samples": wrong}, "n_samples") for wrong in ("x", None, -1, 0, 1.5, np.nan)),
+    *(({"random_state": wrong}, "random_state") for wrong in ("x", -1, 1.5, np.nan)),
+]
+
+
+@pytest.mark.parametrize("name", SYNTHESISERS)
+@pytest.mark.parametrize(("wrong", "named"), DRAWS, ids=str)
+def test_a_synthesiser_says_what_is_wrong_with_a_draw(fitted, name, wrong, named):
+    right = {"times": TIMES, "n_samples": 2, "random_state": 0}
+    with pytest.raises(ValueError, match=rf"expected .*{named}.*, got "):
+        fitted(name).sample(**{**right, **wrong})
+
+
+@pytest.mark.parametrize("name", SYNTHESISERS)
+def test_a_synthesiser_wants_increasing_times_unless_it_takes_any_order(fitted, name):
+    if "in any order" in MODELS.get(name).sample.__doc__:
+        assert fitted(name).sample([1.0, 0.0, 1.0], 2, 0).shape == (2, 3, 2)
+    else:
+        with pytest.raises(ValueError, match=r"expected increasing times, got 0\.0 after 1\.0"):
+            fitted(name).sample([1.0, 0.0, 1.0], 2, 0)
 
 
 @pytest.mark.parametrize("name", TASKS.names())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,13 +65,16 @@ def check_channels(
 def _listed(recordings: object) -> tuple[Recording, ...]:
     """Return the recordings as a tuple, or say what was given in their place."""
     kind = type(recordings).__name__
-    if not isinstance(recordings, Iterable):
-        raise ValueError(f"expected a sequence of Recordings, got {kind}; put one into a list")
+    if not isinstance(recordings, Collection):  # An iterator would be spent after this check.
+        raise ValueError(
+            f"expected a sequence of Recordings, got {kind}; put one or more into a list"
+        )
     listed = tuple(recordings)
     for item in listed:
         if not isinstance(item, Recording):
             raise ValueError(
-                f"expected a sequence of Recordings, got {kind} of {type(item).__name__}"
+                f"expected a sequence of Recordings, got {kind} of {type(item).__name__}; "
+                "make a Recording of each array of values"
             )
     return listed
 

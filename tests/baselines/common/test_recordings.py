@@ -64,7 +64,7 @@ def test_recordings_in_different_units_are_refused(check):
 @pytest.mark.parametrize(
     ("given", "got"),
     [
-        (recording("a", [[1.0]]), "Recording; put one into a list"),
+        (recording("a", [[1.0]]), "Recording; put one or more into a list"),
         (None, "NoneType"),
         (np.zeros((3, 1)), "ndarray of ndarray"),
         ([np.zeros((3, 1))], "list of ndarray"),
