@@ -32,10 +32,11 @@ from dataclasses import dataclass
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from sklearn.base import BaseEstimator
 
 from mocapbench.datasets import FrameByChannel, Frames, Recording, ToyProcess
+from mocapbench.datasets.recording import numbers
 
 __all__ = [
     "Aligner",
@@ -70,6 +71,10 @@ SampleByFrameByChannel = NDArray[np.float64]
 """(n, N, D) n sampled recordings."""
 
 
+_ROUNDING = 3e-5
+"""Variances below 0 by less than the square of this share of the largest mean are rounded ones."""
+
+
 @dataclass(frozen=True, eq=False)
 class Prediction:
     """A predictive distribution of the observations of one recording.
@@ -81,6 +86,11 @@ class Prediction:
     variance : ndarray of shape (N, D) or None, default=None
         Predictive variance of an observation, noise included; 0 at visible entries. None means
         that the model has no predictive distribution.
+
+    Raises
+    ------
+    ValueError
+        If they are no real numbers of one shape (N, D), or a variance is negative.
 
     Examples
     --------
@@ -96,6 +106,30 @@ class Prediction:
     mean: FrameByChannel
     variance: FrameByChannel | None = None
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "mean", numbers("the mean of a prediction", self.mean))
+        if self.mean.ndim != 2:
+            raise ValueError(
+                f"expected a mean of shape (frames, channels), got shape {self.mean.shape}"
+            )
+        if self.variance is not None:
+            variance = numbers("the variance of a prediction", self.variance)
+            object.__setattr__(self, "variance", variance)
+            self._check_variance(variance)
+
+    def _check_variance(self, variance: FrameByChannel) -> None:
+        if variance.shape != self.mean.shape:
+            raise ValueError(
+                f"expected a variance of the shape {self.mean.shape} of the mean, "
+                f"got {variance.shape}"
+            )
+        least = np.fmin.reduce(variance, axis=None, initial=0.0)
+        # Rounding may leave a difference of variances just below 0.
+        if np.sqrt(-least) > _ROUNDING * np.fmax.reduce(np.abs(self.mean), axis=None, initial=0.0):
+            raise ValueError(
+                f"expected variances of at least 0, got {least:g}; give squares of deviations"
+            )
+
     @classmethod
     def around(
         cls, recording: Recording, mean: FrameByChannel, variance: FrameByChannel | None = None
@@ -110,12 +144,31 @@ class Prediction:
             Predictive mean.
         variance : array_like that broadcasts to (N, D), or None, default=None
             Predictive variance, noise included.
+
+        Raises
+        ------
+        ValueError
+            If one of them has another shape or no real numbers, or a variance is negative.
         """
         visible = recording.visible
         return cls(
-            np.where(visible, recording.values, mean),
-            None if variance is None else np.where(visible, 0.0, variance),
+            np.where(visible, recording.values, _fitting("mean", mean, recording)),
+            None
+            if variance is None
+            else np.where(visible, 0.0, _fitting("variance", variance, recording)),
         )
+
+
+def _fitting(what: str, given: ArrayLike, recording: Recording) -> NDArray[np.float64]:
+    """Return numbers that broadcast to the shape (N, D) of a recording."""
+    values, shape = numbers(f"the {what} of a prediction", given), recording.values.shape
+    sizes = zip(values.shape[::-1], shape[::-1], strict=False)
+    if values.ndim > 2 or any(size not in (1, full) for size, full in sizes):
+        raise ValueError(
+            f"recording {recording.name!r}: expected a {what} that broadcasts to its shape {shape} "
+            f"(frames, channels), got shape {values.shape}"
+        )
+    return values
 
 
 class Model(BaseEstimator, ABC):  # type: ignore[misc]
