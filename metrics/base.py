@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
+from numbers import Real
 from typing import Any, Generic, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mocapbench.metrics.poses import ImputedPoses, SampledPoses
 
@@ -47,10 +48,22 @@ class Direction(Enum):
 
 
 def _as_numbers(outcome: object, *fields: str) -> None:
-    """Make those fields of a frozen ``outcome`` that are not None arrays of numbers."""
+    """Make these fields of a frozen ``outcome`` arrays of numbers."""
     for name in fields:
-        if (value := getattr(outcome, name)) is not None:
-            object.__setattr__(outcome, name, np.asarray(value, dtype=np.float64))
+        what = f"{name} of {type(outcome).__name__}"
+        object.__setattr__(outcome, name, _numbers(what, getattr(outcome, name)))
+
+
+def _numbers(what: str, values: ArrayLike) -> Array:
+    """Return ``values`` as floats, or say that they are text, complex or ragged."""
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind in "biufO":
+            return np.asarray(array, dtype=np.float64)
+        got = f"an array of {array.dtype}"
+    except (TypeError, ValueError) as error:
+        got = f"others: {error}"
+    raise ValueError(f"expected {what} to be real numbers, in rows of the same length, got {got}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +98,8 @@ class Imputation:
     Raises
     ------
     ValueError
-        If ``hidden`` is not boolean; on access to `poses`, if the outcome has no ``place_joints``.
+        If ``hidden`` is not boolean, other fields are no real numbers, or ``units`` is no sequence
+        of strings; on access to `poses`, if the outcome has no ``place_joints``.
     """
 
     truth: Array
@@ -99,13 +113,24 @@ class Imputation:
     place_joints: Callable[[], ImputedPoses] | None = None
 
     def __post_init__(self) -> None:
-        _as_numbers(self, "truth", "mean", "variance", "visible_mean", "visible_variance", "scales")
+        optional = (name for name in ("variance", "scales") if getattr(self, name) is not None)
+        _as_numbers(self, "truth", "mean", "visible_mean", "visible_variance", *optional)
         mask = np.asarray(self.hidden)
         if mask.dtype != np.bool_:  # numbers would be taken as frames
             raise ValueError(
                 f"expected hidden to be True or False for each entry, got numbers of {mask.dtype}"
             )
         object.__setattr__(self, "hidden", mask)
+        self._check_units()
+
+    def _check_units(self) -> None:
+        # A single string would be taken as one unit per letter.
+        units: object = self.units
+        listed = isinstance(units, Sequence | np.ndarray) and not isinstance(units, str)
+        if not listed or not all(isinstance(unit, str) for unit in self.units):
+            raise ValueError(
+                f"expected units to be a sequence of one string per output, got {units!r}"
+            )
 
     @cached_property
     def poses(self) -> ImputedPoses:
@@ -132,7 +157,8 @@ class Synthesis:
     Raises
     ------
     ValueError
-        On access to `poses`, if the outcome has no ``place_joints``.
+        If samples or references are no real numbers; on access to `poses`, if the outcome has no
+        ``place_joints``.
     """
 
     samples: Array
@@ -168,21 +194,40 @@ def has_poses(outcome: Imputation | Synthesis) -> bool:
 class Clustering:
     """Clusters of recordings, and their known classes.
 
+    Lists are taken as arrays.
+
     Parameters
     ----------
     truth : ndarray of int or str, shape (K,)
         The class of each recording.
     labels : ndarray of int, shape (K,)
         Number of the cluster of each recording; the order of the numbers has no meaning.
+
+    Raises
+    ------
+    ValueError
+        If labels are no whole numbers.
     """
 
     truth: NDArray[Any]
     labels: NDArray[np.intp]
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "truth", np.asarray(self.truth))
+        labels = np.asarray(self.labels)
+        if labels.size and labels.dtype.kind not in "iu":
+            raise ValueError(
+                f"expected labels to be the whole number of a cluster for each recording, "
+                f"got {self.labels!r}"
+            )
+        object.__setattr__(self, "labels", labels)
+
 
 @dataclass(frozen=True, eq=False)
 class Recovery:
     """True and estimated covariances of the layers of a process.
+
+    Nested lists are taken as arrays.
 
     Parameters
     ----------
@@ -192,11 +237,32 @@ class Recovery:
         Estimated covariances, of the layers that the model has.
     noise : float
         Variance of the noise in which the curves were observed.
+
+    Raises
+    ------
+    ValueError
+        If covariances are no mapping of layers to real numbers, or the noise is no number.
     """
 
     truth: Mapping[str, Array]
     estimate: Mapping[str, Array]
     noise: float
+
+    def __post_init__(self) -> None:
+        for name in ("truth", "estimate"):
+            layers = getattr(self, name)
+            if not isinstance(layers, Mapping):
+                raise ValueError(
+                    f"expected {name} to be a mapping of layers to covariances, got {layers!r}"
+                )
+            matrices = {
+                layer: _numbers(f"{name} of layer {layer!r}", matrix)
+                for layer, matrix in layers.items()
+            }
+            object.__setattr__(self, name, matrices)
+        noise: object = self.noise
+        if not isinstance(noise, Real):
+            raise ValueError(f"expected noise to be a variance, got {noise!r}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -287,7 +353,18 @@ class Metric(Generic[OutcomeT]):
         )
 
     def __call__(self, outcome: OutcomeT) -> Score:
-        """Return the score of ``outcome``."""
+        """Return the score of ``outcome``.
+
+        Raises
+        ------
+        ValueError
+            If it is an outcome of another kind, or one that cannot be scored.
+        """
+        if not isinstance(outcome, self.outcome):
+            raise ValueError(
+                f"metric {self.name!r}: expected an outcome of class {self.outcome.__name__}, "
+                f"got {type(outcome).__name__}; choose a metric that applies to it"
+            )
         return self.statistic(outcome)
 
     def loss(self, value: float) -> float:

@@ -46,6 +46,10 @@ def hidden_entries(outcome: Imputation) -> Mask:
 
 def _check_shapes(outcome: Imputation) -> None:
     shape = outcome.truth.shape
+    if len(outcome.units) not in (0, shape[1]):
+        raise ValueError(
+            f"expected no units or one for each of {shape[1]} outputs, got {outcome.units!r}"
+        )
     for name, array, expected in (
         ("mean", outcome.mean, shape),
         ("variance", outcome.variance, shape),

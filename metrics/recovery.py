@@ -139,8 +139,14 @@ def _pair(outcome: Recovery, layer: str) -> tuple[Array, Array]:
     Raises
     ------
     ValueError
-        If they are not square matrices of the same size.
+        If one is missing, or they are not square matrices of the same size.
     """
+    for name, layers in (("true", outcome.truth), ("estimated", outcome.estimate)):
+        if layer not in layers:
+            raise ValueError(
+                f"expected a covariance of layer {layer!r} among the {name} ones, "
+                f"got those of {sorted(layers)}"
+            )
     truth, estimate = outcome.truth[layer], outcome.estimate[layer]
     if truth.ndim != 2 or truth.shape != truth.T.shape or truth.shape != estimate.shape:
         raise ValueError(

@@ -49,7 +49,7 @@ def imputation(truth, mean, variance=None, hidden=None, **visible):
         visible_mean=np.asarray(visible.get("visible_mean", np.zeros(truth.shape[-1]))),
         visible_variance=np.asarray(visible.get("visible_variance", np.ones(truth.shape[-1]))),
         scales=np.ones(truth.shape[-1]),
-        units=visible.get("units", ("deg", "") * (truth.shape[-1] // 2)),
+        units=visible.get("units", (("deg", "") * truth.shape[-1])[: truth.shape[-1]]),
         place_joints=partial(drawn_poses, len(truth)),
     )
 

@@ -10,6 +10,13 @@ from mocapbench.metrics import Clustering, Direction, Imputation, Recovery, Synt
 METRICS = [point.load() for point in entry_points(group="mocapbench.metrics")]
 
 
+def as_lists(value):
+    """Return arrays, alone or in a mapping, as nested lists, and all else as it is."""
+    if isinstance(value, dict):
+        return {name: as_lists(item) for name, item in value.items()}
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
 @pytest.fixture
 def outcomes(draw, place):
     rng = np.random.default_rng(0)
@@ -96,6 +103,7 @@ def test_metrics_of_distributions_need_positive_variances(make, metric, variance
         ({"truth": np.zeros((2, 2, 1))}, "truth of shape"),
         ({"truth": np.full((2, 2), np.nan)}, "finite truth"),
         ({"mean": np.inf}, "finite mean"),
+        ({"units": ("deg",)}, "no units or one for each of 2 outputs"),
     ],
 )
 def test_unsound_outcomes_are_refused(make, metric, changes, message):
@@ -120,16 +128,45 @@ def test_visible_entries_do_not_count(draw, make, metric):
     assert metric(changed).value == metric(outcome).value
 
 
-@pytest.mark.parametrize(
-    "metric",
-    [m for m in METRICS if m.outcome in (Imputation, Synthesis)],
-    ids=lambda m: m.name,
-)
+@pytest.mark.parametrize("metric", METRICS, ids=lambda m: m.name)
 def test_lists_count_as_arrays(metric, outcomes):
     outcome = outcomes[metric.outcome]
-    arrays = {name: v for name, v in vars(outcome).items() if isinstance(v, np.ndarray)}
-    lists = dataclasses.replace(outcome, **{name: v.tolist() for name, v in arrays.items()})
+    lists = dataclasses.replace(outcome, **{n: as_lists(v) for n, v in vars(outcome).items()})
     assert metric(lists).value == metric(outcome).value
+
+
+@pytest.mark.parametrize("metric", METRICS, ids=lambda m: m.name)
+def test_other_outcomes_than_that_of_a_metric_are_refused(metric, outcomes):
+    others = [other for kind, other in outcomes.items() if kind is not metric.outcome]
+    for other in (None, "mse", *others):
+        assert not metric.applies(other)
+        expected = f"{metric.name}.*of class {metric.outcome.__name__}, got {type(other).__name__}"
+        with pytest.raises(ValueError, match=expected):
+            metric(other)
+
+
+@pytest.mark.parametrize(
+    ("kind", "changes", "message"),
+    [
+        (Imputation, {"truth": "ab"}, "truth of Imputation to be real numbers"),
+        (Imputation, {"mean": [[1j]]}, "mean of Imputation to be real numbers"),
+        (Imputation, {"variance": [[1.0], [1.0, 2.0]]}, "variance of Imputation .* same length"),
+        (Imputation, {"units": "degr"}, "units to be a sequence .*, got 'degr'"),
+        (Imputation, {"units": None}, "units to be a sequence .*, got None"),
+        (Imputation, {"units": ("deg", 1)}, "units to be a sequence .*, got "),
+        (Synthesis, {"samples": "ab"}, "samples of Synthesis to be real numbers"),
+        (Synthesis, {"references": [["a"]]}, "references of Synthesis to be real numbers"),
+        (Clustering, {"labels": ["a"] * 9}, "labels to be the whole number of a cluster"),
+        (Clustering, {"labels": None}, "labels to be the whole number of a cluster"),
+        (Recovery, {"truth": np.eye(3)}, "truth to be a mapping of layers"),
+        (Recovery, {"estimate": None}, "estimate to be a mapping of layers"),
+        (Recovery, {"estimate": {"child": "ab"}}, "estimate of layer 'child' to be real numbers"),
+        (Recovery, {"noise": "x"}, "noise to be a variance, got 'x'"),
+    ],
+)
+def test_what_is_no_outcome_is_refused(outcomes, kind, changes, message):
+    with pytest.raises(ValueError, match=f"expected {message}"):
+        dataclasses.replace(outcomes[kind], **changes)
 
 
 def test_a_mask_of_numbers_is_refused(make):

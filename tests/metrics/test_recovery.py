@@ -79,3 +79,11 @@ def test_malformed_recoveries_are_refused():
         relative_frobenius(_recovery(np.eye(2), np.eye(3)), "child")
     with pytest.raises(ValueError, match="positive variance of the noise, got 0"):
         log_det_divergence(_recovery(np.eye(2), np.eye(2), noise=0.0), "child")
+
+
+def test_a_layer_without_an_estimate_is_named():
+    outcome = Recovery({"parent": np.eye(2)}, {"child": np.eye(2)}, NOISE)
+    with pytest.raises(ValueError, match=r"layer 'parent' among the estimated .* \['child'\]"):
+        frobenius_parent(outcome)
+    with pytest.raises(ValueError, match=r"layer 'child' among the true .* \['parent'\]"):
+        logdet_child(outcome)
