@@ -82,13 +82,15 @@ class Control(Synthesiser, Misinformed):
     ) -> SampleByFrameByChannel:
         """Return ``n_samples`` recordings of as many parents, noise included: (n, N, D).
 
+        ``times`` (N,) may be in any order.
+
         Raises
         ------
         ValueError
-            If times do not increase, or the number of samples or the seed is invalid.
+            If times, the number of samples or the seed are invalid.
         """
         check_is_fitted(self, "process_")
-        times = check_sampling(times, n_samples, random_state)
+        times = check_sampling(times, n_samples, random_state, increasing=False)
         rng = np.random.default_rng(random_state)
         curves = draw_gaussian(rng, self.process_.covariance(times), n_samples)
         return curves.reshape(n_samples, self.process_.n_outputs, -1).transpose(0, 2, 1)

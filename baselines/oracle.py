@@ -206,15 +206,16 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
     ) -> SampleByFrameByChannel:
         """Return new children of the same parent, given all visible entries: (n, N, D).
 
-        The parent is drawn once from its posterior and shared by all; noise is included.
+        The parent is drawn once from its posterior and shared by all; noise is included. ``times``
+        may be in any order.
 
         Raises
         ------
         ValueError
-            If times do not increase, or the number of samples or the seed is invalid.
+            If times, the number of samples or the seed are invalid.
         """
         check_is_fitted(self, "times_")
-        times = check_sampling(times, n_samples, random_state)
+        times = check_sampling(times, n_samples, random_state, increasing=False)
         rng = np.random.default_rng(random_state)
         mean, covariance = self._trend(times)
         within = self.process_.child.covariance(times)
