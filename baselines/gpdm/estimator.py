@@ -33,7 +33,7 @@ from mocapbench.baselines.gpdm.sequences import TrainingSequences, whitened_comp
 from mocapbench.baselines.gpdm.starts import STARTS
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import Embedded, FrameImputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.widening import Widened, widened
+from mocapbench.baselines.rehearsal.widening import Relearning, widened
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["LatentVariableModel"]
@@ -41,7 +41,7 @@ __all__ = ["LatentVariableModel"]
 Array = NDArray[np.float64]
 
 
-class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
+class LatentVariableModel(Relearning, FrameImputer, Inductive, Embedded):
     """Poses as smooth functions of latent positions, which have a prior.
 
     A subclass provides the prior and the learning algorithm. Its constructor stores ``n_latent``,
@@ -79,6 +79,7 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
         self._check_parameters()
         dynamics, learning = self._dynamics(), self._learning()
         checked = check_recordings(recordings)
+        self.learnt_from_ = checked
         self.sequences_ = TrainingSequences.of([in_pose_units(each) for each in checked])
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.matcher_ = PoseViterbi().fit(checked)
@@ -122,7 +123,8 @@ class LatentVariableModel(Widened, FrameImputer, Inductive, Embedded):
         """Return the mean and variance of hidden frames given the training and visible frames.
 
         Variances are those given the most probable latent positions, checked by trials on the
-        recording's visible frames (``docs/calibration.md``).
+        recording's visible frames (``docs/calibration.md``), for which the model learns anew if
+        the recording was given to `fit`.
 
         Raises
         ------

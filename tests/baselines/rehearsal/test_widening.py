@@ -1,10 +1,12 @@
+from functools import partial
+
 import numpy as np
 import pytest
 from claiming import Claiming, Drifting
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines import FAM, LDS, LowRank
+from mocapbench.baselines import FAM, GPLVM, LDS, LowRank
 from mocapbench.baselines.rehearsal.ratios import (
     geometric_ratios,
     mean_ratios,
@@ -209,14 +211,17 @@ def test_a_recording_without_a_trial_keeps_its_variance():
     assert prediction.variance[1, 0] == 5.0
 
 
-@pytest.mark.parametrize("model", [LDS, LowRank, FAM])
+SHORT_SEARCH = {"n_latent": 1, "max_iter": 2, "fill_iter": 2, "random_state": 0}
+
+
+@pytest.mark.parametrize("model", [LDS, LowRank, FAM, partial(GPLVM, **SHORT_SEARCH)])
 def test_a_model_learns_anew_for_trials_of_what_it_has_learnt_from(model):
     recording, other = noise("r", np.array([1.0, 3.0]), 150), noise("other", np.array([2.0, 1.0]))
     fitted = model().fit([recording, other])
     trial, stranger = (
         given.hide(trial_masks(given)[0]) for given in (recording, noise("new", np.ones(2)))
     )
-    expected = [model().fit([other, trial]).as_claimed([trial]), fitted.as_claimed([stranger])]
+    expected = [model().fit([trial, other]).as_claimed([trial]), fitted.as_claimed([stranger])]
     for answer, (alone,) in zip(fitted.as_tried([trial, stranger]), expected, strict=True):
         np.testing.assert_allclose(answer.mean, alone.mean)
         np.testing.assert_allclose(answer.variance, alone.variance)
