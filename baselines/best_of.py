@@ -141,8 +141,10 @@ class BestOf(Imputer, Inductive):
         self, rehearsals: Rehearsals, names: Container[str]
     ) -> Mapping[str, Sequence[Products]]:
         """Return the sources of evidence on each part of the gaps."""
-        parts = parts_of(rehearsals.given)
-        return {name: among(evidence(rehearsals, part), names) for name, part in parts.items()}
+        return {
+            name: among(evidence(rehearsals, part) or evidence(rehearsals, part.widely), names)
+            for name, part in parts_of(rehearsals.given).items()
+        }
 
     def _weights(self, sources: Mapping[str, Sequence[Products]]) -> pd.DataFrame:
         by_part = {part: weights_of(each, self.shrinkage) for part, each in sources.items()}

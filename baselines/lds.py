@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
+from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
@@ -29,6 +30,8 @@ from mocapbench.baselines.state_space.start import initial_states, start
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["LDS"]
+
+Array = NDArray[np.float64]
 
 
 class LDS(Relearning, Imputer, Inductive, Synthesiser):
@@ -154,8 +157,8 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         """Return the predictions of `impute`, with the variances that the model itself claims."""
         return [errors.claimed for errors in self._left_out(recordings)]
 
-    def least_factors(self, recordings: Sequence[Recording]) -> list[float]:
-        """Return what variances may be multiplied by, by the errors of entries left out."""
+    def least_factors(self, recordings: Sequence[Recording]) -> list[Array]:
+        """Return what variances may be multiplied by, as errors of entries left out bear out."""
         return [errors.least for errors in self._left_out(recordings)]
 
     def _left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:

@@ -131,7 +131,7 @@ class PoseViterbi(FrameImputer, Inductive):
     def residual(self, recording: Recording) -> NDArray[np.float64]:
         """Return the mean residual (D,) of the cheapest path, in the channels' units.
 
-        It is that at the visible frames.
+        The mean is over the visible frames.
 
         Raises
         ------

@@ -29,6 +29,8 @@ def numbers(what: str, values: ArrayLike) -> NDArray[np.float64]:
     """
     try:
         array = np.asarray(values)
+        if array.dtype == object and any(isinstance(item, str) for item in array.flat):
+            raise TypeError("text among them")
         if array.dtype.kind in "biufO":
             return np.asarray(array, dtype=np.float64)
         got = f"an array of {array.dtype}"

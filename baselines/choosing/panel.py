@@ -64,7 +64,7 @@ CANDIDATES: Mapping[str, Callable[[], FrameImputer]] = {
     "mohgp": partial(_mohgp, 3),
     "mohgp-registered": partial(_mohgp, {"parent": 1, "child": 5}, "affine"),
 }
-"""All are inductive, and take a few seconds at most, `Jointly` half a minute."""
+"""All are inductive, and take a few seconds at most."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,7 @@ rehearsed, and weighed, apart.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,15 +33,16 @@ class Part:
     channels: NDArray[np.bool_] | slice
     only_whole: bool = False
 
+    @property
+    def widely(self) -> Part:
+        """All frames of its channels, which stand in for a part that no trial has room for."""
+        return replace(self, only_whole=False)
+
     def entries(self, hidden: Mask) -> Mask:
         """Return the entries (N, D) of the part, if ``hidden`` is what is hidden."""
         entries = np.zeros(hidden.shape, dtype=bool)
         entries[:, self.channels] = (_in_whole_gaps(hidden) | (not self.only_whole))[:, None]
         return entries
-
-    def of(self, values: NDArray[Any], hidden: Mask) -> NDArray[Any]:
-        """Return the values (N, D) at the entries of the part, one after another."""
-        return np.asarray(values[self.entries(hidden)])
 
 
 EVERYTHING = Part(slice(None))

@@ -46,7 +46,8 @@ class Errors:
 
     def products(self, part: Part) -> Products:
         """Return the mean products of the errors in a part, if any of it is rehearsed."""
-        parts = [part.of(error, self.hidden) for error in self.by_model.values()]
+        entries = part.entries(self.hidden)
+        parts = [error[entries] for error in self.by_model.values()]
         rows = [errors[~np.isnan(errors)] for errors in parts]
         if not rows or not len(rows[0]):
             return pd.DataFrame()
@@ -89,7 +90,7 @@ class Rehearsals:
     def n_entries(self, part: Part) -> float:
         """Return how many entries of a part the trials hide, in all."""
         hidden = ~self.given.visible
-        return float(sum(part.of(trial, hidden | trial).sum() for trial in self.trials))
+        return float(sum((trial & part.entries(hidden | trial)).sum() for trial in self.trials))
 
     def in_training(self, part: Part = EVERYTHING) -> list[tuple[Products, Products]]:
         """Return those of training recordings held out in turn, with the gaps and in a trial.

@@ -80,8 +80,11 @@ def whole_gaps(hidden: Mask) -> list[NDArray[np.intp]]:
     """Return the gaps that most channels have in common, and that all are hidden in: their frames.
 
     In few channels that are hidden here and there, frames in which all are hidden by chance are no
-    such gap.
+    such gap. Channels that are hidden throughout do not count.
     """
+    hidden = hidden[:, ~hidden.all(axis=0)]
+    if not hidden.shape[1]:
+        return []
     beside = np.pad(hidden, ((1, 1), (0, 0)))
     whole = runs(np.asarray(hidden.all(axis=1)))
     return [gap for gap in whole if np.mean(~(beside[gap[0]] | beside[gap[-1] + 2])) > 0.5]

@@ -4,9 +4,9 @@ Such a distance adds up squares over channels, which their units therefore weigh
 would hardly count beside the place of the body, in millimetres nothing else would. Known units are
 converted to those of the CMU database, with which the models were developed and published figures
 were computed: degrees, and the length that its skeletons have as their unit, 1/0.45 inch (5.64 cm).
-Others are left as they are, such as ``""``, the unit of lengths in the Acclaim and BVH formats.
-Where all channels have the same unit, it does not weigh one against another, and values stay as
-they are.
+Rates follow what they are rates of: ``rad/s`` becomes degrees a second. Others are left as they
+are, such as ``""``, the unit of lengths in the Acclaim and BVH formats. Where all channels have the
+same unit, it does not weigh one against another, and values stay as they are.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def pose_factors(units: Sequence[str]) -> Array:
         The unit of each channel. All factors are 1 if it is the same for all.
     """
     alike = len(set(units)) == 1
-    return np.array([1.0 if alike else _FACTORS.get(unit, 1.0) for unit in units])
+    return np.array([1.0 if alike else _FACTORS.get(unit.partition("/")[0], 1.0) for unit in units])
 
 
 def in_pose_units(recording: Recording) -> Recording:

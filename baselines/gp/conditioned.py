@@ -40,8 +40,9 @@ class Conditioned(Widened, Imputer):
 
         Each is conditioned on the visible entries of *all* recordings given to `fit`. The variances
         of a channel are those of the posterior, times the larger of two mean ratios of squared
-        errors to variances, where it is above 1: that of the recording's own visible entries if
-        they are left out one by one, and that of trials, with the parameters kept. Trials hide
+        errors to variances: that of the recording's own visible entries if they are left out one by
+        one, and that of trials, with the parameters kept. It is less than 1 only as far as all
+        entries together bear out. Trials hide
         copies of gaps of three frames or more; where copies have to be shorter than the gap, the
         ratio grows with the distance to visible frames as it does in them. The mean over all
         channels counts as ten entries in each (``docs/calibration.md``). `as_claimed` has the

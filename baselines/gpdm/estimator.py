@@ -133,6 +133,8 @@ class LatentVariableModel(Relearning, FrameImputer, Inductive, Embedded):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
+        for recording in recordings:
+            visible_frames(recording)  # before it learns anew for any of them
         return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:

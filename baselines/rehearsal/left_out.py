@@ -102,33 +102,35 @@ class LeftOut:
         return np.maximum(mean_ratios(sums, counts), self.least)
 
     @property
-    def least(self) -> float:
-        """The least factor that they bear out, at most 1: 200 entries as claimed count besides.
+    def least(self) -> Array:
+        """The least factors (D,) that all entries bear out, at most 1.
 
-        Where gaps lie farther from what is visible than the entries that were left out, the ratio
-        is taken to grow as steeply as trials ever let it.
+        200 entries that are as claimed count besides. Where the gaps of a channel lie farther from
+        what is visible than visible entries do from each other, the ratio is taken to grow as
+        steeply as trials ever let it; where nothing else of a channel is visible, it says nothing.
         """
         left_out = np.isfinite(self.squares)
         ratio = (np.nansum(self.squares) + _AS_CLAIMED) / (left_out.sum() + _AS_CLAIMED)
         gaps = np.asarray(self.claimed.variance) > 0.0
         visible = ~gaps
-        farther = max(_mean_distance(visible, gaps) / _mean_distance(visible, left_out), 1.0)
-        return float(min(ratio * farther**STEEPEST, 1.0))
+        there, here = _mean_distances(visible, gaps), _mean_distances(visible, visible)
+        known = np.isfinite(there) & np.isfinite(here)
+        farther = np.divide(there, here, out=np.full(len(here), np.inf), where=known)
+        return np.asarray(np.minimum(ratio * np.maximum(farther, 1.0) ** STEEPEST, 1.0))
 
 
-def _mean_distance(visible: Mask, entries: Mask) -> float:
-    """Return the mean number of frames from ``entries`` (N, D) to the nearest other visible one.
+def _mean_distances(visible: Mask, entries: Mask) -> Array:
+    """Return the mean number of frames from ``entries`` to the nearest other visible ones: (D,).
 
-    Those without another visible entry in their channel do not count; 1 where none has one.
+    It is infinite in channels where an entry has none, and 0 where there is no entry.
     """
     frames = np.arange(len(visible), dtype=np.float64)[:, None]
     nowhere = np.full((1, visible.shape[1]), np.inf)
     last = np.maximum.accumulate(np.where(visible, frames, -np.inf))
     next_ = np.minimum.accumulate(np.where(visible, frames, np.inf)[::-1])[::-1]
     before, after = np.vstack([-nowhere, last[:-1]]), np.vstack([next_[1:], nowhere])
-    distances = np.minimum(frames - before, after - frames)[entries]
-    known = distances[np.isfinite(distances)]
-    return float(known.mean()) if len(known) else 1.0
+    distances = np.where(entries, np.minimum(frames - before, after - frames), 0.0)
+    return np.asarray(distances.sum(axis=0) / np.maximum(entries.sum(axis=0), 1))
 
 
 def side_by_side(channels: Sequence[Prediction]) -> Prediction:

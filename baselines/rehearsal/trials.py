@@ -1,11 +1,10 @@
 """Trials: more of a recording is hidden, like its gaps, where the truth is visible.
 
 A trial hides copies of the gaps elsewhere: of the same lengths, in the same channels; those of gaps
-in all channels hide whole frames. The real gaps
-stay hidden. Places are spread evenly over the visible frames and draw no random numbers, so that a
-recording has the same trials wherever it is filled. A gap that reaches an end of the recording has
-visible frames on one side only, and so have its copies: they hide the first frames that are
-visible, or the last ones.
+in all channels hide whole frames where there is room. The real gaps stay hidden. Places are spread
+evenly over the visible frames and draw no random numbers, so that a recording has the same trials
+wherever it is filled. A gap that reaches an end of the recording has visible frames on one side
+only, and so have its copies: they hide the first frames that are visible, or the last ones.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ It yields frames near that place (0 to 1) of the recording, those to be preferre
 N_TRIALS = 3
 """Trials of a recording."""
 _MOST_HIDDEN = 0.15
-"""Of a channel's visible frames, that a trial hides, unless one gap alone is longer."""
+"""Of a channel's free frames, that a trial hides, unless one gap alone is longer."""
 _LEAST_LEFT = 2
 """Frames that stay visible in a trial: one tells nothing of how far a channel goes."""
 _SHARES = (1.0, 0.5, 0.25, 0.125, 0.0625)
@@ -91,13 +90,7 @@ def trial_masks(recording: Recording, places: Places = copies) -> list[Mask]:
         What a trial may hide in place of a gap.
     """
     hidden = ~recording.visible
-    masks = [np.zeros_like(hidden) for _ in range(N_TRIALS)]
-    for columns, gaps in _alike(hidden):
-        for number, mask in enumerate(masks):
-            blocked = np.asarray((hidden | _widened(mask))[:, columns].any(axis=1))
-            spent = int(mask[:, columns].any(axis=1).sum())
-            for frames in _tried(blocked, spent, gaps, places, (number + 0.5) / N_TRIALS):
-                mask[np.ix_(frames, columns)] = True
+    masks = [_trial(hidden, places, (n + 0.5) / N_TRIALS) for n in range(N_TRIALS)]
     unlike = {mask.tobytes(): mask for mask in masks}
     return [mask for mask in unlike.values() if mask.any()]
 
@@ -143,18 +136,35 @@ def _half(hidden: NDArray[np.bool_], frames: Frames) -> Frames:
     return frames[first : first + length]
 
 
-def _alike(hidden: Mask) -> Iterator[tuple[Frames, list[Frames]]]:
-    """Yield channels that have gaps together, and these gaps: first those that all channels have.
-
-    In what is left, channels that are hidden at the same frames belong together.
-    """
-    whole = whole_gaps(hidden)
-    if whole:
-        yield np.arange(hidden.shape[1]), whole
-    known = {(gap[0], gap[-1]) for gap in whole}
+def _trial(hidden: Mask, places: Places, place: float) -> Mask:
+    """Return what a trial hides: whole frames, then in channels that are hidden together."""
+    mask = np.zeros_like(hidden)
+    whole = dict(_whole(hidden, places, place))
+    for frames in whole.values():
+        mask[np.ix_(frames, ~hidden.all(axis=0))] = True
     for columns in hidden_together(hidden):
-        gaps = runs(hidden[:, columns[0]])
-        yield columns, [gap for gap in gaps if (gap[0], gap[-1]) not in known]
+        gaps = [gap for gap in runs(hidden[:, columns[0]]) if (gap[0], gap[-1]) not in whole]
+        blocked = np.asarray((hidden | _widened(mask))[:, columns[0]])
+        spent = int(mask[:, columns[0]].sum())
+        for _, frames in _tried(blocked, spent, gaps, places, place):
+            mask[np.ix_(frames, columns)] = True
+    return mask
+
+
+def _whole(hidden: Mask, places: Places, place: float) -> Iterator[tuple[tuple[int, int], Frames]]:
+    """Yield ends and copies of gaps in all channels, in a recording that has others besides.
+
+    Channels that are hidden throughout do not count. There is no copy unless one as long as the gap
+    fits in all the others at once; then the gap is one of their channels, as any other.
+    """
+    shown = hidden[:, ~hidden.all(axis=0)]
+    gaps = whole_gaps(hidden)
+    if not shown[np.setdiff1d(np.arange(len(hidden)), np.concatenate([[], *gaps]))].any():
+        return
+    for gap, frames in _tried(np.asarray(shown.any(axis=1)), 0, gaps, places, place):
+        at_an_end = shown[: frames[0]].all() or shown[frames[-1] + 1 :].all()
+        if len(frames) == len(gap) and at_an_end >= _at_an_end(shown[:, 0], gap):
+            yield (gap[0], gap[-1]), frames
 
 
 def _widened(mask: Mask) -> Mask:
@@ -165,8 +175,8 @@ def _widened(mask: Mask) -> Mask:
 
 def _tried(
     blocked: NDArray[np.bool_], spent: int, gaps: Sequence[Frames], places: Places, place: float
-) -> Iterator[Frames]:
-    """Yield the frames that stand for gaps, the first at ``place`` (0 to 1).
+) -> Iterator[tuple[Frames, Frames]]:
+    """Yield gaps and the frames that stand for them, the first at ``place`` (0 to 1).
 
     They are free of what is blocked; ``spent`` frames that were visible have been hidden before.
     """
@@ -183,7 +193,7 @@ def _tried(
         if len(frames):
             blocked[max(frames[0] - 1, 0) : frames[-1] + 2] = True
             taken, place = taken + len(frames), place + _GOLDEN
-            yield frames
+            yield gap, frames
 
 
 def _at_an_end(blocked: NDArray[np.bool_], gap: Frames) -> bool:

@@ -1,7 +1,8 @@
 r"""What a recording's own trials say of the variances that a model claims.
 
 The variance of a channel is multiplied by the mean ratio, in the trials, of squared errors to
-claimed variances, where that is above one. Three trials say too little to make variances as small
+claimed variances, where that is above one, or above a lesser factor that a model has other evidence
+for (`Widened.least_factors`). Three trials say too little to make variances as small
 as they show, but none is left larger than four times what the worst of three shows, and none less
 than a ten-thousandth of what is claimed.
 
@@ -84,7 +85,7 @@ class VarianceCheck:
         return [self.recording.hide(mask) for mask in (*self.copies, *self.halves)]
 
     def applied(
-        self, claimed: Prediction, answers: Sequence[Prediction], least: float = 1.0
+        self, claimed: Prediction, answers: Sequence[Prediction], least: float | Array = 1.0
     ) -> Prediction:
         """Return a prediction with variances that the answers to the trials bear out.
 
@@ -94,7 +95,7 @@ class VarianceCheck:
             Of the recording.
         answers : sequence of Prediction
             Of the `trials`, in their order.
-        least : float, default=1.0
+        least : float or ndarray of shape (D,), default=1.0
             What variances may be multiplied by if trials bear out as little; at most 1.
         """
         if not answers or claimed.variance is None:

@@ -11,6 +11,8 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from itertools import islice
 
+import numpy as np
+from numpy.typing import NDArray
 from sklearn.base import clone
 
 from mocapbench.baselines.common.recordings import pool
@@ -19,6 +21,8 @@ from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
 from mocapbench.datasets import Recording
 
 __all__ = ["Relearning", "Widened", "widened"]
+
+Array = NDArray[np.float64]
 
 
 class Widened(Model):
@@ -32,12 +36,13 @@ class Widened(Model):
         """Return what it claims of recordings of which more is hidden."""
         return self.as_claimed(trials)
 
-    def least_factors(self, recordings: Sequence[Recording]) -> list[float]:
-        """Return what variances in each recording may at least be multiplied by, at most 1.
+    def least_factors(self, recordings: Sequence[Recording]) -> list[Array]:
+        """Return what the variances of each channel may be multiplied by if trials bear it out.
 
-        It is 1 if nothing but trials tells that a model claims too much.
+        Factors (D,) are at most 1, and 1 where nothing but trials tells that a model claims too
+        much.
         """
-        return [1.0] * len(recordings)
+        return [np.ones(len(recording.channels)) for recording in recordings]
 
 
 class Relearning(Widened):
@@ -59,8 +64,10 @@ class Relearning(Widened):
 
     def _anew(self, trial: Recording) -> Prediction:
         relearnt: Relearning = clone(self)
-        relearnt.fit(pool(self.learnt_from_, [trial]))
-        return relearnt.as_claimed([trial])[0]
+        try:
+            return relearnt.fit(pool(self.learnt_from_, [trial])).as_claimed([trial])[0]
+        except ValueError:  # a trial may leave too little to learn from
+            return self.as_claimed([trial])[0]
 
 
 def widened(model: Widened, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -129,6 +129,13 @@ def test_known_units_become_degrees_and_the_length_of_the_cmu_database():
     np.testing.assert_allclose(factors, [1, 180 / np.pi, *(0.45 * inches), 1, 1], rtol=1e-15)
 
 
+def test_rates_follow_what_they_are_rates_of():
+    degrees, radians = pose_factors(["deg", "deg/s"]), pose_factors(["rad", "rad/s"])
+    np.testing.assert_allclose(radians / degrees, 180 / np.pi)
+    np.testing.assert_allclose(*(pose_factors(["mm", f"mm/s{of}"]) for of in ("", "²")))
+    assert pose_factors(["mm", "mm/s"])[0] == pose_factors(["mm", "mm/s"])[1]
+
+
 def test_what_is_converted_once_is_not_again():
     once = in_pose_units(in_other_units(WHOLE))
     assert in_pose_units(once) is once

@@ -175,23 +175,32 @@ def test_variances_follow_the_mean_square(squares, seen):
         np.testing.assert_array_equal(factors, 1.0)
         return
     pooled = squares[seen].mean()
-    # The nearest other visible frame of the gaps, and of the entries that were left out.
-    gaps, entries = mean_distance(seen, ~seen), mean_distance(seen, seen)
     of_all = (squares[seen].sum() + 200.0) / (seen.sum() + 200.0)
-    least = min(of_all * max(gaps / entries, 1.0) ** 0.6, 1.0)
     for channel in range(SHAPE[1]):
         own = squares[seen[:, channel], channel]
+        farther = mean_distance(seen[:, channel], ~seen[:, channel])
+        farther /= mean_distance(seen[:, channel], seen[:, channel])
+        least = min(of_all * max(farther, 1.0) ** 0.6, 1.0) if len(own) > 1 else 1.0
         factor = max(least, (own.sum() + 10.0 * pooled) / (len(own) + 10.0))
         np.testing.assert_allclose(factors[channel], factor)
 
 
 def mean_distance(visible, entries):
-    """Return how many frames entries are from the nearest other visible one, one by one."""
-    distances = []
-    for frame, channel in np.argwhere(entries):
-        others = np.setdiff1d(np.flatnonzero(visible[:, channel]), [frame])
-        distances.extend(np.abs(others - frame).min(keepdims=True) if len(others) else [])
-    return np.mean(distances) if distances else 1.0
+    """Return how many frames entries of a channel are from the nearest other visible one."""
+    distances = [
+        np.abs(np.setdiff1d(np.flatnonzero(visible), [frame]) - frame).min(initial=10**9)
+        for frame in np.flatnonzero(entries)
+    ]
+    return np.mean(distances or [0.0])
+
+
+def test_entries_of_other_channels_say_nothing_of_one_that_is_hidden_throughout():
+    squares = np.full((100, 3), 0.25)
+    squares[:, 0], squares[50, 1] = np.nan, np.nan
+    claimed = Prediction(np.ones(squares.shape), np.where(np.isnan(squares), 2.0, 0.0))
+    factors = LeftOut(claimed, squares).factors()
+    assert factors[0] == 1.0
+    assert (factors[1:] < 1.0).all()
 
 
 def test_entries_between_visible_ones_say_less_of_longer_gaps():

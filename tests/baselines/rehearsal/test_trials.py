@@ -107,6 +107,32 @@ def test_a_gap_in_all_channels_beside_others_has_whole_frames_as_copies():
         assert lengths == [[5, 8], [5], [5], [5, 10]]
 
 
+def test_a_lost_channel_does_not_count_for_whole_frames():
+    hidden = np.zeros((100, 6), dtype=bool)
+    hidden[40:45], hidden[:, 5] = True, True
+    masks = trial_masks(recording(hidden))
+    assert [int(mask.sum()) for mask in masks] == [25, 25, 25]
+    hidden[10:18, 0] = True
+    for mask in trial_masks(recording(hidden)):
+        assert len(np.flatnonzero(mask[:, :5].all(axis=1))) == 5
+        assert not mask[:, 5].any()
+
+
+def test_a_gap_in_all_channels_is_tried_in_each_where_no_frame_is_free_in_all():
+    hidden = np.indices((120, 12)).sum(axis=0) % 10 == 0
+    hidden[50:60] = True
+    for mask in trial_masks(recording(hidden)):
+        assert (mask.sum(axis=0) > 1).all()
+
+
+def test_a_gap_at_an_end_that_is_longer_in_one_channel_keeps_one_sided_copies():
+    hidden = np.zeros((100, 6), dtype=bool)
+    hidden[:6], hidden[:20, 5] = True, True
+    first, *_ = trial_masks(recording(hidden))
+    np.testing.assert_array_equal(np.flatnonzero(first[:, 0]), np.arange(6, 12))
+    np.testing.assert_array_equal(np.flatnonzero(first[:, 5]), np.arange(20, 40))
+
+
 def test_frames_hidden_as_a_whole_have_whole_frames_as_copies():
     hidden = np.zeros((50, 3), dtype=bool)
     hidden[4:35] = True

@@ -228,6 +228,19 @@ def test_a_model_learns_anew_for_trials_of_what_it_has_learnt_from(model):
     assert not np.allclose(fitted.as_claimed([trial])[0].variance, expected[0][0].variance)
 
 
+def test_a_trial_that_leaves_too_little_to_learn_from_is_answered_as_learnt():
+    """No two of the frames that it leaves follow each other."""
+    times = np.arange(14.0)
+    values = np.sin(times[:, None] / [3.0, 4.0, 2.0])
+    full = Recording("a", times / 30, values, ("a", "b", "c"), ("deg",) * 3)
+    given = full.hide(~np.isin(times, [0, 2, 3, 5, 7, 9, 11, 13])[:, None])
+    fitted = GPLVM(**SHORT_SEARCH).fit([given])
+    trial = given.hide((times == 3)[:, None])
+    (tried,), (claimed,) = fitted.as_tried([trial]), fitted.as_claimed([trial])
+    np.testing.assert_array_equal(tried.mean, claimed.mean)
+    assert np.isfinite(fitted.impute([given])[0].variance).all()
+
+
 def test_neither_order_nor_company_matters():
     recordings = [noise("a", np.array([2.0, 3.0])), noise("bb", np.array([5.0, 1.0]))]
     model = LDS(n_states=2).fit(recordings)
