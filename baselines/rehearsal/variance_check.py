@@ -96,11 +96,12 @@ class VarianceCheck:
         answers : sequence of Prediction
             Of the `trials`, in their order.
         least : float or ndarray of shape (D,), default=1.0
-            What variances may be multiplied by if trials bear out as little; at most 1.
+            What variances may be multiplied by if the worst of three trials bears out as little; at
+            most 1.
         """
         if not answers or claimed.variance is None:
             return claimed
-        factors = np.maximum(self.factors(answers), np.minimum(self._least(answers), least))
+        factors = np.maximum(self.factors(answers), self._least(answers, least))
         return Prediction(claimed.mean, claimed.variance * factors)
 
     def factors(self, answers: Sequence[Prediction]) -> Array:
@@ -125,13 +126,17 @@ class VarianceCheck:
         lengthened = np.divide(gap, copy, out=np.ones(len(gap)), where=(copy > 0) & (copy < gap))
         return np.asarray(lengthened**STEEPEST)
 
-    def _least(self, answers: Sequence[Prediction]) -> Array:
-        """Return the least that variances may be multiplied by: (D,), at most 1."""
+    def _least(self, answers: Sequence[Prediction], least: float | Array) -> Array:
+        """Return the least that variances may be multiplied by: (D,), at most 1.
+
+        That is ``least``, unless the worst trial shows more, or less than a quarter of it.
+        """
         if len(self.copies) < _SURE:
             return np.ones(len(self.recording.channels))
         by_trial = self._ratios(self.copies, answers[: len(self.copies)])
-        worst = np.max([geometric_ratios(*one) for one in by_trial], axis=0)
-        return np.asarray(np.clip(_MARGIN * worst * self.steepest, _LEAST, 1.0))
+        worst = np.max([geometric_ratios(*one) for one in by_trial], axis=0) * self.steepest
+        floor = np.minimum(np.maximum(worst, least), _MARGIN * worst)
+        return np.asarray(np.clip(floor, _LEAST, 1.0))
 
     def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
         """Return by what the ratio grows from the copies to the gaps: (D,)."""
