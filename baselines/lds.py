@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
@@ -19,7 +18,6 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
-from mocapbench.baselines.rehearsal.left_out import LeftOut
 from mocapbench.baselines.rehearsal.widening import Relearning, widened
 from mocapbench.baselines.state_space.em import expectation_maximisation
 from mocapbench.baselines.state_space.model import PRIORS
@@ -30,8 +28,6 @@ from mocapbench.baselines.state_space.start import initial_states, start
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["LDS"]
-
-Array = NDArray[np.float64]
 
 
 class LDS(Relearning, Imputer, Inductive, Synthesiser):
@@ -155,24 +151,13 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
-        return [errors.claimed for errors in self._left_out(recordings)]
-
-    def least_factors(self, recordings: Sequence[Recording]) -> list[Array]:
-        """Return what variances may be multiplied by, as errors of entries left out bear out."""
-        return [errors.least for errors in self._left_out(recordings)]
-
-    def _left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
         if not len(recordings):
             return []
-        data, scale = self._observations(recordings), self.scaling_.scale
+        data = self._observations(recordings)
         mean, variance = moments(self.parameters_, smoothed(self.parameters_, data))
         means = map(self.scaling_.restore, data.unpad(mean))
-        curves = data.unpad((variance - self.parameters_.noise) * scale**2)
-        noise = self.parameters_.noise * scale**2
-        return [
-            LeftOut.of(recording, one, curve, noise, scale)
-            for recording, one, curve in zip(recordings, means, curves, strict=True)
-        ]
+        variances = data.unpad(variance * self.scaling_.scale**2)
+        return list(map(Prediction.around, recordings, means, variances))
 
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator

@@ -1,8 +1,7 @@
 r"""What a recording's own trials say of the variances that a model claims.
 
 The variance of a channel is multiplied by the mean ratio, in the trials, of squared errors to
-claimed variances, where that is above one, or above a lesser factor that a model has other evidence
-for (`Widened.least_factors`). Three trials say too little to make variances as small
+claimed variances, where that is above one. Three trials say too little to make variances as small
 as they show, but none is left larger than four times what the worst of three shows, and none less
 than a ten-thousandth of what is claimed.
 
@@ -84,9 +83,7 @@ class VarianceCheck:
         """Return the recording as each trial shows it, the copies first."""
         return [self.recording.hide(mask) for mask in (*self.copies, *self.halves)]
 
-    def applied(
-        self, claimed: Prediction, answers: Sequence[Prediction], least: float | Array = 1.0
-    ) -> Prediction:
+    def applied(self, claimed: Prediction, answers: Sequence[Prediction]) -> Prediction:
         """Return a prediction with variances that the answers to the trials bear out.
 
         Parameters
@@ -95,13 +92,10 @@ class VarianceCheck:
             Of the recording.
         answers : sequence of Prediction
             Of the `trials`, in their order.
-        least : float or ndarray of shape (D,), default=1.0
-            What variances may be multiplied by if the worst of three trials bears out as little; at
-            most 1.
         """
         if not answers or claimed.variance is None:
             return claimed
-        factors = np.maximum(self.factors(answers), self._least(answers, least))
+        factors = np.maximum(self.factors(answers), self._least(answers))
         return Prediction(claimed.mean, claimed.variance * factors)
 
     def factors(self, answers: Sequence[Prediction]) -> Array:
@@ -126,17 +120,13 @@ class VarianceCheck:
         lengthened = np.divide(gap, copy, out=np.ones(len(gap)), where=(copy > 0) & (copy < gap))
         return np.asarray(lengthened**STEEPEST)
 
-    def _least(self, answers: Sequence[Prediction], least: float | Array) -> Array:
-        """Return the least that variances may be multiplied by: (D,), at most 1.
-
-        That is ``least``, unless the worst trial shows more, or less than a quarter of it.
-        """
+    def _least(self, answers: Sequence[Prediction]) -> Array:
+        """Return the least that variances may be multiplied by: (D,), at most 1."""
         if len(self.copies) < _SURE:
             return np.ones(len(self.recording.channels))
         by_trial = self._ratios(self.copies, answers[: len(self.copies)])
-        worst = np.max([geometric_ratios(*one) for one in by_trial], axis=0) * self.steepest
-        floor = np.minimum(np.maximum(worst, least), _MARGIN * worst)
-        return np.asarray(np.clip(floor, _LEAST, 1.0))
+        worst = np.max([geometric_ratios(*one) for one in by_trial], axis=0)
+        return np.asarray(np.clip(_MARGIN * worst * self.steepest, _LEAST, 1.0))
 
     def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
         """Return by what the ratio grows from the copies to the gaps: (D,)."""

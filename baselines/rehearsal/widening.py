@@ -11,8 +11,6 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from itertools import islice
 
-import numpy as np
-from numpy.typing import NDArray
 from sklearn.base import clone
 
 from mocapbench.baselines.common.recordings import pool
@@ -21,8 +19,6 @@ from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
 from mocapbench.datasets import Recording
 
 __all__ = ["Relearning", "Widened", "widened"]
-
-Array = NDArray[np.float64]
 
 
 class Widened(Model):
@@ -35,14 +31,6 @@ class Widened(Model):
     def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
         """Return what it claims of recordings of which more is hidden."""
         return self.as_claimed(trials)
-
-    def least_factors(self, recordings: Sequence[Recording]) -> list[Array]:
-        """Return what the variances of each channel may be multiplied by if trials bear it out.
-
-        Factors (D,) are at most 1, and 1 where nothing but trials tells that a model claims too
-        much.
-        """
-        return [np.ones(len(recording.channels)) for recording in recordings]
 
 
 class Relearning(Widened):
@@ -82,8 +70,7 @@ def widened(model: Widened, recordings: Sequence[Recording]) -> list[Prediction]
     checks = [VarianceCheck.of(recording) for recording in recordings]
     trials = [trial for check in checks for trial in check.trials()]
     answers = iter(model.as_tried(trials) if trials else ())
-    least, claims = model.least_factors(recordings), model.as_claimed(recordings)
     return [
-        check.applied(claimed, list(islice(answers, check.n_trials)), factor)
-        for check, claimed, factor in zip(checks, claims, least, strict=True)
+        check.applied(claimed, list(islice(answers, check.n_trials)))
+        for check, claimed in zip(checks, model.as_claimed(recordings), strict=True)
     ]

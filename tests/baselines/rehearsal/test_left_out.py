@@ -15,7 +15,6 @@ from mocapbench.baselines.gp.prior.kernels import KERNELS
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp_independent import GPIndependent
 from mocapbench.baselines.hgp import HGP
-from mocapbench.baselines.lds import LDS
 from mocapbench.baselines.lmc_independent import LMCIndependent
 from mocapbench.baselines.moa import MOA
 from mocapbench.baselines.mohgp import MOHGP
@@ -77,20 +76,6 @@ def test_trials_are_those_of_dense_inference(model, solver, recordings):
         np.testing.assert_allclose(tried.mean[hidden], mean[hidden], rtol=1e-6, atol=1e-9)
         np.testing.assert_allclose(tried.variance[hidden], variance[hidden], rtol=1e-6)
         np.testing.assert_array_equal(tried.mean[~hidden], trial.values[~hidden])
-
-
-def test_those_of_a_state_space_model_are_left_out_alike(recordings):
-    """In two channels of one recording, without what trials show."""
-    model = LDS(n_states=3).fit(recordings)
-    given = recordings[3]
-    (errors,) = model._left_out([given])
-    for frame, channel in np.argwhere(given.visible):
-        mask = np.zeros(SHAPE, dtype=bool)
-        mask[frame, channel] = True
-        (without_it,) = model.as_claimed([given.hide(mask)])
-        error = given.values[frame, channel] - without_it.mean[frame, channel]
-        expected = error**2 / without_it.variance[frame, channel]
-        np.testing.assert_allclose(errors.squares[frame, channel], expected, rtol=1e-6)
 
 
 @pytest.mark.parametrize("model", [GPIndependent, HGP])
