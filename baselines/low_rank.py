@@ -77,7 +77,7 @@ class LowRank(Relearning, Imputer, Inductive):
         W, in units of S.
     noise_variance_ : float
         σ², in units of S squared.
-    objective_ : ndarray of shape (n_iterations_ + 1,)
+    objective_ : ndarray of shape (n_iterations + 1,)
         Log-likelihood of the visible entries in units of S plus the logarithm of the prior, at the
         start and after each iteration.
     n_iterations_, converged_ : int, bool
