@@ -54,8 +54,7 @@ class Jointly(Widened, Imputer, Inductive):
         ------
         ValueError
             If the recordings of the first `fit` are all complete; if they, and another one as
-            large, are too large, or one has more frames than the process takes in seconds; or if
-            the process cannot learn from them.
+            large, are too large or too long; or if the process cannot learn from them.
         """
         largest = max(recordings, key=lambda recording: recording.values.size)
         _check_work([*recordings, largest])

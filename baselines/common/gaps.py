@@ -11,6 +11,7 @@ from mocapbench.datasets import FrameByChannel, Mask, Recording
 
 __all__ = [
     "complete_stretches",
+    "distances",
     "frames_alike",
     "hidden_frames",
     "hidden_together",
@@ -74,6 +75,19 @@ def runs(frames: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
     index = np.flatnonzero(frames)
     breaks = np.flatnonzero(np.diff(index) > 1) + 1
     return [run for run in np.split(index, breaks) if len(run)]
+
+
+def distances(hidden: Mask) -> FrameByChannel:
+    """Return how many frames each entry (N, D) is from the nearest other visible one.
+
+    It is infinite where no other entry of the channel is visible.
+    """
+    frames = np.arange(len(hidden), dtype=np.float64)[:, None]
+    nowhere = np.full((1, hidden.shape[1]), np.inf)
+    last = np.maximum.accumulate(np.where(hidden, -np.inf, frames))
+    following = np.minimum.accumulate(np.where(hidden, np.inf, frames)[::-1])[::-1]
+    before, after = np.vstack([-nowhere, last[:-1]]), np.vstack([following[1:], nowhere])
+    return np.asarray(np.minimum(frames - before, after - frames))
 
 
 def whole_gaps(hidden: Mask) -> list[NDArray[np.intp]]:

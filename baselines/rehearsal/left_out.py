@@ -23,6 +23,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.gaps import distances
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.baselines.rehearsal.ratios import mean_ratios
 from mocapbench.baselines.rehearsal.variance_check import STEEPEST
@@ -124,13 +125,8 @@ def _mean_distances(visible: Mask, entries: Mask) -> Array:
 
     It is infinite in channels where an entry has none, and 0 where there is no entry.
     """
-    frames = np.arange(len(visible), dtype=np.float64)[:, None]
-    nowhere = np.full((1, visible.shape[1]), np.inf)
-    last = np.maximum.accumulate(np.where(visible, frames, -np.inf))
-    next_ = np.minimum.accumulate(np.where(visible, frames, np.inf)[::-1])[::-1]
-    before, after = np.vstack([-nowhere, last[:-1]]), np.vstack([next_[1:], nowhere])
-    distances = np.where(entries, np.minimum(frames - before, after - frames), 0.0)
-    return np.asarray(distances.sum(axis=0) / np.maximum(entries.sum(axis=0), 1))
+    total = distances(~visible).sum(axis=0, where=entries)
+    return np.asarray(total / np.maximum(entries.sum(axis=0), 1))
 
 
 def side_by_side(channels: Sequence[Prediction]) -> Prediction:

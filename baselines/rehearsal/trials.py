@@ -13,8 +13,9 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 
-from mocapbench.baselines.common.gaps import hidden_together, runs, whole_gaps
+from mocapbench.baselines.common.gaps import distances, hidden_together, runs, whole_gaps
 from mocapbench.datasets import Mask, Recording
 
 __all__ = [
@@ -117,10 +118,7 @@ def remoteness(hidden: Mask, within: Mask) -> NDArray[np.intp]:
     within : ndarray of shape (N, D)
         The entries.
     """
-    frames = np.arange(len(hidden))[:, None]
-    before = np.maximum.accumulate(np.where(hidden, -np.inf, frames))
-    after = np.minimum.accumulate(np.where(hidden, np.inf, frames)[::-1])[::-1]
-    distance = np.minimum(frames - before, after - frames)
+    distance = distances(hidden)
     counted = within & np.isfinite(distance)
     return np.asarray(distance.max(axis=0, where=counted, initial=0), dtype=np.intp)
 
@@ -144,8 +142,9 @@ def _trial(hidden: Mask, places: Places, place: float) -> Mask:
         mask[np.ix_(frames, ~hidden.all(axis=0))] = True
     for columns in hidden_together(hidden):
         gaps = [gap for gap in runs(hidden[:, columns[0]]) if (gap[0], gap[-1]) not in whole]
-        blocked = np.asarray((hidden | _widened(mask))[:, columns[0]])
-        spent = int(mask[:, columns[0]].sum())
+        taken = mask[:, columns[0]]
+        blocked = np.asarray(hidden[:, columns[0]] | binary_dilation(taken))
+        spent = int(taken.sum())
         for _, frames in _tried(blocked, spent, gaps, places, place):
             mask[np.ix_(frames, columns)] = True
     return mask
@@ -165,12 +164,6 @@ def _whole(hidden: Mask, places: Places, place: float) -> Iterator[tuple[tuple[i
         at_an_end = shown[: frames[0]].all() or shown[frames[-1] + 1 :].all()
         if len(frames) == len(gap) and at_an_end >= _at_an_end(shown[:, 0], gap):
             yield (gap[0], gap[-1]), frames
-
-
-def _widened(mask: Mask) -> Mask:
-    """Return a mask (N, D) with the frames before and after what it hides."""
-    beside = np.pad(mask, ((1, 1), (0, 0)))
-    return beside[:-2] | beside[1:-1] | beside[2:]
 
 
 def _tried(
