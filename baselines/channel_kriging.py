@@ -21,8 +21,8 @@ from mocapbench.baselines.common.validation import check_not_negative, check_pos
 from mocapbench.baselines.kriging.left_out import left_out_scales
 from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
+from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.baselines.rehearsal.rehearsing import rehearsed
-from mocapbench.baselines.rehearsal.widening import Widened
 from mocapbench.datasets import Recording
 
 __all__ = ["ChannelKriging"]

@@ -34,7 +34,8 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
-from mocapbench.baselines.rehearsal.widening import Widened, widened
+from mocapbench.baselines.rehearsal.checkable import Widened
+from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 from mocapbench.datasets.recording import numbers
 

@@ -22,7 +22,8 @@ from mocapbench.baselines.functional.shifts import SHIFTS, Aligned, shift_togeth
 from mocapbench.baselines.functional.statistics import CurveStatistics
 from mocapbench.baselines.functional.validation import check_frames, check_settings
 from mocapbench.baselines.protocols import Aligner, Imputer, Inductive, Prediction, StatePath
-from mocapbench.baselines.rehearsal.widening import Relearning, widened
+from mocapbench.baselines.rehearsal.checkable import Relearning
+from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.datasets import Recording
 
 __all__ = ["FAM"]
@@ -188,7 +189,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
         ValueError
             If channels differ, or a recording has no frame.
         """
-        return widened(self, self._checked(recordings))
+        return widened(self, self._checked(recordings), self.learnt_from_)
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
         """Return the state of each frame of recordings, which are placed as by `impute`.

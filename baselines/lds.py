@@ -18,7 +18,8 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
-from mocapbench.baselines.rehearsal.widening import Relearning, widened
+from mocapbench.baselines.rehearsal.checkable import Relearning
+from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.baselines.state_space.em import expectation_maximisation
 from mocapbench.baselines.state_space.model import PRIORS
 from mocapbench.baselines.state_space.observations import Observations
@@ -147,7 +148,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
-        return widened(self, recordings)
+        return widened(self, recordings, self.learnt_from_)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

@@ -19,7 +19,8 @@ from mocapbench.baselines.common.recordings import (
 )
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.widening import Relearning, widened
+from mocapbench.baselines.rehearsal.checkable import Relearning
+from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["LowRank"]
@@ -164,7 +165,7 @@ class LowRank(Relearning, Imputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
-        return widened(self, recordings)
+        return widened(self, recordings, self.learnt_from_)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

@@ -9,7 +9,7 @@ from typing import ClassVar, Self
 from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.widening import Widened
+from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.datasets import Recording
 
 __all__ = ["Jointly"]

@@ -27,7 +27,7 @@ from mocapbench.baselines.nn import NN
 from mocapbench.baselines.pca_regression import PCARegression
 from mocapbench.baselines.pose_kriging import PoseKriging
 from mocapbench.baselines.protocols import FrameImputer, Prediction
-from mocapbench.baselines.rehearsal.widening import Widened
+from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["CANDIDATES", "LAST_RESORT", "Panel"]

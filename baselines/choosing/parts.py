@@ -1,13 +1,14 @@
 """Hidden entries that are weighed together: those of one unit, in gaps of one kind.
 
 A model that fills a channel from the others of its frame may be the best where a few channels are
-hidden, and has nothing to go by where all are. Where a recording has gaps of both kinds, they are
-rehearsed, and weighed, apart.
+hidden, and has nothing to go by where all are; one that interpolates has nothing to go by in a
+channel that is hidden throughout. Where a recording has gaps of several kinds, they are rehearsed,
+and weighed, apart.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,36 +17,60 @@ from numpy.typing import NDArray
 from mocapbench.baselines.common.gaps import whole_gaps
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["EVERYTHING", "Part", "parts_of"]
+__all__ = ["EVERYTHING", "GAPS", "Part", "parts_of"]
+
+Kind = Callable[[Mask], Mask]
+"""From what is hidden (N, D) to the entries that a kind of gaps may have, visible ones included."""
+
+
+def _any(hidden: Mask) -> Mask:
+    return np.ones_like(hidden)
+
+
+def _whole_frames(hidden: Mask) -> Mask:
+    entries = np.zeros_like(hidden)
+    for gap in whole_gaps(hidden):
+        entries[gap] = True
+    return entries
+
+
+def _whole_channels(hidden: Mask) -> Mask:
+    return np.asarray(hidden.all(axis=0) & np.ones_like(hidden))
+
+
+def _not_whole_channels(hidden: Mask) -> Mask:
+    return ~_whole_channels(hidden)
 
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """Channels, and all frames or those of gaps in all channels.
+    """Channels, and gaps of all kinds or of one.
 
     Parameters
     ----------
     channels : ndarray of bool, shape (D,), or slice
-    only_whole : bool
-        Whether it has only frames of gaps in all channels.
+    kind : callable
+        From what is hidden (N, D) to the entries that such gaps may have.
     """
 
     channels: NDArray[np.bool_] | slice
-    only_whole: bool = False
+    kind: Kind = _any
 
     @property
     def widely(self) -> Part:
-        """All frames of its channels, which stand in for a part that no trial has room for."""
-        return replace(self, only_whole=False)
+        """Gaps of all kinds in its channels, for a part that no trial has room for."""
+        return replace(self, kind=_any)
 
     def entries(self, hidden: Mask) -> Mask:
         """Return the entries (N, D) of the part, if ``hidden`` is what is hidden."""
-        entries = np.zeros(hidden.shape, dtype=bool)
-        entries[:, self.channels] = (_in_whole_gaps(hidden) | (not self.only_whole))[:, None]
+        entries = np.zeros_like(hidden)
+        entries[:, self.channels] = self.kind(hidden)[:, self.channels]
         return entries
 
 
 EVERYTHING = Part(slice(None))
+GAPS = Part(slice(None), _not_whole_channels)
+"""All but the channels that are hidden throughout."""
 
 
 def parts_of(recording: Recording) -> Mapping[str, Part]:
@@ -53,21 +78,21 @@ def parts_of(recording: Recording) -> Mapping[str, Part]:
 
     Each unit is a part. Where a recording has gaps in all channels and others, those in all
     channels are parts of their own, since they are harder. What is rehearsed of them counts for the
-    other gaps, too, but not the other way round.
+    other gaps, too, but not the other way round. Channels that are hidden throughout are parts of
+    their own where there are other gaps.
     """
     units, hidden = np.array(recording.units), ~recording.visible
-    whole = _in_whole_gaps(hidden)
-    mixed = bool(whole.any() and hidden[~whole].any())
-    parts: dict[str, Part] = {}
-    for unit in np.unique(units):
-        parts[str(unit)] = Part(units == unit)
-        if mixed:
-            parts[f"{unit}, whole frames"] = Part(units == unit, only_whole=True)
-    return parts
-
-
-def _in_whole_gaps(hidden: Mask) -> NDArray[np.bool_]:
-    frames = np.zeros(len(hidden), dtype=bool)
-    for gap in whole_gaps(hidden):
-        frames[gap] = True
-    return frames
+    lost = _whole_channels(hidden)
+    whole, gaps = _whole_frames(hidden), hidden & ~lost
+    both = bool(lost.any() and gaps.any())
+    kinds: dict[str, Kind] = {"": _not_whole_channels if both else _any}
+    if whole.any() and (gaps & ~whole).any():
+        kinds[", whole frames"] = _whole_frames
+    if both:
+        kinds[", whole channels"] = _whole_channels
+    return {
+        f"{unit}{kind}": Part(units == unit, kinds[kind])
+        for unit in np.unique(units)
+        for kind in kinds
+        if kinds[kind] is not _whole_channels or lost[:, units == unit].any()
+    }

@@ -11,10 +11,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from mocapbench.baselines.choosing.panel import Panel
-from mocapbench.baselines.choosing.parts import EVERYTHING, Part
+from mocapbench.baselines.choosing.parts import EVERYTHING, GAPS, Part
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.common.scaling import unit_scales
+from mocapbench.baselines.rehearsal.lost_channels import lost_trials
 from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
 from mocapbench.baselines.rehearsal.trials import trial_masks
 from mocapbench.datasets import Mask, Recording
@@ -76,12 +77,17 @@ class Rehearsals:
     @cached_property
     def trials(self) -> list[Mask]:
         """What each rehearsal in the recording itself hides."""
+        return [*self._copies, *lost_trials(self.given)]
+
+    @cached_property
+    def _copies(self) -> list[Mask]:
         return trial_masks(self.given)
 
-    @property
-    def are_short(self) -> bool:
-        """Whether copies of the longest gap in the recording itself had to be shortened."""
-        return _longest(self.trials) < _longest([~self.given.visible])
+    def are_short(self, part: Part = EVERYTHING) -> bool:
+        """Return whether copies of the longest gap of a part's kind had to be shortened."""
+        hidden = ~self.given.visible
+        copies = [trial & part.kind(hidden | trial) for trial in self.trials]
+        return _longest(copies) < _longest([hidden & part.kind(hidden)])
 
     def own(self, part: Part = EVERYTHING) -> list[Products]:
         """Return the products of errors in the recording itself, for each trial."""
@@ -90,7 +96,8 @@ class Rehearsals:
     def n_entries(self, part: Part) -> float:
         """Return how many entries of a part the trials hide, in all."""
         hidden = ~self.given.visible
-        return float(sum((trial & part.entries(hidden | trial)).sum() for trial in self.trials))
+        rehearsed = [trial & part.entries(hidden | trial) for trial in self.trials]
+        return float(np.count_nonzero([mask & self.given.visible for mask in rehearsed]))
 
     def in_training(self, part: Part = EVERYTHING) -> list[tuple[Products, Products]]:
         """Return those of training recordings held out in turn, with the gaps and in a trial.
@@ -121,8 +128,8 @@ class Rehearsals:
         return found
 
     def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Errors, Errors]:
-        middle = len(self.trials) // 2
-        short = self.trials[middle : middle + 1] if self.are_short else []
+        middle = len(self._copies) // 2
+        short = self._copies[middle : middle + 1] if self.are_short(GAPS) else []
         masks = [~self.given.visible, *short]
         gaps, *trials = aligned(recording, masks)
         cut, hidden = gaps

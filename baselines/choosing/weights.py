@@ -38,7 +38,8 @@ def evidence(rehearsals: Rehearsals, part: Part = EVERYTHING) -> Sequence[Produc
         return []
     own, in_training = _mean(rehearsals.own(part)), rehearsals.in_training(part)
     gaps = _mean(with_gaps for with_gaps, _ in in_training)
-    copies = _mean(with_copies for _, with_copies in in_training) if rehearsals.are_short else gaps
+    short = rehearsals.are_short(part)
+    copies = _mean(with_copies for _, with_copies in in_training) if short else gaps
     both = [name for name in own if name in gaps and name in copies]
     if not both:
         return [alone for alone in [own if gaps.empty else gaps] if not alone.empty]

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from mocapbench.baselines.protocols import Imputer, Prediction
+from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.baselines.rehearsal.left_out import LeftOut
 from mocapbench.baselines.rehearsal.trials import long_copies
 from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
-from mocapbench.baselines.rehearsal.widening import Widened
 from mocapbench.datasets import Recording
 
 __all__ = ["Conditioned"]

@@ -33,7 +33,8 @@ from mocapbench.baselines.gpdm.sequences import TrainingSequences, whitened_comp
 from mocapbench.baselines.gpdm.starts import STARTS
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import Embedded, FrameImputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.widening import Relearning, widened
+from mocapbench.baselines.rehearsal.checkable import Relearning
+from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["LatentVariableModel"]

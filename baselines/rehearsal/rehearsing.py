@@ -12,21 +12,18 @@ them is right is not known, and the variance of an equal mixture of both is take
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.base import clone
 
 from mocapbench.baselines.protocols import Prediction
-from mocapbench.baselines.rehearsal.ratios import LEAST, mean_ratios, squared_ratios
-from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
-from mocapbench.baselines.rehearsal.trials import remoteness
+from mocapbench.baselines.rehearsal.checkable import Widened
+from mocapbench.baselines.rehearsal.in_training import ratios_in_training
+from mocapbench.baselines.rehearsal.ratios import LEAST, mean_ratios
 from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
-from mocapbench.baselines.rehearsal.widening import Widened
-from mocapbench.datasets import Mask, Recording
+from mocapbench.datasets import Recording
 
 __all__ = ["rehearsed"]
 
@@ -75,29 +72,8 @@ def _in_training(model: Widened, learnt_from: Sequence[Recording], check: Varian
     """Return the ratios in gaps of training recordings, and in a copy if short: (2, 2, D)."""
     given, middle = check.recording, check.copies[len(check.copies) // 2]
     masks = [~given.visible, *([middle] if (check.steepest > 1.0).any() else [])]
-    totals = np.zeros((2, 2, len(given.channels)))
-    for held_out, left in turns(learnt_from, given):
-        rest = clone(model).fit(left)
-        for number, (cut, gap, mask) in _in_place(held_out, masks):
-            with suppress(ValueError):  # A channel may be visible nowhere else.
-                (answer,) = rest.as_claimed([cut.hide(gap | mask)])
-                totals[number] += squared_ratios(cut, mask, answer)
-    return totals
-
-
-def _in_place(
-    held_out: Sequence[Recording], masks: Sequence[Mask]
-) -> Iterator[tuple[int, tuple[Recording, Mask, Mask]]]:
-    """Yield each recording, the gaps and each of the masks, by number.
-
-    A recording in which the gaps reach less or further than in the one to fill, because it is
-    shorter, says nothing of them.
-    """
-    hidden, *_ = masks
-    for recording in held_out:
-        (_, gap), *_ = cuts = aligned(recording, masks)
-        if np.array_equal(remoteness(gap, gap), remoteness(hidden, hidden)):
-            yield from enumerate((cut, gap, mask) for cut, mask in cuts)
+    gaps, *copies = ratios_in_training(model, learnt_from, given, masks)
+    return np.array([gaps, *(copies or [np.zeros_like(gaps)])])
 
 
 def _growth(gaps: Array, copies: Array, steepest: Array) -> Array:

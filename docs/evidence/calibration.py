@@ -51,7 +51,7 @@ from mocapbench.baselines import (
 )
 from mocapbench.baselines.common.gaps import hidden_frames
 from mocapbench.baselines.kriging.paths import MatchedPaths
-from mocapbench.baselines.rehearsal.widening import Widened
+from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.benchmark import ImputeProblem
 from mocapbench.benchmark.problems.impute import FilledRecordings
 from mocapbench.benchmark.tasks.missing_frames import (

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mocapbench.baselines import Prediction
-from mocapbench.baselines.rehearsal.widening import Widened
+from mocapbench.baselines.rehearsal.checkable import Widened
 
 __all__ = ["Claiming", "Drifting"]
 

@@ -26,9 +26,11 @@ def scattered(seed, share=0.4):
 @given(st.integers(0, 10_000), st.floats(0.0, 0.95))
 def test_every_entry_belongs_to_the_part_of_its_unit(seed, share):
     hidden = scattered(seed, share)
-    parts = parts_of(recording(hidden, ("deg", "mm", "deg", "mm", "mm")))
-    entries = [parts[unit].entries(hidden) for unit in ("deg", "mm")]
-    np.testing.assert_array_equal(np.sum(entries, axis=0), 1)
+    assigned = np.full(hidden.shape, "")
+    for name, part in parts_of(recording(hidden, ("deg", "mm", "deg", "mm", "mm"))).items():
+        assigned[part.entries(hidden)] = name[0]
+    assert (assigned[:, [0, 2]] == "d")[hidden[:, [0, 2]]].all()
+    assert (assigned[:, [1, 3, 4]] == "m")[hidden[:, [1, 3, 4]]].all()
     assert EVERYTHING.entries(hidden).all()
 
 
@@ -43,6 +45,20 @@ def test_gaps_of_one_kind_are_a_part_for_each_unit():
     np.testing.assert_array_equal(
         np.flatnonzero(parts["deg, whole frames"].entries(whole | limb)[:, 0]), np.arange(10, 15)
     )
+
+
+def test_channels_hidden_throughout_are_a_part_where_there_are_other_gaps():
+    lost, limb = np.zeros((40, 4), dtype=bool), np.zeros((40, 4), dtype=bool)
+    lost[:, 1], limb[20:30, :1] = True, True
+    units = ("deg", "deg", "deg", "mm")
+    assert [*parts_of(recording(lost, units))] == ["deg", "mm"]
+    parts = parts_of(recording(lost | limb, units))
+    assert [*parts] == ["deg", "deg, whole channels", "mm"]
+    np.testing.assert_array_equal(parts["deg, whole channels"].entries(lost | limb), lost)
+    assert not (parts["deg"].entries(lost | limb) & lost).any()
+    np.testing.assert_array_equal(parts["deg, whole channels"].widely.entries(lost)[:, :3], True)
+    lost[5:9] = True  # whole frames, too, but nothing besides
+    assert [*parts_of(recording(lost, units))] == ["deg", "deg, whole channels", "mm"]
 
 
 def test_what_is_hidden_in_all_channels_by_chance_is_no_gap_of_all():

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.choosing.panel import Panel
+from mocapbench.baselines.choosing.parts import parts_of
 from mocapbench.baselines.choosing.rehearsals import Rehearsals
 from mocapbench.baselines.protocols import Imputer, Prediction
 from mocapbench.datasets import Recording
@@ -68,7 +69,34 @@ def test_products_are_means_over_hidden_entries_and_covariances_of_errors():
 
 @pytest.mark.parametrize(("last", "short"), [(24, False), (55, True)])
 def test_copies_are_short_where_visible_stretches_are(last, short):
-    assert watched([walk("one")], gap(walk("new"), 20, last))[1].are_short is short
+    assert watched([walk("one")], gap(walk("new"), 20, last))[1].are_short() is short
+
+
+def swings(name, phase=0.0):
+    """Return a recording of which every channel can be told from the others."""
+    angle = 2 * np.pi * np.arange(60)[:, None] / 20 + phase
+    values = np.sin(angle + np.arange(6)) * np.arange(1, 7)
+    return Recording(name, np.arange(60) / 30, values, tuple("abcdef"), ("",) * 6)
+
+
+def test_channels_hidden_throughout_are_rehearsed_in_others_and_never_short():
+    hidden = np.zeros((60, 6), dtype=bool)
+    hidden[:, 2] = True
+    hidden[20:52, 4] = True  # longer than any copy of it
+    _, rehearsals = watched([swings("one"), swings("two", 1.0)], swings("new").hide(hidden))
+    parts = parts_of(rehearsals.given)
+    assert rehearsals.are_short(parts[""])
+    assert not rehearsals.are_short(parts[", whole channels"])
+    own = rehearsals.own(parts[", whole channels"])
+    of_channels = [products for products in own if not products.empty]
+    assert len(of_channels) == 3
+    rehearsed = [m & parts[", whole channels"].entries(hidden | m) for m in rehearsals.trials]
+    counted = [mask & rehearsals.given.visible for mask in rehearsed if mask.any()]
+    assert rehearsals.n_entries(parts[", whole channels"]) == np.sum(counted)
+    for mask, products in zip(counted, of_channels, strict=True):
+        expected = np.mean((rehearsals.given.values / rehearsals.scale)[mask] ** 2)
+        assert products.loc["zero", "zero"] == pytest.approx(expected)
+    assert len([one for one in rehearsals.own(parts[""]) if not one.empty]) == len(own) - 3
 
 
 @pytest.mark.parametrize("n_frames", [40, 60, 90])
@@ -94,7 +122,7 @@ def test_a_copy_that_fits_in_one_place_only_is_compared_with_the_gap_in_training
     fitted = [walk("one"), walk("two", phase=1.0)]
     rehearsals = Rehearsals(fitted, Panel.of(fitted), gap(walk("new"), 8, 56))
     assert len(rehearsals.trials) == 1
-    assert rehearsals.are_short
+    assert rehearsals.are_short()
     assert not any(with_copies.empty for _, with_copies in rehearsals.in_training())
 
 

@@ -1,0 +1,51 @@
+"""Models whose variances a recording's own trials can check."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+
+from sklearn.base import clone
+
+from mocapbench.baselines.common.recordings import pool
+from mocapbench.baselines.protocols import Model, Prediction
+from mocapbench.datasets import Recording
+
+__all__ = ["Relearning", "Widened"]
+
+
+class Widened(Model):
+    """A model whose variances are checked by trials when it fills recordings."""
+
+    @abstractmethod
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute`, with the variances that the model itself claims."""
+
+    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
+        """Return what it claims of recordings of which more is hidden."""
+        return self.as_claimed(trials)
+
+
+class Relearning(Widened):
+    """A model that learns anew for the trials of a recording from which it has learnt.
+
+    Otherwise its parameters would have seen what a trial hides, and it would err less in trials
+    than in gaps.
+    """
+
+    learnt_from_: Sequence[Recording]
+    """The recordings given to ``fit``, which sets them."""
+
+    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
+        """Return what it claims of recordings of which more is hidden, not having seen that."""
+        known = {recording.name for recording in self.learnt_from_}
+        strangers = [trial for trial in trials if trial.name not in known]
+        answers = iter(self.as_claimed(strangers) if strangers else ())
+        return [self._anew(trial) if trial.name in known else next(answers) for trial in trials]
+
+    def _anew(self, trial: Recording) -> Prediction:
+        relearnt: Relearning = clone(self)
+        try:
+            return relearnt.fit(pool(self.learnt_from_, [trial])).as_claimed([trial])[0]
+        except ValueError:  # a trial may leave too little to learn from
+            return self.as_claimed([trial])[0]
