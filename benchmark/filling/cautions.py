@@ -8,12 +8,14 @@ import numpy as np
 
 from mocapbench.benchmark.filling.edges import jumps
 from mocapbench.benchmark.filling.filler import Filled
-from mocapbench.reports import counted
+from mocapbench.reports import counted, listed
 
 __all__ = ["cautions"]
 
 SLOW = 0.5
 """Seconds between frames from which on times are probably not in seconds."""
+_NAMED = 4
+"""Channels that a caution names at most."""
 _FEW = 10
 """Visible frames of a channel below which nothing can be learnt from it."""
 
@@ -21,6 +23,7 @@ _FEW = 10
 def cautions(filled: Filled) -> Iterator[str]:
     """Yield that little is visible, that a channel jumps, and that frames are far apart."""
     yield from _few_visible(filled)
+    yield from _visible_nowhere(filled)
     yield from _jumps(filled)
     yield from _slow(filled)
 
@@ -38,6 +41,22 @@ def _few_visible(filled: Filled) -> Iterator[str]:
             "trust neither what was filled in nor any bands, or name similar recordings with "
             "--train."
         )
+
+
+def _visible_nowhere(filled: Filled) -> Iterator[str]:
+    given, target = filled.source.request.given, filled.source.request.target
+    lost = np.flatnonzero(target.any(axis=0) & ~given.visible.any(axis=0))
+    train = filled.source.train
+    if not len(lost) or not train:
+        return
+    names = listed([given.channels[channel] for channel in lost], _NAMED)
+    caution = (
+        f"Of {names}, nothing is visible in the file: no trial tells how well {filled.model} fills "
+        "that."
+    )
+    if filled.choice and len(train) > 1 and filled.model != "best-of":
+        caution += " --model best-of weighs models by how they fill it in the files of --train."
+    yield caution
 
 
 def _jumps(filled: Filled) -> Iterator[str]:

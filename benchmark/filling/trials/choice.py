@@ -71,7 +71,7 @@ def choose(
     if not trials:
         raise UsageError(
             f"{question.given.name}: expected a visible stretch to try models on, got none that is "
-            f"free of gaps; name a model with --model: {', '.join(models)}"
+            f"free of gaps; {_advice(question, models)}"
         )
     runners = race(models, trials, workers, budget, watch)
     count = _common(runners)
@@ -82,6 +82,14 @@ def choose(
             "--budget"
         )
     return _ranked(question, trials[:count], runners)
+
+
+def _advice(question: Question, models: Sequence[str]) -> str:
+    """Return how to go on where the recording itself cannot tell which model to take."""
+    advice = f"name a model with --model: {', '.join(models)}"
+    if len(question.train) > 1 and "best-of" in models:
+        advice += "; best-of tries others on the files of --train"
+    return advice
 
 
 def _common(runners: Sequence[Runner]) -> int:

@@ -41,6 +41,23 @@ def choice_of(errors, share=1.0):
     return Choice(ranking, (), share, seconds, dict.fromkeys(errors, 2))
 
 
+@pytest.mark.parametrize(
+    ("chosen", "n_train", "advised"), [(True, 2, True), (True, 1, False), (False, 2, False)]
+)
+def test_channels_of_which_nothing_is_visible_are_named(filled, chosen, n_train, advised):
+    one = filled(choice_of({"one": [1, 2, 1]}) if chosen else None)
+    request = one.source.request
+    assert not any("nothing is visible" in remark for remark in remarks(one))
+    target = request.target.copy()
+    target[:, 2] = True
+    request = replace(request, given=request.given.hide(target), target=target)
+    source = replace(one.source, request=request, train=(request.given,) * n_train)
+    answer = Answer(np.zeros(target.sum()), None)
+    (said,) = (r for r in remarks(replace(one, source=source, answer=answer)) if "nothing is" in r)
+    assert said.startswith(f"Of {request.given.channels[2]}, nothing is visible in the file")
+    assert ("--model best-of" in said) is advised
+
+
 def test_the_headline_counts(filled):
     assert headline(filled()) == "one filled 20 entries in 1 gap."
 

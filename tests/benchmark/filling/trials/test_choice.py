@@ -1,4 +1,5 @@
 from concurrent.futures import Future
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -112,6 +113,17 @@ def test_without_room_for_a_trial_a_model_has_to_be_named(waves, hidden):
     mask = hidden((1, 199, [0, 1, 2, 3]))
     with pytest.raises(UsageError, match=r"expected a visible stretch to try models on.*linear"):
         choose(Question(waves().hide(mask), mask), Here(), 60.0, lambda *_: None)
+
+
+@pytest.mark.parametrize(("n_train", "advised"), [(1, False), (2, True)])
+def test_for_a_channel_visible_nowhere_a_model_that_tries_others_in_training_is_named(
+    waves, hidden, n_train, advised
+):
+    mask = hidden((0, 200, [0]))
+    given, *train = (replace(waves(), name=f"r{number}") for number in range(1 + n_train))
+    with pytest.raises(UsageError, match="name a model") as refused:
+        choose(Question(given.hide(mask), mask, tuple(train)), Here(), 60.0, lambda *_: None)
+    assert ("best-of tries others" in str(refused.value)) is advised
 
 
 @pytest.mark.usefixtures("few_models")
