@@ -37,8 +37,9 @@ class BestOf(Imputer, Inductive):
     the copies to the gaps, its error is multiplied.
 
     Results do not depend on whether angles are in degrees or radians, and lengths in mm, cm or m.
-    Channels of one unit share their weights, and have others for gaps in all channels if there are
-    gaps of other kinds besides. Weights are those of stacked regression: :math:`w = \arg\min
+    Channels of one unit share their weights, and have others for gaps in all channels, and for
+    channels that are hidden throughout, if there are gaps of other kinds besides. In place of
+    channels that are hidden throughout, copies hide other channels of their unit. Weights are those of stacked regression: :math:`w = \arg\min
     w^\top G w` over :math:`w \ge 0, \sum_i w_i = 1`. :math:`G = \sum_s G_s / \min_i G_{s,ii}` adds
     up the sources s of evidence, each with the mean products :math:`G_{s,ij}` to expect of the
     errors of candidates i and j, whose correlations :math:`\rho_{ij}` become :math:`(1 - \lambda)
@@ -124,8 +125,9 @@ class BestOf(Imputer, Inductive):
         """Return the weights of the candidates that can fill a recording: (C, U).
 
         There is a row for each candidate and a column for each unit of the channels; columns sum to
-        one. Where a recording has gaps in all channels and others, there is a second column for
-        each unit, such as ``"deg, whole frames"``, which is that of gaps in all channels.
+        one. Where a recording has gaps of several kinds, there are other columns for each unit:
+        ``"deg, whole frames"`` is that of gaps in all channels, ``"deg, whole channels"`` that of
+        channels that are hidden throughout.
 
         Raises
         ------

@@ -181,7 +181,8 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
 
         A recording takes the length of cycle and the shift at which its visible entries are closest
         to the reference curve. The length is at most a quarter beyond those of the fitted ones.
-        Variances are checked by trials on the recording's visible entries
+        Variances are checked by trials on the recording's visible entries, and those of channels
+        that are hidden throughout by training recordings in its place, too
         (``docs/calibration.md``).
 
         Raises

@@ -138,7 +138,8 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return mean and variance of the hidden entries given the visible ones of each recording.
 
-        Variances are those of the smoother, checked by trials on the recording's visible entries
+        Variances are those of the smoother, checked by trials on the recording's visible entries,
+        and those of channels that are hidden throughout by training recordings in its place, too
         (``docs/calibration.md``).
 
         Raises

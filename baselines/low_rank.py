@@ -157,6 +157,10 @@ class LowRank(Relearning, Imputer, Inductive):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the mean and variance of hidden entries given the visible ones of their frame.
 
+        Variances are checked by trials on the recording's visible entries, and those of channels
+        that are hidden throughout by training recordings in its place, too
+        (``docs/calibration.md``).
+
         Raises
         ------
         ValueError
