@@ -39,15 +39,17 @@ class BestOf(Imputer, Inductive):
     Results do not depend on whether angles are in degrees or radians, and lengths in mm, cm or m.
     Channels of one unit share their weights, and have others for gaps in all channels, and for
     channels that are hidden throughout, if there are gaps of other kinds besides. In place of
-    channels that are hidden throughout, copies hide other channels of their unit. Weights are those of stacked regression: :math:`w = \arg\min
-    w^\top G w` over :math:`w \ge 0, \sum_i w_i = 1`. :math:`G = \sum_s G_s / \min_i G_{s,ii}` adds
-    up the sources s of evidence, each with the mean products :math:`G_{s,ij}` to expect of the
-    errors of candidates i and j, whose correlations :math:`\rho_{ij}` become :math:`(1 - \lambda)
-    \rho_{ij} + \lambda` with the ``shrinkage`` :math:`\lambda`. The prediction is the mixture of
-    the candidates' distributions: its variance includes how far they lie apart. The variance of a
-    candidate that has none is the geometric mean of its squared errors :math:`G_{s,ii}`. Where
-    copies of the gaps hide a few entries only, what they say is moved towards what training says:
-    ten more entries are supposed, in which candidates err as there.
+    channels that are hidden throughout, copies hide other channels of their unit.
+
+    Weights are those of stacked regression: :math:`w = \arg\min w^\top G w` over :math:`w \ge 0,
+    \sum_i w_i = 1`. :math:`G = \sum_s G_s / \min_i G_{s,ii}` adds up the sources s of evidence,
+    each with the mean products :math:`G_{s,ij}` to expect of the errors of candidates i and j,
+    whose correlations :math:`\rho_{ij}` become :math:`(1 - \lambda) \rho_{ij} + \lambda` with the
+    ``shrinkage`` :math:`\lambda`. The prediction is the mixture of the candidates' distributions:
+    its variance includes how far they lie apart. The variance of a candidate that has none is the
+    geometric mean of its squared errors :math:`G_{s,ii}`. Where copies of the gaps hide a few
+    entries only, what they say is moved towards what training says: ten more entries are supposed,
+    in which candidates err as there.
 
     Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``, ``pca-regression``, ``nn``,
     ``aligned-window``, ``pose-kriging``, ``channel-kriging``, and ``mohgp`` with three components

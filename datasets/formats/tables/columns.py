@@ -14,8 +14,11 @@ __all__ = ["TableColumns", "sort_columns", "table_recording"]
 
 _TIME = frozenset({"time", "time [s]", "time (s)", "time_s", "t", "seconds"})
 _COUNT = frozenset({"", "frame", "frame#", "frames", "__index_level_0__"})  # pandas' own index
-_WITH_UNIT = re.compile(r"(.*\S)\s*\[([^\]]*)\]")
 _SYNONYMS = {"°": "deg", "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad"}
+_KNOWN = "|".join(["deg", "rad", "mm", "cm", "m", *_SYNONYMS])
+_IN_BRACKETS = re.compile(r"(.*\S)\s*\[([^\]]*)\]")
+_IN_PARENTHESES = re.compile(rf"(.*\S)\s*\(\s*((?:{_KNOWN})(?:/s)?)\s*\)", re.IGNORECASE)
+"""Only known units, since a name may be such as ``knee (left)``."""
 
 
 class TableColumns(NamedTuple):
@@ -59,7 +62,8 @@ def table_recording(
     file : str
         Name of the file.
     names : sequence of str
-        Names of all columns; a channel such as ``knee.rx [deg]`` has the unit in brackets.
+        Names of all columns; a channel such as ``knee.rx [deg]`` has the unit in brackets, or
+        a known one in parentheses.
     columns : TableColumns
     values : tuple of ndarray (N,) or None and ndarray (N, D)
         The column of times, if there is one, and the channels.
@@ -89,8 +93,10 @@ def table_recording(
 
 def _channel(name: str) -> tuple[str, str]:
     """Return the name and the unit that a column's name states."""
-    found = _WITH_UNIT.fullmatch(name.strip())
+    name = name.strip()
+    known = _IN_PARENTHESES.fullmatch(name)
+    found = known or _IN_BRACKETS.fullmatch(name)
     if found is None:
-        return name.strip(), ""
-    unit = found[2].strip()
+        return name, ""
+    unit = found[2].lower() if known else found[2].strip()
     return found[1], _SYNONYMS.get(unit.lower(), unit)

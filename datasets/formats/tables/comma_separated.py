@@ -20,9 +20,10 @@ class CSVFormat(Format):
     r"""Comma-separated values (.csv): a column of times, one column a channel.
 
     The first line names the columns. ``time`` is in seconds; without it, reading takes a rate. A
-    channel may state its unit in brackets, such as ``knee.rx [deg]``; angles are unwrapped only if
-    their unit is ``deg`` or ``rad``. Cells that are empty, NaN, NA or null are hidden. A count of
-    frames and columns of text are no channels, and are kept as they are.
+    channel may state its unit in brackets, such as ``knee.rx [deg]``, or a known one in
+    parentheses, ``knee.rx (deg)``; angles are unwrapped only if it is ``deg`` or ``rad``. Cells
+    that are empty, NaN, NA or null are hidden. A count of frames and columns of text are no
+    channels, and are kept as they are.
 
     Examples
     --------

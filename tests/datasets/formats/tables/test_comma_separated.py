@@ -56,6 +56,26 @@ def test_a_rate_takes_the_place_of_times(read):
     assert read("time,hip\n,1\n7,2\n", rate=4.0).times.tolist() == [0.0, 0.25]
 
 
+@pytest.mark.parametrize(
+    ("column", "channel", "unit"),
+    [
+        ("knee (deg)", "knee", "deg"),
+        ("knee.rx ( Degrees )", "knee.rx", "deg"),
+        ("hip.x(mm)", "hip.x", "mm"),
+        ("hip (m/s)", "hip", "m/s"),
+        ("knee (left) [rad]", "knee (left)", "rad"),
+        ("knee (left) (rad)", "knee (left)", "rad"),
+        ("knee (left)", "knee (left)", ""),
+        ("hip (min)", "hip (min)", ""),
+        ("force [N]", "force", "N"),
+        ("(mm)", "(mm)", ""),
+    ],
+)
+def test_a_unit_stands_in_brackets_or_a_known_one_in_parentheses(read, column, channel, unit):
+    walk = read(f"time,{column}\n0,1\n0.5,2\n")
+    assert (walk.channels, walk.units) == ((channel,), (unit,))
+
+
 def test_a_column_that_is_never_visible_is_a_channel(read):
     assert read("time,hip,knee\n0,1,\n1,2,NaN\n").channels == ("hip", "knee")
 
