@@ -50,7 +50,7 @@ from .results.illustrations import illustrations
 from .results.solved_problems import solved_problem
 from .runs.directory.plan_file import plan_document, planned_task_files
 from .runs.execution.base import Site
-from .runs.execution.choice import open_site
+from .runs.execution.choice import open_site, require_site
 from .runs.execution.fork_server import fork_server
 from .runs.execution.this_machine import ThisMachine
 from .runs.job import Job, WorkerConfig
@@ -165,6 +165,7 @@ __all__ = [
     "planned_task_files",
     "provenance",
     "require_recordings",
+    "require_site",
     "required_sources",
     "run",
     "run_state",

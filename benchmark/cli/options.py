@@ -36,7 +36,18 @@ __all__ = [
 
 DEFAULT_OUT = Path("mocapbench-results")
 
-Names = Annotated[list[str] | None, typer.Option(help="Names, repeated or separated by commas.")]
+
+def _require_names(names: list[str] | None) -> list[str] | None:
+    """Refuse an option that names nothing, such as one of a variable that is not set."""
+    if names and not all(split([text]) for text in names):
+        raise typer.BadParameter("expected names, got none; leave the option out for all")
+    return names
+
+
+Names = Annotated[
+    list[str] | None,
+    typer.Option(help="Names, repeated or separated by commas.", callback=_require_names),
+]
 Out = Annotated[Path, typer.Option(help="The run directory: new, empty, or an earlier run's.")]
 DataDir = Annotated[
     Path | None,

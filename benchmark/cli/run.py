@@ -52,7 +52,9 @@ def run(
     models: Names = None,
     cases: Names = None,
     metrics: Names = None,
-    folds: Annotated[int | None, typer.Option(min=1, help="Folds of each case.")] = None,
+    folds: Annotated[
+        int | None, typer.Option(min=1, max=10_000, help="Folds of each case.")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="The root seed.")] = 0,
     jobs: Annotated[
         int | None, typer.Option(min=1, help="How many jobs at once; by default one per core.")
@@ -100,6 +102,7 @@ def run(
     What the run directory holds already is not computed again, so that the same command resumes.
     """
     require_log(log_json, out)
+    bench.require_site(jobs, scheduler, cluster)
     if not (dry_run or scheduler or cluster):
         bench.fork_server()  # which loads the libraries while the run is planned
     console, plugins = LiteralConsole(), load_plugins(plugin)

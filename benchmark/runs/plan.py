@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -22,6 +21,7 @@ from mocapbench.benchmark.runs.keys import (
 )
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Entrant, Profile, Task
+from mocapbench.benchmark.tasks.consistency import require_consistent
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 
@@ -64,31 +64,19 @@ def plan(request: Request, archive: Archive) -> tuple[Job, ...]:
     UnknownNameError
         If a task, model, case, metric or profile does not exist.
     UsageError
-        If a task does not have so many folds.
+        If a task does not have so many folds, or is not consistent (`require_consistent`).
     DigestMismatch
         If a recording is here but is not the registered one.
     """
     _check_names(request)
     for task in _tasks(request):
-        _check_distinct(task)
+        require_consistent(task)
     return tuple(
         job
         for task in _tasks(request)
         for case in _cases(request, task)
         for job in _case_jobs(request, task, case, archive)
     )
-
-
-def _check_distinct(task: Task) -> None:
-    """Refuse a task two of whose rows would be taken for one."""
-    named = {"entrant": [e.label for e in task.entrants], "case": [c.name for c in task.cases]}
-    for kind, names in named.items():
-        twice = sorted(name for name, count in Counter(names).items() if count > 1)
-        if twice:
-            raise UsageError(
-                f"task {task.name!r}: expected every {kind} under a name of its own, got "
-                f"{twice[0]!r} twice; rename one"
-            )
 
 
 def required_sources(request: Request) -> tuple[str, ...]:

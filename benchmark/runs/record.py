@@ -122,7 +122,7 @@ class Record:
             document["status"] = Status(document["status"])
             document["warnings"] = tuple(document["warnings"])
             document["scores"] = {
-                name: math.nan if value is None else value
+                name: math.nan if value is None else float(value)
                 for name, value in document["scores"].items()
             }
             missing = _ENTRIES ^ set(document)

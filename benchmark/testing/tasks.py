@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import joblib
@@ -16,6 +15,7 @@ from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.plan import entrants
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case, Task
+from mocapbench.benchmark.tasks.consistency import require_consistent
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.benchmark.testing.errors import ConformanceError, raised_by, require, require_equal
 from mocapbench.datasets import Archive
@@ -50,8 +50,7 @@ def check_task(task: Task, archive: Archive | None = None) -> None:
 def _check_names(task: Task) -> None:
     cases = [case.name for case in task.cases]
     labels = [entrant.label for entrant in entrants(task)]
-    _require_distinct("cases", cases)
-    _require_distinct("labels of entrants", labels)
+    require_consistent(task)
     require(task.version >= 1, "a version from 1", task.version, "raise it when problems change")
     require(task.page.metrics, "metrics to show", "none", "name at least one")
     abilities = all(issubclass(ability, Model) for ability in task.requires)
@@ -130,11 +129,6 @@ def _posable(task: Task, archive: Archive) -> Case:
 def _posed(task: Task, case: Case, fold: int, archive: Archive) -> Problem[Any]:
     address = Address(task.name, task.version, case.problem_name, fold)
     return case.problem(Seeds(0, address), archive)
-
-
-def _require_distinct(what: str, names: Sequence[str]) -> None:
-    twice = sorted(name for name, count in Counter(names).items() if count > 1)
-    require(not twice, f"{what} with different names", twice, "rename one of each")
 
 
 def _require_among(what: str, names: Iterable[str], known: Iterable[str]) -> None:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import logging
-import re
 import signal
 from contextlib import ExitStack
 
 from distributed import Client, LocalCluster, Worker, WorkerPlugin
 
-from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.cluster.admission import require_workers
 from mocapbench.benchmark.runs.cluster.site import ClusterSite
 
@@ -23,21 +21,10 @@ def open_site(kind: str) -> ClusterSite:
     ----------
     kind : str
         ``local:N`` for N workers.
-
-    Raises
-    ------
-    UsageError
-        If it is not of this form.
     """
-    found = re.fullmatch(r"local:([1-9]\d*)", kind)
-    if not found:
-        raise UsageError(
-            "--cluster: expected local:N with the number of workers for N, such as local:4, got "
-            f"{kind!r}; --scheduler takes the address of a cluster that is there already"
-        )
     with ExitStack() as held:
         cluster = LocalCluster(
-            n_workers=int(found[1]),
+            n_workers=int(kind.partition(":")[2]),
             threads_per_worker=1,
             host="127.0.0.1",
             dashboard_address="127.0.0.1:0",

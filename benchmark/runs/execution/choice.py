@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import re
 from typing import NamedTuple
 
 from mocapbench.benchmark.errors import UsageError
@@ -11,7 +12,7 @@ from mocapbench.benchmark.runs.execution.base import Site
 from mocapbench.benchmark.runs.execution.this_machine import ThisMachine
 from mocapbench.benchmark.runs.machine import n_cores
 
-__all__ = ["open_site"]
+__all__ = ["open_site", "require_site"]
 
 
 class _Kind(NamedTuple):
@@ -21,12 +22,17 @@ class _Kind(NamedTuple):
     package: str
     """What the module imports that mocapbench does not always bring."""
     extra: str
+    form: str
+    """A regular expression that the value matches."""
+    example: str
 
 
 _CLUSTER = "mocapbench.benchmark.runs.cluster"
 _KINDS = {
-    "--scheduler": _Kind(f"{_CLUSTER}.scheduler", "distributed", "cluster"),
-    "--cluster": _Kind(f"{_CLUSTER}.local", "distributed", "cluster"),
+    "--scheduler": _Kind(
+        f"{_CLUSTER}.scheduler", "distributed", "cluster", r".*", "tcp://10.0.0.1:8786"
+    ),
+    "--cluster": _Kind(f"{_CLUSTER}.local", "distributed", "cluster", r"local:[1-9]\d*", "local:4"),
 }
 
 
@@ -47,6 +53,22 @@ def open_site(jobs: int | None, scheduler: str | None = None, cluster: str | Non
     UsageError
         If more than one is asked for, or the site cannot be had.
     """
+    require_site(jobs, scheduler, cluster)
+    for option, value in {"--scheduler": scheduler, "--cluster": cluster}.items():
+        if value is not None:
+            site: Site = importlib.import_module(_KINDS[option].module).open_site(value)
+            return site
+    return ThisMachine(jobs or n_cores())
+
+
+def require_site(jobs: int | None, scheduler: str | None, cluster: str | None) -> None:
+    """Refuse what `open_site` cannot open, as far as that shows before it is tried.
+
+    Raises
+    ------
+    UsageError
+        If more than one site is asked for, its package is missing, or a value has another form.
+    """
     asked = {"--jobs": jobs, "--scheduler": scheduler, "--cluster": cluster}
     given = {option: str(value) for option, value in asked.items() if value is not None}
     if len(given) > 1:
@@ -54,17 +76,18 @@ def open_site(jobs: int | None, scheduler: str | None = None, cluster: str | Non
             f"expected one of {', '.join(asked)}, got {' and '.join(given)}; leave out all but "
             "one (a cluster's workers decide how many jobs run at once)"
         )
-    for option, value in given.items():
-        if option in _KINDS:
-            return _open(_KINDS[option], option, value)
-    return ThisMachine(jobs or n_cores())
+    for option in given.keys() & _KINDS:
+        _require(_KINDS[option], option, given[option])
 
 
-def _open(kind: _Kind, option: str, value: str) -> Site:
+def _require(kind: _Kind, option: str, value: str) -> None:
+    if re.fullmatch(kind.form, value) is None:
+        raise UsageError(
+            f"{option}: expected a value such as {kind.example}, got {value!r}; --cluster local:4 "
+            "starts 4 workers here, --scheduler takes the address of a cluster that is there"
+        )
     if importlib.util.find_spec(kind.package) is None:
         raise UsageError(
             f"{option}: expected the package {kind.package!r}, got none; "
             f"`pip install 'mocapbench[{kind.extra}]'` installs it"
         )
-    site: Site = importlib.import_module(kind.module).open_site(value)
-    return site

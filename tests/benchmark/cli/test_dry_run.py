@@ -39,3 +39,18 @@ def test_it_says_which_recordings_are_missing_and_what_happens_then(cli, tmp_pat
     assert cli(*chosen, "--offline") == 0
     assert f"{lacking} `mocapbench data fetch 35_03 35_02 12_01 16_15` gets them" in cli.printed
     assert not (tmp_path / "cache" / "subjects").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (("--cases", ""), "'--cases': expected names, got none; leave the option out for all"),
+        (("--metrics", ",, "), "'--metrics': expected names, got none"),
+        (("--folds", 10**8), "'--folds'"),
+        (("--cluster", "local:0"), "--cluster: expected a value such as local:4, got 'local:0'"),
+        (("--jobs", 2, "--cluster", "local:2"), "got --jobs and --cluster; leave out all but one"),
+    ],
+)
+def test_what_a_run_would_refuse_a_dry_run_refuses(cli, arguments, complaint):
+    assert cli(*TOY, *arguments) == 2
+    assert complaint in cli.printed

@@ -68,6 +68,12 @@ def test_foreign_json_is_refused(document):
         Record.from_json(json.dumps(document))
 
 
+def test_a_score_that_is_no_number_is_refused(record):
+    document = json.loads(record.to_json())
+    with pytest.raises(RecordError):
+        Record.from_json(json.dumps({**document, "scores": {"mse": "abc"}}))
+
+
 def test_what_is_saved_is_loaded(store, record):
     store.save(record)
     assert store.load(record.key) == record

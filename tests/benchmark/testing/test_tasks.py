@@ -82,8 +82,16 @@ def _case(name):
 @pytest.mark.parametrize(
     ("field", "value", "complaint"),
     [
-        ("cases", (_case("a"), _case("a")), r"cases with different names, got \['a'\]"),
-        ("entrants", (Entrant("x", "knn"), Entrant("x", "moa")), "labels of entrants"),
+        ("cases", (_case("a"), _case("a")), "every case under a name of its own, got 'a' twice"),
+        ("entrants", (Entrant("x", "knn"), Entrant("x", "moa")), "every entrant under a name"),
+        ("entrants", (Entrant("linear", "knn"),), "no other model's name, got 'linear' for 'knn'"),
+        ("entrants", (Entrant("a/b", "knn"),), "without slashes, got 'a/b'"),
+        ("entrants", (Entrant(" ", "knn"),), "entrants with labels"),
+        (
+            "entrants",
+            (Entrant("k", "knn", {"n_neigh": 5}),),
+            "n_neighbors.*, got 'n_neigh'",
+        ),
         ("version", 0, "expected a version from 1, got 0"),
         ("requires", (int,), "expected abilities from mocapbench.baselines"),
         ("profiles", {}, "at least one profile, got none"),

@@ -31,7 +31,7 @@ def test_a_missing_package_is_named_with_the_command_that_installs_it(monkeypatc
 
 @pytest.mark.parametrize("kind", ["local", "local:0", "local:-1", "local:two", "slurm:2", ""])
 def test_a_cluster_of_another_form_is_refused(kind):
-    with pytest.raises(UsageError, match="expected local:N with the number of workers"):
+    with pytest.raises(UsageError, match="expected a value such as local:4"):
         open_site(None, cluster=kind)
 
 

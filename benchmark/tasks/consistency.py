@@ -1,0 +1,64 @@
+"""Whether a task's entrants and cases can be told apart, and its entrants be made."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.tasks.base import Entrant, Task
+
+__all__ = ["require_consistent"]
+
+
+def require_consistent(task: Task) -> None:
+    """Refuse a task whose results would be mixed up, or whose entrants cannot be made.
+
+    Raises
+    ------
+    UsageError
+        If two entrants or cases share a name, a label is empty, has a slash or is the name of
+        another model, or a model has no such parameter.
+    UnregisteredNameError
+        If a model is not registered.
+    """
+    _require_distinct(task, "case", [case.name for case in task.cases])
+    _require_distinct(task, "entrant", [entrant.label for entrant in task.entrants])
+    for entrant in task.entrants:
+        _require_label(task, entrant)
+        _require_parameters(task, entrant)
+
+
+def _require_distinct(task: Task, kind: str, names: Sequence[str]) -> None:
+    twice = sorted(name for name, count in Counter(names).items() if count > 1)
+    if twice:
+        raise UsageError(
+            f"task {task.name!r}: expected every {kind} under a name of its own, got "
+            f"{twice[0]!r} twice; rename one"
+        )
+
+
+def _require_label(task: Task, entrant: Entrant) -> None:
+    label = entrant.label
+    if not label.strip() or "/" in label:
+        raise UsageError(
+            f"task {task.name!r}: expected entrants with labels, without slashes, got {label!r}; "
+            "rename it"
+        )
+    if label != entrant.model and label in MODELS.names():
+        raise UsageError(
+            f"task {task.name!r}: expected entrants under labels that are no other model's name, "
+            f"got {label!r} for {entrant.model!r}; rename it"
+        )
+
+
+def _require_parameters(task: Task, entrant: Entrant) -> None:
+    known = sorted(MODELS.get(entrant.model)().get_params())
+    unknown = sorted(set(entrant.parameters) - set(known))
+    if unknown:
+        raise UsageError(
+            f"task {task.name!r}, entrant {entrant.label!r}: expected parameters of "
+            f"{entrant.model!r} ({', '.join(known) or 'it has none'}), got {unknown[0]!r}; "
+            "correct its name"
+        )
