@@ -9,7 +9,7 @@ from mocapbench.baselines import Prediction
 from mocapbench.benchmark import ImputeProblem, JointAngles, SynthesiseProblem
 from mocapbench.benchmark.problems.impute import FilledRecordings
 from mocapbench.benchmark.problems.synthesise import Samples
-from mocapbench.datasets import open_archive
+from mocapbench.datasets import Archive, open_archive
 from mocapbench.metrics import foot_skate, sample_foot_skate
 
 MOTIONS = {
@@ -22,7 +22,7 @@ MOTIONS = {
 }
 
 
-def scores(archive, uri):
+def scores(archive: Archive, uri: str) -> tuple[float, float]:
     """Return both scores of a recording at 30 frames per second, as if it filled itself."""
     whole = archive.recording(uri)
     recording = whole.frames(np.arange(0, len(whole.times), 4))
@@ -37,7 +37,7 @@ def scores(archive, uri):
     )
 
 
-def main():
+def main() -> None:
     """Print the median and the range over the recordings of each motion."""
     archive = open_archive()
     for motion, keys in MOTIONS.items():

@@ -17,10 +17,10 @@ from tempfile import TemporaryDirectory
 
 from mocapbench.benchmark import format_for
 from mocapbench.benchmark.testing import damaged
-from mocapbench.datasets import FormatError, Recording
+from mocapbench.datasets import Format, FormatError, Recording
 
 
-def outcome(kind, path):
+def outcome(kind: Format, path: Path) -> str:
     """Return what reading a file gave, in a word or two."""
     try:
         recording = kind.read(path)
@@ -34,9 +34,10 @@ def outcome(kind, path):
     return "recording" if isinstance(recording, Recording) else "defect"
 
 
-def fuzz(path, n_times):
+def fuzz(path: Path, n_times: int) -> Counter[str]:
     """Return how often each outcome came of reading damaged copies of a file."""
-    kind, rng, counts = format_for(path), random.Random(0), Counter()
+    kind, rng = format_for(path), random.Random(0)
+    counts: Counter[str] = Counter()
     with TemporaryDirectory() as folder:
         copy = Path(folder, path.name)
         for beside in path.parent.glob("*.asf"):
@@ -47,7 +48,7 @@ def fuzz(path, n_times):
     return counts
 
 
-def main(n_times, *paths):
+def main(n_times: str, *paths: str) -> int:
     """Fuzz every file, and print a line for each."""
     warnings.simplefilter("ignore")
     defects = 0
