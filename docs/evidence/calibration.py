@@ -18,7 +18,6 @@ no seed counts.
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 import warnings
@@ -77,7 +76,7 @@ MODELS: Mapping[str, Callable[[], FrameImputer]] = {
     "gplvm": lambda: GPLVM(start="window", max_iter=10, fill_iter=20, random_state=0),
     "cyclic-alignment": lambda: CyclicAlignment(random_state=0),
 }
-WIDENED: Mapping[str, Callable[[], FrameImputer]] = {
+WIDENED: Mapping[str, Callable[[], Widened]] = {
     "lds": LDS,
     "fam": lambda: FAM(n_restarts=1, max_iter=10, random_state=0),
     "low-rank": LowRank,
@@ -93,7 +92,7 @@ TRIED: Mapping[str, tuple[str, int]] = {
     "toy-interpolation-3": ("test", 3),
 }
 """By task, what its cases are named, and folds."""
-PROCESSES: Mapping[str, Callable[[], FrameImputer]] = {
+PROCESSES: Mapping[str, Callable[[], Widened]] = {
     "mohgp-3": lambda: MOHGP(n_components=3, n_restarts=1, max_iter=60),
     "moa-3": lambda: MOA(n_components=3, max_iter=60),
     "lmc-independent-3": lambda: LMCIndependent(n_components=3, max_iter=60),
@@ -112,7 +111,7 @@ LEFT_OUT: Mapping[str, tuple[str, int]] = {
 """By task, what its cases are named, and folds."""
 GAPS: Mapping[str, tuple[str, int]] = {"marker-gaps": ("a limb", 4)}
 """By task, what its cases are named, and folds: trained on others and on the recording alone."""
-GAP_FILLING: Mapping[str, Callable[[], FrameImputer]] = {
+GAP_FILLING: Mapping[str, Callable[[], Widened]] = {
     "mohgp-1": lambda: MOHGP(n_restarts=1, max_iter=10),
     "moa-1": lambda: MOA(max_iter=10),
     "lmc-independent-1": lambda: LMCIndependent(max_iter=10),
@@ -212,16 +211,18 @@ def threshold() -> None:
 
 def tried(task: str, named: str, n_folds: int) -> Iterator[ImputeProblem]:
     """Yield problems of a task with another root seed than the benchmark."""
-    archive = bench.archive_at(os.environ["MOCAPBENCH_DATA"])
+    archive = bench.archive_at(None)
     for case in bench.TASKS.get(task).cases:
         if named in case.name and not case.synthetic:
             for fold in range(n_folds):
                 address = bench.Address(task, 1, case.name, fold)
-                yield case.problem(bench.Seeds(OTHER_SEED, address), archive)
+                problem = case.problem(bench.Seeds(OTHER_SEED, address), archive)
+                assert isinstance(problem, ImputeProblem)
+                yield problem
 
 
 def widening(
-    tasks: Mapping[str, tuple[str, int]], models: Mapping[str, Callable[[], FrameImputer]]
+    tasks: Mapping[str, tuple[str, int]], models: Mapping[str, Callable[[], Widened]]
 ) -> None:
     """Print coverage, MSLL and CRPS of variances as claimed and widened, and how many problems."""
     for (task, (named, n_folds)), (name, make) in product(tasks.items(), models.items()):
@@ -229,7 +230,7 @@ def widening(
         for problem in tried(task, named, n_folds):
             with suppress(ValueError):
                 rows.append(calibration(make().fit(problem.train), problem))
-        means = np.round(np.mean(rows, axis=0), 3)
+        means = np.mean(rows, axis=0).round(3)
         print(f"{task:22} {name:16}", *means, f"{len(rows)} problems", flush=True)
 
 
@@ -240,14 +241,16 @@ def calibration(model: Widened, problem: ImputeProblem) -> list[float]:
     return [m(outcome).value for m in (coverage_95, msll, crps) for outcome in outcomes]
 
 
+COMMANDS: Mapping[str, Callable[[], None]] = {
+    "walkers": walkers,
+    "strangers": strangers,
+    "threshold": threshold,
+    "best-of": best_of,
+    "trials": partial(widening, TRIED, WIDENED),
+    "left-out": partial(widening, LEFT_OUT, PROCESSES),
+    "gaps": partial(widening, GAPS, GAP_FILLING),
+}
+
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
-    {
-        "walkers": walkers,
-        "strangers": strangers,
-        "threshold": threshold,
-        "best-of": best_of,
-        "trials": partial(widening, TRIED, WIDENED),
-        "left-out": partial(widening, LEFT_OUT, PROCESSES),
-        "gaps": partial(widening, GAPS, GAP_FILLING),
-    }[sys.argv[1]]()
+    COMMANDS[sys.argv[1]]()

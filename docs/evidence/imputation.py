@@ -97,7 +97,7 @@ def walkers() -> None:
     for name, (change, parameters) in WALKERS.items():
         rows = []
         for train, problems in turns:
-            model = change(PoseKriging(**parameters).fit(train))
+            model = change(PoseKriging().set_params(**parameters).fit(train))
             outcomes = [_outcome(problem, model) for problem in problems]
             rows.append([[m(o).value for m in (rms_per_frame, coverage_95)] for o in outcomes])
         each, coverage = np.mean(rows, axis=(1,))[:, 0], np.mean(rows, axis=(0, 1))[1]
@@ -147,6 +147,7 @@ def _halves(problem: ImputeProblem, model: ChannelKriging) -> tuple[float, float
     prior = model._covariance(frames, every, every, others)
     precision = np.linalg.inv(prior + model.noise * np.eye(len(every)))
     dual = precision @ frames.values[:, channels]
+    assert problem.scales is not None
     squares, scaled = [], []
     for number in range(len(problem.train)):
         rows = np.flatnonzero(frames.recording == number)
@@ -186,7 +187,9 @@ def _score(task: str, case: str, model: FrameImputer, names: Sequence[str], n_fo
 def _posed(task: str, case: str, fold: int) -> ImputeProblem:
     found = TASKS.get(task).case(case)
     address = Address(task, TASKS.get(task).version, found.problem_name, fold)
-    return found.problem(Seeds(0, address), bench.archive_at(None))
+    problem = found.problem(Seeds(0, address), bench.archive_at(None))
+    assert isinstance(problem, ImputeProblem)
+    return problem
 
 
 if __name__ == "__main__":

@@ -45,19 +45,25 @@ def problem(task: str, case: str, dataset: int, mask: int) -> ImputeProblem:
     """Return the problem of a toy case with a given dataset and mask."""
     known = TASKS.get(task)
     address = Address(known.name, known.version, case, mask)
-    return known.case(case).problem(OneDataset(0, address, dataset), open_archive())
+    return _drawn(known.case(case), OneDataset(0, address, dataset))
 
 
 def posed(task: Task, case: Case, fold: int, name: str = "") -> ImputeProblem:
     """Return the problem of a case, drawn by the seeds of the case called ``name`` or its own."""
     address = Address(task.name, task.version, name or case.name, fold)
-    return case.problem(Seeds(0, address), open_archive())
+    return _drawn(case, Seeds(0, address))
+
+
+def _drawn(case: Case, seeds: Seeds) -> ImputeProblem:
+    problem = case.problem(seeds, open_archive())
+    assert isinstance(problem, ImputeProblem)
+    return problem
 
 
 def scores(problem: ImputeProblem, name: str, **settings: object) -> dict[str, float]:
     """Return the scores of a model on a problem."""
-    model = MODELS[name](random_state=0, **settings).fit(problem.train)
-    outcome = problem.outcome(problem.solve(model, 0))
+    model = MODELS[name](random_state=0).set_params(**settings)
+    outcome = problem.outcome(problem.solve(model.fit(problem.train), 0))
     return {title: METRICS.get(metric)(outcome).value for metric, title in SCORES.items()}
 
 
@@ -109,8 +115,11 @@ def walking(n_folds: int) -> pd.DataFrame:
     """Return Table 11 with each walk mapped to [0, 1] by its own range before training."""
     task = TASKS.get("walking-interpolation")
     rows = [
-        {"visible": case.columns["visible frames"], "model": name}
-        | scores(_in_own_range(posed(task, case, fold)), name, max_iter=500)
+        {
+            "visible": case.columns["visible frames"],
+            "model": name,
+            **scores(_in_own_range(posed(task, case, fold)), name, max_iter=500),
+        }
         for case in task.cases
         if not case.synthetic
         for fold in range(n_folds)
