@@ -82,7 +82,7 @@ def styles(n_restarts: int = 5) -> None:
             rows.append(
                 [purity(model.labels_), *(purity(end.labels.argmax(axis=1)) for end in ends)]
             )
-        print(n_styles, "start, similar, random:", *np.round(np.mean(rows, axis=0), 3), flush=True)
+        print(n_styles, "start, similar, random:", *np.mean(rows, axis=0).round(3), flush=True)
 
 
 def tempo(n_restarts: int = 5) -> None:
@@ -91,7 +91,7 @@ def tempo(n_restarts: int = 5) -> None:
         recordings = list(corpus.read(bench.archive_at(None)).values())
         for n_styles in range(2, 9):
             rows = [_by_tempo(recordings, corpus, n_styles, seed) for seed in range(n_restarts)]
-            print(name, n_styles, "shape, and tempo:", *np.round(np.mean(rows, axis=0), 3))
+            print(name, n_styles, "shape, and tempo:", *np.mean(rows, axis=0).round(3))
 
 
 def _by_tempo(

@@ -38,7 +38,8 @@ def main(run: Path) -> None:
         print(f"\n`{task}`\n\n| entrant | {' | '.join(f'`{m}`' for m in metrics)} |")
         print("|---" * (len(metrics) + 1) + "|")
         for label, row in table.iterrows():
-            cells = (f"{row[m]:.3g} ({ranks.loc[label, m]})" for m in metrics)
+            rank = ranks.loc[str(label)]
+            cells = (f"{row[m]:.3g} ({rank[m]})" for m in metrics)
             print(f"| `{label}` | {' | '.join(cells)} |")
 
 

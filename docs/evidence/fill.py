@@ -57,7 +57,7 @@ class Cut(NamedTuple):
     """How gaps are cut: in which channels, how many, and from how many to how many frames."""
 
     groups: tuple[tuple[str, ...], ...]
-    count: int
+    n_gaps: int
     shortest: int
     longest: int
 
@@ -71,7 +71,7 @@ class Result(NamedTuple):
     """The number of angles in each gap (n,)."""
     choice: Choice
 
-    def errors(self, gaps: Array | slice = slice(None)) -> dict[str, float]:
+    def errors(self, gaps: NDArray[np.intp] | slice = slice(None)) -> dict[str, float]:
         """Return the root mean squared error of each model over the angles of some gaps."""
         weights = self.sizes[gaps]
         return {
@@ -94,7 +94,7 @@ def mask_of(recording: Recording, cut: Cut, rng: np.random.Generator) -> Mask:
     """Return a mask with gaps at random places, none of which touch."""
     owners = np.array([name.split(".")[0] for name in recording.channels])
     hidden, n_frames = np.zeros(recording.values.shape, dtype=bool), len(recording.times)
-    for _ in range(cut.count):
+    for _ in range(cut.n_gaps):
         length = int(rng.integers(cut.shortest, min(cut.longest, n_frames // 8) + 1))
         channels = np.isin(owners, cut.groups[rng.integers(len(cut.groups))])
         for start in rng.integers(3, n_frames - length - 3, size=50):

@@ -60,6 +60,7 @@ def main(n_jobs: int, folder: Path) -> None:
         store.save_plan(bench.plan_document(jobs, provenance=about, workers=1))
         for job in jobs:
             record, fit, _ = outcomes[job.address.label]
+            assert fit is not None
             scores = {name: value * rng.uniform(0.9, 1.1) for name, value in record.scores.items()}
             mine = replace(
                 record, key=job.key, fit_key=job.fit_key, address=job.address, scores=scores

@@ -48,7 +48,8 @@ def main(
     """Print a line for each fit."""
     archive = open_archive(Path(os.environ["MOCAPBENCH_DATA"].split(os.pathsep)[0]))
     (parameters,) = (e.parameters for e in walking_interpolation.entrants if e.label == entrant)
-    model = MOHGP(**parameters).set_params(registration=registration, max_iter=int(max_iter))
+    model = MOHGP().set_params(**parameters)
+    model.set_params(registration=registration, max_iter=int(max_iter))
     for fold in range(int(folds)):
         for visible in (40, 30, 20, 10):
             print(row(archive, visible, fold, model), flush=True)

@@ -17,6 +17,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import product
 from pathlib import Path
 
@@ -135,8 +136,11 @@ def _measures(
 
 def main(table: str, max_iter: str = "200") -> None:
     """Print one of the tables."""
-    rows = {"frames": frames, "variants": lambda: variants(int(max_iter))}[table]()
-    print(pd.DataFrame(rows).round(3).to_string(index=False))
+    tables: Mapping[str, Callable[[], Iterator[dict[str, object]]]] = {
+        "frames": frames,
+        "variants": partial(variants, int(max_iter)),
+    }
+    print(pd.DataFrame(tables[table]()).round(3).to_string(index=False))
 
 
 if __name__ == "__main__":
