@@ -62,7 +62,7 @@ def compare(
     for note in comparison.notes(rows, sides):
         console.print(note, highlight=False)
     _write(markdown, comparison.markdown(rows, sides))
-    _write(csv, reports.csv_text(comparison.tidy(rows)))
+    _write(csv, reports.csv_text(comparison.tidy(rows, sides)))
 
 
 def _sides(
@@ -84,7 +84,7 @@ def _sides(
 
 def _records(run: Path, console: LiteralConsole) -> Side:
     store = bench.Store.open(run)
-    records = store.planned()
+    records = comparison.planned_side(store)
     show_left_out(store.damaged, console)
     return records
 

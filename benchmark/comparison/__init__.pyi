@@ -1,7 +1,8 @@
 from .changes import run_changes
-from .contrasts import compare, tidy
-from .output import markdown, notes, terminal
-from .sides import between_models, between_runs, side_names
+from .contrasts import compare
+from .output import markdown, notes, outcome, terminal
+from .sides import between_models, between_runs, planned_side, side_names
+from .tidy import tidy
 
 __all__ = [
     "between_models",
@@ -9,6 +10,8 @@ __all__ = [
     "compare",
     "markdown",
     "notes",
+    "outcome",
+    "planned_side",
     "run_changes",
     "side_names",
     "terminal",

@@ -2,29 +2,30 @@
 
 A side is a run, or a model within a run. What is paired is the same problem: task and version,
 case, fold, seed and recordings. Anything else is refused, because a difference between problems
-would pass for one between the sides.
+would pass for one between the sides. A side that lost a fold of a row is not tested there: the
+folds in which it succeeded may be the easy ones.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import pandas as pd
 
+from mocapbench.benchmark.comparison.folds import asked, both_ok, paired_folds
 from mocapbench.benchmark.comparison.problems import require_same_problems
 from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.comparison.units import units_of, with_advantages
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.results.bundle import metric_info
-from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Task
-from mocapbench.metrics.statistics import Contrast, contrast, holm, pair
+from mocapbench.metrics.statistics import Contrast, contrast, holm
+from mocapbench.reports import MetricInfo
 
-__all__ = ["POOLED", "Row", "compare", "tidy"]
+__all__ = ["POOLED", "Row", "compare"]
 
 POOLED = "all cases"
 
@@ -33,7 +34,8 @@ POOLED = "all cases"
 class Row:
     """One contrast: of one case, or of all cases of a task (`POOLED`).
 
-    ``identical`` says whether both sides have the same value in every fold.
+    ``identical`` says whether both sides have the same value in every fold. Of ``folds`` that both
+    were asked for, they lost ``first_lost`` and ``second_lost``; if any, there are means alone.
     ``t_p_holm`` and ``signed_rank_p_holm`` are corrected over the rows of one task and metric,
     the pooled ones apart from those of single cases.
     """
@@ -46,6 +48,14 @@ class Row:
     identical: bool = False
     t_p_holm: float = math.nan
     signed_rank_p_holm: float = math.nan
+    folds: int = 0
+    first_lost: int = 0
+    second_lost: int = 0
+
+    @property
+    def incomplete(self) -> bool:
+        """Whether a side lost folds."""
+        return self.first_lost + self.second_lost > 0
 
 
 def compare(
@@ -71,76 +81,57 @@ def compare(
     UsageError
         If nothing is in common, or what has one address is not the same problem.
     """
-    one, other = (_scored(side, tasks) for side in (first, second))
-    common = [address for address in one if address in other]
+    one, other = (asked(side, tasks) for side in (first, second))
+    common = {address: (one[address], other[address]) for address in one if address in other}
     if not common:
         raise UsageError("compare: the two have no scored (task, case, fold, entrant) in common")
-    require_same_problems([(one[address], other[address]) for address in common])
+    require_same_problems(list(filter(both_ok, common.values())))
     names = list(dict.fromkeys(address.task for address in common))
     chosen = list(dict.fromkeys(map(METRICS.current_name, metrics)))
     rows = [
         row
         for task in map(TASKS.get, names)
         for metric in chosen or task.page.metrics
-        for row in _rows(task, metric, _pairs(task, metric, one, other), rope)
+        for row in _rows(task, metric, paired_folds(task.name, metric, common), rope)
     ]
     if not rows:
         raise UsageError(f"compare: the two have no value of {', '.join(metrics)} in common")
     return rows
 
 
-def _scored(side: Side, tasks: Sequence[str]) -> dict[Address, Record]:
-    """Return the records with scores by address, whose version `differences` compares."""
-    return {
-        record.address._replace(version=0): record
-        for record in side
-        if record.status is Status.OK and (not tasks or record.address.task in tasks)
-    }
-
-
-def _pairs(
-    task: Task, metric: str, one: Mapping[Address, Record], other: Mapping[Address, Record]
-) -> dict[str, pd.DataFrame]:
-    """Return the paired values of each entrant of a task."""
-    common = (address for address in one if address in other)
-    labels = dict.fromkeys(address.label for address in common if address.task == task.name)
-    return {
-        label: pair(*(_values(side, task, label, metric) for side in (one, other)))
-        for label in labels
-    }
-
-
-def _values(
-    side: Mapping[Address, Record], task: Task, label: str, metric: str
-) -> pd.Series[float]:
-    values = {
-        (address.case, address.fold): record.scores.get(metric, math.nan)
-        for address, record in side.items()
-        if (address.task, address.label) == (task.name, label)
-    }
-    index = pd.MultiIndex.from_tuples(list(values), names=["case", "fold"])
-    return pd.Series(list(values.values()), index, dtype=float)
-
-
-def _rows(task: Task, metric: str, pairs: Mapping[str, pd.DataFrame], rope: float) -> list[Row]:
-    advantages = {label: with_advantages(own, metric_info(metric)) for label, own in pairs.items()}
-
+def _rows(task: Task, metric: str, folds: Mapping[str, pd.DataFrame], rope: float) -> list[Row]:
     def row(label: str, case: str, own: pd.DataFrame) -> Row:
-        found = contrast(units_of(task, own), rope)
-        return Row(task.name, metric, label, case, found, own["first"].equals(own["second"]))
+        found = _contrast(task, metric_info(metric), own.dropna(), rope)
+        return _counting(own, Row(task.name, metric, label, case, found))
 
     single = [
         row(label, str(case), of_case)
-        for label, own in advantages.items()
+        for label, own in folds.items()
         for case, of_case in own.groupby(level="case", sort=False)
     ]
     pooled = [
         row(label, POOLED, counted)
-        for label, own in advantages.items()
+        for label, own in folds.items()
         for counted in [_counted(task, own)]
         if counted.index.unique("case").size > 1
     ]
     return [*_corrected(single), *_corrected(pooled)]
+
+
+def _contrast(task: Task, metric: MetricInfo, pairs: pd.DataFrame, rope: float) -> Contrast:
+    if pairs.empty:
+        return Contrast(0)
+    return contrast(units_of(task, with_advantages(pairs, metric)), rope)
+
+
+def _counting(folds: pd.DataFrame, row: Row) -> Row:
+    """Return the row with the folds that it is of; with means alone, if some of them are lost."""
+    first, second = map(int, folds.isna().sum())
+    counted = replace(row, folds=len(folds), first_lost=first, second_lost=second)
+    if counted.incomplete:
+        means = Contrast(row.contrast.n, row.contrast.first, row.contrast.second)
+        return replace(counted, contrast=means)
+    return replace(counted, identical=folds["first"].equals(folds["second"]))
 
 
 def _counted(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
@@ -161,12 +152,3 @@ def _corrected(rows: Sequence[Row]) -> list[Row]:
         replace(row, t_p_holm=float(one), signed_rank_p_holm=float(other))
         for row, one, other in zip(rows, t, signed, strict=True)
     ]
-
-
-def tidy(rows: Iterable[Row]) -> pd.DataFrame:
-    """Return one line per contrast, unrounded."""
-    lines = []
-    for row in rows:
-        line = asdict(row)
-        lines.append({**{k: v for k, v in line.items() if k != "contrast"}, **line["contrast"]})
-    return pd.DataFrame(lines)

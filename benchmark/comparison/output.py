@@ -10,6 +10,7 @@ from rich.box import SIMPLE
 from rich.table import Table
 
 from mocapbench.benchmark.comparison.contrasts import Row
+from mocapbench.benchmark.comparison.incomplete import incomplete_notes, losses
 from mocapbench.benchmark.markdown import escape, table_lines
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.metrics.statistics import ALPHA, FEWEST_UNITS, Contrast, least_signed_rank_p
@@ -31,6 +32,8 @@ MORE = (
 def outcome(row: Row, sides: tuple[str, str]) -> str:
     """Return who is better by the corrected t-test, or why that cannot be said."""
     contrast = row.contrast
+    if row.incomplete:
+        return "; ".join(f"{side} {loss}" for side, loss in losses(row, sides))
     if row.identical:
         return "identical"
     if contrast.n < FEWEST_UNITS:
@@ -69,13 +72,15 @@ def markdown(rows: Sequence[Row], sides: tuple[str, str]) -> str:
 def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
     """Return what a reader of ``rows`` must know."""
     identical = sum(row.identical for row in rows)
+    tested = {row.contrast.n for row in rows if not row.incomplete}
     return [
+        *incomplete_notes(rows, sides),
         "“Better by” comes with its 95 % interval by Student’s t. Each p is corrected after Holm, "
         "single cases and all cases apart. P is by the Bayesian correlated t-test.",
         "n counts people where cases or folds go through recordings of people, else independent "
         "folds or cases, as in the report. Fewer than five are too few to test.",
         *([f"{identical} of {len(rows)} comparisons are identical."] if identical else []),
-        *([POWERLESS] if any(row.contrast.n == FEWEST_UNITS for row in rows) else []),
+        *([POWERLESS] if FEWEST_UNITS in tested else []),
         *([MORE] if any(outcome(row, sides) == TOO_FEW for row in rows) else []),
     ]
 

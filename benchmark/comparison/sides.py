@@ -7,11 +7,28 @@ from dataclasses import replace
 from pathlib import Path
 
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
-from mocapbench.benchmark.runs.record import Record
+from mocapbench.benchmark.runs.directory.plan_file import planned_jobs
+from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.runs.store import Store
 
-__all__ = ["Side", "between_models", "between_runs", "side_names"]
+__all__ = ["Side", "between_models", "between_runs", "planned_side", "side_names"]
 
 Side = Sequence[Record]
+
+
+def planned_side(store: Store) -> Side:
+    """Return the records of a run's plan, and for jobs without one a record that says so."""
+    records = store.planned()
+    found = {record.key for record in records}
+    lacking = [
+        Record(
+            *(job.key, job.fit_key, job.address, 0, job.address.label, {}, Status.FAILED),
+            message="no result yet",
+        )
+        for job in planned_jobs(store.load_plan())
+        if job.key not in found
+    ]
+    return [*records, *lacking]
 
 
 def between_runs(first: Side, second: Side, models: Sequence[str] = ()) -> tuple[Side, Side]:

@@ -209,11 +209,11 @@ def test_generated_motion_is_not_pooled_with_recordings(cli, run, tmp_path):
     assert rows.loc["all cases", "first"] == pytest.approx(1.525)
 
 
-def test_folds_that_only_one_side_has_and_undefined_scores_are_left_out(cli, run, tmp_path):
-    fewer = records("nn", {"test 1": [2.0, float("nan"), 2.5]})
-    fewer[2] = replace(fewer[2], status=Status.FAILED, message="it broke")
+def test_folds_that_only_one_side_was_asked_for_are_left_out(cli, run, tmp_path):
+    fewer = records("nn", {"test 1": [2.0, 2.2]})
     rows = compared(cli, tmp_path, run("run", records("knn", GOOD), fewer), "--models", "knn,nn")
-    assert rows["n"].to_dict() == {"test 1": 1}
+    assert rows["n"].to_dict() == {"test 1": 2}
+    assert not rows[["first_lost", "second_lost"]].to_numpy().any()
 
 
 def test_markdown_holds_every_row_and_the_notes(cli, run, tmp_path):
