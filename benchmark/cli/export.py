@@ -25,14 +25,14 @@ def export(
     out: Out = DEFAULT_OUT,
     to: Annotated[Path | None, typer.Option(help="Folder of the files.")] = None,
 ) -> None:
-    """Write the scores and jobs of a run directory as tables.
+    """Write the scores and jobs of the last run as tables.
 
     As CSV, and as Parquet where pyarrow is installed.
     """
     store, console = bench.Store.open(out), LiteralConsole()
     folder, with_parquet = to or out, find_spec("pyarrow") is not None
     folder.mkdir(parents=True, exist_ok=True)
-    records = store.records()
+    records = store.planned()
     tables = {"scores": bench.score_table(records), "jobs": bench.job_table(records)}
     for name, table in tables.items():
         with atomic_write(folder / f"{name}.csv") as file:
@@ -46,5 +46,8 @@ def export(
         advice = "no Parquet files, which need pyarrow: `pip install 'mocapbench[parquet]'`"
         console.print(advice)
     show_left_out(store.damaged, console)
+    if earlier := len(store.record_keys() - {*store.load_plan()["keys"]}):
+        jobs = reports.counted(earlier, "job")
+        console.print(f"not exported: {jobs} of earlier runs in {out}", soft_wrap=True)
     if not records:
         raise typer.Exit(ExitCode.NOTHING_RAN)

@@ -29,7 +29,7 @@ COMMANDS = {
     "check": "Check that no metric of a run is worse than its reference value.",
     "compare": "Compare two runs, or two models of one run, by paired folds.",
     "data": "Look for, fetch and verify recordings.",
-    "export": "Write the scores and jobs of a run directory as tables.",
+    "export": "Write the scores and jobs of the last run as tables.",
     "list": "List tasks, models, metrics, libraries or formats of files.",
     "info": "Show versions, the machine, and how to cite.",
 }

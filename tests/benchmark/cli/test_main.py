@@ -330,12 +330,39 @@ def test_export_holds_one_row_per_score(cli, records, tmp_path):
     pd.testing.assert_frame_equal(table, text, check_dtype=False)
 
 
+@pytest.mark.parametrize("edits", [1, 3])
+def test_an_export_holds_the_last_run_alone(cli, tmp_path, edits):
+    """As the other commands do: after a plug-in was edited, each fold and label has one row."""
+    plugin, run = tmp_path / "mine.py", tmp_path / "run"
+    chosen = ("--tasks", "toy-interpolation-1", "--cases", "test 1", "--folds", 2, "--offline")
+    for size in range(edits + 1):
+        plugin.write_text(
+            "from mocapbench.baselines import LinearImputer, Prediction\n\n\n"
+            "class Mine(LinearImputer):\n"
+            '    """Mine."""\n\n'
+            "    def impute(self, recordings):\n"
+            "        answers = super().impute(recordings)\n"
+            f"        return [Prediction(a.mean + {size}) for a in answers]\n\n\n"
+            'MODELS = {"mine": Mine}\n'
+        )
+        assert cli("run", *chosen, "--plugin", plugin, "--models", "mine", "--out", run) == 0
+    assert cli("export", "--out", run, "--to", tmp_path / "tables") == 0
+    assert f"not exported: {2 * edits} jobs of earlier runs" in cli.printed
+    scores, jobs = (pd.read_csv(tmp_path / "tables" / f"{name}.csv") for name in ("scores", "jobs"))
+    assert not scores.duplicated(["task", "case", "fold", "label", "metric"]).any()
+    assert len(jobs) == 2
+    kept = {record.key: record.scores["mse"] for record in Store.open(run).planned()}
+    own = scores[scores["metric"] == "mse"].set_index("key")["value"]
+    assert own.to_dict() == pytest.approx(kept)
+
+
 def test_no_text_of_an_export_begins_a_formula(cli, tmp_path):
     store = Store.create(tmp_path / "run")
     message, address = "-it\rbroke", Address("toy-interpolation-1", 1, "test 1", 0, "=1+1")
     fields = {"message": message, "scores": {"mse": -1.5}, "iterations": 3}
     store.save(Record("a", "a", address, 0, "@knn", {}, Status.FAILED, **fields))
     store.save(Record("b", "b", address._replace(fold=1), 0, "@knn", {}, Status.OK))
+    store.save_plan({"keys": ["a", "b"], "provenance": {}})
     assert cli("export", "--out", tmp_path / "run", "--to", tmp_path) == 0
     jobs, scores = (pd.read_csv(tmp_path / f"{name}.csv") for name in ("jobs", "scores"))
     assert set(jobs["label"]) == {"'=1+1"}
