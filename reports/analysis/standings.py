@@ -50,6 +50,8 @@ class Standing:
         Of the metric, over the cases where the label has scores, each weighing the same.
     n_cases, n_units : int
         In how many cases and units it has scores.
+    n_folds : int
+        In how many folds of cases it has a score, of those where the best one has.
     unit : str
         What a unit is: ``"subject"``, ``"fold"`` or ``"case"``.
     complete : bool
@@ -68,6 +70,7 @@ class Standing:
     mean: float
     n_cases: int
     n_units: int
+    n_folds: int
     unit: str
     complete: bool
     difference: float
@@ -139,6 +142,7 @@ def _standing(scored: Cells, row: int, interval: Sequence[float], place: Place) 
         scored.mean(row),
         scored.n_cases(row),
         scored.n_units(row),
+        int((scored.scored[row] & scored.scored[scored.best]).sum()),
         scored.unit,
         bool(scored.complete[row]),
         difference,

@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import groupby
 
-__all__ = ["SHADES", "BoardCell", "BoardColumn", "BoardRow", "Scoreboard"]
+__all__ = ["INCOMPLETE", "SHADES", "BoardCell", "BoardColumn", "BoardRow", "Scoreboard"]
 
 SHADES = ((1.0, "best"), (1.1, "within 10 %"), (1.5, "within 50 %"), (3.0, "within 3×"))
 """How many times worse than the best a mean may be, and the name of that shade."""
+
+INCOMPLETE = "incomplete"
+"""In place of a shade: the mean is over other folds than that of the best, and not compared."""
 
 
 @dataclass(frozen=True)
@@ -50,13 +53,13 @@ class BoardCell:
     text : str
     value : float
     shade : str
-        The name of its distance from the best, empty for what does not compete.
+        The name of its distance from the best, or `INCOMPLETE`; empty for what does not compete.
     beaten : bool
         Whether it is no better than the task's reference.
     link : str
         The address on the page of what is behind it, empty where nothing is.
     note : str
-        What it says beside the number, such as the cases that it lacks.
+        What it says beside the number, such as the cases or folds that it lacks.
     """
 
     text: str
@@ -69,6 +72,8 @@ class BoardCell:
     @property
     def style(self) -> str:
         """Its classes in the style sheet."""
+        if self.shade == INCOMPLETE:
+            return INCOMPLETE
         step = [name for _, name in SHADES].index(self.shade) if self._near else len(SHADES)
         return f"shade-{step}" + (" beaten" if self.beaten else "") if self.shade else "reference"
 
@@ -112,5 +117,14 @@ class Scoreboard:
     @property
     def has_beaten(self) -> bool:
         """Whether a model is no better than the reference of a task."""
-        cells = (cell for _, rows in self.groups for row in rows for cell in row.cells)
-        return any(cell is not None and cell.beaten for cell in cells)
+        return any(cell.beaten for cell in self._competing)
+
+    @property
+    def has_incomplete(self) -> bool:
+        """Whether a model lacks folds that the best one of a task has."""
+        return any(cell.shade == INCOMPLETE for cell in self._competing)
+
+    @property
+    def _competing(self) -> list[BoardCell]:
+        rows = (row for _, rows in self.groups for row in rows)
+        return [cell for row in rows for cell in row.cells if cell is not None]

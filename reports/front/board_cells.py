@@ -11,7 +11,7 @@ from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.bundle.metric_info import MetricInfo
-from mocapbench.reports.front.board import SHADES, BoardCell
+from mocapbench.reports.front.board import INCOMPLETE, SHADES, BoardCell
 from mocapbench.reports.text import cell_anchor, number
 
 __all__ = ["WORSE", "board_cells", "first_metric", "is_generated", "reference_of"]
@@ -65,17 +65,24 @@ def _mean(results: TaskResults, metric: str, label: str) -> float | None:
 def _cell(
     results: TaskResults, metric: str, label: str, mean: float, ranked: Mapping[str, Standing]
 ) -> BoardCell:
-    total = len(results.representative_cases(metric))
     link = cell_anchor(results.layout.name, "", label)
     text = number(mean, results.decimals[metric])
     if label not in ranked:
         return BoardCell(text, mean, link=link)
-    info, own = results.metrics[metric], ranked[label]
-    best = next(iter(ranked.values()))
+    own, best = ranked[label], next(iter(ranked.values()))
+    lacking = _lacking(own, best, len(results.representative_cases(metric)))
+    if not own.complete:
+        return BoardCell(text, mean, INCOMPLETE, link=link, note=f"{INCOMPLETE} ({lacking})")
     reference = reference_of(results)
-    lacking = "" if own.n_cases == total else f"{own.n_cases} of {total} cases"
     beaten = label != reference and _beaten(results, metric, mean, reference)
-    return BoardCell(text, mean, _shade(info, own, best), beaten, link, lacking)
+    return BoardCell(text, mean, _shade(results.metrics[metric], own, best), beaten, link, lacking)
+
+
+def _lacking(own: Standing, best: Standing, n_cases: int) -> str:
+    """Return how much of the cases, or else of the best one's folds, there is; empty if all."""
+    if own.n_cases < n_cases:
+        return f"{own.n_cases} of {n_cases} cases"
+    return "" if own.complete else f"{own.n_folds} of {best.n_folds} folds"
 
 
 def _beaten(results: TaskResults, metric: str, mean: float, reference: str | None) -> bool:

@@ -86,7 +86,7 @@ def _best_interpolations(
 
 
 def _best(results: TaskResults, column: Column) -> BoardCell | None:
-    """Return the cell of the best interpolation of a task, with its name."""
-    ranked = standings(results, first_metric(results))
-    labels = [each.label for each in ranked if each.label in results.layout.interpolations]
+    """Return the cell of the best interpolation of a task that has every score, with its name."""
+    ranked, known = standings(results, first_metric(results)), results.layout.interpolations
+    labels = [each.label for each in ranked if each.complete and each.label in known]
     return replace(column[labels[0]], note=labels[0], shade="", beaten=False) if labels else None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from itertools import combinations
 
-from mocapbench.metrics.statistics import FEWEST_UNITS
-from mocapbench.reports.analysis.cells import cells
+import numpy as np
+
+from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.contrasts import PairContrast, contrasts
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
@@ -20,29 +20,44 @@ Contrasts = Mapping[tuple[str, str], PairContrast]
 
 
 def contrast_table(results: TaskResults, metric: str) -> Table | None:
-    """Return the matrix of all pairs of competitors; None where no pair has enough units."""
+    """Return the matrix of all pairs of complete competitors; None where units are too few.
+
+    All of its pairs are over the same units. The notes name the incomplete ones.
+    """
     scored = cells(results, metric)
-    by_pair = contrasts(scored)
-    most = max((contrast.n for contrast in by_pair.values()), default=0)
-    if most < FEWEST_UNITS:
+    if not scored.labels:
         return None
-    advantages = [by_pair[pair].advantage for pair in combinations(scored.labels, 2)]
-    places = decimals(value for value in advantages if not math.isnan(value))
-    title = results.metrics[metric].short
+    labels = [scored.labels[row] for row in np.flatnonzero(scored.complete)]
+    by_pair = contrasts(scored)
+    pairs = [by_pair[pair] for pair in combinations(labels, 2)]
+    if not pairs or not pairs[0].tested:
+        return None
+    places = decimals(pair.advantage for pair in pairs)
     return Table(
         id=slug(results.layout.name, metric, "contrasts"),
-        caption=f"{title}, model against model: by how much the row is better than the column, "
-        f"over {counted(most, scored.unit)}",
-        columns=headings(["entrant", *(f"than {label}" for label in scored.labels)], "contrast"),
+        caption=f"{results.metrics[metric].short}, model against model: by how much the row is "
+        f"better than the column, over {counted(pairs[0].n, scored.unit)}",
+        columns=headings(["entrant", *(f"than {label}" for label in labels)], "contrast"),
         rows=tuple(
-            (Cell(row), *(_cell(by_pair.get((row, column)), places) for column in scored.labels))
-            for row in scored.labels
+            (Cell(row), *(_cell(by_pair.get((row, column)), places) for column in labels))
+            for row in labels
         ),
+        notes=_left_out(scored),
     )
 
 
+def _left_out(scored: Cells) -> tuple[str, ...]:
+    of_best = scored.scored[scored.best]
+    named = [
+        f"{label} ({(own & of_best).sum()} of {of_best.sum()} folds)"
+        for label, own, complete in zip(scored.labels, scored.scored, scored.complete, strict=True)
+        if not complete
+    ]
+    return (f"Left out, as they are incomplete: {', '.join(named)}.",) if named else ()
+
+
 def _cell(contrast: PairContrast | None, places: int) -> Cell:
-    if contrast is None or not contrast.tested:
+    if contrast is None:
         return ABSENT
     low, high = (number(bound, places) for bound in (contrast.low, contrast.high))
     side = "ahead" if contrast.advantage > 0.0 else "behind"

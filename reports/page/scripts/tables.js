@@ -2,7 +2,10 @@
 
 // Sort a table by a head, show one family of models.
 (() => {
-  const worth = (cell) => (cell?.dataset.v === undefined ? Infinity : Number(cell.dataset.v));
+  // What is absent, or not compared as it is incomplete, comes last.
+  const worth = (cell) => (
+    cell?.dataset.v === undefined || cell.matches(".incomplete") ? Infinity : Number(cell.dataset.v)
+  );
 
   const sort = (button) => {
     const head = button.closest("th"), table = head.closest("table");

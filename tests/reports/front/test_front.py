@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.front.answers import answers
-from mocapbench.reports.front.board import SHADES, BoardCell
+from mocapbench.reports.front.board import INCOMPLETE, SHADES, BoardCell
 from mocapbench.reports.front.board_cells import board_cells, reference_of
 from mocapbench.reports.front.scoreboard import scoreboard
 from mocapbench.reports.front.trust import trust
@@ -69,8 +69,38 @@ def test_limits_are_not_shaded_and_cells_name_the_cases_that_they_lack(small):
     values = {"x": {"a": [1.0], "b": [2.0], "oracle": [0.1]}, "y": {"a": [1.0], "b": [NAN]}}
     cells = board_cells(results_of(small(values)))
     assert (cells["oracle"].shade, cells["oracle"].style) == ("", "reference")
-    assert cells["b"].note == "1 of 2 cases"
+    assert cells["b"].note == "incomplete (1 of 2 cases)"
     assert cells["a"].link == cell_anchor("small", "", "a")
+
+
+@laws
+@given(st.lists(st.floats(0.01, 100.0), min_size=12, max_size=12), st.sets(st.integers(0, 3)))
+def test_what_lost_folds_is_called_incomplete_and_never_near_the_best(small, values, lost):
+    """However small its mean over the folds that it has."""
+    best, other, partial = values[:4], values[4:8], list(values[8:])
+    for fold in lost:
+        partial[fold] = NAN
+    one = {"best": best, "other": other, "partial": partial, "trivial": [1e-3] * 4}
+    cells = board_cells(results_of(small({"row": one})))
+    assert {cells[label].shade for label in ("best", "other")}.isdisjoint({INCOMPLETE})
+    if 0 < len(lost) < 4:
+        cell = cells["partial"]
+        assert (cell.shade, cell.style, cell.beaten) == (INCOMPLETE, "incomplete", False)
+        assert cell.note == f"incomplete ({4 - len(lost)} of 4 folds)"
+
+
+@pytest.mark.parametrize("value", [NAN, 2.0])
+def test_the_key_of_what_is_incomplete_is_there_where_something_is(small, value):
+    results = results_of(small({"row": {"a": [1.0, 1.0], "b": [0.5, value]}}))
+    board = scoreboard([results], {"Models": ["a", "b"]})
+    assert board.has_incomplete == (value is NAN)
+
+
+def test_an_incomplete_interpolation_is_not_the_best_one(small):
+    values = {"row": {"a": [1.0, 1.0], "linear": [0.5, NAN], "pchip": [2.0, 2.0]}}
+    results = [results_of(small(values, interpolations=("linear", "pchip")))]
+    (best,) = scoreboard(results, {"Models": ["a", "linear", "pchip"]}).references
+    assert best.cells[0].note == "pchip"
 
 
 def test_what_is_no_better_than_the_reference_is_marked(small):

@@ -45,7 +45,9 @@ def tab(visit):
 
 
 def values(tab, body, column):
-    cell = f"row => row.cells[{column}].dataset.v"
+    cell = (
+        f"row => row.cells[{column}].matches('.incomplete') ? null : row.cells[{column}].dataset.v"
+    )
     rows = tab.locator(f"{body} tr[data-model]").evaluate_all(f"rows => rows.map({cell})")
     return [float(value) for value in rows if value is not None]
 
@@ -71,6 +73,17 @@ def test_what_has_no_score_comes_last_in_both_directions(tab):
         head.click()
         last = tab.locator(f"{TABLE} tbody tr").last.locator("td").all()
         assert "failed" in last[-2].inner_text() or last[-2].get_attribute("data-v") is None
+
+
+def test_what_is_incomplete_comes_last_on_the_scoreboard_in_both_directions(tab):
+    head = tab.locator("#scoreboard thead tr").nth(1).locator("th").first
+    kinds = "rows => rows.map(row => row.cells[1].matches('.incomplete, .none'))"
+    for _ in range(2):
+        head.locator(".sort").click()
+        found = tab.locator("#scoreboard tbody:not(.below) tr[data-model]").evaluate_all(kinds)
+        assert found == sorted(found)
+    assert tab.locator("#scoreboard tbody:not(.below) td.incomplete").count()
+    assert "incomplete: lost folds" in tab.locator(".key").first.inner_text()
 
 
 def test_a_head_sorts_the_scoreboard_as_one_list_by_keyboard_and_references_stay_below(tab):

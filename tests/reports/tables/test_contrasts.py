@@ -92,6 +92,24 @@ def test_a_mark_stands_only_where_the_test_separates(small):
     assert cell(table, "a", "d").text == "0.000"
 
 
+@laws
+@given(st.integers(0, 100_000), st.sets(st.integers(0, 7), min_size=1, max_size=2))
+def test_the_matrix_leaves_out_what_lost_folds_and_is_over_as_many_as_it_says(small, seed, lost):
+    folds = np.random.default_rng(seed).normal((1.0, 1.3, 2.0, 0.1), size=(8, 4))
+    folds[list(lost), 3] = np.nan
+    results = results_of(small({"row": dict(zip("abcd", folds.T.tolist(), strict=True))}))
+    table = contrast_table(results, "mse")
+    assert [row[0].text for row in table.rows] == ["a", "b", "c"]
+    assert {contrast_of(results, *pair).n for pair in combinations("abc", 2)} == {8}
+    assert table.caption.endswith("over 8 folds")
+    assert table.notes == (f"Left out, as they are incomplete: d ({8 - len(lost)} of 8 folds).",)
+
+
+def test_a_lone_complete_entrant_is_no_matrix(small):
+    values = {"row": {"a": [1.0] * 8, "b": [2.0] * 7 + [np.nan]}}
+    assert contrast_table(results_of(small(values)), "mse") is None
+
+
 def test_the_caption_names_the_units(small):
     assert "over 6 folds" in contrast_table(results_of(small(VALUES)), "mse").caption
     cases = tuple(CaseLayout(name, {}, subjects=(name,)) for name in VALUES)
