@@ -81,7 +81,7 @@ def with_lost_channels(
         return checked
     (claimed,) = model.as_claimed([given])
     factors = np.maximum(np.exp(np.mean(np.log(estimates), axis=0)), 1.0)
-    variance = np.where(lost, np.asarray(claimed.variance) * factors, checked.variance)
+    variance = np.where(lost, np.asarray(claimed.variance) * factors, np.asarray(checked.variance))
     return Prediction(checked.mean, variance)
 
 
@@ -102,4 +102,4 @@ def _estimates(
 
 
 def _lost(recording: Recording) -> NDArray[np.bool_]:
-    return ~recording.visible.any(axis=0)
+    return np.asarray(~recording.visible.any(axis=0))

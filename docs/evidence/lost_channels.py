@@ -103,9 +103,8 @@ def main(which: str = "chosen") -> None:
     every = list(problems({"chosen": CHOSEN_ON, "checked": CHECKED_ON}[which]))
     for name, make in MODELS.items():
         rows = [calibration(make().fit(problem.train), problem) for problem in every]
-        print(
-            f"{name:16}", *np.round(np.mean(rows, axis=0), 3), f"{len(rows)} problems", flush=True
-        )
+        means: list[float] = np.mean(rows, axis=0).round(3).tolist()
+        print(f"{name:16}", *means, f"{len(rows)} problems", flush=True)
     beside = np.array([ratios(problem) for problem in every])
     print("best-of", np.exp(np.log(beside).mean(axis=0)).round(3), beside.max(axis=0).round(2))
 
