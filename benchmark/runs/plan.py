@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from mocapbench.benchmark.consistency import require_consistent
 from mocapbench.benchmark.errors import UnknownNameError, UnregisteredNameError, UsageError
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.case_names import matching_cases
@@ -21,7 +22,6 @@ from mocapbench.benchmark.runs.keys import (
 )
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Entrant, Profile, Task
-from mocapbench.benchmark.tasks.consistency import require_consistent
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 

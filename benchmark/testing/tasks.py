@@ -10,12 +10,12 @@ import numpy as np
 
 from mocapbench.baselines import FrameImputer, Imputer, Model
 from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.consistency import require_consistent
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.plan import entrants
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case, Task
-from mocapbench.benchmark.tasks.consistency import require_consistent
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.benchmark.testing.errors import ConformanceError, raised_by, require, require_equal
 from mocapbench.datasets import Archive
