@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
 from numbers import Real
+from types import MappingProxyType
 from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mocapbench.metrics.poses import ImputedPoses, SampledPoses
+from mocapbench.metrics.poses import ImputedPoses, SampledPoses, lock_fields, read_only
 
 __all__ = [
     "Clustering",
@@ -48,10 +49,10 @@ class Direction(Enum):
 
 
 def _as_numbers(outcome: object, *fields: str) -> None:
-    """Make these fields of a frozen ``outcome`` arrays of numbers."""
-    for name in fields:
-        what = f"{name} of {type(outcome).__name__}"
-        object.__setattr__(outcome, name, _numbers(what, getattr(outcome, name)))
+    """Make these fields of a frozen ``outcome`` arrays of numbers, read-only."""
+    kind = type(outcome).__name__
+    numbers = {name: _numbers(f"{name} of {kind}", getattr(outcome, name)) for name in fields}
+    lock_fields(outcome, **numbers)
 
 
 def _numbers(what: str, values: ArrayLike) -> Array:
@@ -70,7 +71,7 @@ def _numbers(what: str, values: ArrayLike) -> Array:
 class Imputation:
     """Truth and prediction of hidden entries; recordings are concatenated along the frames.
 
-    Nested lists are taken as arrays.
+    Nested lists are taken as arrays, which are read-only.
 
     Parameters
     ----------
@@ -120,7 +121,7 @@ class Imputation:
             raise ValueError(
                 f"expected hidden to be True or False for each entry, got numbers of {mask.dtype}"
             )
-        object.__setattr__(self, "hidden", mask)
+        lock_fields(self, hidden=mask)
         self._check_units()
 
     def _check_units(self) -> None:
@@ -142,7 +143,7 @@ class Imputation:
 class Synthesis:
     """Sampled recordings, and the reference recordings to compare them with.
 
-    Nested lists are taken as arrays.
+    Nested lists are taken as arrays, which are read-only.
 
     Parameters
     ----------
@@ -194,7 +195,7 @@ def has_poses(outcome: Imputation | Synthesis) -> bool:
 class Clustering:
     """Clusters of recordings, and their known classes.
 
-    Lists are taken as arrays.
+    Lists are taken as arrays, which are read-only.
 
     Parameters
     ----------
@@ -213,21 +214,20 @@ class Clustering:
     labels: NDArray[np.intp]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "truth", np.asarray(self.truth))
         labels = np.asarray(self.labels)
         if labels.size and labels.dtype.kind not in "iu":
             raise ValueError(
                 f"expected labels to be the whole number of a cluster for each recording, "
                 f"got {self.labels!r}"
             )
-        object.__setattr__(self, "labels", labels)
+        lock_fields(self, truth=np.asarray(self.truth), labels=labels)
 
 
 @dataclass(frozen=True, eq=False)
 class Recovery:
     """True and estimated covariances of the layers of a process.
 
-    Nested lists are taken as arrays.
+    Nested lists are taken as arrays, which are read-only.
 
     Parameters
     ----------
@@ -256,13 +256,17 @@ class Recovery:
                     f"expected {name} to be a mapping of layers to covariances, got {layers!r}"
                 )
             matrices = {
-                layer: _numbers(f"{name} of layer {layer!r}", matrix)
+                layer: read_only(_numbers(f"{name} of layer {layer!r}", matrix))
                 for layer, matrix in layers.items()
             }
-            object.__setattr__(self, name, matrices)
+            object.__setattr__(self, name, MappingProxyType(matrices))
         noise: object = self.noise
         if not isinstance(noise, Real):
             raise ValueError(f"expected noise to be a variance, got {noise!r}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what pickle makes it from: a mapping that is read-only cannot be pickled."""
+        return type(self), (dict(self.truth), dict(self.estimate), self.noise)
 
 
 @dataclass(frozen=True, eq=False)

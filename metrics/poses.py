@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["ImputedPoses", "SampledPoses", "feet", "runs_of_frames"]
+__all__ = ["ImputedPoses", "SampledPoses", "feet", "lock_fields", "read_only", "runs_of_frames"]
 
 Positions = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -15,9 +16,27 @@ Mask = NDArray[np.bool_]
 _FOOT = "foot"
 
 
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """Return a view that cannot be written to; whoever made the array still may."""
+    view = np.asarray(array).view()
+    view.setflags(write=False)
+    return view
+
+
+def lock_fields(outcome: object, **arrays: NDArray[Any]) -> None:
+    """Set fields of a frozen ``outcome`` to arrays, read-only.
+
+    All metrics share an outcome: one that works in place would change what the next one scores.
+    """
+    for name, array in arrays.items():
+        object.__setattr__(outcome, name, read_only(array))
+
+
 @dataclass(frozen=True, eq=False)
 class ImputedPoses:
     """Joint positions of the truth and of a prediction, recordings one below the other.
+
+    Its arrays are read-only.
 
     Parameters
     ----------
@@ -59,6 +78,8 @@ class ImputedPoses:
                 f"expected positions and masks of {shape} frames and joints, a time per frame and "
                 f"a parent per joint; got shapes {shapes} and {len(self.parents)} parents"
             )
+        fields = ("truth", "mean", "hidden", "hidden_relative", "times")
+        lock_fields(self, **{name: getattr(self, name) for name in fields})
 
     @property
     def errors(self) -> NDArray[np.float64]:
@@ -75,6 +96,8 @@ class ImputedPoses:
 class SampledPoses:
     """Joint positions of samples and of references, all on one body.
 
+    Its arrays are read-only.
+
     Parameters
     ----------
     samples : ndarray of shape (S, N, J, 3)
@@ -90,6 +113,9 @@ class SampledPoses:
     references: Positions
     joints: tuple[str, ...]
     times: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        lock_fields(self, samples=self.samples, references=self.references, times=self.times)
 
 
 def feet(joints: tuple[str, ...]) -> list[int]:

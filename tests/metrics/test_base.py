@@ -1,5 +1,6 @@
 import dataclasses
 import pickle
+from collections.abc import Mapping
 from importlib.metadata import entry_points
 
 import numpy as np
@@ -12,9 +13,19 @@ METRICS = [point.load() for point in entry_points(group="mocapbench.metrics")]
 
 def as_lists(value):
     """Return arrays, alone or in a mapping, as nested lists, and all else as it is."""
-    if isinstance(value, dict):
+    if isinstance(value, Mapping):
         return {name: as_lists(item) for name, item in value.items()}
     return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def arrays_of(value):
+    """Yield the arrays among the fields of an outcome, those of its poses and mappings included."""
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, Mapping) or hasattr(value, "__dict__"):
+        fields = value if isinstance(value, Mapping) else vars(value)
+        for item in fields.values():
+            yield from arrays_of(item)
 
 
 @pytest.fixture
@@ -73,6 +84,41 @@ def test_joints_are_placed_once_and_only_when_asked_for(draw):
     for name, expected in (("mse", 0), ("mpjpe", 1), ("jerk_ratio", 1), ("foot_skate", 1)):
         next(metric for metric in METRICS if metric.name == name)(counted)
         assert len(calls) == expected
+
+
+@pytest.mark.parametrize(
+    ("kind", "n_arrays"), [(Imputation, 12), (Synthesis, 5), (Clustering, 2), (Recovery, 4)]
+)
+def test_what_metrics_share_cannot_be_written_to(outcomes, kind, n_arrays):
+    outcome = outcomes[kind]
+    if has_poses in [metric.defined for metric in METRICS if metric.outcome is kind]:
+        assert outcome.poses
+    arrays = [*arrays_of(outcome)]
+    assert len(arrays) == n_arrays
+    for array in arrays:
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = array
+    for name, field in vars(outcome).items():
+        if isinstance(field, Mapping):
+            with pytest.raises(TypeError):
+                getattr(outcome, name)["parent"] = np.eye(3)
+
+
+def test_who_made_an_array_may_still_write_to_it(make):
+    truth = np.zeros((2, 2))
+    outcome = make(truth, 1.0)
+    truth[:] = 2.0
+    assert (outcome.truth == 2.0).all()
+
+
+@pytest.mark.parametrize("kind", [Imputation, Synthesis, Clustering, Recovery])
+def test_outcomes_can_be_sent_to_other_processes(outcomes, kind):
+    outcome = outcomes[kind]
+    if kind in (Imputation, Synthesis):
+        outcome = dataclasses.replace(outcome, place_joints=None)
+    copy = pickle.loads(pickle.dumps(outcome))
+    for one, two in zip(arrays_of(outcome), arrays_of(copy), strict=True):
+        np.testing.assert_array_equal(one, two)
 
 
 @pytest.mark.parametrize("metric", METRICS, ids=lambda metric: metric.name)

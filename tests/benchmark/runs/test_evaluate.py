@@ -27,10 +27,16 @@ def _nothing(outcome):
     return None
 
 
+def _in_place(outcome):
+    errors = outcome.truth
+    errors -= outcome.mean
+
+
 FAULTS = {
     "a float": ({"statistic": lambda outcome: 0.5}, "to return a Score, got float"),
     "nothing": ({"statistic": _nothing}, "to return a Score, got NoneType"),
     "an error": ({"statistic": _raises}, "the metric 'mine' raised KeyError: 'x'"),
+    "work in place": ({"statistic": _in_place}, "raised ValueError: output array is read-only"),
     "in defined": ({"defined": _raises}, "the metric 'mine' raised KeyError: 'x'"),
 }
 

@@ -48,6 +48,13 @@ def _raises(outcome):
     raise ZeroDivisionError("no frames")
 
 
+def _in_place(outcome):
+    """Return the mean error at hidden entries."""
+    errors = outcome.mean
+    errors -= outcome.truth
+    return Score(float(errors[outcome.hidden].mean()))
+
+
 GOOD = Metric("m", "M", Direction.LOWER, Imputation, _value)
 
 
@@ -64,6 +71,7 @@ def test_a_metric_that_conforms_passes():
         ({"statistic": _random}, "draw nothing in a metric"),
         ({"statistic": _everything}, "whatever the visible entries are"),
         ({"statistic": _raises}, "got ZeroDivisionError: no frames"),
+        ({"statistic": _in_place}, "got ValueError: .*read-only"),
         ({"direction": Direction.TARGET}, "expected a target, got None"),
         ({"target": 1.0}, "expected no target where lower is better, got 1.0"),
         ({"outcome": int}, "expected an outcome among"),
