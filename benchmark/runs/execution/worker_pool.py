@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Any
 
-from pebble import ProcessPool
+from pebble import ProcessExpired, ProcessPool
+from pebble.common import Result, ResultStatus
+from pebble.pool.process import PoolManager
 
 from mocapbench.benchmark.runs.execution.fork_server import fork_server
 from mocapbench.benchmark.runs.execution.interrupts import interrupts_later
@@ -18,6 +21,40 @@ _MOST_JOBS = 1000
 """After so many jobs a worker is replaced, and what its memory has grown by goes with it."""
 _PATIENCE = 0.2
 """Seconds that an interrupt waits at most while jobs run."""
+_LOOKS = 10
+"""Looks, a tenth of a second apart, after which a job whose worker has ended is given up."""
+
+
+class _Manager(PoolManager):
+    """Pebble's, which takes an exit code of 0 for the end of a worker that has done its jobs.
+
+    One that exits in the midst of a job has exit code 0, too, if the job says so. The result of a
+    worker's last job may come a moment after the worker has ended, so that it takes some looks.
+    """
+
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        self._looks: Counter[int] = Counter()
+
+    def update_status(self) -> None:
+        """Do what pebble does again and again, and end jobs whose workers have ended."""
+        super().update_status()  # type: ignore[no-untyped-call]
+        workers = self.worker_manager.workers
+        tasks = [*self.task_manager.tasks.copy().values()]
+        left = [task for task in tasks if task.worker_id and task.worker_id not in workers]
+        self._looks = Counter({task.id: self._looks[task.id] + 1 for task in left})
+        for task in left:
+            if self._looks[task.id] >= _LOOKS:
+                error = ProcessExpired("ended in a job", code=0, pid=task.worker_id)
+                self.task_manager.task_done(task.id, Result(ResultStatus.ERROR, error))
+
+
+class _Pool(ProcessPool):
+    """Pebble's, with our manager."""
+
+    def __init__(self, max_workers: int, **options: Any) -> None:
+        super().__init__(max_workers, **options)
+        self._pool_manager = _Manager(self._context, options["context"])
 
 
 class WorkerPool:
@@ -33,7 +70,7 @@ class WorkerPool:
     """
 
     def __init__(self, n_workers: int) -> None:
-        self._pool = ProcessPool(
+        self._pool = _Pool(
             n_workers, max_tasks=_MOST_JOBS, context=fork_server(), initializer=prepare_worker
         )
 

@@ -28,6 +28,7 @@ BY_METRIC = {
     "sleeps": ("timeout", "killed after 2 s"),
     "hangs": ("timeout", "killed after 2 s"),
     "dies": ("failed", "exit code 7"),
+    "leaves": ("failed", "the worker died with exit code 0"),
     "exits": ("failed", "the metric 'exits' raised SystemExit: 5"),
     "raises": ("failed", "the metric 'raises' raised RuntimeError: the metric raised"),
     "hoards": ("out-of-memory", "raise --memory"),

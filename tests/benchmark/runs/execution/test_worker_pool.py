@@ -2,13 +2,45 @@
 
 import os
 
+import pytest
+from pebble import ProcessExpired
+
 from mocapbench.benchmark.runs.execution import worker_pool
 
 
-def test_a_worker_is_replaced_after_so_many_jobs_and_none_is_lost(monkeypatch):
+@pytest.fixture
+def pool(request):
+    """Return a function that starts workers, which end with the test."""
+
+    def pool(n_workers):
+        workers = worker_pool.WorkerPool(n_workers)
+        request.addfinalizer(workers.stop)
+        return workers
+
+    return pool
+
+
+def test_a_worker_is_replaced_after_so_many_jobs_and_none_is_lost(monkeypatch, pool):
     monkeypatch.setattr(worker_pool, "_MOST_JOBS", 3)
-    pool = worker_pool.WorkerPool(1)
-    futures = [pool.submit(os.getpid) for _ in range(8)]
+    workers = pool(1)
+    futures = [workers.submit(os.getpid) for _ in range(8)]
     pids = [future.result(timeout=60) for future in futures]
-    pool.stop()
     assert [pids.count(pid) for pid in dict.fromkeys(pids)] == [3, 3, 2]
+
+
+@pytest.mark.parametrize("code", [0, 7])
+def test_a_worker_that_exits_in_a_job_ends_that_job_and_no_other(code, pool):
+    workers = pool(1)
+    futures = [workers.submit(*job) for job in ((os._exit, code), (abs, -1), (os._exit, code))]
+    ended = [future.exception(timeout=60) for future in futures]
+    assert [getattr(error, "exitcode", None) for error in ended] == [code, None, code]
+    assert isinstance(ended[0], ProcessExpired)
+    assert futures[1].result() == 1
+
+
+def test_a_result_that_comes_after_its_worker_has_ended_is_waited_for(monkeypatch, pool):
+    """Every worker ends with its only job; results are larger than what a pipe holds."""
+    monkeypatch.setattr(worker_pool, "_MOST_JOBS", 1)
+    workers = pool(2)
+    futures = [workers.submit(bytes, 10**7) for _ in range(4)]
+    assert [len(future.result(timeout=60)) for future in futures] == [10**7] * 4
