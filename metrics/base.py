@@ -276,7 +276,8 @@ class Score:
     Parameters
     ----------
     value : float
-        The aggregate.
+        The aggregate; NaN where the metric is not defined for this outcome. A job whose score is
+        infinite, or NaN since numbers overflowed, has failed.
     parts : mapping of str to ndarray
         The values along ``"output"`` (D,), ``"joint"`` (J,), ``"frame"`` (N,), ``"sample"`` (S,),
         ``"reference"`` (M,), ``"reference_sd"`` (M,) over samples, or ``"bin"``, where the metric

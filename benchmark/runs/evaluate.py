@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import resource
 from collections.abc import Callable
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.registry import METRICS, TASKS
@@ -102,10 +105,12 @@ def _scores(job: Job, problem: Problem[Any], fit: Fit) -> dict[str, Any]:
 
 def _scored_by(metric: Metric[Any], outcome: object) -> dict[str, Score]:
     """Return the score by the metric's name, or nothing where the metric is not defined."""
+    overflows: list[str] = []
     try:
         if not metric.applies(outcome):
             return {}
-        score: object = metric(outcome)
+        with np.errstate(over="call", call=lambda kind, _: overflows.append(kind)):
+            score: object = metric(outcome)
     except MemoryError:  # for `Job.failed`, which says what to do
         raise
     except BaseException as error:
@@ -114,7 +119,18 @@ def _scored_by(metric: Metric[Any], outcome: object) -> dict[str, Score]:
     if not isinstance(score, Score):
         kind = type(score).__name__
         raise ValueError(f"expected the metric {metric.name!r} to return a Score, got {kind}")
+    _require_finite(metric.name, float(score.value), bool(overflows))
     return {metric.name: score}
+
+
+def _require_finite(name: str, value: float, overflowed: bool) -> None:
+    """Refuse a value that is infinite, or NaN because numbers on the way to it overflowed.
+
+    Any other NaN says that the metric is not defined for this answer.
+    """
+    if math.isinf(value) or (math.isnan(value) and overflowed):
+        why = ": numbers overflowed" if overflowed else ""
+        raise ValueError(f"{name} is {value}{why}; expected a finite score, or NaN for undefined")
 
 
 def _provenance(job: Job, config: WorkerConfig) -> dict[str, str]:

@@ -52,6 +52,13 @@ class NotANumber(_Mean):
         return [Prediction(np.full(r.values.shape, np.nan)) for r in recordings]
 
 
+class Diverges(_Mean):
+    """Answers with numbers whose squares overflow."""
+
+    def impute(self, recordings):
+        return [Prediction.around(r, np.full(r.values.shape, 1e300)) for r in recordings]
+
+
 class WrongShape(_Mean):
     def impute(self, recordings):
         return [Prediction(np.zeros((2, 2))) for _ in recordings]
@@ -146,6 +153,7 @@ MODELS = {
     "raises": Raises,
     "singular": Singular,
     "not-a-number": NotANumber,
+    "diverges": Diverges,
     "wrong-shape": WrongShape,
     "wrong-count": WrongCount,
     "no-variance": NoVariance,

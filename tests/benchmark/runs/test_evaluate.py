@@ -1,7 +1,9 @@
 """A record of a job that a metric fails names the metric."""
 
+import math
 import resource
 
+import numpy as np
 import pytest
 
 from mocapbench.benchmark.archives import archive_at
@@ -10,7 +12,7 @@ from mocapbench.benchmark.runs.evaluate import evaluate
 from mocapbench.benchmark.runs.job import Work, WorkerConfig
 from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.runs.record import Status
-from mocapbench.metrics import Direction, Imputation, Metric
+from mocapbench.metrics import Direction, Imputation, Metric, Score
 
 CONFIG = WorkerConfig(None, (), 600.0, resource.RLIM_INFINITY, 1, {})
 
@@ -32,12 +34,32 @@ def _in_place(outcome):
     errors -= outcome.mean
 
 
+def _overflowed_difference(outcome):
+    huge = np.exp(np.full(2, 1e3))
+    with np.errstate(invalid="ignore"):
+        return Score(float((huge - huge).mean()))
+
+
 FAULTS = {
     "a float": ({"statistic": lambda outcome: 0.5}, "to return a Score, got float"),
     "nothing": ({"statistic": _nothing}, "to return a Score, got NoneType"),
     "an error": ({"statistic": _raises}, "the metric 'mine' raised KeyError: 'x'"),
     "work in place": ({"statistic": _in_place}, "raised ValueError: output array is read-only"),
     "in defined": ({"defined": _raises}, "the metric 'mine' raised KeyError: 'x'"),
+}
+
+
+NOT_FINITE = {
+    "infinite": (lambda outcome: Score(math.inf), "mine is inf; expected a finite score"),
+    "minus infinite": (lambda outcome: Score(-math.inf), "mine is -inf; expected a finite score"),
+    "overflowed": (
+        lambda outcome: Score(float(np.square(np.full(2, 1e200)).mean())),
+        "mine is inf: numbers overflowed; expected a finite score",
+    ),
+    "a difference of what overflowed": (
+        _overflowed_difference,
+        "mine is nan: numbers overflowed; expected a finite score",
+    ),
 }
 
 
@@ -71,3 +93,18 @@ def test_the_traceback_shows_where_the_metric_failed(record):
 
 def test_a_metric_that_needs_too_much_memory_is_no_fault_of_the_metric(record):
     assert record(statistic=_hoards).status is Status.OUT_OF_MEMORY
+
+
+@pytest.mark.parametrize(("statistic", "message"), NOT_FINITE.values(), ids=NOT_FINITE)
+def test_a_score_that_is_not_finite_fails_the_job(record, statistic, message):
+    failed = record(statistic=statistic)
+    assert failed.status is Status.FAILED
+    assert message in failed.message
+    assert not failed.scores
+
+
+@pytest.mark.parametrize("value", [math.nan, 0.0, 1e300, -1e300])
+def test_a_finite_score_and_one_that_is_not_defined_are_kept(record, value):
+    ended = record(statistic=lambda outcome: Score(value))
+    assert ended.status is Status.OK
+    assert ended.scores == pytest.approx({"mine": value}, rel=0, nan_ok=True)

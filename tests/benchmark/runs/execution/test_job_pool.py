@@ -8,6 +8,7 @@ ENDINGS = {
     "raises": ("failed", "RuntimeError: the model <b>raised</b>"),
     "singular": ("failed", "LinAlgError"),
     "not-a-number": ("failed", "expected a finite mean"),
+    "diverges": ("failed", "mse is inf: numbers overflowed; expected a finite score"),
     "wrong-shape": ("failed", "expected a mean of shape (50, 3), got (2, 2)"),
     "wrong-count": ("failed", "expected a list of 1 Prediction, got []"),
     "no-variance": ("failed", "expected a positive variance"),
@@ -90,6 +91,15 @@ def test_what_a_model_does_to_metrics_changes_no_score_of_its_own(cli, records, 
     rigged, honest = records(out).values()
     assert rigged["scores"] == honest["scores"]
     assert honest["scores"]["mse"] > 0
+
+
+@pytest.mark.slow
+def test_no_reference_is_made_of_a_run_with_scores_that_are_not_finite(cli, arguments, tmp_path):
+    assert cli(*arguments, "--models", "diverges,well-behaved", "--no-report") == 3
+    reference = ("--reference", tmp_path / "reference.csv", "--update")
+    assert cli("check", tmp_path / "run", *reference) == 2
+    assert "1 jobs failed (diverges" in cli.printed
+    assert not (tmp_path / "reference.csv").exists()
 
 
 def test_a_parameter_that_is_no_plain_value_is_refused(cli, tmp_path, arguments):
