@@ -15,6 +15,7 @@ from mocapbench.benchmark.runs.answering import Answered, answer
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.fitting.trained import Trained
 from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
+from mocapbench.benchmark.runs.messages import reason
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.datasets import Archive
 from mocapbench.metrics import Metric, Score
@@ -114,8 +115,7 @@ def _scored_by(metric: Metric[Any], outcome: object) -> dict[str, Score]:
     except MemoryError:  # for `Job.failed`, which says what to do
         raise
     except BaseException as error:
-        raised = f"{type(error).__name__}: {error}"
-        raise RuntimeError(f"the metric {metric.name!r} raised {raised}") from error
+        raise RuntimeError(f"the metric {metric.name!r} raised {reason(error)}") from error
     if not isinstance(score, Score):
         kind = type(score).__name__
         raise ValueError(f"expected the metric {metric.name!r} to return a Score, got {kind}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import traceback
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any, NamedTuple, Self
 
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.fitting.trained import Trained
+from mocapbench.benchmark.runs.messages import reason, traceback_of
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.address import Address
@@ -106,10 +106,9 @@ class Job:
 
     def failed(self, error: BaseException, memory: int) -> Record:
         """Return a record of this job, which may take ``memory`` bytes and raised ``error``."""
-        text = "".join(traceback.format_exception(error))
+        text = traceback_of(error)
         if not isinstance(error, MemoryError):
-            message = f"{type(error).__name__}: {error}"
-            return self.record(Status.FAILED, message, traceback=text)
+            return self.record(Status.FAILED, reason(error), traceback=text)
         limit = memory / 2**30
         message = f"the job needed more than its {limit:.1f} GiB; raise --memory or lower --jobs"
         return self.record(Status.OUT_OF_MEMORY, message, traceback=text)

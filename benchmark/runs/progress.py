@@ -98,7 +98,9 @@ def in_words(seconds: float) -> str:
 
 def _announce(record: Record, console: Console) -> None:
     if record.status.broken:
-        console.print(f"{record.status}: {record.address}: {record.message}", markup=False)
+        # Rich's search for what to highlight takes a minute in a word of 50 000 letters.
+        line = f"{record.status}: {record.address}: {record.message}"
+        console.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 def _broken(counts: Counter[Status]) -> int:

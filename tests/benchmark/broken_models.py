@@ -38,6 +38,11 @@ class Raises(_Mean):
         raise RuntimeError("the model <b>raised</b>")
 
 
+class Wordy(_Mean):
+    def fit(self, recordings):
+        raise ValueError("x" * 50_000)
+
+
 class Nameless(_Mean):
     family = ""
 
@@ -151,6 +156,7 @@ class Hungry(_Mean):
 
 MODELS = {
     "raises": Raises,
+    "wordy": Wordy,
     "singular": Singular,
     "not-a-number": NotANumber,
     "diverges": Diverges,

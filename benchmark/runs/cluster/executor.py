@@ -15,6 +15,7 @@ from mocapbench.benchmark.runs.cluster.plugin_files import PluginFiles
 from mocapbench.benchmark.runs.cluster.run_plugin import RunPlugin, run_on_worker
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
+from mocapbench.benchmark.runs.messages import reason
 
 __all__ = ["ClusterExecutor"]
 
@@ -100,7 +101,7 @@ class ClusterExecutor:
                     f"of them {error.last_worker.address}; its log may say why"
                 )
             case error:
-                message = f"no report came back: {type(error).__name__}: {error}"
+                message = f"no report came back: {reason(error)}"
         return Outcome.without_report(job, message)
 
     def stop(self, futures: Collection[Future[Outcome]]) -> None:

@@ -16,6 +16,7 @@ from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.execution.worker import run_job
 from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
+from mocapbench.benchmark.runs.messages import reason
 
 __all__ = ["JobPool"]
 
@@ -54,7 +55,7 @@ class JobPool:
                 return Outcome(job.timed_out(self._config.timeout), None, self._config.timeout)
             message = f"the worker died with exit code {error.exitcode} before it could report"
         except (Exception, CancelledError) as error:
-            message = f"no report came back: {type(error).__name__}: {error}"
+            message = f"no report came back: {reason(error)}"
         return Outcome.without_report(job, message)
 
     def stop(self, futures: Collection[Future[Outcome]]) -> None:

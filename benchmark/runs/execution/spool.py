@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.runs.messages import reason
 from mocapbench.datasets import Archive, Library, Recording, Skeleton, SkeletonUnavailable
 
 __all__ = ["Spool", "SpooledArchive"]
@@ -59,7 +60,7 @@ class Spool:
                 try:
                     content = _Content(archive.recording(uri), _skeleton(archive, uri))
                 except Exception as error:
-                    self._unreadable[uri] = f"{type(error).__name__}: {error}"
+                    self._unreadable[uri] = reason(error)
                     continue
                 with atomic_write(path) as file:
                     pickle.dump(content, file, protocol=pickle.HIGHEST_PROTOCOL)

@@ -6,6 +6,7 @@ import pytest
 LITTERS = ["sleep", "601"], ["sleep", "602"]
 ENDINGS = {
     "raises": ("failed", "RuntimeError: the model <b>raised</b>"),
+    "wordy": ("failed", "ValueError: xxx"),
     "singular": ("failed", "LinAlgError"),
     "not-a-number": ("failed", "expected a finite mean"),
     "diverges": ("failed", "mse is inf: numbers overflowed; expected a finite score"),

@@ -1,0 +1,28 @@
+"""What records say of exceptions."""
+
+from __future__ import annotations
+
+import traceback
+
+__all__ = ["reason", "traceback_of"]
+
+_MESSAGE = 2_000
+_TRACEBACK = 20_000
+"""Characters of a text that are kept at most; of a longer one, its beginning and its end."""
+
+
+def reason(error: BaseException) -> str:
+    """Return the type and the message of ``error``."""
+    return _shortened(f"{type(error).__name__}: {error}", _MESSAGE)
+
+
+def traceback_of(error: BaseException) -> str:
+    """Return the traceback of ``error``, as Python shows it."""
+    return _shortened("".join(traceback.format_exception(error)), _TRACEBACK)
+
+
+def _shortened(text: str, most: int) -> str:
+    if len(text) <= most:
+        return text
+    half = most // 2
+    return f"{text[:half]} … {text[-half:]}"
