@@ -12,8 +12,12 @@ _TRACEBACK = 20_000
 
 
 def reason(error: BaseException) -> str:
-    """Return the type and the message of ``error``."""
-    return _shortened(f"{type(error).__name__}: {error}", _MESSAGE)
+    """Return the type and the message of ``error``; the type alone if the message raises."""
+    kind = type(error).__name__
+    try:
+        return _shortened(f"{kind}: {error}", _MESSAGE)
+    except BaseException:
+        return f"{kind}, whose message cannot be read"
 
 
 def traceback_of(error: BaseException) -> str:

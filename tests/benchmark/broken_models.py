@@ -43,6 +43,16 @@ class Wordy(_Mean):
         raise ValueError("x" * 50_000)
 
 
+class _SilentError(Exception):
+    def __str__(self):
+        raise RuntimeError("no message")
+
+
+class Silent(_Mean):
+    def fit(self, recordings):
+        raise _SilentError
+
+
 class Nameless(_Mean):
     family = ""
 
@@ -157,6 +167,7 @@ class Hungry(_Mean):
 MODELS = {
     "raises": Raises,
     "wordy": Wordy,
+    "silent": Silent,
     "singular": Singular,
     "not-a-number": NotANumber,
     "diverges": Diverges,

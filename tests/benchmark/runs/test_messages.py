@@ -1,5 +1,7 @@
 """What records keep of exceptions is short, whatever these say."""
 
+import math
+
 import pytest
 
 from mocapbench.benchmark.runs.messages import reason, traceback_of
@@ -26,3 +28,23 @@ def test_of_a_long_message_the_beginning_and_the_end_are_kept(n):
     assert reason(error).startswith("ValueError: begins x")
     assert "…" in reason(error)
     assert "in _raised" in traceback_of(error)
+
+
+class SilentError(Exception):
+    def __init__(self, text):
+        super().__init__()
+        self.text = text
+
+    def __str__(self):
+        if isinstance(self.text, BaseException):
+            raise self.text
+        return self.text
+
+
+@pytest.mark.parametrize(
+    "text", [ValueError("no text"), SystemExit(0), SilentError(KeyError()), math.pi]
+)
+def test_an_error_without_a_readable_message_is_named(text):
+    error = _raised(SilentError(text))
+    assert reason(error) == "SilentError, whose message cannot be read"
+    assert "SilentError" in traceback_of(error)

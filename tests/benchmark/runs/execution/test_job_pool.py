@@ -7,6 +7,7 @@ LITTERS = ["sleep", "601"], ["sleep", "602"]
 ENDINGS = {
     "raises": ("failed", "RuntimeError: the model <b>raised</b>"),
     "wordy": ("failed", "ValueError: xxx"),
+    "silent": ("failed", "_SilentError, whose message cannot be read"),
     "singular": ("failed", "LinAlgError"),
     "not-a-number": ("failed", "expected a finite mean"),
     "diverges": ("failed", "mse is inf: numbers overflowed; expected a finite score"),
