@@ -13,6 +13,7 @@ from typing import Any, Self
 import orjson
 
 from mocapbench.benchmark.tasks.address import Address
+from mocapbench.reports.printable import printable
 
 __all__ = ["Record", "RecordError", "Status"]
 
@@ -53,7 +54,7 @@ class Record:
     model, parameters : str, mapping
         What the entrant is.
     status, message, traceback : Status, str, str
-        How it ended, and why.
+        How it ended, and why; texts are kept without control characters.
     scores : mapping of str to float
         Metric values; NaN where the metric is not defined.
     parts : mapping of str to mapping of str to list of float
@@ -94,8 +95,8 @@ class Record:
 
     def __post_init__(self) -> None:
         for name in ("message", "traceback", "engine"):
-            object.__setattr__(self, name, _encodable(getattr(self, name)))
-        object.__setattr__(self, "warnings", tuple(map(_encodable, self.warnings)))
+            object.__setattr__(self, name, _plain(getattr(self, name)))
+        object.__setattr__(self, "warnings", tuple(map(_plain, self.warnings)))
 
     def to_json(self) -> str:
         """Return the record as strict JSON; NaN becomes null, the address five entries."""
@@ -145,6 +146,11 @@ def _parsed(text: str | bytes) -> Any:
     """Return what a JSON text says; integers of any length stay whole, which orjson rounds."""
     data = text.encode() if isinstance(text, str) else text
     return json.loads(data) if _LONG.search(data) else orjson.loads(data)
+
+
+def _plain(text: str) -> str:
+    """Return ``text`` without what no file, no terminal and no spreadsheet would show."""
+    return _encodable(printable(text))
 
 
 def _encodable(text: str) -> str:

@@ -1,6 +1,7 @@
 import hashlib
 import json
 import math
+import unicodedata
 from dataclasses import replace
 
 import numpy as np
@@ -52,6 +53,25 @@ def test_a_record_survives_json(record):
     assert back.to_json() == record.to_json()
     assert back.status is record.status
     assert all(math.isnan(back.scores[k]) == math.isnan(v) for k, v in record.scores.items())
+
+
+@given(st.text(st.characters(max_codepoint=0xA0)))
+def test_texts_of_a_record_have_no_control_characters(text):
+    fields = {"message": text, "traceback": text, "engine": text, "warnings": (text,)}
+    record = Record("k", "f", Address("t", 1, "c", 0, "l"), 0, "m", {}, Status.FAILED, **fields)
+    for kept in (record.message, record.traceback, record.engine, *record.warnings):
+        assert not {c for c in kept if unicodedata.category(c) == "Cc"} - {"\n", "\t"}
+
+
+@pytest.mark.parametrize(
+    ("text", "kept"),
+    [
+        ("two\nlines,\ta tab, ° and …", "two\nlines,\ta tab, ° and …"),
+        ("a NUL\0 and \x1b[31mred\x1b[0m", "a NUL and red"),
+    ],
+)
+def test_the_text_of_a_message_is_kept(record, text, kept):
+    assert replace(record, message=text).message == kept
 
 
 @given(RECORDS, st.data())
