@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 __all__ = [
+    "LONGEST",
     "ProcessDiedError",
     "adopt_orphans",
     "call_in_child",
@@ -28,6 +29,8 @@ __all__ = [
 ]
 
 _LIBC = ctypes.CDLL(None)  # loaded before a fork: in the child it would cost pages of memory
+LONGEST = 2e6
+"""Seconds that the system can be asked to wait at once, which are 23 days."""
 _PR_SET_PDEATHSIG, _PR_SET_CHILD_SUBREAPER = 1, 36  # of prctl(2)
 
 
@@ -57,7 +60,7 @@ def call_in_child(function: Callable[..., Any], *arguments: Any, timeout: float)
     *arguments
         What it is called with.
     timeout : float
-        Seconds after which the process is killed.
+        Seconds after which the process is killed; what is longer counts as `LONGEST`.
 
     Raises
     ------
@@ -76,7 +79,7 @@ def call_in_child(function: Callable[..., Any], *arguments: Any, timeout: float)
         _report(sender, function, arguments)
     sender.close()
     try:
-        result = _received(receiver, child, timeout)
+        result = _received(receiver, child, min(timeout, LONGEST))
     finally:
         os.kill(child, signal.SIGKILL)
         _, status = os.waitpid(child, 0)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any
 
-from mocapbench.benchmark.runs.execution.child import call_in_child
+from mocapbench.benchmark.runs.execution.child import LONGEST, call_in_child
 
 __all__ = ["TimeLimit"]
 
@@ -23,10 +23,11 @@ class TimeLimit(AbstractContextManager["TimeLimit"]):
     Parameters
     ----------
     seconds : float
+        What is longer than the system can wait, infinity included, counts as 23 days.
     """
 
     def __init__(self, seconds: float) -> None:
-        self._seconds = seconds
+        self._seconds = min(seconds, LONGEST)
         self._end = 0.0
 
     def __enter__(self) -> TimeLimit:

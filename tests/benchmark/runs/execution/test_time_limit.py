@@ -1,5 +1,6 @@
 """The time of a job is up for both of its processes."""
 
+import math
 import os
 import signal
 import time
@@ -52,3 +53,11 @@ def test_no_timer_runs_after_a_child_that_died():
     with suppress(ProcessDiedError), TimeLimit(60) as limit:
         limit.call_in_child(os._exit, 7)
     assert _timer() == 0
+
+
+@pytest.mark.parametrize("seconds", [3e6, 1e9, 1e300, math.inf])
+def test_no_time_is_too_long(seconds):
+    with TimeLimit(seconds) as limit:
+        assert limit.call_in_child(abs, -3) == 3
+        assert _timer() > 1e6
+    assert call_in_child(abs, -3, timeout=seconds) == 3
