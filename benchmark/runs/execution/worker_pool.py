@@ -8,7 +8,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Any
 
 from pebble import ProcessExpired, ProcessPool
-from pebble.common import Result, ResultStatus
+from pebble.common.types import Result, ResultStatus
 from pebble.pool.process import PoolManager
 
 from mocapbench.benchmark.runs.execution.fork_server import fork_server
@@ -21,7 +21,7 @@ _MOST_JOBS = 1000
 """After so many jobs a worker is replaced, and what its memory has grown by goes with it."""
 _PATIENCE = 0.2
 """Seconds that an interrupt waits at most while jobs run."""
-_LOOKS = 10
+_LOOKS = 50
 """Looks, a tenth of a second apart, after which a job whose worker has ended is given up."""
 
 
@@ -45,7 +45,7 @@ class _Manager(PoolManager):
         self._looks = Counter({task.id: self._looks[task.id] + 1 for task in left})
         for task in left:
             if self._looks[task.id] >= _LOOKS:
-                error = ProcessExpired("ended in a job", code=0, pid=task.worker_id)
+                error = ProcessExpired("ended in a job", 0, task.worker_id)  # type: ignore[no-untyped-call]
                 self.task_manager.task_done(task.id, Result(ResultStatus.ERROR, error))
 
 
