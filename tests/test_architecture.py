@@ -1,5 +1,6 @@
 """The page on architecture names the folders that there are, and no folder is crowded."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -47,6 +48,21 @@ def test_the_tree_names_every_folder_once():
 def test_a_folder_is_seen_at_a_glance(folder):
     modules = [path.name for path in (ROOT / folder).glob("[!_]*.py")]
     assert len(modules) <= LISTS.get(folder, MOST_MODULES), modules
+
+
+@pytest.mark.parametrize(
+    "stub", sorted(path for top in FOLDERS for path in (ROOT / top).rglob("__init__.pyi")), ids=str
+)
+def test_no_package_exports_a_name_that_a_module_of_its_own_has(stub):
+    """The module would take the name's place as soon as it is imported."""
+    imports = [
+        node for node in ast.parse(stub.read_text()).body if isinstance(node, ast.ImportFrom)
+    ]
+    names = {alias.asname or alias.name for node in imports for alias in node.names}
+    assert names
+    assert not names & {
+        path.stem for path in stub.parent.iterdir() if not path.stem.startswith("_")
+    }
 
 
 def test_every_path_that_the_page_names_exists():

@@ -2,7 +2,7 @@ from .changes import run_changes
 from .contrasts import compare
 from .output import markdown, notes, outcome, terminal
 from .sides import between_models, between_runs, planned_side, side_names
-from .tidy import tidy
+from .tidy_table import tidy
 
 __all__ = [
     "between_models",

@@ -150,7 +150,8 @@ def _parsed(text: str | bytes) -> Any:
 
 def _plain(text: str) -> str:
     """Return ``text`` without what no file, no terminal and no spreadsheet would show."""
-    return _encodable(printable(text))
+    lines = text.replace("\r\n", "\n").replace("\r", "\n")
+    return _encodable(printable(lines))
 
 
 def _encodable(text: str) -> str:

@@ -372,7 +372,7 @@ def test_no_text_of_an_export_begins_a_formula(cli, tmp_path):
     assert scores["value"].to_list() == [-1.5]
     kept = pd.read_parquet(tmp_path / "jobs.parquet")
     assert set(kept["label"]) == {"=1+1"}
-    assert message in set(kept["message"])
+    assert "-it\nbroke" in set(kept["message"])
 
 
 @pytest.mark.parametrize("command", ["report", "export"])
