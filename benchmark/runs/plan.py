@@ -64,7 +64,7 @@ def plan(request: Request, archive: Archive) -> tuple[Job, ...]:
     UnknownNameError
         If a task, model, case, metric or profile does not exist.
     UsageError
-        If a task does not have so many folds, or is not consistent (`require_consistent`).
+        If a task does not have so many folds, or is not consistent (``require_consistent``).
     DigestMismatch
         If a recording is here but is not the registered one.
     """
