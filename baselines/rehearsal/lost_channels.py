@@ -20,7 +20,7 @@ from mocapbench.baselines.protocols import Prediction
 from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.baselines.rehearsal.in_training import ratios_in_training
 from mocapbench.baselines.rehearsal.ratios import mean_ratios, squared_ratios
-from mocapbench.baselines.rehearsal.trials import N_TRIALS
+from mocapbench.baselines.rehearsal.trials import spread_evenly
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["lost_trials", "with_lost_channels"]
@@ -40,9 +40,7 @@ def lost_trials(recording: Recording) -> list[Mask]:
     ----------
     recording : Recording
     """
-    masks = [_trial(recording, (n + 0.5) / N_TRIALS) for n in range(N_TRIALS)]
-    unlike = {mask.tobytes(): mask for mask in masks}
-    return [mask for mask in unlike.values() if mask.any()]
+    return spread_evenly(lambda place: _trial(recording, place))
 
 
 def _trial(recording: Recording, place: float) -> Mask:

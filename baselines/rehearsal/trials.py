@@ -26,6 +26,7 @@ __all__ = [
     "halved",
     "long_copies",
     "remoteness",
+    "spread_evenly",
     "trial_masks",
 ]
 
@@ -91,7 +92,18 @@ def trial_masks(recording: Recording, places: Places = copies) -> list[Mask]:
         What a trial may hide in place of a gap.
     """
     hidden = ~recording.visible
-    masks = [_trial(hidden, places, (n + 0.5) / N_TRIALS) for n in range(N_TRIALS)]
+    return spread_evenly(lambda place: _trial(hidden, places, place))
+
+
+def spread_evenly(trial: Callable[[float], Mask]) -> list[Mask]:
+    """Return trials (N, D) at places (0 to 1) that are spread evenly, without any that are alike.
+
+    Parameters
+    ----------
+    trial : callable
+        From a place to what the trial there hides.
+    """
+    masks = [trial((n + 0.5) / N_TRIALS) for n in range(N_TRIALS)]
     unlike = {mask.tobytes(): mask for mask in masks}
     return [mask for mask in unlike.values() if mask.any()]
 
