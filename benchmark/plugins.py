@@ -13,6 +13,7 @@ from typing import Any
 
 from mocapbench.baselines import Model
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS, Registry
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.datasets import Format, Library
@@ -148,7 +149,7 @@ def _check_constructor(path: Path, name: str, value: object, kind: _PluginKind) 
     except Exception as error:
         raise UsageError(
             f"{path}: expected a class that can be built {kind.built}, got {name!r}: "
-            f"{error}; give every other parameter a default, and define abstract methods"
+            f"{reason(error)}; give every other parameter a default, and define abstract methods"
         ) from error
 
 
@@ -171,6 +172,6 @@ def _execute(path: Path) -> ModuleType:
         del sys.modules[name]
         sys.path[:] = search_path
         raise UsageError(
-            f"{path} cannot be run: {type(error).__name__}: {error}; `python {path}` shows where"
+            f"{path} cannot be run: {reason(error)}; `python {path}` shows where"
         ) from error
     return module

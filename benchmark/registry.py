@@ -14,6 +14,7 @@ from typing import Any, Generic, TypeVar, cast
 
 from mocapbench.baselines import Model
 from mocapbench.benchmark.errors import UnregisteredNameError, UsageError
+from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.datasets import Format, Library
 from mocapbench.metrics import Metric
@@ -101,7 +102,7 @@ class Registry(Generic[T]):
         except (ImportError, AttributeError) as error:
             raise UsageError(
                 f"{self.kind} {name!r} is registered as {self._points[name].value!r}, "
-                f"which cannot be imported: {error}"
+                f"which cannot be imported: {reason(error)}"
             ) from error
 
 

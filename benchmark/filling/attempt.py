@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mocapbench.baselines import FrameImputer, Prediction
 from mocapbench.benchmark.filling.question import Answer, Question, without_unseen
 from mocapbench.benchmark.filling.windows import Window, windows_of
+from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.unit import Unit
 from mocapbench.benchmark.runs.fitting.solve import build_model
@@ -71,7 +72,7 @@ def attempt(model: type[FrameImputer], question: Question, memory: int) -> Attem
     except MemoryError:
         return Attempt(None, f"needed more than {memory / 2**30:.1f} GiB of memory")
     except BaseException as error:  # a model that calls sys.exit has failed like any other
-        return Attempt(None, f"{type(error).__name__}: {error}")
+        return Attempt(None, reason(error))
     whole = windows[0][0].stop - windows[0][0].first == len(question.given.times)
     return Attempt(answer, windows=0 if whole else len(windows))
 

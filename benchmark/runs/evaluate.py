@@ -9,13 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.runs.answering import Answered, answer
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.fitting.trained import Trained
 from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
-from mocapbench.benchmark.runs.messages import reason
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.datasets import Archive
 from mocapbench.metrics import Metric, Score

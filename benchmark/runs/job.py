@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, Self
 
+from mocapbench.benchmark.messages import reason, traceback_of
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.fitting.trained import Trained
-from mocapbench.benchmark.runs.messages import reason, traceback_of
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.address import Address

@@ -8,6 +8,8 @@ from contextlib import contextmanager
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mocapbench.benchmark.messages import reason
+
 __all__ = [
     "ConformanceError",
     "global_randomness_untouched",
@@ -44,7 +46,7 @@ def raised_by(name: str, promise: str) -> Iterator[None]:
         raise ConformanceError(f"{name}: {error}") from error
     except Exception as error:
         raise ConformanceError(
-            f"{name}: expected that {promise}, got {type(error).__name__}: {error}: "
+            f"{name}: expected that {promise}, got {reason(error)}: "
             "its traceback stands above this one"
         ) from error
 

@@ -1,9 +1,10 @@
 """How good the model is that `mocapbench fill --model best` chooses.
 
 Gaps are cut into recordings of the CMU database, of different people and motions, and filled by
-every able model. Errors are root mean squared errors over the hidden angles, in degrees. The choice
-is compared with the model that hindsight would have chosen, and with linear interpolation. Takes
-a quarter of an hour on two cores:
+every able model. Errors are root mean squared errors over the hidden angles, in degrees, and over
+the hidden coordinates of the root, in cm. The score of a fill is the mean of the two, each relative
+to that of `hold`. The choice is compared with the model that hindsight would have chosen by it, and
+with linear interpolation. Takes a quarter of an hour on two cores:
 
     MOCAPBENCH_DATA=FOLDER python docs/evidence/fill.py
 """
@@ -11,7 +12,7 @@ a quarter of an hour on two cores:
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -50,6 +51,8 @@ LONGEST = 1500
 BUDGET = 15.0
 """Seconds."""
 N_SPLITS = 100
+CENTIMETRES = 2.54 / 0.45
+"""In the unit of length of the database."""
 LIMBS = (("lfemur", "ltibia", "lfoot", "ltoes"), ("rhumerus", "rradius", "rwrist", "rhand"))
 
 
@@ -66,18 +69,27 @@ class Result(NamedTuple):
     """Errors of each model in the file itself, and how they did in trials."""
 
     squares: dict[str, Array]
-    """Mean squared errors of each gap (n,), in square degrees; NaN where it has no angle."""
-    sizes: Array
-    """The number of angles in each gap (n,)."""
+    """Sums of squared errors in each gap (n, 2): of angles, in square degrees; of place, in cm²."""
+    counts: Array
+    """The number of angles and of coordinates in each gap (n, 2)."""
     choice: Choice
 
-    def errors(self, gaps: NDArray[np.intp] | slice = slice(None)) -> dict[str, float]:
-        """Return the root mean squared error of each model over the angles of some gaps."""
-        weights = self.sizes[gaps]
+    def errors(self, gaps: NDArray[np.intp] | slice = slice(None)) -> dict[str, Array]:
+        """Return the root mean squared errors (2,) of each model over some gaps.
+
+        NaN where they hide no angle, or no coordinate.
+        """
+        counts = self.counts[gaps].sum(axis=0)
+        counts[counts == 0.0] = np.nan
         return {
-            model: float(np.sqrt(np.nansum(squares[gaps] * weights) / weights.sum()))
+            model: np.sqrt(squares[gaps].sum(axis=0) / counts)
             for model, squares in self.squares.items()
         }
+
+    def scores(self, gaps: NDArray[np.intp] | slice = slice(None)) -> dict[str, float]:
+        """Return the mean of a model's two errors over some gaps, relative to those of `hold`."""
+        errors = self.errors(gaps)
+        return {model: float(np.nanmean(of / errors["hold"])) for model, of in errors.items()}
 
 
 def cuts(recording: Recording) -> dict[str, Cut]:
@@ -131,18 +143,30 @@ def evaluate(recording: Recording, hidden: Mask, workers: Workers, budget: float
         if answer is not None
     }
     angles = np.array(recording.units) == "deg"
-    sizes = [len(gap) * angles[list(gap.channels)].sum() for gap in gaps_of(hidden)]
-    return Result(squares, np.array(sizes, dtype=float), choice)
+    counts = [
+        [len(gap) * kind[list(gap.channels)].sum() for kind in (angles, ~angles)]
+        for gap in gaps_of(hidden)
+    ]
+    return Result(squares, np.array(counts, dtype=float), choice)
 
 
 def by_gap(recording: Recording, hidden: Mask, mean: Array) -> Array:
-    """Return the mean squared error over the angles of each gap, whole turns aside."""
+    """Return the sums of squared errors of angles and place in each gap (n, 2).
+
+    Whole turns are no error.
+    """
+    angles = np.array(recording.units) == "deg"
     off = np.zeros(hidden.shape)
     off[hidden] = mean - recording.values[hidden]
-    off -= 360.0 * np.round(off / 360.0)
-    off[:, np.array(recording.units) != "deg"] = np.nan
-    blocks = (off[gap.start : gap.stop, list(gap.channels)] for gap in gaps_of(hidden))
-    return np.array([np.nanmean(b**2) if np.isfinite(b).any() else np.nan for b in blocks])
+    off[:, angles] -= 360.0 * np.round(off[:, angles] / 360.0)
+    off[:, ~angles] *= CENTIMETRES
+    within = [(off[gap.start : gap.stop], list(gap.channels)) for gap in gaps_of(hidden)]
+    return np.array(
+        [
+            [(block[:, channels][:, kind[channels]] ** 2).sum() for kind in (angles, ~angles)]
+            for block, channels in within
+        ]
+    )
 
 
 def by_halves(result: Result, rng: np.random.Generator) -> list[float]:
@@ -150,40 +174,55 @@ def by_halves(result: Result, rng: np.random.Generator) -> list[float]:
 
     In each, the model with the least error in a random half of the gaps fills the other half.
     """
-    ratios, n_gaps = [], len(result.sizes)
+    ratios, n_gaps = [], len(result.counts)
     for _ in range(N_SPLITS):
         known, filled = np.array_split(rng.permutation(n_gaps), 2)
-        if result.sizes[known].any() and result.sizes[filled].any():
-            before, after = result.errors(known), result.errors(filled)
-            ratios.append(after[min(before, key=before.__getitem__)] / min(after.values()))
+        before, after = result.scores(known), result.scores(filled)
+        ratios.append(after[min(before, key=before.__getitem__)] / min(after.values()))
     return ratios
+
+
+def row(what: Sequence[str], result: Result, best: str, hindsight: str) -> str:
+    """Return a row of the table: the errors of the choice, of hindsight's, and of `linear`."""
+    errors = result.errors()
+    pairs = {
+        model: " | ".join("" if np.isnan(error) else f"{error:.2f}" for error in errors[model])
+        for model in (best, hindsight, "linear")
+    }
+    n = str(result.choice.ranking.n)
+    cells = (*what, n, best, pairs[best], hindsight, pairs[hindsight], pairs["linear"])
+    return f"| {' | '.join(cells)} |"
+
+
+def report(what: str, to: str, ratios: Array, bar: float) -> None:
+    """Print how large ratios are, without those that are not defined."""
+    given = ratios[np.isfinite(ratios)]
+    print(
+        f"\n{what} relative to {to}: mean {given.mean():.3f}, median {np.median(given):.3f}, "
+        f"largest {given.max():.2f}; above {bar} in {(given > bar).sum()} of {len(given)}."
+    )
 
 
 def main() -> None:
     """Print a row per recording and kind of gaps, and how often the bars are missed."""
     rows, halves = [], []
     folder = Path(os.environ["MOCAPBENCH_DATA"].split(os.pathsep)[0])
-    print("| recording | gaps | n | best | error, ° | hindsight | error, ° | linear, ° |")
-    print("|---|---|---|---|---|---|---|---|")
+    print("| recording | gaps | n | best | ° | cm | hindsight | ° | cm | linear, ° | cm |")
+    print(f"|{'---|' * 11}")
     with Workers(os.cpu_count() or 1) as workers:
         for name, kind, recording, hidden in problems(folder):
             result = evaluate(recording, hidden, workers, BUDGET)
-            errors, choice = result.errors(), result.choice
+            scores, errors = result.scores(), result.errors()
             halves.append(by_halves(result, np.random.default_rng(0)))
-            best, hindsight = choice.ranking.order[0], min(errors, key=errors.__getitem__)
-            rows.append((errors[best] / errors[hindsight], errors[best] / errors["linear"]))
-            print(
-                f"| {name} {RECORDINGS[name]} | {kind} | {choice.ranking.n} | {best} | "
-                f"{errors[best]:.2f} | {hindsight} | {errors[hindsight]:.2f} | "
-                f"{errors['linear']:.2f} |",
-                flush=True,
-            )
-    to_hindsight, to_linear = np.array(rows).T
-    for what, ratio, bar in (("hindsight", to_hindsight, 1.10), ("linear", to_linear, 1.05)):
-        print(
-            f"\nRelative to {what}: mean {ratio.mean():.3f}, median {np.median(ratio):.3f}, "
-            f"largest {ratio.max():.2f}; above {bar} in {(ratio > bar).sum()} of {len(ratio)}."
-        )
+            best, hindsight = result.choice.ranking.order[0], min(scores, key=scores.__getitem__)
+            print(row((f"{name} {RECORDINGS[name]}", kind), result, best, hindsight), flush=True)
+            relative = [scores[best] / scores[other] for other in (hindsight, "linear")]
+            rows.append([*relative, *(errors[best] / errors["linear"])])
+    to_hindsight, to_linear, angles, place = np.array(rows).T
+    report("Scores", "hindsight", to_hindsight, 1.10)
+    report("Scores", "linear", to_linear, 1.05)
+    report("Angles", "linear", angles, 1.05)
+    report("Place", "linear", place, 1.05)
     ratio = np.concatenate(halves)
     print(
         f"\nA model chosen by the truth in half of the gaps, relative to hindsight in the others: "

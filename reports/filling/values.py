@@ -51,7 +51,7 @@ class RankedModel:
     ----------
     name : str
     error : float
-        Weighted mean error over the trial gaps, relative to the spread of the channels.
+        Weighted mean error over the trial gaps, relative to that of holding the last visible pose.
     rmse : tuple of float
         By unit, in the order of ``FilledPage.units``.
     coverage : float or None

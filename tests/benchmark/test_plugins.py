@@ -222,6 +222,11 @@ def test_nothing_is_registered_if_something_is_wrong(load, text, door):
         ("def", "mine.py cannot be run: SyntaxError.*; `python .*mine.py` shows where"),
         ("raise RuntimeError('no')", "cannot be run: RuntimeError: no"),
         ("import sys; sys.exit(3)", "cannot be run: SystemExit: 3"),
+        ("raise ImportError('x' * 50_000)", "cannot be run: ImportError: x{,1000} … x{,1000}; `"),
+        (
+            "class Odd(Exception):\n    def __str__(self): return 1 / 0\nraise Odd",
+            "cannot be run: Odd, whose message cannot be read; `python",
+        ),
         ("import no_such_module", "cannot be run: ModuleNotFoundError: .*no_such_module"),
         (
             "x = 1",

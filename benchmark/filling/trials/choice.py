@@ -7,14 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines.common.scaling import unit_scales
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.trials.making import Trial, make_trials
 from mocapbench.benchmark.filling.trials.race import Runner, race
 from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
-from mocapbench.benchmark.filling.trials.scores import scores_of, weights_of
+from mocapbench.benchmark.filling.trials.scores import held_errors, scores_of, weights_of
 from mocapbench.benchmark.filling.workers import Workers
 
 __all__ = ["Choice", "choose"]
@@ -81,7 +80,7 @@ def choose(
             f"budget of {budget:g} s, got none ({runners[0].model}: {runners[0].trouble}); raise "
             "--budget"
         )
-    return _ranked(question, trials[:count], runners)
+    return _ranked(trials[:count], runners)
 
 
 def _advice(question: Question, models: Sequence[str]) -> str:
@@ -99,10 +98,10 @@ def _common(runners: Sequence[Runner]) -> int:
     return counts[int(np.argmax(totals))]
 
 
-def _ranked(question: Question, trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:
-    scale = unit_scales([question.given])
+def _ranked(trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:
+    scales = held_errors(trials)
     scores = {
-        runner.model: scores_of(trials, runner.answers[: len(trials)], scale)
+        runner.model: scores_of(trials, runner.answers[: len(trials)], scales)
         for runner in runners
         if len(runner.answers) >= len(trials)
     }

@@ -1,4 +1,4 @@
-"""Scores of trials: an error of each trial gap, in which each unit of channels counts alike."""
+"""Scores of trials: an error of each trial gap, relative to that of holding the last pose."""
 
 from __future__ import annotations
 
@@ -7,21 +7,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.trials.making import Trial
 
-__all__ = ["Scores", "scores_of", "weights_of"]
+__all__ = ["Scores", "held_errors", "scores_of", "weights_of"]
 
 Array = NDArray[np.float64]
 
 _WITHIN_95 = float(ndtri(0.975))
 _LEAST = 1e-9
-"""Errors, in units of a channel's scale, below which models are equally good but for rounding."""
-_SHARE = 1e-3
-"""Of the error in another unit, that an error counts as at least: no unit outweighs all others."""
+"""Errors, relative to those of holding, below which models are equally good but for rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,10 +30,9 @@ class Scores:
     Parameters
     ----------
     errors : ndarray of shape (n,)
-        One per trial gap: the geometric mean over units of the root mean squared error over its
-        entries in that unit, divided by their scale. So a few channels in centimetres count as much
-        as many in degrees, and twice the error in either is as bad, unless it is a thousandth of
-        the other.
+        One per trial gap: the mean over units of the root mean squared error over its entries in
+        that unit, relative to `held_errors`. So three channels of place count as much as sixty
+        angles, however far the person travels.
     rmse : mapping of str to float
         By unit, the root mean squared error over all entries, in that unit.
     coverage : float or None
@@ -57,31 +55,60 @@ def weights_of(trials: Sequence[Trial]) -> Array:
     return np.asarray(weights / weights.mean())
 
 
-def scores_of(trials: Sequence[Trial], answers: Sequence[Answer], scale: Array) -> Scores:
-    """Return the scores of a model's answers to the first trials."""
+def held_errors(trials: Sequence[Trial]) -> Mapping[str, float]:
+    """Return, by unit, the error of holding each channel's last visible value in trial gaps.
+
+    That is the root mean squared error over the entries in that unit, as in the scaled errors of
+    Hyndman and Koehler (2006, *International Journal of Forecasting* 22:679–688); 1 where nothing
+    moves, or nothing is visible to hold. The spread of a channel would not do: the place of a
+    person who walks far has a large one, beside which errors in place would not count.
+    """
+    squares = pd.concat(
+        pd.Series((_held(trial) - trial.truth) ** 2, index=_units(trial)) for trial in trials
+    )
+    means = squares.groupby(level=0).mean()
+    return {str(unit): float(np.sqrt(mean)) if mean > 0.0 else 1.0 for unit, mean in means.items()}
+
+
+def _held(trial: Trial) -> Array:
+    """Return the last visible value before each wanted entry (M,), or the first after it."""
+    held = pd.DataFrame(trial.question.given.values).ffill().bfill()
+    return np.asarray(held, dtype=float)[trial.question.target]
+
+
+def scores_of(
+    trials: Sequence[Trial], answers: Sequence[Answer], scales: Mapping[str, float]
+) -> Scores:
+    """Return the scores of a model's answers to the first trials, relative to scales by unit."""
     pairs = list(zip(trials, answers, strict=False))
     return Scores(
-        np.array([error for pair in pairs for error in _errors(*pair, scale)]),
+        np.array([error for pair in pairs for error in _errors(*pair, scales)]),
         _by_unit(pairs),
         _coverage(pairs),
     )
 
 
-def _errors(trial: Trial, answer: Answer, scale: Array) -> Iterator[float]:
-    _, channels = np.nonzero(trial.question.target)
-    units = np.array(trial.question.given.units)[channels]
-    squares = ((answer.mean - trial.truth) / scale[channels]) ** 2
+def _errors(trial: Trial, answer: Answer, scales: Mapping[str, float]) -> Iterator[float]:
+    units = _units(trial)
+    squares = (answer.mean - trial.truth) ** 2
     for gap in trial.units:
-        means = [squares[gap][units[gap] == unit].mean() for unit in np.unique(units[gap])]
-        errors = np.sqrt(means)
-        yield float(np.exp(np.log(np.maximum(errors, max(_LEAST, _SHARE * errors.max()))).mean()))
+        errors = [
+            np.sqrt(squares[gap][units[gap] == unit].mean()) / scales[unit]
+            for unit in np.unique(units[gap]).tolist()
+        ]
+        yield float(np.maximum(errors, _LEAST).mean())
+
+
+def _units(trial: Trial) -> NDArray[np.str_]:
+    """Return the unit of each wanted entry (M,)."""
+    _, channels = np.nonzero(trial.question.target)
+    return np.array(trial.question.given.units)[channels]
 
 
 def _by_unit(pairs: Sequence[tuple[Trial, Answer]]) -> Mapping[str, float]:
     squares: dict[str, list[Array]] = {}
     for trial, answer in pairs:
-        _, channels = np.nonzero(trial.question.target)
-        units = np.array(trial.question.given.units)[channels]
+        units = _units(trial)
         for unit in dict.fromkeys(units.tolist()):
             chosen = units == unit
             squares.setdefault(unit, []).append((answer.mean - trial.truth)[chosen] ** 2)

@@ -10,12 +10,12 @@ from pathlib import Path
 from distributed import CancelledError, Client, Future, KilledWorker, wait
 
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.runs.cluster.installation import installation
 from mocapbench.benchmark.runs.cluster.plugin_files import PluginFiles
 from mocapbench.benchmark.runs.cluster.run_plugin import RunPlugin, run_on_worker
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
-from mocapbench.benchmark.runs.messages import reason
 
 __all__ = ["ClusterExecutor"]
 

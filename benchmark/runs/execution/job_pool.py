@@ -12,11 +12,11 @@ from concurrent.futures import CancelledError, Future
 
 from pebble import ProcessExpired
 
+from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.execution.worker import run_job
 from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
-from mocapbench.benchmark.runs.messages import reason
 
 __all__ = ["JobPool"]
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from mocapbench.benchmark.files import atomic_write
-from mocapbench.benchmark.runs.messages import reason
+from mocapbench.benchmark.messages import reason
 from mocapbench.datasets import Archive, Library, Recording, Skeleton, SkeletonUnavailable
 
 __all__ = ["Spool", "SpooledArchive"]

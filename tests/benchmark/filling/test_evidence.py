@@ -32,9 +32,9 @@ def test_whole_frames_of_walks_are_filled_almost_as_well_as_by_hindsight(evidenc
         for _, kind, recording, hidden in evidence.problems(folder, NAMES):
             if kind == "frames":
                 result = evidence.evaluate(recording, hidden, workers, budget=20.0)
-                errors, choice = result.errors(), result.choice
-                best = errors[choice.ranking.order[0]]
-                ratios.append((best / min(errors.values()), best / errors["linear"]))
+                scores = result.scores()
+                best = scores[result.choice.ranking.order[0]]
+                ratios.append((best / min(scores.values()), best / scores["linear"]))
     to_hindsight, to_linear = np.array(ratios).T
     assert len(ratios) == len(NAMES)
     assert to_hindsight.mean() <= 1.10

@@ -1,4 +1,4 @@
-"""What records say of exceptions."""
+"""What records and messages say of exceptions that others raised."""
 
 from __future__ import annotations
 

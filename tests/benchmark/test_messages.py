@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from mocapbench.benchmark.runs.messages import reason, traceback_of
+from mocapbench.benchmark.messages import reason, traceback_of
 
 
 def _raised(error):
