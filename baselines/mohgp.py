@@ -53,7 +53,9 @@ class MOHGP(TrendedProcess):
         Whether complete recordings are first moved in time by an affine map, to where they are most
         like the visible entries of the recording with the most hidden ones (or like the first, if
         none has any). It suits repetitions of one movement that do not begin with the same phase.
-        Times are then those of that recording.
+        Times of the trend and of samples are then those of that recording. The likelihood is that
+        of the recordings as they were moved, without what is moved beyond that recording's first
+        or last frame: it does not compare with that of another registration.
     rank : int, default=1
         Number of columns of each factor W_q; 0 makes the outputs independent.
     kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
@@ -106,6 +108,8 @@ class MOHGP(TrendedProcess):
         The matrices B_q of each layer, in the outputs' own units.
     noise_ : ndarray of shape (D,)
         Noise variances, in the outputs' own units.
+    clocks_ : dict of str to Clock
+        By the name of each recording, how ``registration`` moved it in time.
 
     Notes
     -----
@@ -215,10 +219,15 @@ class MOHGP(TrendedProcess):
         """
         check_choice("registration", self.registration, REGISTRATIONS)
         given = check_recordings(recordings)
-        super().fit(REGISTRATIONS[self.registration](given))
+        registered = REGISTRATIONS[self.registration](given)
+        super().fit([moved for moved, _ in registered])
         # What `impute` takes. Only complete recordings have moved, of which nothing is to fill.
         self.recordings_ = {recording.name: recording for recording in given}
+        self.clocks_ = {moved.name: clock for moved, clock in registered}
         return self
+
+    def _process_times(self, recording: Recording, times: Frames | None) -> Frames:
+        return self.clocks_[recording.name].shared(super()._process_times(recording, times))
 
     def grow(self, names: Sequence[str]) -> Tree:
         """Return for each layer the draw that each recording depends on.

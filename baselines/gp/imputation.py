@@ -76,7 +76,7 @@ class RecordingPosterior(LearntCovariances, Conditioned):
             If the recording was not given to `fit`, or not with these times and values.
         """
         check_is_fitted(self)
-        curve, times = self._terms(recording), _times_or_those_of(recording, times)
+        curve, times = self._terms(recording), self._process_times(recording, times)
         with self._threaded_process() as process:
             return process.joint_covariance(curve, times)
 
@@ -118,7 +118,7 @@ class RecordingPosterior(LearntCovariances, Conditioned):
         check_is_fitted(self)
         check_count("n_samples", n_samples, 1)
         check_seed("random_state", random_state)
-        curve, times = self._terms(recording), _times_or_those_of(recording, times)
+        curve, times = self._terms(recording), self._process_times(recording, times)
         with self._threaded_process() as process:
             return process.draw(curve, times, n_samples, np.random.default_rng(random_state))
 
@@ -141,6 +141,10 @@ class RecordingPosterior(LearntCovariances, Conditioned):
         self._check_unchanged(recording)
         return self.reduction_.replicates[number]
 
+    def _process_times(self, recording: Recording, times: Frames | None) -> Frames:
+        """Return the times of the process at which a recording has ``times``, or its own."""
+        return recording.times if times is None else check_times(times)
+
     def _number(self, recording: Recording) -> int:
         """Return the place among the recordings given to `fit` of the one of that name."""
         if recording.name not in self.recordings_:
@@ -160,7 +164,3 @@ class RecordingPosterior(LearntCovariances, Conditioned):
                 f"recording {recording.name!r} differs from the one of that name given to fit: "
                 "expected the same times, visible values and hidden entries; fit again"
             )
-
-
-def _times_or_those_of(recording: Recording, times: Frames | None) -> Frames:
-    return recording.times if times is None else check_times(times)

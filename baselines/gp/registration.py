@@ -17,9 +17,10 @@ a recording are hidden. Nothing that is hidden in the reference takes part.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product
 from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,9 +28,9 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize
 
 from mocapbench.baselines.common.recordings import visible_moments
-from mocapbench.datasets import Recording
+from mocapbench.datasets import Frames, Recording
 
-__all__ = ["REGISTRATIONS", "affine"]
+__all__ = ["REGISTRATIONS", "Clock", "Registered", "affine"]
 
 Array = NDArray[np.float64]
 
@@ -41,7 +42,44 @@ LEAST_OVERLAP = 0.6
 """Least share of the reference's frames that a moved recording covers."""
 
 
-def affine(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
+@dataclass(frozen=True)
+class Clock:
+    """The map from times of the reference to those of a recording: start + b (t − origin).
+
+    Parameters
+    ----------
+    origin, start : float
+        In seconds; the recording's ``start`` is moved to the reference's ``origin``.
+    pace : float
+        Positive; how many of the recording's seconds pass in one of the reference's.
+    """
+
+    origin: float = 0.0
+    start: float = 0.0
+    pace: float = 1.0
+
+    def recorded(self, times: Frames) -> Frames:
+        """Return the recording's times at ``times`` (N,) of the reference."""
+        return self.start + self.pace * (times - self.origin)
+
+    def shared(self, times: Frames) -> Frames:
+        """Return the reference's times at ``times`` (N,) of the recording."""
+        return self.origin + (times - self.start) / self.pace
+
+
+class Registered(NamedTuple):
+    """A recording as the model takes it, and the clock by which it was moved."""
+
+    recording: Recording
+    clock: Clock = Clock()
+
+
+def unmoved(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
+    """Return the recordings as they are."""
+    return tuple(map(Registered, recordings))
+
+
+def affine(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
     """Return the recordings with those that are complete moved onto the reference's clock."""
     reference = max(recordings, key=lambda recording: int((~recording.visible).sum()))
     _, variance = visible_moments(recordings)
@@ -49,18 +87,21 @@ def affine(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
     return tuple(
         _moved(recording, reference, scale)
         if recording is not reference and recording.visible.all() and len(recording.times) > 1
-        else recording
+        else Registered(recording)
         for recording in recordings
     )
 
 
-def _moved(recording: Recording, reference: Recording, scale: Array) -> Recording:
+def _moved(recording: Recording, reference: Recording, scale: Array) -> Registered:
     """Return a complete recording at the reference's times, where it is most like it."""
     spline = CubicSpline(recording.times, recording.values)
-    first, span = reference.times[0], float(np.ptp(reference.times))
+    first, span = float(reference.times[0]), float(np.ptp(reference.times))
+
+    def clock(warp: Array) -> Clock:
+        return Clock(first, first + span * float(warp[0]), float(np.exp(warp[1])))
 
     def at(warp: Array) -> Array:
-        times = first + span * warp[0] + np.exp(warp[1]) * (reference.times - first)
+        times = clock(warp).recorded(reference.times)
         inside = (times >= recording.times[0]) & (times <= recording.times[-1])
         return np.where(inside[:, None], spline(times), np.nan)
 
@@ -69,9 +110,10 @@ def _moved(recording: Recording, reference: Recording, scale: Array) -> Recordin
 
     start = min((np.array(warp) for warp in product(SHIFTS, LOG_PACES)), key=error)
     if np.isinf(error(start)):  # too short, or nothing of the reference is visible
-        return recording
+        return Registered(recording)
     found = minimize(error, start, method="Nelder-Mead").x
-    return replace(recording, times=reference.times, values=at(found))
+    moved = replace(recording, times=reference.times, values=at(found))
+    return Registered(moved, clock(found))
 
 
 def _error(reference: Array, moved: Array, scale: Array) -> float:
@@ -84,7 +126,7 @@ def _error(reference: Array, moved: Array, scale: Array) -> float:
     return float(np.sqrt(np.square(differences - means)[seen].mean()))
 
 
-REGISTRATIONS: Mapping[str, Callable[[Sequence[Recording]], Sequence[Recording]]] = (
-    MappingProxyType({"none": tuple, "affine": affine})
+REGISTRATIONS: Mapping[str, Callable[[Sequence[Recording]], Sequence[Registered]]] = (
+    MappingProxyType({"none": unmoved, "affine": affine})
 )
 """The registrations by the name that `MOHGP` takes."""

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.registration import affine
+from mocapbench.baselines.gp.registration import Clock, affine
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.datasets import Recording
 
@@ -31,10 +31,13 @@ def test_a_shifted_and_slower_copy_is_moved_back(shift, log_pace, offset):
     times = np.linspace(-1.5, 4.5, 181)
     copy = _recording("copy", offset + _movement((times - shift) / np.exp(log_pace)), times)
     reference = _incomplete()
-    kept, moved = affine([reference, copy])
-    assert kept is reference
+    kept, (moved, clock) = affine([reference, copy])
+    assert kept.recording is reference
+    assert kept.clock == Clock()
     np.testing.assert_array_equal(moved.times, reference.times)
     np.testing.assert_allclose(moved.values, offset + _movement(TIMES), atol=0.02)
+    np.testing.assert_allclose(clock.recorded(TIMES), shift + np.exp(log_pace) * TIMES, atol=0.02)
+    np.testing.assert_allclose(clock.shared(clock.recorded(TIMES)), TIMES, atol=1e-12)
 
 
 def test_hidden_entries_do_not_take_part():
@@ -43,18 +46,18 @@ def test_hidden_entries_do_not_take_part():
     again = wild.hide(~reference.visible)
     copy = _recording("copy", _movement(TIMES + 0.1))
     for one, two in zip(affine([reference, copy]), affine([again, copy]), strict=True):
-        np.testing.assert_array_equal(one.values, two.values)
+        np.testing.assert_array_equal(one.recording.values, two.recording.values)
 
 
 def test_incomplete_recordings_and_those_too_short_to_compare_are_left_alone():
     short = _recording("short", _movement(TIMES[:20]), TIMES[:20])
     recordings = [_incomplete(), _recording("other", _movement(TIMES)).hide(TIMES[:, None] < 0.1)]
-    assert affine([*recordings, short]) == (*recordings, short)
+    assert affine([*recordings, short]) == tuple((each, Clock()) for each in (*recordings, short))
 
 
 def test_complete_recordings_are_moved_onto_the_first():
     first, copy = _recording("first", _movement(TIMES)), _recording("copy", _movement(TIMES + 0.2))
-    kept, moved = affine([first, copy])
+    (kept, _), (moved, _) = affine([first, copy])
     assert kept is first
     visible = moved.visible
     np.testing.assert_allclose(moved.values[visible], first.values[visible], atol=0.02)
@@ -71,6 +74,18 @@ def test_a_registered_model_fills_better_and_takes_the_recordings_it_was_given()
         np.testing.assert_array_equal(complete.variance, 0.0)
         errors[registration] = np.square(filled.mean - _movement(TIMES))[hidden].mean()
     assert errors["affine"] < errors["none"]
+
+
+@pytest.mark.parametrize("registration", ["none", "affine"])
+def test_posteriors_of_a_recording_are_at_its_own_times(registration):
+    """The curve of a recording passes through its values, however it was moved."""
+    early, late = _incomplete(), _recording("late", _movement(1.1 * TIMES + 0.2))
+    model = MOHGP(registration=registration, max_iter=60, n_restarts=1).fit([early, late])
+    inside = late.times[10:50]
+    draws = model.posterior_draws(late, 50, 0, inside)
+    assert np.abs(draws.mean(axis=0) - late.values[10:50]).max() < 0.05
+    deviations = np.sqrt(np.diag(model.posterior_covariance(late, inside))).reshape(2, 40).T
+    np.testing.assert_allclose(draws.std(axis=0), deviations, rtol=0.5)
 
 
 def test_an_unknown_registration_is_refused():
