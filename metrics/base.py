@@ -318,7 +318,7 @@ class Metric(Generic[OutcomeT]):
     needs_variance : bool
         Whether it is defined only for a predictive distribution.
     target : float or None
-        The ideal value where the direction is ``TARGET``.
+        The ideal value where the direction is ``TARGET``; None otherwise, else a `ValueError`.
     defined : callable
         From an outcome of that kind to whether the metric is defined for it.
     former_names : tuple of str
@@ -347,6 +347,14 @@ class Metric(Generic[OutcomeT]):
     unit: str = ""
     range: str = ""
     source: str = ""
+
+    def __post_init__(self) -> None:
+        if (self.direction is Direction.TARGET) != (self.target is not None):
+            raise ValueError(
+                f"metric {self.name!r}: expected a target where values near one are better, and "
+                f"none otherwise, got direction {self.direction.value!r} and target {self.target}; "
+                "set the two together"
+            )
 
     def applies(self, outcome: object) -> bool:
         """Return whether the metric is defined for ``outcome``, which may be of any kind."""

@@ -9,7 +9,7 @@ from itertools import groupby
 from rich.box import SIMPLE
 from rich.table import Table
 
-from mocapbench.benchmark.comparison.contrasts import Row
+from mocapbench.benchmark.comparison.contrasts import POOLED, Row
 from mocapbench.benchmark.comparison.incomplete import incomplete_notes, losses
 from mocapbench.benchmark.markdown import escape, table_lines
 from mocapbench.benchmark.registry import METRICS
@@ -26,6 +26,11 @@ TOO_FEW = "too few to test"
 MORE = (
     f"For what is {TOO_FEW}: `mocapbench run` with more --folds helps where n counts folds, and "
     "recordings of more people where it counts people."
+)
+
+TARGETED = (
+    "For a metric that should be near a value, “better by” in all cases is of the mean distance "
+    "over cases, not of the distance of the mean."
 )
 
 
@@ -75,14 +80,20 @@ def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
     tested = {row.contrast.n for row in rows if not row.incomplete}
     return [
         *incomplete_notes(rows, sides),
-        "“Better by” comes with its 95 % interval by Student’s t. Each p is corrected after Holm, "
-        "single cases and all cases apart. P is by the Bayesian correlated t-test.",
+        "“Better by” comes with its own 95 % interval by Student’s t. Each p is corrected after "
+        "Holm, single cases and all cases apart, and decides the outcome: an interval may exclude "
+        "0 where p is above 0.05. P is by the Bayesian correlated t-test.",
+        *([TARGETED] if any(map(_averages_distances, rows)) else []),
         "n counts people where cases or folds go through recordings of people, else independent "
         "folds or cases, as in the report. Fewer than five are too few to test.",
         *([f"{identical} of {len(rows)} comparisons are identical."] if identical else []),
         *([POWERLESS] if FEWEST_UNITS in tested else []),
         *([MORE] if any(outcome(row, sides) == TOO_FEW for row in rows) else []),
     ]
+
+
+def _averages_distances(row: Row) -> bool:
+    return row.case == POOLED and METRICS.get(row.metric).target is not None
 
 
 def _by_metric(rows: Sequence[Row]) -> Iterator[tuple[str, list[Row]]]:

@@ -13,7 +13,6 @@ from mocapbench.benchmark.testing.errors import raised_by, require
 from mocapbench.benchmark.testing.subject import COMPLETE, GAP, TIMES
 from mocapbench.metrics import (
     Clustering,
-    Direction,
     Imputation,
     ImputedPoses,
     Metric,
@@ -100,10 +99,6 @@ def check_metric(metric: Metric[Any]) -> None:
 def _check_declaration(metric: Metric[Any]) -> None:
     kinds = [kind.__name__ for kind in OUTCOMES]
     require(metric.outcome in OUTCOMES, f"an outcome among {kinds}", metric.outcome, "take one")
-    targeted = metric.direction is Direction.TARGET
-    has_target = metric.target is not None
-    expected = "a target" if targeted else f"no target where {metric.direction.value} is better"
-    require(targeted == has_target, expected, metric.target, "set direction and target together")
     documented = inspect.getdoc(metric.statistic)
     advice = "state formula, axis and ddof"
     require(documented, "a docstring of the statistic", documented, advice)

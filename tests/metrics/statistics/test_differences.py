@@ -42,11 +42,12 @@ def test_the_interval_in_closed_form(sample, confidence):
 
 @given(samples.filter(any))
 def test_signed_ranks_in_closed_form(sample):
-    """The share of all signs whose sum of ranks is as far from zero; equal to the last bit."""
+    """The share of all signs whose sum of ranks is as far from zero."""
     kept = np.array([x for x in sample if x])
     ranks = stats.rankdata(np.abs(kept))
     sums = np.array(list(product((-1.0, 1.0), repeat=len(kept)))) @ ranks
-    assert signed_rank_test(sample) == np.mean(np.abs(sums) >= abs(np.sign(kept) @ ranks))
+    share = np.mean(np.abs(sums) >= abs(np.sign(kept) @ ranks))
+    assert signed_rank_test(sample) == pytest.approx(share, rel=1e-12)
 
 
 def test_differences_that_are_equal_but_for_rounding_give_no_warning(recwarn):
@@ -107,13 +108,30 @@ def test_five_units_cannot_reject_by_signed_ranks():
 @pytest.mark.parametrize("sample", [[3.0, -1.0, 2.0], [1.0, 1.0, -1.0, 0.0, 2.0], [0.0, 5.0]])
 def test_signed_ranks_are_those_of_wilcoxon_in_scipy(sample):
     every_sign = stats.PermutationMethod(n_resamples=2 ** len(sample))
-    assert signed_rank_test(sample) == stats.wilcoxon(sample, method=every_sign).pvalue
+    assert signed_rank_test(sample) == pytest.approx(
+        stats.wilcoxon(sample, method=every_sign).pvalue, rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("n", [13, 30])
+def test_many_units_without_ties_are_those_of_scipy_s_exact_test(n):
+    sample = np.random.default_rng(n).normal(0.3, 1.0, n)
+    expected = stats.wilcoxon(sample, method="exact").pvalue
+    assert signed_rank_test(sample) == pytest.approx(expected, rel=1e-9)
+
+
+@given(samples.filter(any), st.integers(0, 40))
+def test_units_that_do_not_differ_change_no_p(sample, n_zeros):
+    assert signed_rank_test([*sample, *[0.0] * n_zeros]) == signed_rank_test(sample)
 
 
 def test_many_units_agree_with_the_normal_approximation():
-    sample = np.random.default_rng(0).normal(0.3, 1.0, 40)
+    sample = np.random.default_rng(0).normal(0.3, 1.0, 101)
     expected = stats.wilcoxon(sample, method="approx").pvalue
-    assert signed_rank_test(sample) == pytest.approx(expected, abs=0.01)
+    assert signed_rank_test(sample) == pytest.approx(expected, rel=1e-12)
+    assert signed_rank_test(sample[:100]) == pytest.approx(
+        stats.wilcoxon(sample[:100], method="approx").pvalue, abs=0.001
+    )
 
 
 @pytest.mark.parametrize("bad", [[], [math.nan, 1.0], [math.inf], [[1.0, 2.0]]])
