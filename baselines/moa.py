@@ -27,7 +27,9 @@ class MOA(TrendedProcess):
 
     `trend` gives the posterior of that function, and so does `impute`, with variances that the
     visible entries of a recording bear out (`as_claimed` has the posterior itself). `sample` takes
-    its posterior mean as the trend and draws with the prior covariance around it.
+    its posterior mean as the trend and draws with the prior covariance around it, as the thesis
+    does (§5.2): samples differ by as much as the function varies, where recordings, by the model
+    that is fitted, differ by noise alone.
 
     Parameters
     ----------
@@ -49,7 +51,8 @@ class MOA(TrendedProcess):
         log-likelihood.
     max_seconds : float or None, default=None
         Time limit for all searches together; None sets no limit. Results then depend on the
-        machine.
+        machine. An evaluation of the likelihood that has begun is finished first: with "rbf" it
+        takes time with the cube of the frames, with Matérn kernels in proportion to them.
     warm_start : bool, default=False
         Whether `fit` starts from the parameters of the previous one, if there was one.
     verbose : bool, default=False

@@ -71,7 +71,8 @@ class MOHGP(TrendedProcess):
         log-likelihood.
     max_seconds : float or None, default=None
         Time limit for all searches together; None sets no limit. Results then depend on the
-        machine.
+        machine. An evaluation of the likelihood that has begun is finished first: with "rbf" it
+        takes time with the cube of the frames, with Matérn kernels in proportion to them.
     warm_start : bool, default=False
         Whether `fit` starts from the parameters of the previous one, if there was one.
     verbose : bool, default=False

@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 SampleByReferenceByOutput = NDArray[np.float64]
 """(S, M, D) similarities; NaN in every entry of an output that is left out."""
 
+_ROUNDING = 1e-12
+"""Range of an output, relative to its largest value, up to which it counts as constant."""
+
 
 def check_synthesis(outcome: Synthesis) -> None:
     """Check that samples and references are comparable.
@@ -82,9 +85,10 @@ def linear_correlation(outcome: Synthesis) -> SampleByReferenceByOutput:
 
 
 def _constant(outcome: Synthesis) -> NDArray[np.bool_]:
-    """(D,) True where an output is constant in any sample or reference."""
+    """(D,) True where an output is constant, but for rounding, in any sample or reference."""
     sequences = np.concatenate([outcome.samples, outcome.references])
-    return np.asarray((np.ptp(sequences, axis=1) == 0).any(axis=0))
+    rounding = _ROUNDING * np.abs(sequences).max(axis=1)
+    return np.asarray((np.ptp(sequences, axis=1) <= rounding).any(axis=0))
 
 
 def _unit_range(sequences: Array) -> Array:

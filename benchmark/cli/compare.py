@@ -53,12 +53,14 @@ def compare(
         load_tasks(bench.Store.open(path))
     for name in split(tasks):
         bench.TASKS.get(name)
-    for name in split(metrics):
-        bench.METRICS.current_name(name)
+    chosen = [bench.METRICS.current_name(name) for name in split(metrics)]
     first, second, sides = _sides(runs, split(models), console)
-    rows = comparison.compare(first, second, tasks=split(tasks), metrics=split(metrics), rope=rope)
+    rows = comparison.compare(first, second, tasks=split(tasks), metrics=chosen, rope=rope)
     for table in comparison.terminal(rows, sides):
         console.print(table)
+    for metric in dict.fromkeys(chosen):
+        if metric not in {row.metric for row in rows}:
+            console.print(f"The two have no value of {metric} in common.", highlight=False)
     for note in comparison.notes(rows, sides):
         console.print(note, highlight=False)
     _write(markdown, comparison.markdown(rows, sides))

@@ -102,10 +102,11 @@ def test_the_best_match_is_the_greatest_mean_over_samples(seed):
 
 
 @pytest.mark.parametrize("where", ["samples", "references"])
-def test_an_output_that_is_constant_anywhere_is_left_out_and_counted(where):
+@pytest.mark.parametrize("level", [7.0, np.where(np.arange(8) % 2, 0.3, np.nextafter(0.3, 1.0))])
+def test_an_output_that_is_constant_anywhere_is_left_out_and_counted(where, level):
     drawn = outcome(0)
     flat = {"samples": drawn.samples.copy(), "references": drawn.references.copy()}
-    flat[where][1, :, 2] = 7.0
+    flat[where][1, :, 2] = np.resize(level, flat[where].shape[1])
     kept = [0, 1, 3]
     without = Synthesis(drawn.samples[:, :, kept], drawn.references[:, :, kept])
     for metric in CORRELATIONS:

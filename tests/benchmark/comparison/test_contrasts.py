@@ -254,6 +254,30 @@ def test_a_metric_may_be_given_by_its_former_name(cli, run, tmp_path):
         pd.testing.assert_frame_equal(former, compared(cli, tmp_path, both, *chosen, names))
 
 
+def test_a_metric_that_both_sides_lack_is_named(cli, run):
+    both = run("run", records("knn", GOOD), records("nn", BAD))
+    assert cli("compare", both, "--models", "knn,nn", "--metrics", "mse,coverage_95") == 0
+    assert "The two have no value of coverage_95 in common." in cli.printed
+    assert "no value of mse" not in cli.printed
+
+
+def test_near_a_target_the_distances_of_cases_are_averaged():
+    """One side is as far below the target as above it; the other is nearer in every case."""
+    first = records("knn", {"test 1": [0.45] * 5, "test 2": [1.45] * 5}, metric="coverage_95")
+    second = records("nn", {"test 1": [0.90] * 5, "test 2": [0.85] * 5}, metric="coverage_95")
+    *_, pooled = comparison.compare(
+        [replace(r, address=r.address._replace(label="a"), model="a") for r in first],
+        [replace(r, address=r.address._replace(label="a"), model="a") for r in second],
+        metrics=["coverage_95"],
+        rope=0.02,
+    )
+    assert (pooled.contrast.first, pooled.contrast.second) == pytest.approx((0.95, 0.875))
+    assert pooled.contrast.advantage == pytest.approx(0.075 - 0.5)
+    assert any(
+        "mean distance over cases" in note for note in comparison.notes([pooled], ("a", "b"))
+    )
+
+
 def test_equivalence_begins_where_the_statistics_say_unless_told_otherwise(cli, run, tmp_path):
     (rope,) = (p for p in get_command(app).params if p.name == "rope")
     assert rope.default == ROPE
