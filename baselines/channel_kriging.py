@@ -12,10 +12,9 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
-from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import hidden_together
-from mocapbench.baselines.common.recordings import check_channels, check_recordings, pool
+from mocapbench.baselines.common.recordings import check_recordings, pool
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_not_negative, check_positive
 from mocapbench.baselines.kriging.left_out import left_out_scales
@@ -133,6 +132,7 @@ class ChannelKriging(Widened, Imputer, Inductive):
             check_not_negative(name, getattr(self, name))
         # In the order of names, so that the order given does not affect results.
         self.recordings_ = tuple(sorted(check_recordings(recordings), key=lambda r: r.name))
+        self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -147,12 +147,12 @@ class ChannelKriging(Widened, Imputer, Inductive):
             If channels differ, a channel is visible neither in a recording nor in those given to
             `fit`, or channels that are hidden together are visible together nowhere.
         """
-        check_is_fitted(self)
-        check_channels(recordings, self.recordings_[0].channels, self.recordings_[0].units)
+        self._check_given(recordings)
         return rehearsed(self, self.recordings_, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
+        self._check_given(recordings)
         return [self._filled(recording) for recording in recordings]
 
     def _filled(self, recording: Recording) -> Prediction:

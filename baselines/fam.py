@@ -7,9 +7,8 @@ from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.functional.basis import Array
 from mocapbench.baselines.functional.components import infer_scores, principal_axes
@@ -244,8 +243,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
         return np.asarray(states % self.cycle_length_)
 
     def _checked(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_, self.units_)
+        self._check_given(recordings)
         check_frames(recordings)
         return recordings
 
@@ -254,7 +252,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
-        return [self._predicted(recording) for recording in recordings]
+        return [self._predicted(recording) for recording in self._checked(recordings)]
 
     def _predicted(self, recording: Recording) -> Prediction:
         scaled = self.scaling_.apply(recording)

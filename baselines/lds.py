@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_sampling
 from mocapbench.baselines.protocols import (
@@ -147,12 +147,12 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         ValueError
             If channels differ.
         """
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_, self.units_)
+        self._check_given(recordings)
         return widened(self, recordings, self.learnt_from_)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
+        self._check_given(recordings)
         if not len(recordings):
             return []
         data = self._observations(recordings)

@@ -9,11 +9,9 @@ from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.own_means import OwnMeans
 from mocapbench.baselines.common.recordings import (
-    check_channels,
     check_recordings,
     check_spread,
 )
@@ -167,12 +165,12 @@ class LowRank(Relearning, Imputer, Inductive):
             If channels differ, or a channel is visible neither in a recording nor in those given to
             `fit`.
         """
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_, self.units_)
+        self._check_given(recordings)
         return widened(self, recordings, self.learnt_from_)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
+        self._check_given(recordings)
         return [self._filled(recording) for recording in recordings]
 
     def _filled(self, recording: Recording) -> Prediction:

@@ -7,8 +7,10 @@ from functools import cache
 import numpy as np
 import pytest
 from format_files import sample
+from sklearn.exceptions import NotFittedError
 
 from mocapbench.baselines import FrameImputer, Synthesiser
+from mocapbench.baselines.gp.covariances import LearntCovariances
 from mocapbench.benchmark.registry import FORMATS, METRICS, MODELS, TASKS
 from mocapbench.benchmark.testing import check_format, check_metric, check_task, model_checks
 from mocapbench.benchmark.testing.subject import COMPLETE, GAP, TIMES, Subject, problem
@@ -62,13 +64,41 @@ def fitted():
 FILLERS = [name for name in MODELS.names() if issubclass(MODELS.get(name), FrameImputer)]
 
 
-@pytest.mark.parametrize("name", FILLERS)
-def test_a_model_refuses_to_fill_in_other_units_than_those_of_fit(name):
-    recordings = problem(GAP)
-    model = Subject(MODELS.get(name)).fitted(recordings)
-    other = replace(recordings[-1], units=("deg",) * 2)
-    with pytest.raises(ValueError, match="in unit"):
-        model.impute([other])
+ANSWERS = [
+    (name, answer)
+    for name in FILLERS
+    for answer in ("impute", "as_claimed", "as_tried")
+    if hasattr(MODELS.get(name), answer)
+]
+OTHERS = {
+    "expected channels": COMPLETE[-1].select(COMPLETE[-1].channels[::-1]).hide(GAP),
+    "in unit": replace(COMPLETE[-1], units=("deg",) * 2).hide(GAP),
+}
+
+
+@pytest.mark.parametrize(("name", "answer"), ANSWERS)
+@pytest.mark.parametrize(("expected", "other"), OTHERS.items(), ids=OTHERS)
+def test_a_model_refuses_channels_and_units_other_than_those_of_fit(
+    fitted, name, answer, expected, other
+):
+    with pytest.raises(ValueError, match=f"{expected} .*, got"):
+        getattr(fitted(name), answer)([other])
+
+
+@pytest.mark.parametrize(("name", "answer"), ANSWERS)
+def test_a_model_answers_nothing_before_it_is_fitted(name, answer):
+    with pytest.raises(NotFittedError):
+        getattr(MODELS.get(name)(), answer)(problem(GAP))
+
+
+LEARNT = [name for name in MODELS.names() if issubclass(MODELS.get(name), LearntCovariances)]
+
+
+@pytest.mark.parametrize("name", LEARNT)
+@pytest.mark.parametrize("learnt", ["layers", "coregionalisation_", "noise_"])
+def test_a_model_has_learnt_nothing_before_it_is_fitted(name, learnt):
+    with pytest.raises(NotFittedError):
+        getattr(MODELS.get(name)(), learnt)
 
 
 @pytest.mark.parametrize("name", sorted({*FILLERS} - {"oracle", "trivial"}))

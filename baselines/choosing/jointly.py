@@ -59,6 +59,7 @@ class Jointly(Widened, Imputer, Inductive):
         largest = max(recordings, key=lambda recording: recording.values.size)
         _check_work([*recordings, largest])
         self.recordings_ = tuple(recordings)
+        self.channels_, self.units_ = largest.channels, largest.units
         if not hasattr(self, "process_"):
             self.process_ = copy(self.process).fit(_some_incomplete(recordings))
         return self
@@ -71,10 +72,12 @@ class Jointly(Widened, Imputer, Inductive):
         ValueError
             If a recording is too large beside those, or its channels differ.
         """
+        self._check_given(recordings)
         return [self._given(recording).impute([recording])[0] for recording in recordings]
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute` with the variances of the exact posterior."""
+        self._check_given(recordings)
         return [self._given(recording).as_claimed([recording])[0] for recording in recordings]
 
     def _given(self, recording: Recording) -> GaussianProcess:

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_channels
 from mocapbench.baselines.common.validation import check_sampling
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.estimator import GaussianProcess
@@ -37,8 +36,7 @@ class ChannelPosteriors(Conditioned, Synthesiser, Generic[Single]):
 
     def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
         """Return the posteriors of recordings, and the errors of their visible entries."""
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_, self.units_)
+        self._check_given(recordings)
         by_channel = [
             model.left_out([recording.select([channel]) for recording in recordings])
             for channel, model in zip(self.channels_, self.models_, strict=True)
@@ -47,6 +45,7 @@ class ChannelPosteriors(Conditioned, Synthesiser, Generic[Single]):
 
     def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
         """Return what the models claim of recordings of which more is hidden."""
+        self._check_given(trials)
         by_channel = [
             model.as_tried([trial.select([channel]) for trial in trials])
             for channel, model in zip(self.channels_, self.models_, strict=True)

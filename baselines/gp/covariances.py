@@ -36,6 +36,7 @@ class LearntCovariances(Coregionalised):
     @property
     def layers(self) -> tuple[str, ...]:
         """The layers of the fitted model, from the trend down, such as ("parent", "child")."""
+        check_is_fitted(self, "tree_")
         return tuple(self.tree_)
 
     @property
@@ -44,6 +45,7 @@ class LearntCovariances(Coregionalised):
 
         Entry (d, e) of B_q is in the unit of output d times that of output e.
         """
+        check_is_fitted(self, "parameters_")
         units = np.outer(self.scaling_.scale, self.scaling_.scale)
         layers = self.parameters_.layers.items()
         return {name: layer.coregionalisation.matrices * units for name, layer in layers}
@@ -51,6 +53,7 @@ class LearntCovariances(Coregionalised):
     @property
     def noise_(self) -> Array:
         """(D,) noise variance of each output, in the output's squared unit."""
+        check_is_fitted(self, "parameters_")
         return self.parameters_.noise * self.scaling_.scale**2
 
     def covariance(self, layer: str, times: Frames) -> Array:

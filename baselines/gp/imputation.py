@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_channels
 from mocapbench.baselines.common.validation import check_count, check_seed, check_times
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.covariances import LearntCovariances
@@ -34,8 +33,7 @@ class RecordingPosterior(LearntCovariances, Conditioned):
 
     def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
         """Return the posteriors of recordings, and the errors of their visible entries."""
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_, self.units_)
+        self._check_given(recordings)
         terms = [self._terms(recording) for recording in recordings]
         with self._threaded_process() as process:
             curves = process.infer(terms, [recording.times for recording in recordings])
@@ -46,7 +44,7 @@ class RecordingPosterior(LearntCovariances, Conditioned):
 
     def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
         """Return what the process claims of recordings given to `fit` of which more is hidden."""
-        check_is_fitted(self)
+        self._check_given(trials)
         return [self._tried(trial) for trial in trials]
 
     def posterior_covariance(self, recording: Recording, times: Frames | None = None) -> Array:

@@ -16,7 +16,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import visible_frames
 from mocapbench.baselines.common.pose_units import in_pose_units, pose_factors
-from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.baselines.common.validation import (
     check_choice,
     check_count,
@@ -132,14 +132,14 @@ class LatentVariableModel(Relearning, FrameImputer, Inductive, Embedded):
         ValueError
             If channels differ, a frame is hidden in part, or no frame is visible.
         """
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_, self.units_)
+        self._check_given(recordings)
         for recording in recordings:
             visible_frames(recording)  # before it learns anew for any of them
         return widened(self, recordings)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
+        self._check_given(recordings)
         return [self._filled(recording) for recording in recordings]
 
     def _filled(self, recording: Recording) -> Prediction:

@@ -6,8 +6,9 @@ from abc import abstractmethod
 from collections.abc import Sequence
 
 from sklearn.base import clone
+from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import pool
+from mocapbench.baselines.common.recordings import check_channels, pool
 from mocapbench.baselines.protocols import Model, Prediction
 from mocapbench.datasets import Recording
 
@@ -17,6 +18,11 @@ __all__ = ["Relearning", "Widened"]
 class Widened(Model):
     """A model whose variances are checked by trials when it fills recordings."""
 
+    channels_: tuple[str, ...]
+    """The channels of the recordings given to ``fit``, which sets them."""
+    units_: tuple[str, ...]
+    """Their units."""
+
     @abstractmethod
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
@@ -24,6 +30,11 @@ class Widened(Model):
     def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
         """Return what it claims of recordings of which more is hidden."""
         return self.as_claimed(trials)
+
+    def _check_given(self, recordings: Sequence[Recording]) -> None:
+        """Check that the model is fitted, and to recordings of these channels and units."""
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_, self.units_)
 
 
 class Relearning(Widened):
@@ -38,6 +49,7 @@ class Relearning(Widened):
 
     def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
         """Return what it claims of recordings of which more is hidden, not having seen that."""
+        self._check_given(trials)
         known = {recording.name for recording in self.learnt_from_}
         strangers = [trial for trial in trials if trial.name not in known]
         answers = iter(self.as_claimed(strangers) if strangers else ())

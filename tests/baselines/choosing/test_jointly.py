@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from sklearn.exceptions import NotFittedError
 
 from mocapbench.baselines import MOHGP
 from mocapbench.baselines.choosing import panel
@@ -104,3 +105,12 @@ def test_a_candidate_fitted_anew_leaves_the_first_as_it_is(name, monkeypatch):
     assert [recording.name for recording in first.models[name].recordings_] == ["one", "two"]
     assert anew.models[name].process_ is first.models[name].process_
     np.testing.assert_array_equal(first.means(given)[name], before)
+
+
+def test_channels_are_those_of_fit(model):
+    given = gap(walk("new"))
+    with pytest.raises(NotFittedError):
+        Jointly(MOHGP()).as_claimed([given])
+    for answer in (model.as_claimed, model.impute):
+        with pytest.raises(ValueError, match="expected channels"):
+            answer([given.select(given.channels[::-1])])
