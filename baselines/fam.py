@@ -19,7 +19,7 @@ from mocapbench.baselines.functional.placement import place
 from mocapbench.baselines.functional.prediction import cycle_moments, prototypes, sampled
 from mocapbench.baselines.functional.shifts import SHIFTS, Aligned, shift_together
 from mocapbench.baselines.functional.statistics import CurveStatistics
-from mocapbench.baselines.functional.validation import check_frames, check_settings
+from mocapbench.baselines.functional.validation import check_settings
 from mocapbench.baselines.protocols import Aligner, Imputer, Inductive, Prediction, StatePath
 from mocapbench.baselines.rehearsal.checkable import Relearning
 from mocapbench.baselines.rehearsal.widening import widened
@@ -154,7 +154,6 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
         """
         check_settings(**self.get_params())
         checked = check_recordings(recordings)
-        check_frames(checked)
         self.learnt_from_ = checked
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         # Recordings are sorted by name, so that their order does not affect results.
@@ -189,7 +188,8 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
         ValueError
             If channels differ, or a recording has no frame.
         """
-        return widened(self, self._checked(recordings), self.learnt_from_)
+        self._check_given(recordings)
+        return widened(self, recordings, self.learnt_from_)
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
         """Return the state of each frame of recordings, which are placed as by `impute`.
@@ -199,7 +199,8 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
         ValueError
             If channels differ, or a recording has no frame.
         """
-        return [self._states(self._placed(r)) for r in self._checked(recordings)]
+        self._check_given(recordings)
+        return [self._states(self._placed(recording)) for recording in recordings]
 
     def _shift_together(self, scaled: Sequence[Recording], periods: Array) -> Aligned:
         curves = [
@@ -242,17 +243,13 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
         states = np.floor(phases % 1.0 * self.cycle_length_).astype(np.intp)
         return np.asarray(states % self.cycle_length_)
 
-    def _checked(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
-        self._check_given(recordings)
-        check_frames(recordings)
-        return recordings
-
     def _placed(self, recording: Recording) -> Array:
         return place(self.scaling_.apply(recording), self.reference_, self.periods_)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
-        return [self._predicted(recording) for recording in self._checked(recordings)]
+        self._check_given(recordings)
+        return [self._predicted(recording) for recording in recordings]
 
     def _predicted(self, recording: Recording) -> Prediction:
         scaled = self.scaling_.apply(recording)

@@ -1,6 +1,7 @@
 """The conformance kit, over everything registered."""
 
 import inspect
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -89,6 +90,31 @@ def test_a_model_refuses_channels_and_units_other_than_those_of_fit(
 def test_a_model_answers_nothing_before_it_is_fitted(name, answer):
     with pytest.raises(NotFittedError):
         getattr(MODELS.get(name)(), answer)(problem(GAP))
+
+
+UNUSABLE = {
+    "no frames": (lambda recording: recording.frames([]), "one frame and one channel, got (0, 2)"),
+    "no channels": (lambda recording: recording.select([]), "one channel, got (20, 0)"),
+    "overflow": (
+        lambda recording: recording.with_values(1e76 * np.sign(recording.values)),
+        "values of at most 1e+75 in size, got 1e+76; use another unit",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MODELS.names())
+@pytest.mark.parametrize(("changed", "expected"), UNUSABLE.values(), ids=UNUSABLE)
+def test_a_model_says_what_recordings_it_cannot_learn_from(name, changed, expected):
+    with pytest.raises(ValueError, match=f"'child-1': expected .*{re.escape(expected)}"):
+        Subject(MODELS.get(name)).fitted([changed(recording) for recording in problem(GAP)])
+
+
+@pytest.mark.parametrize(("name", "answer"), ANSWERS)
+@pytest.mark.parametrize("unusable", ["no frames", "overflow"])
+def test_a_model_says_what_recordings_it_cannot_fill(fitted, name, answer, unusable):
+    changed, expected = UNUSABLE[unusable]
+    with pytest.raises(ValueError, match=f"'child-4': expected .*{re.escape(expected)}"):
+        getattr(fitted(name), answer)([changed(problem(GAP)[-1])])
 
 
 LEARNT = [name for name in MODELS.names() if issubclass(MODELS.get(name), LearntCovariances)]

@@ -22,6 +22,9 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
+_LARGEST = 1e75
+"""Of the sizes of values: models take up to fourth powers, and floats end at 1.8e308."""
+
 
 def check_recordings(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
     """Return the recordings as a tuple, after checking that they can be stacked.
@@ -29,8 +32,8 @@ def check_recordings(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
     Raises
     ------
     ValueError
-        If it is no sequence of recordings, there is none, channels or units differ, or a name
-        repeats.
+        If it is no sequence of recordings, there is none, channels or units differ, a name repeats,
+        or one has no frame, no channel or values beyond 1e75.
     """
     checked = _listed(recordings)
     if not checked:
@@ -48,10 +51,13 @@ def check_channels(
 ) -> None:
     """Check that every recording has the given channels, in the same order and the same units.
 
+    It also checks that each has at least one frame, and values whose powers do not overflow.
+
     Raises
     ------
     ValueError
-        If it is no sequence of recordings, or one has other channels or units.
+        If it is no sequence of recordings, or one has other channels or units, no frame, no channel
+        or values beyond 1e75.
     """
     for recording in _listed(recordings):
         if recording.channels != channels:
@@ -60,6 +66,7 @@ def check_channels(
                 f"got {recording.channels}; select the same channels of every recording"
             )
         _check_units(recording, units)
+        _check_values(recording)
 
 
 def _listed(recordings: object) -> tuple[Recording, ...]:
@@ -86,6 +93,20 @@ def _check_units(recording: Recording, units: tuple[str, ...]) -> None:
                 f"recording {recording.name!r}: expected channel {channel!r} in unit {expected!r} "
                 f"as in the other recordings, got {got!r}; convert one of them"
             )
+
+
+def _check_values(recording: Recording) -> None:
+    if not recording.values.size:
+        raise ValueError(
+            f"recording {recording.name!r}: expected at least one frame and one channel, "
+            f"got {recording.values.shape} of them; leave it out"
+        )
+    largest = np.fmax.reduce(np.abs(recording.values), axis=None, initial=0.0)
+    if largest > _LARGEST:
+        raise ValueError(
+            f"recording {recording.name!r}: expected values of at most {_LARGEST:g} in size, "
+            f"got {largest:g}; use another unit"
+        )
 
 
 def check_outputs(recordings: Sequence[Recording], process: ToyProcess) -> None:

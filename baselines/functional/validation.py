@@ -1,15 +1,14 @@
-"""Checks of the parameters of the functional models, and of the recordings they are given."""
+"""Checks of the parameters of the functional models."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
-from mocapbench.datasets import Recording
 
-__all__ = ["check_frames", "check_settings"]
+__all__ = ["check_settings"]
 
 _CHECKS: dict[str, Callable[[str, object], None]] = {
     **dict.fromkeys(
@@ -31,18 +30,3 @@ def check_settings(**parameters: Any) -> None:
     """
     for name, value in parameters.items():
         _CHECKS[name](name, value)
-
-
-def check_frames(recordings: Sequence[Recording]) -> None:
-    """Check that every recording has a frame.
-
-    Raises
-    ------
-    ValueError
-        If one has none.
-    """
-    empty = [recording.name for recording in recordings if not len(recording.times)]
-    if empty:
-        raise ValueError(
-            f"expected recordings of at least one frame, got none in {empty}; leave them out"
-        )

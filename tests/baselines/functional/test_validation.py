@@ -29,16 +29,3 @@ def test_what_a_parameter_cannot_be_is_named_with_what_it_can(waves, model, name
     with pytest.raises(ValueError, match=rf"expected {name} .*got ") as caught:
         model(**{name: value}).fit(waves([20.0, 25.0]).recordings)
     assert repr(value) in str(caught.value)
-
-
-@pytest.mark.parametrize("use", ["fit", "impute", "align"])
-def test_a_recording_without_frames_is_named(waves, use):
-    one, two = waves([20.0, 25.0]).recordings
-    fitted, empty = FAM(max_iter=1).fit([one]), two.frames([])
-    act = {
-        "fit": lambda: FAM().fit([one, empty]),
-        "impute": lambda: fitted.impute([empty]),
-        "align": lambda: fitted.align([empty]),
-    }
-    with pytest.raises(ValueError, match=r"at least one frame, got none in \['w1'\]"):
-        act[use]()
