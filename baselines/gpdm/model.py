@@ -48,10 +48,12 @@ class GPDM(DynamicalModel):
     that of an observation at this trajectory; it does not include the trajectory's uncertainty.
 
     Channels that are constant in training are left out with a warning. They are filled with their
-    constant value and the variance 1/(κ² N), the bound that the prior of the scales implies. Where
-    channels have several units, degrees and radians count as degrees, and mm, cm and m as the CMU
-    database's unit of length, 5.64 cm; if all have the same one, that prior is in it. Time is
-    counted in frames, so that all recordings should have the same frame rate.
+    constant value and the variance σ_Y²(x)/(κ² N), where σ_Y²(x) is that of a scaled channel at the
+    latent position x, and 1/(κ² N) the bound that the prior of the scales implies on its unit,
+    squared. As for other channels, trials may change it. Where channels have several units, degrees
+    and radians count as degrees, and mm, cm and m as the CMU database's unit of length, 5.64 cm; if
+    all have the same one, that prior is in it. Time is counted in frames, so that all recordings
+    should have the same frame rate.
 
     Parameters
     ----------

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.gpdm.model import GPDM
+from mocapbench.baselines.gpdm.posterior import KAPPA
 from mocapbench.baselines.gplvm import GPLVM
 from mocapbench.datasets import Recording
 
@@ -63,3 +64,12 @@ def test_visible_entries_are_copied_and_hidden_ones_uncertain(fitted):
 def test_confidence_falls_away_from_training(fitted):
     there = fitted.confidence(fitted.latent_paths()[0])
     assert there.min() > fitted.confidence(np.full((1, 2), 20.0)).item()
+
+
+def test_a_constant_channel_has_the_variance_of_a_scaled_one_and_the_unit_of_the_bound(fitted):
+    new, gap = walk("new", 12, 0.4), (np.arange(12) // 3 == 2)[:, None]
+    (claimed,) = fitted.as_claimed([new.hide(gap)])
+    scaled = claimed.variance[:, :3] * fitted.estimate_.scales**2
+    bound = 1.0 / (KAPPA**2 * sum(len(recording.times) for recording in WALKS))
+    np.testing.assert_allclose(claimed.variance[:, 3], scaled[:, 0] * bound)
+    np.testing.assert_allclose(scaled.T, scaled[:, [0]].T.repeat(3, axis=0))
