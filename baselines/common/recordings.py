@@ -7,11 +7,13 @@ from collections.abc import Collection, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.datasets import FrameByChannel, Recording, ToyProcess
+from mocapbench.datasets import FrameByChannel, Recording, ToyProcess, frame_rate
+from mocapbench.datasets.formats.sets import same_rate
 
 __all__ = [
     "check_channels",
     "check_outputs",
+    "check_rates",
     "check_recordings",
     "check_spread",
     "check_visible",
@@ -123,6 +125,23 @@ def check_outputs(recordings: Sequence[Recording], process: ToyProcess) -> None:
             f"expected the process's {process.n_outputs} outputs, "
             f"got recordings of {n_channels} channels"
         )
+
+
+def check_rates(recordings: Sequence[Recording]) -> None:
+    """Check that recordings have the same frame rate; one of a single frame may have any.
+
+    Raises
+    ------
+    ValueError
+        If rates differ by more than 1 %, as for files in `mocapbench.datasets.check_alike`.
+    """
+    first, *others = [one for one in recordings if len(one.times) > 1] or recordings
+    for other in others:
+        if not same_rate(first, other):
+            raise ValueError(
+                f"recording {other.name!r}: expected {frame_rate(first):.6g} frames per second as "
+                f"in {first.name!r}, got {frame_rate(other):.6g}; resample one of them"
+            )
 
 
 def check_visible(recordings: Sequence[Recording]) -> None:

@@ -75,16 +75,18 @@ class LatentVariableModel(Relearning, FrameImputer, Inductive, Embedded):
         ------
         ValueError
             If a parameter is out of range, there is no recording, channels differ, a name
-            repeats, no two consecutive frames are complete, or no channel moves.
+            repeats, no two consecutive frames are complete, no channel moves, or a model with
+            dynamics is given frame rates that differ by more than 1 %.
         """
         self._check_parameters()
         dynamics, learning = self._dynamics(), self._learning()
-        checked = check_recordings(recordings)
+        checked = self._checked(recordings)
         self.learnt_from_ = checked
         self.sequences_ = TrainingSequences.of([in_pose_units(each) for each in checked])
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.matcher_ = PoseViterbi().fit(checked)
-        self.frame_seconds_ = float(np.median(np.diff(checked[0].times)))
+        steps = [np.diff(recording.times) for recording in checked if len(recording.times) > 1]
+        self.frame_seconds_ = float(np.median(steps[0]))
         y = self.sequences_.y
         x = whitened_components(y, self.n_latent)
         posterior = JointPosterior(
@@ -102,6 +104,10 @@ class LatentVariableModel(Relearning, FrameImputer, Inductive, Embedded):
         self.conditional_ = Conditional.of(posterior, self.estimate_)
         self.kernel_properties_ = self._properties(posterior)
         return self
+
+    def _checked(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
+        """Return the recordings to learn from, after checking them."""
+        return check_recordings(recordings)
 
     def _check_parameters(self) -> None:
         for name in ("n_latent", "max_iter", "n_steps", "fill_iter"):
@@ -171,7 +177,7 @@ class LatentVariableModel(Relearning, FrameImputer, Inductive, Embedded):
     def _units(self) -> Array:
         """Return the inverse scales (D,) in the channels' units.
 
-        A constant channel has the prior's bound (κ² N)^(−½).
+        Those of a constant channel are the prior's bound (κ² N)^(−½).
         """
         units = np.full(len(self.channels_), 1.0 / (KAPPA * np.sqrt(len(self.sequences_.y))))
         units[self.sequences_.moving] = 1.0 / self.estimate_.scales

@@ -53,7 +53,7 @@ class GPDM(DynamicalModel):
     squared. As for other channels, trials may change it. Where channels have several units, degrees
     and radians count as degrees, and mm, cm and m as the CMU database's unit of length, 5.64 cm; if
     all have the same one, that prior is in it. Time is counted in frames, so that all recordings
-    should have the same frame rate.
+    need the same frame rate: `fit` refuses rates that differ by more than 1 %.
 
     Parameters
     ----------

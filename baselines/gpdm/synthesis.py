@@ -6,20 +6,26 @@ Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human M
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.recordings import check_rates
 from mocapbench.baselines.common.validation import check_count, check_sampling, check_seed
 from mocapbench.baselines.gpdm.estimator import LatentVariableModel
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
 from mocapbench.baselines.gpdm.rollout import fair_trajectories, mean_trajectory
 from mocapbench.baselines.protocols import Dynamical, SampleByFrameByChannel, Synthesiser
-from mocapbench.datasets import Frames
+from mocapbench.datasets import Frames, Recording
 
 __all__ = ["DynamicalModel"]
 
 Array = NDArray[np.float64]
+
+_MOST_FRAMES = 10_000
+"""A covariance of as many takes 0.8 GB."""
 
 # §5.1 has 40 burn-in samples.
 _BURN_IN, _LEAPS, _STEP = 40, 20, 1e-2
@@ -35,6 +41,11 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
     order: int
     """Number of previous positions on which the next one depends."""
 
+    def _checked(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
+        checked = super()._checked(recordings)
+        check_rates(checked)
+        return checked
+
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator
     ) -> SampleByFrameByChannel:
@@ -42,21 +53,34 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
 
         Each starts at the first position of a random training sequence. Trajectories are drawn by
         hybrid Monte Carlo (GPDM §5.1), and poses from their joint distribution given the
-        trajectory, at the training frame rate and then interpolated linearly.
+        trajectory, at the training frame rate and then interpolated linearly. What it costs
+        depends on the frames at that rate from the first to the last of ``times``, however few
+        these are: time grows with their cube (600 take some 20 s for each training sequence drawn),
+        memory with their square.
 
         Raises
         ------
         ValueError
-            If times do not increase, or the number of samples or the seed is invalid.
+            If times do not increase or span more than 10 000 frames, or the number of samples or
+            the seed is invalid.
         """
         check_is_fitted(self)
         times = check_sampling(times, n_samples, random_state)
         rng = np.random.default_rng(random_state)
-        n_frames = int(np.ceil((times[-1] - times[0]) / self.frame_seconds_ - 1e-6)) + 1
-        n_frames = max(n_frames, self.order + 1)
+        n_frames = max(self._n_frames(times), self.order + 1)
         grid = times[0] + self.frame_seconds_ * np.arange(n_frames)
         drawn = (self._unscaled(self._poses(x, rng)) for x in self._drawn(n_samples, n_frames, rng))
         return np.stack([_interpolated(times, grid, values) for values in drawn])
+
+    def _n_frames(self, times: Frames) -> int:
+        """Return how many frames at the training rate cover ``times``."""
+        n_frames = np.ceil((times[-1] - times[0]) / self.frame_seconds_ - 1e-6) + 1
+        if n_frames > _MOST_FRAMES:
+            raise ValueError(
+                f"expected times that span at most {_MOST_FRAMES} frames of the training rate, "
+                f"{self.frame_seconds_:g} s each, got {n_frames:.0f}; draw a shorter recording"
+            )
+        return int(n_frames)
 
     def latent_walks(
         self, n_frames: int, n_samples: int, random_state: int | np.random.Generator

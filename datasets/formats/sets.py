@@ -9,7 +9,7 @@ import numpy as np
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.recording import Recording
 
-__all__ = ["check_alike", "frame_rate"]
+__all__ = ["check_alike", "frame_rate", "same_rate"]
 
 _TOLERANCE = 0.01
 """Of rates: files state 1/30 s as 0.033 or 0.033333."""
@@ -33,6 +33,12 @@ def frame_rate(recording: Recording) -> float:
         return float("nan")
     usual = np.abs(steps / np.median(steps) - 1.0) <= 0.5
     return float(1.0 / steps[usual].mean())
+
+
+def same_rate(first: Recording, other: Recording) -> bool:
+    """Return whether frame rates differ by at most 1 %; that of a single frame may be any."""
+    one, two = frame_rate(first), frame_rate(other)
+    return not abs(two - one) > _TOLERANCE * one  # never so for the NaN of a single frame
 
 
 def check_alike(recordings: Sequence[Recording]) -> None:
@@ -81,12 +87,11 @@ def _check_units(first: Recording, other: Recording) -> None:
 
 
 def _check_rates(first: Recording, other: Recording) -> None:
-    one, two = frame_rate(first), frame_rate(other)
-    if abs(two - one) > _TOLERANCE * one:  # never so for the NaN of a single frame
+    if not same_rate(first, other):
         raise FormatError(
             other.name,
-            f"{one:.6g} frames per second, as in {first.name}",
-            f"{two:.6g}",
+            f"{frame_rate(first):.6g} frames per second, as in {first.name}",
+            f"{frame_rate(other):.6g}",
             "resample one of the files, or name the rate if its times are wrong",
         )
 

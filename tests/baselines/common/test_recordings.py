@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -5,6 +7,7 @@ from hypothesis import strategies as st
 
 from mocapbench.baselines.common.recordings import (
     check_channels,
+    check_rates,
     check_recordings,
     check_spread,
     check_visible,
@@ -88,3 +91,13 @@ def test_one_visible_entry_tells_nothing_of_a_channels_spread():
         check_spread([once, never])
     check_spread([once, recording("b", [[1.0]])])
     check_spread([never])
+
+
+def test_rates_may_differ_by_rounding_and_a_single_frame_has_any():
+    exact = recording("exact", np.zeros((30, 1)))
+    rounded = replace(exact, name="rounded", times=exact.times * 1.005)
+    check_rates([exact.frames([0]), exact, replace(exact.frames([5]), name="one"), rounded])
+    check_rates([exact.frames([0])])
+    slow = replace(exact, name="slow", times=exact.times * 1.1)
+    with pytest.raises(ValueError, match=r"'slow': expected 1 frames .*'exact', got 0\.909091; "):
+        check_rates([exact.frames([0]), exact, slow])

@@ -1,5 +1,7 @@
 """New recordings from latent dynamics."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -15,7 +17,7 @@ def fitted():
     values = np.column_stack([np.sin(angle), np.cos(angle), np.sin(angle + 1.0)])
     walk = Recording("walk", np.arange(20) / 30, values, ("a", "b", "c"), ("deg",) * 3)
     frame = Recording("frame", np.arange(1) / 30, values[:1], ("a", "b", "c"), ("deg",) * 3)
-    return GPDM(n_latent=2, order=2, max_iter=3).fit([walk, frame])
+    return GPDM(n_latent=2, order=2, max_iter=3).fit([frame, walk])
 
 
 @pytest.fixture(autouse=True)
@@ -50,3 +52,20 @@ def test_times_between_frames_are_interpolated(fitted):
     between = fitted.sample(np.arange(9) / 60, 2, 0)
     np.testing.assert_allclose(between[:, ::2], frames, atol=1e-9)
     np.testing.assert_allclose(between[:, 1::2], (frames[:, 1:] + frames[:, :-1]) / 2, atol=1e-9)
+
+
+def test_the_frame_rate_is_that_of_recordings_with_two_frames(fitted):
+    assert fitted.frame_seconds_ == pytest.approx(1 / 30)
+
+
+def test_recordings_of_different_rates_are_refused(fitted):
+    frame, walk = fitted.learnt_from_
+    twice = replace(walk, name="twice", times=walk.times / 2)
+    for given in ([frame, walk, twice], [walk, frame, twice]):
+        with pytest.raises(ValueError, match=r"'twice': expected 30 .* as in 'walk', got 60; res"):
+            GPDM().fit(given)
+
+
+def test_times_span_no_more_frames_than_fit_into_memory(fitted):
+    with pytest.raises(ValueError, match=r"expected .* at most 10000 frames .*, got 30000001; "):
+        fitted.sample([0.0, 1e6], 1, 0)
