@@ -23,7 +23,7 @@ from mocapbench.baselines.gp.prior.parameters import CHILD
 from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
-from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow
+from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow, is_path
 from mocapbench.baselines.gp.registration import REGISTRATIONS
 from mocapbench.baselines.gp.trended import TrendedProcess
 from mocapbench.datasets import FrameByChannel, Frames, Recording
@@ -266,7 +266,7 @@ class MOHGP(TrendedProcess):
             If there is no such group.
         """
         check_is_fitted(self)
-        if tuple(group) not in self.reduction_.nodes:
+        if not is_path(group) or tuple(group) not in self.reduction_.nodes:
             known = sorted(set().union(*self.tree_.values()) - set(self.tree_[CHILD]))
             raise ValueError(f"expected a group of the tree, one of {known}, got {group!r}")
         return self._infer(self.reduction_.nodes[tuple(group)], times)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.validation import check_sampling
+from mocapbench.baselines.common.validation import check_count, check_sampling, check_seed
 from mocapbench.baselines.gp.conditioned import Conditioned
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.protocols import (
@@ -109,7 +109,7 @@ class ChannelPosteriors(Conditioned, Synthesiser, Generic[Single]):
         ValueError
             If the recording was not given to `fit`, or not with these times and values.
         """
-        check_is_fitted(self)
+        self._check_given([recording])
         return np.asarray(
             block_diag(
                 *(
@@ -150,9 +150,11 @@ class ChannelPosteriors(Conditioned, Synthesiser, Generic[Single]):
             If `fit` has not been called.
         ValueError
             If the recording was not given to `fit`, or not with these times and values, or the
-            number of draws is not a positive integer.
+            number of draws or the seed is invalid.
         """
-        check_is_fitted(self)
+        self._check_given([recording])
+        check_count("n_samples", n_samples, 1)
+        check_seed("random_state", random_state)
         rng = np.random.default_rng(random_state)
         return np.dstack(
             [

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.validation import check_count, check_seed, check_times
 from mocapbench.baselines.gp.conditioned import Conditioned
@@ -73,7 +72,7 @@ class RecordingPosterior(LearntCovariances, Conditioned):
         ValueError
             If the recording was not given to `fit`, or not with these times and values.
         """
-        check_is_fitted(self)
+        self._check_given([recording])
         curve, times = self._terms(recording), self._process_times(recording, times)
         with self._threaded_process() as process:
             return process.joint_covariance(curve, times)
@@ -111,9 +110,9 @@ class RecordingPosterior(LearntCovariances, Conditioned):
             If `fit` has not been called.
         ValueError
             If the recording was not given to `fit`, or not with these times and values, or the
-            number of draws is not a positive integer.
+            number of draws or the seed is invalid.
         """
-        check_is_fitted(self)
+        self._check_given([recording])
         check_count("n_samples", n_samples, 1)
         check_seed("random_state", random_state)
         curve, times = self._terms(recording), self._process_times(recording, times)

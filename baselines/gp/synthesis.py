@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.validation import check_sampling
+from mocapbench.baselines.common.validation import check_choice, check_sampling
 from mocapbench.baselines.gp.covariances import LearntCovariances
 from mocapbench.baselines.gp.posterior.trends import TRENDS
 from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
@@ -47,9 +47,11 @@ class NewRecordings(LearntCovariances, Synthesiser):
         sklearn.exceptions.NotFittedError
             If `fit` has not been called.
         ValueError
-            If the number of recordings is not a positive integer, or times or the seed are invalid.
+            If the number of recordings is not a positive integer, or times, the seed or
+            ``sampled_trend`` are invalid.
         """
         check_is_fitted(self)
+        check_choice("sampled_trend", self.sampled_trend, TRENDS)
         times = check_sampling(times, n_samples, random_state, increasing=False)
         rng = np.random.default_rng(random_state)
         with self._threaded_process() as process:

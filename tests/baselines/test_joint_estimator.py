@@ -85,5 +85,31 @@ def test_only_what_fit_has_seen_has_a_posterior(fitted, recordings):
         fitted.posterior_covariance(other)
     with pytest.raises(ValueError, match="differs from the one"):
         fitted.posterior_draws(other, 1, 0)
-    with pytest.raises(ValueError, match="n_samples"):
-        fitted.posterior_draws(recordings[0], 0, 0)
+
+
+WRONG = {
+    "n_samples": ((0, 0), "expected n_samples to be an integer of at least 1, got 0"),
+    "random_state": ((1, "x"), "expected random_state to be None, .*, got 'x'"),
+}
+
+
+@pytest.mark.parametrize(("draw", "message"), WRONG.values(), ids=WRONG)
+def test_wrong_draws_are_refused(fitted, recordings, draw, message):
+    with pytest.raises(ValueError, match=message):
+        fitted.posterior_draws(recordings[0], *draw)
+
+
+def test_a_posterior_is_that_of_a_recording_of_the_channels_of_fit(fitted, recordings):
+    swapped = recordings[0].select(recordings[0].channels[::-1])
+    for given, message in (("r0", "expected a sequence of Recordings"), (swapped, "channels")):
+        with pytest.raises(ValueError, match=message):
+            fitted.posterior_covariance(given)
+        with pytest.raises(ValueError, match=message):
+            fitted.posterior_draws(given, 1, 0)
+
+
+@pytest.mark.parametrize("model", [MOHGP, MOA, LMCIndependent])
+def test_the_trend_to_sample_around_is_checked_when_it_is_set_after_fit(model, recordings):
+    fitted = model(max_iter=2).fit(recordings).set_params(sampled_trend="x")
+    with pytest.raises(ValueError, match=r"expected sampled_trend to be one of .*, got 'x'"):
+        fitted.sample(OFF, 1, 0)

@@ -127,13 +127,18 @@ def test_the_order_of_recordings_means_nothing(recordings):
     assert one.log_likelihood_ == pytest.approx(two.log_likelihood_, rel=1e-9)
 
 
-def test_wrong_trees_and_groups_are_refused(fitted, recordings):
+@pytest.mark.parametrize("group", [("jump",), "run", [["run"]], 5, None])
+def test_a_group_is_one_of_the_tree(group, fitted):
+    with pytest.raises(ValueError, match=r"one of \[\(\), \('run',\).* got ") as raised:
+        fitted.trend(OFF, group=group)
+    assert repr(group) in str(raised.value)
+
+
+def test_wrong_trees_and_recordings_are_refused(fitted, recordings):
     with pytest.raises(ValueError, match="equally long"):
         MOHGP(tree=TREE | {"a": ("walk",)}).fit(recordings)
     with pytest.raises(ValueError, match=r"got one for \['e'\]"):
         MOHGP(tree=TREE | {"e": ("walk", "one")}).fit(recordings)
-    with pytest.raises(ValueError, match=r"one of \[\(\), \('run',\)"):
-        fitted.trend(OFF, group=("jump",))
     with pytest.raises(ValueError, match="give it to fit"):
         fitted.impute([Recording("e", OFF, np.zeros((2, 2)), ("hip", "knee"), ("deg", "deg"))])
     assert clone(fitted).get_params()["tree"] == TREE

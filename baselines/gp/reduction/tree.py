@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 
 from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT
 
-__all__ = ["Node", "Path", "Tree", "grow"]
+__all__ = ["Node", "Path", "Tree", "grow", "is_path"]
 
 Path = Sequence[str]
 """The groups that a replicate is in, from the largest to the smallest."""
@@ -51,6 +51,11 @@ def grow(names: Sequence[str], paths: Mapping[str, Path] | None = None) -> Tree:
     return {layer: tuple(leaf[:level] for leaf in leaves) for level, layer in enumerate(layers)}
 
 
+def is_path(value: object) -> bool:
+    """Return whether ``value`` is a tuple or a list of labels."""
+    return isinstance(value, (tuple, list)) and all(isinstance(label, str) for label in value)
+
+
 def _checked(names: Sequence[str], paths: Mapping[str, Path]) -> Mapping[str, Path]:
     if not isinstance(paths, Mapping):
         raise ValueError(
@@ -59,7 +64,7 @@ def _checked(names: Sequence[str], paths: Mapping[str, Path]) -> Mapping[str, Pa
         )
     _check_names(set(names), set(paths))
     for name, path in paths.items():
-        if not (isinstance(path, (tuple, list)) and all(isinstance(group, str) for group in path)):
+        if not is_path(path):
             raise ValueError(
                 f"expected the path of {name!r} in tree to be a tuple of names of groups, such as "
                 f"('walk',), got {path!r}"
