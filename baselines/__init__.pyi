@@ -49,11 +49,13 @@ from .protocols import (
     Model,
     Prediction,
     SampleByFrameByChannel,
+    Spatial,
     StatePath,
     Synthesiser,
     Trended,
 )
 from .replay import Replay
+from .rigid_body import RigidBody
 from .trivial import Trivial
 
 __all__ = [
@@ -105,7 +107,9 @@ __all__ = [
     "PoseViterbi",
     "Prediction",
     "Replay",
+    "RigidBody",
     "SampleByFrameByChannel",
+    "Spatial",
     "StatePath",
     "Synthesiser",
     "Trended",

@@ -17,6 +17,7 @@ which a model inherits to declare that it has the ability:
   coregionalisation matrices;
 * `Embedded` gives every frame a position in a latent space, and `Dynamical` draws trajectories
   through it;
+* `Spatial` requires channels that are the coordinates of markers or joints;
 * `Informed` requires the generating process (the oracle);
 * `Misinformed` requires a process unrelated to the recordings (the negative control).
 
@@ -56,6 +57,7 @@ __all__ = [
     "Model",
     "Prediction",
     "SampleByFrameByChannel",
+    "Spatial",
     "StatePath",
     "Synthesiser",
     "Trended",
@@ -512,6 +514,13 @@ class Dynamical(Embedded):
     @abstractmethod
     def poses(self, positions: NDArray[np.float64]) -> FrameByChannel:
         """Return the mean poses (N, D) at the latent ``positions`` (N, d)."""
+
+
+class Spatial(Model):
+    """Marks a model that requires channels that are the coordinates of markers or joints.
+
+    They are named ``LKNE.x``, ``LKNE.y``, ``LKNE.z`` and so on. It adds no method.
+    """
 
 
 class Informed(Model):

@@ -30,6 +30,7 @@ _ABILITIES = {
     "Clusterer": "clusters",
     "Aligner": "aligns",
     "Blender": "blends",
+    "Spatial": "takes markers",
     "Informed": "is given the generating process",
     "Misinformed": "is given an unrelated process",
 }

@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from mocapbench.baselines import FrameImputer, Imputer, Informed, Interpolator, Misinformed
+from mocapbench.baselines import (
+    FrameImputer,
+    Imputer,
+    Informed,
+    Interpolator,
+    Misinformed,
+    Model,
+    Spatial,
+)
+from mocapbench.baselines.common.markers import markers_of
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.question import Question, without_unseen
 from mocapbench.benchmark.registry import MODELS
@@ -15,8 +24,12 @@ def able_models(question: Question) -> tuple[str, ...]:
 
     All models learn from the recording that they fill, so that none needs to be `Inductive`.
     """
-    needed = _needed(question)
-    names = [name for name in MODELS.names() if _fills(name, needed)]
+    needed, barred = _needed(question), _barred(question)
+    names = [
+        name
+        for name in MODELS.names()
+        if issubclass(MODELS.get(name), needed) and not issubclass(MODELS.get(name), barred)
+    ]
     return tuple(sorted(names, key=lambda name: not issubclass(MODELS.get(name), Interpolator)))
 
 
@@ -45,6 +58,7 @@ def _needed(question: Question) -> type[FrameImputer]:
     return FrameImputer if whole else Imputer
 
 
-def _fills(name: str, needed: type[FrameImputer]) -> bool:
-    model = MODELS.get(name)
-    return issubclass(model, needed) and not issubclass(model, Informed | Misinformed)
+def _barred(question: Question) -> tuple[type[Model], ...]:
+    """Return the marks of models that take what there is not: a process, or markers."""
+    has_markers = len(markers_of(question.given.channels)) > 0
+    return (Informed, Misinformed) if has_markers else (Informed, Misinformed, Spatial)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from mocapbench.baselines import Informed, Misinformed, Model
+from mocapbench.baselines import Informed, Misinformed, Model, Spatial
 from mocapbench.benchmark.errors import UnknownNameError
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.tasks.seeds import Seeds
@@ -139,6 +139,9 @@ class Task:
         Whether its data come from a known process, which informed models need.
     has_control : bool
         Whether its problems come with an unrelated process, which misinformed models need.
+    has_markers : bool
+        Whether its channels are, or may be, coordinates of markers or joints, which spatial models
+        need.
     max_folds : int or None
         How many folds there are, None where each draws anew.
     independent_folds : bool
@@ -181,6 +184,7 @@ class Task:
     entrants: tuple[Entrant, ...] = ()
     has_process: bool = False
     has_control: bool = False
+    has_markers: bool = False
     max_folds: int | None = None
     independent_folds: bool = True
 
@@ -189,7 +193,8 @@ class Task:
         able = all(issubclass(model, ability) for ability in self.requires)
         informed = self.has_process or not issubclass(model, Informed)
         misinformed = self.has_control or not issubclass(model, Misinformed)
-        return able and informed and misinformed
+        spatial = self.has_markers or not issubclass(model, Spatial)
+        return able and informed and misinformed and spatial
 
     def case(self, name: str) -> Case:
         """Return the case called ``name``.

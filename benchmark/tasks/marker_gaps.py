@@ -198,6 +198,7 @@ marker_gaps = Task(
     page=PAGE,
     requires=(Imputer,),
     cases=_CASES,
+    has_markers=True,
     max_folds=N_FOLDS,
     profiles={
         "smoke": Profile(

@@ -139,6 +139,7 @@ FIT_PATH = [
     ("baselines.common.cholesky", "toy-interpolation-1", "mohgp"),
     ("baselines.common.gaps", "missing-frames", "knn"),
     ("baselines.common.lapack", "toy-interpolation-1", "mohgp"),
+    ("baselines.common.markers", "marker-gaps", "rigid-body"),
     ("baselines.common.own_means", "walking-interpolation", "low-rank"),
     ("baselines.common.pose_units", "missing-frames", "pose-viterbi"),
     ("baselines.common.prototypes", "style-clustering", "k-fam"),

@@ -1,0 +1,193 @@
+"""Markers carried along by the markers around them, as motion-capture software fills gaps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.utils.validation import check_is_fitted
+
+from mocapbench.baselines.common.gaps import runs
+from mocapbench.baselines.common.markers import markers_of
+from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.validation import check_positive
+from mocapbench.baselines.interpolation import PchipImputer
+from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spatial
+from mocapbench.datasets import FrameByChannel, Recording
+
+__all__ = ["RigidBody"]
+
+Array = NDArray[np.float64]
+
+_FEWEST = 3
+"""Markers that a rotation needs."""
+_ROUNDING = 1e-6
+"""Relative changes of a distance below which it counts as constant."""
+
+
+class RigidBody(Imputer, Inductive, Spatial):
+    r"""Carry a hidden marker along with those around it, as if they were one rigid body.
+
+    From the last frame a in which a marker is visible, the rigid motion of the other markers
+    carries it into the gap, and from the next frame b back into it. What fills the gap goes from
+    the one to the other linearly in time; at the beginning and the end of a recording there is one
+    of them. Others count the more the less their distance to the marker varies in the recording, by
+    the inverse of the standard deviation to a ``power``: markers on the same segment hardly vary.
+
+    The coordinates of a marker are channels such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z``. Other
+    channels, and markers beside which fewer than three are visible throughout a gap, are filled as
+    by ``pchip``. There is no predictive distribution.
+
+    Parameters
+    ----------
+    power : float, default=4
+        Positive; the higher, the more the most rigid neighbours count.
+
+    Attributes
+    ----------
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
+    markers_ : ndarray of int of shape (M, 3)
+        The places of the coordinates of each marker among the channels.
+
+    Notes
+    -----
+    With the positions :math:`p_j(t)` of the others, the position :math:`x(a)` of the marker and
+    weights :math:`w_j = \operatorname{sd}_t(\lVert p_j - x \rVert)^{-k}`:
+
+    .. math::
+
+        (R_t, c_t) = \arg\min_{R \in SO(3),\, c} \sum_j w_j \lVert R\, p_j(a) + c - p_j(t) \rVert^2,
+        \qquad \hat x_a(t) = R_t\, x(a) + c_t
+
+    .. math::
+
+        \hat x(t) = \frac{b - t}{b - a}\, \hat x_a(t) + \frac{t - a}{b - a}\, \hat x_b(t)
+
+    References
+    ----------
+    W. Kabsch (1976), A Solution for the Best Rotation to Relate Two Sets of Vectors, *Acta
+    Crystallographica* A32: the rotation. The weights are of this project; ``docs/filling.md`` has
+    what was tried.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mocapbench.baselines import RigidBody
+    >>> from mocapbench.datasets import Recording
+    >>> times = np.arange(50) / 50
+    >>> turn = np.array([np.cos(6 * times), np.sin(6 * times), 0 * times])
+    >>> across = np.array([-turn[1], turn[0], 0 * times])
+    >>> up = np.array([0 * times, 0 * times, 1 + times])
+    >>> markers = [turn, across, up, turn + across + up]
+    >>> names = [f"{marker}.{axis}" for marker in "abcd" for axis in "xyz"]
+    >>> values = np.concatenate(markers).T
+    >>> body = Recording("body", times, values, names, ("cm",) * 12)
+    >>> hidden = np.zeros((50, 12), dtype=bool)
+    >>> hidden[10:40, 9:] = True
+    >>> given = body.hide(hidden)
+    >>> (prediction,) = RigidBody().fit([given]).impute([given])
+    >>> bool(np.abs(prediction.mean - values).max() < 0.1)
+    True
+    """
+
+    family: ClassVar[str] = "Interpolation"
+
+    def __init__(self, power: float = 4.0) -> None:
+        self.power = power
+
+    def fit(self, recordings: Sequence[Recording]) -> Self:
+        """Learn which channels are coordinates of markers.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of range, there is no recording, channels differ, or a name
+            repeats.
+        """
+        check_positive("power", self.power)
+        checked = check_recordings(recordings)
+        self.channels_, self.units_ = checked[0].channels, checked[0].units
+        self.markers_ = markers_of(self.channels_)
+        self._curves = PchipImputer().fit(checked)
+        return self
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return where the other markers carry each hidden one.
+
+        Raises
+        ------
+        ValueError
+            If channels differ, or a channel has no visible entry in a recording and none in those
+            given to `fit`.
+        """
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_, self.units_)
+        curves = self._curves.impute(recordings)
+        return [
+            Prediction.around(recording, self._carried(recording, curve.mean.copy()))
+            for recording, curve in zip(recordings, curves, strict=True)
+        ]
+
+    def _carried(self, recording: Recording, filled: FrameByChannel) -> FrameByChannel:
+        """Return ``filled`` (N, D) with the markers that others can carry, where they do."""
+        places = recording.values[:, self.markers_]
+        for marker, columns in enumerate(self.markers_):
+            unseen = np.isnan(places[:, marker]).any(axis=1)
+            if unseen.all() or not unseen.any():
+                continue
+            weights = _steadiness(places, marker) ** self.power
+            for gap in runs(unseen):
+                position = _through(recording.times, places, marker, gap, weights)
+                if position is not None:
+                    filled[np.ix_(gap, columns)] = position
+        return filled
+
+
+def _steadiness(places: Array, marker: int) -> Array:
+    """Return the inverse standard deviation of each marker's distance to ``marker`` (M,).
+
+    It is relative to the largest one; 0 for the marker itself and for those never seen beside it.
+    """
+    distances = np.linalg.norm(places - places[:, [marker]], axis=2)
+    distances[:, marker] = np.nan
+    seen = ~np.isnan(distances)
+    counts = np.maximum(seen.sum(axis=0), 1)
+    means = np.where(seen, distances, 0.0).sum(axis=0) / counts
+    variances = np.where(seen, distances - means, 0.0) ** 2
+    deviations = np.sqrt(variances.sum(axis=0) / counts)
+    steadiness = 1.0 / np.maximum(deviations, _ROUNDING * means.max(initial=1e-300))
+    steadiness[seen.sum(axis=0) < 2] = 0.0
+    return np.asarray(steadiness / steadiness.max(initial=1e-300))
+
+
+def _through(
+    times: Array, places: Array, marker: int, gap: NDArray[np.intp], weights: Array
+) -> Array | None:
+    """Return where others carry a marker through a gap (T, 3); None if they are too few."""
+    edges = [frame for frame in (gap[0] - 1, gap[-1] + 1) if 0 <= frame < len(times)]
+    beside = places[np.union1d(gap, edges)]
+    others = np.flatnonzero(~np.isnan(beside).any(axis=(0, 2)) & (weights > 0.0))
+    if len(others) < _FEWEST:
+        return None
+    carried = [
+        _moved(places[edge, others], places[gap][:, others], weights[others], places[edge, marker])
+        for edge in edges
+    ]
+    share = np.interp(times[gap], times[edges], np.arange(len(edges)))[:, None]
+    return np.asarray((1.0 - share) * carried[0] + share * carried[-1])
+
+
+def _moved(before: Array, after: Array, weights: Array, marker: Array) -> Array:
+    """Return where the rigid motions from ``before`` (K, 3) to ``after`` (T, K, 3) take a marker.
+
+    The rotations are those of Kabsch, by the singular values of weighted covariances.
+    """
+    shares = weights / weights.sum()
+    start, ends = shares @ before, shares @ after
+    covariances = np.einsum("k,ki,tkj->tij", shares, before - start, after - ends[:, None])
+    left, _, right = np.linalg.svd(covariances)
+    right[:, 2] *= np.linalg.det(left @ right)[:, None]  # no mirror image
+    return np.asarray(np.einsum("tij,tjk,i->tk", left, right, marker - start) + ends)
