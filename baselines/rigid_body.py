@@ -135,7 +135,7 @@ class RigidBody(Imputer, Inductive, Spatial):
         """Return ``filled`` (N, D) with the markers that others can carry, where they do."""
         places = recording.values[:, self.markers_]
         for marker, columns in enumerate(self.markers_):
-            unseen = np.isnan(places[:, marker]).any(axis=1)
+            unseen = np.asarray(np.isnan(places[:, marker]).any(axis=1))
             if unseen.all() or not unseen.any():
                 continue
             weights = _steadiness(places, marker) ** self.power

@@ -58,7 +58,7 @@ def build_task(file: TaskFile) -> Task:
         requires=(FrameImputer if whole_frames else Imputer,),
         cases=cases,
         profiles=dict.fromkeys(PROFILES, profile),
-        has_markers=True,
+        has_markers=file.has_markers,
         max_folds=1 if hidden.repeats else None,
         independent_folds=not (hidden.repeats or hidden.pattern),
     )

@@ -97,9 +97,15 @@ def checked(document: Document, folder: Path) -> TaskFile:
     hidden = read_hidden(document, partial(address_of, rate=settings.rate))
     _check_training(document, hidden, tests, training)
     trial = Trial(document, settings, hidden, archive_at(folder.resolve()))
-    complete = trial.run(tests, training)
+    facts = trial.run(tests, training)
     file = TaskFile(
-        document.file, document.text, str(folder.resolve()), tests, training, complete=complete
+        document.file,
+        document.text,
+        str(folder.resolve()),
+        tests,
+        training,
+        complete=facts.complete,
+        has_markers=facts.has_markers,
     )
     build_task(file)
     return file

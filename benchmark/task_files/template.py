@@ -18,7 +18,7 @@ __all__ = ["Draft", "draft"]
 
 _QUICK = (
     *("hold", "linear", "pchip", "makima", "cubic-spline"),
-    *("pca-regression", "low-rank", "knn", "nn", "pose-kriging", "lds"),
+    *("rigid-body", "pca-regression", "low-rank", "knn", "nn", "pose-kriging", "lds"),
 )
 """Models that take seconds rather than minutes on a recording of a minute."""
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
+from mocapbench.baselines.common.markers import markers_of
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.grouping import check_alike_in_any_order
 from mocapbench.benchmark.task_files.hidden_settings import Hidden
@@ -22,9 +24,18 @@ from mocapbench.datasets import (
     RecordingUnavailable,
 )
 
-__all__ = ["Trial"]
+__all__ = ["Facts", "Trial"]
 
 _SHOWN = 6
+
+
+class Facts(NamedTuple):
+    """What recordings have in common that decides which models can fill them."""
+
+    complete: bool
+    """Whether no entry of them is missing."""
+    has_markers: bool
+    """Whether channels are the coordinates of markers or joints."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +55,8 @@ class Trial:
     hidden: Hidden
     archive: Archive
 
-    def run(self, tests: tuple[str, ...], training: tuple[str, ...]) -> bool:
-        """Return whether no entry of the recordings is missing.
+    def run(self, tests: tuple[str, ...], training: tuple[str, ...]) -> Facts:
+        """Return what models need to know of the recordings.
 
         Parameters
         ----------
@@ -67,7 +78,7 @@ class Trial:
             complete &= bool(recording.visible.all())
             if path in tests:
                 self._hide(recording, path)
-        return complete
+        return Facts(complete, len(markers_of(first.channels)) > 0)
 
     def _read(self, key: str, path: str) -> Recording:
         with self._blaming(key, path):

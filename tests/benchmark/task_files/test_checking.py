@@ -1,12 +1,15 @@
 """Every message names the file, the line and the key, and says what to write."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from own_files import write_csv
 
+from mocapbench.baselines import RigidBody
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.task_files.building import build_task
 from mocapbench.benchmark.task_files.checking import open_task_file, open_task_files
 from mocapbench.benchmark.task_files.document import TaskFileError
 from mocapbench.benchmark.task_files.hidden_settings import HIDE_KEYS, RUN_KEYS
@@ -226,6 +229,16 @@ def test_missing_entries_of_files_are_noticed(check, folder):
     assert check(GOOD).complete
     write_csv(folder / "b.csv", gaps=[(3, 9, 0)])
     assert not check(GOOD).complete
+
+
+def test_coordinates_of_markers_are_noticed(check, folder):
+    assert not check(GOOD).has_markers
+    for path in folder.iterdir():
+        write_csv(path, channels=("knee.z", "knee.y", "knee.x"))
+    file = check(GOOD)
+    assert file.has_markers
+    assert build_task(file).accepts(RigidBody)
+    assert not build_task(replace(file, has_markers=False)).accepts(RigidBody)
 
 
 def test_files_without_times_take_a_rate(check, folder):

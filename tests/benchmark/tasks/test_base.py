@@ -133,7 +133,8 @@ def test_cases_and_profiles_are_found_by_name():
 def test_a_task_takes_models_with_all_abilities_and_gives_what_they_need():
     taken = {name for name in MODELS.names() if TASK.accepts(MODELS.get(name))}
     assert "cubic-spline" in taken
-    assert not {"mohgp", "oracle", "control", "k-means"} & taken
+    assert not {"mohgp", "oracle", "control", "k-means", "rigid-body"} & taken
     known = replace(TASK, requires=(Imputer,), has_process=True)
     assert known.accepts(MODELS.get("oracle"))
     assert known.accepts(MODELS.get("mohgp"))
+    assert replace(known, has_markers=True).accepts(MODELS.get("rigid-body"))

@@ -1,0 +1,29 @@
+import numpy as np
+import pytest
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.able import able_models, require_able
+from mocapbench.benchmark.filling.question import Question
+from mocapbench.datasets import Recording
+
+
+def question(channels):
+    values = np.zeros((9, len(channels)))
+    recording = Recording("r", np.arange(9.0), values, channels, ("cm",) * len(channels))
+    hidden = np.zeros(values.shape, dtype=bool)
+    hidden[3:5, 0] = True
+    return Question(recording.hide(hidden), hidden)
+
+
+def test_models_of_markers_are_tried_on_markers_alone():
+    markers = question(("LKNE.x", "LKNE.y", "LKNE.z", "force"))
+    assert "rigid-body" in able_models(markers)
+    require_able("rigid-body", markers)
+    angles = question(("LKNE.x", "LKNE.y", "hip"))
+    assert "rigid-body" not in able_models(angles)
+    with pytest.raises(UsageError, match=r"--model: expected a model that fills.*'rigid-body'"):
+        require_able("rigid-body", angles)
+
+
+def test_models_that_need_a_process_are_never_tried():
+    assert not {"oracle", "control"} & set(able_models(question(("LKNE.x", "LKNE.y", "LKNE.z"))))
