@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.errors import UsageError, first_of
+from mocapbench.benchmark.filling.channels import chosen
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of, mask_of
+from mocapbench.benchmark.filling.markers import is_unlabelled, markers_of
 from mocapbench.datasets import Mask, Recording, unwrapped
+from mocapbench.reports import counted
 
 __all__ = ["Entries", "Request", "select"]
 
@@ -23,7 +26,8 @@ class Entries:
     frames : tuple of int or None
         Frames [first, stop), 0-based, which are filled whether the file has values there or not.
     channels : str or None
-        A regular expression that matches the whole name of a channel.
+        A regular expression that matches the whole name of a channel. Without one, all channels
+        but those of unlabelled markers are meant.
     max_gap : float or None
         Seconds; longer gaps stay open.
     """
@@ -45,11 +49,14 @@ class Request:
         The entries to fill.
     left_open : tuple of Gap
         Gaps that were asked for, and are longer than allowed.
+    unlabelled : tuple of str
+        Channels of unlabelled markers that have hidden entries, and that nobody named.
     """
 
     given: Recording
     target: Mask
     left_open: tuple[Gap, ...]
+    unlabelled: tuple[str, ...] = ()
 
     @property
     def gaps(self) -> tuple[Gap, ...]:
@@ -67,11 +74,9 @@ def select(recording: Recording, entries: Entries) -> Request:
         visible.
     """
     named = _named(recording, entries)
+    unlabelled = _unlabelled(recording, named)
     if not named.any():
-        raise UsageError(
-            f"{recording.name}: expected a gap, got all {_described(entries)} visible; "
-            "name what to fill with --frames, such as 120:180"
-        )
+        raise UsageError(f"{recording.name}: {_no_gap(entries, unlabelled)}")
     given = unwrapped(recording.hide(named))
     if not given.visible.any():
         raise UsageError(
@@ -86,13 +91,13 @@ def select(recording: Recording, entries: Entries) -> Request:
             f"{recording.name}: expected a gap of {entries.max_gap:g} s or less, got "
             f"{len(gaps)} of {shortest:.3g} s or more; raise --max-gap"
         )
-    return Request(given, named & ~mask_of(open_gaps, named.shape), open_gaps)
+    return Request(given, named & ~mask_of(open_gaps, named.shape), open_gaps, unlabelled)
 
 
 def _named(recording: Recording, entries: Entries) -> Mask:
     """Return the entries (N, D) that are named: given frames, or else what is hidden."""
     rows = ~recording.visible if entries.frames is None else _rows(recording, entries.frames)
-    return rows & _columns(recording, entries.channels)
+    return rows & chosen(recording, entries.channels)
 
 
 def _rows(recording: Recording, frames: tuple[int, int]) -> Mask:
@@ -108,24 +113,6 @@ def _rows(recording: Recording, frames: tuple[int, int]) -> Mask:
     return rows
 
 
-def _columns(recording: Recording, pattern: str | None) -> Mask:
-    try:
-        matches = [re.fullmatch(pattern or ".*", name) is not None for name in recording.channels]
-    except re.error as error:
-        raise UsageError(
-            f"--channels: expected a regular expression, got {pattern!r} ({error}); "
-            "write such as 'lfemur.*'"
-        ) from error
-    if not any(matches):
-        some = ", ".join(recording.channels[:5])
-        raise UsageError(
-            f"{recording.name}: expected --channels to match a channel, got {pattern!r}; "
-            f"its {len(recording.channels)} channels begin with {some}; "
-            "the pattern must match a whole name, such as 'lfemur.*'"
-        )
-    return np.array(matches)
-
-
 def _seconds(recording: Recording, gap: Gap) -> float:
     """Return how long a gap is: its frames times the mean distance of frames within and beside."""
     first, last = max(gap.start - 1, 0), min(gap.stop, len(recording.times) - 1)
@@ -133,5 +120,21 @@ def _seconds(recording: Recording, gap: Gap) -> float:
     return len(gap) * span / max(last - first, 1)
 
 
-def _described(entries: Entries) -> str:
-    return "entries" if entries.channels is None else f"entries of {entries.channels!r}"
+def _unlabelled(recording: Recording, named: Mask) -> tuple[str, ...]:
+    """Return the channels of unlabelled markers that stay incomplete."""
+    incomplete = ~recording.visible.all(axis=0) & ~named.any(axis=0)
+    names = np.array(recording.channels)[incomplete].tolist()
+    return tuple(name for name in names if is_unlabelled(name))
+
+
+def _no_gap(entries: Entries, unlabelled: Sequence[str]) -> str:
+    if unlabelled and entries.channels is None:
+        return (
+            "expected a gap in a labelled marker, got hidden entries of "
+            f"{counted(len(markers_of(unlabelled)), 'unlabelled marker')} only "
+            f"({first_of(markers_of(unlabelled), 3)}); --channels '.*' fills all channels"
+        )
+    which = "entries" if entries.channels is None else f"entries of {entries.channels!r}"
+    return (
+        f"expected a gap, got all {which} visible; name what to fill with --frames, such as 120:180"
+    )

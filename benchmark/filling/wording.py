@@ -9,6 +9,7 @@ import numpy as np
 
 from mocapbench.benchmark.filling.cautions import cautions
 from mocapbench.benchmark.filling.filler import Filled
+from mocapbench.benchmark.filling.remaining import remaining
 from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.metrics.statistics import FEWEST_UNITS
 from mocapbench.reports import RankedModel, listed
@@ -53,12 +54,7 @@ def remarks(filled: Filled) -> Iterator[str]:
             f"{filled.model} does not take a recording of this length: it was fitted to "
             f"{_windows(filled.windows)}."
         )
-    if request.left_open:
-        n_open = len(request.left_open)
-        yield f"{n_open} longer gap{'s were' if n_open > 1 else ' was'} left open."
-    rest = int((~request.given.visible & ~request.target).sum())
-    if rest:
-        yield f"{rest} hidden entries stay hidden, since they were not to be filled."
+    yield from remaining(request)
     if choice and choice.share < 1.0:
         yield (
             "No visible stretch is long enough for gaps of the real lengths: trial gaps are down "

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -25,6 +27,35 @@ def test_a_pattern_matches_whole_names(waves, hidden):
     assert select(recording, Entries(channels="knee.rx")).gaps == (Gap(20, 30, (2,)),)
     with pytest.raises(UsageError, match="to match a channel, got 'knee'"):
         select(recording, Entries(channels="knee"))
+
+
+@pytest.fixture
+def starred(waves):
+    """Return a function from a mask to waves whose first three channels are of a marker ``*12``."""
+
+    def make(mask):
+        names = ("*12.x", "*12.y", "*12.z", "root.ty")
+        return replace(waves().hide(mask), channels=names)
+
+    return make
+
+
+@pytest.mark.parametrize("frames", [None, (20, 30)])
+def test_unlabelled_markers_stay_as_they_are_unless_they_are_named(starred, hidden, frames):
+    recording = starred(hidden((5, 200, [0, 1, 2]), (20, 30, [3])))
+    request = select(recording, Entries(frames))
+    assert request.gaps == (Gap(20, 30, (3,)),)
+    assert request.unlabelled == ("*12.x", "*12.y", "*12.z")
+    for pattern in (".*", r"\*12.*"):
+        named = select(recording, Entries(frames, channels=pattern))
+        assert named.target[:, :3].any()
+        assert not named.unlabelled
+
+
+def test_where_only_unlabelled_markers_have_gaps_that_is_said(starred, hidden):
+    recording = starred(hidden((5, 200, [0, 1, 2])))
+    with pytest.raises(UsageError, match=r"hidden entries of 1 unlabelled marker only \(\*12\)"):
+        select(recording, Entries())
 
 
 def test_longer_gaps_stay_open(waves, hidden):

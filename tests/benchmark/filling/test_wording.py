@@ -132,6 +132,17 @@ def test_a_channel_of_which_little_is_visible_is_named(filled, waves, visible, t
     assert (f"only {visible} frames are visible" in words) == said
 
 
+def test_unlabelled_markers_that_stay_as_they_are_are_counted_once(filled, waves, hidden):
+    given = waves().hide(hidden((5, 200, [1, 2, 3])))
+    given = replace(given, channels=("hip.rx", "*12.x", "*12.y", "*12.z"))
+    target = hidden((50, 60, [0]))
+    request = Request(given.hide(target), target, (), given.channels[1:])
+    one = filled()
+    one = replace(one, source=replace(one.source, request=request))
+    (said,) = remarks(replace(one, answer=Answer(waves().values[target], np.ones(10))))
+    assert said.startswith("1 unlabelled marker (*12) stays as it is: name it with --channels")
+
+
 def test_a_jump_at_an_edge_is_said(filled):
     raised = replace(filled(), answer=Answer(np.full(20, 99.0), np.ones(20)))
     (said,) = remarks(raised)

@@ -1,0 +1,45 @@
+"""Which channels of a recording the user names."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.markers import is_unlabelled
+from mocapbench.datasets import Recording
+
+__all__ = ["chosen"]
+
+
+def chosen(recording: Recording, pattern: str | None) -> NDArray[np.bool_]:
+    """Return which channels (D,) a regular expression matches; without one, all labelled ones.
+
+    Raises
+    ------
+    UsageError
+        If it is no regular expression, or matches no channel.
+    """
+    if pattern is None:
+        return np.array([not is_unlabelled(name) for name in recording.channels], dtype=bool)
+    matches = np.array([_matches(pattern, name) for name in recording.channels], dtype=bool)
+    if not matches.any():
+        some = ", ".join(recording.channels[:5])
+        raise UsageError(
+            f"{recording.name}: expected --channels to match a channel, got {pattern!r}; "
+            f"its {len(recording.channels)} channels begin with {some}; "
+            "the pattern must match a whole name, such as 'lfemur.*'"
+        )
+    return matches
+
+
+def _matches(pattern: str, name: str) -> bool:
+    try:
+        return re.fullmatch(pattern, name) is not None
+    except re.error as error:
+        raise UsageError(
+            f"--channels: expected a regular expression, got {pattern!r} ({error}); "
+            "write such as 'lfemur.*'"
+        ) from error

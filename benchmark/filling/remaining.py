@@ -1,0 +1,38 @@
+"""What is still hidden in a filled file, as the page and the terminal say it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from mocapbench.benchmark.errors import first_of
+from mocapbench.benchmark.filling.markers import markers_of
+from mocapbench.benchmark.filling.request import Request
+from mocapbench.reports import counted
+
+__all__ = ["remaining"]
+
+_NAMED = 4
+"""Markers that a remark names at most."""
+
+
+def remaining(request: Request) -> Iterator[str]:
+    """Yield how many gaps were left open, and how many entries stay hidden for other reasons."""
+    if request.left_open:
+        n_open = len(request.left_open)
+        yield f"{n_open} longer gap{'s were' if n_open > 1 else ' was'} left open."
+    if request.unlabelled:
+        yield _unlabelled(markers_of(request.unlabelled))
+    others = ~np.isin(request.given.channels, request.unlabelled)
+    rest = int((~request.given.visible & ~request.target)[:, others].sum())
+    if rest:
+        yield f"{rest} hidden entries stay hidden, since they were not to be filled."
+
+
+def _unlabelled(markers: Sequence[str]) -> str:
+    stay, them = ("stays as it is", "it") if len(markers) == 1 else ("stay as they are", "them")
+    return (
+        f"{counted(len(markers), 'unlabelled marker')} ({first_of(markers, _NAMED)}) {stay}: "
+        f"name {them} with --channels to fill {them}."
+    )
