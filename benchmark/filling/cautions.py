@@ -8,6 +8,8 @@ import numpy as np
 
 from mocapbench.benchmark.filling.edges import jumps
 from mocapbench.benchmark.filling.filler import Filled
+from mocapbench.benchmark.filling.markers import markers_of
+from mocapbench.benchmark.filling.request import Request
 from mocapbench.reports import counted, listed
 
 __all__ = ["cautions"]
@@ -15,15 +17,16 @@ __all__ = ["cautions"]
 SLOW = 0.5
 """Seconds between frames from which on times are probably not in seconds."""
 _NAMED = 4
-"""Channels that a caution names at most."""
+"""Channels or markers that a caution names at most."""
 _FEW = 10
 """Visible frames of a channel below which nothing can be learnt from it."""
 
 
 def cautions(filled: Filled) -> Iterator[str]:
-    """Yield that little is visible, that a channel jumps, and that frames are far apart."""
+    """Yield that little is visible, that models extrapolate or jump, and that times are odd."""
     yield from _few_visible(filled)
     yield from _visible_nowhere(filled)
+    yield from _at_the_ends(filled.source.request)
     yield from _jumps(filled)
     yield from _slow(filled)
 
@@ -57,6 +60,22 @@ def _visible_nowhere(filled: Filled) -> Iterator[str]:
     if filled.choice and len(train) > 1 and filled.model != "best-of":
         caution += " --model best-of weighs models by how they fill it in the files of --train."
     yield caution
+
+
+def _at_the_ends(request: Request) -> Iterator[str]:
+    """Yield how many gaps have frames on one side only, and of which channels they are."""
+    n_frames = len(request.given.times)
+    ends = [gap for gap in request.gaps if (gap.start == 0) != (gap.stop == n_frames)]
+    if not ends:
+        return
+    places = sorted({channel for gap in ends for channel in gap.channels})
+    names = listed(markers_of([request.given.channels[place] for place in places]), _NAMED)
+    are = "is" if len(ends) == 1 else "are"
+    yield (
+        f"{counted(len(ends), 'gap')} {are} at the beginning or the end of the recording, where "
+        f"frames are visible on one side only ({names}): interpolations hold the nearest value "
+        "there."
+    )
 
 
 def _jumps(filled: Filled) -> Iterator[str]:

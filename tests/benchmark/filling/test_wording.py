@@ -143,6 +143,29 @@ def test_unlabelled_markers_that_stay_as_they_are_are_counted_once(filled, waves
     assert said.startswith("1 unlabelled marker (*12) stays as it is: name it with --channels")
 
 
+@pytest.mark.parametrize(
+    ("gaps", "said"),
+    [
+        ([(0, 10, [0, 1])], "1 gap is at the beginning or the end"),
+        ([(190, 200, [3]), (0, 5, [1])], "2 gaps are at the beginning or the end"),
+        ([(1, 10, [0]), (100, 199, [1])], ""),
+        ([(0, 200, [2])], ""),  # visible nowhere, which another caution says
+    ],
+)
+def test_gaps_with_frames_on_one_side_only_are_counted(filled, waves, hidden, gaps, said):
+    target = hidden(*gaps)
+    request = Request(waves().hide(target), target, ())
+    one = replace(filled(), answer=Answer(waves().values[target], np.ones(int(target.sum()))))
+    found = [
+        remark
+        for remark in remarks(replace(one, source=replace(one.source, request=request)))
+        if "on one side only" in remark
+    ]
+    assert [remark.startswith(said) for remark in found] == [True] * bool(said)
+    for _, _, channels in gaps if said else ():
+        assert all(request.given.channels[channel] in found[0] for channel in channels)
+
+
 def test_a_jump_at_an_edge_is_said(filled):
     raised = replace(filled(), answer=Answer(np.full(20, 99.0), np.ones(20)))
     (said,) = remarks(raised)
