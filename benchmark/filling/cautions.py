@@ -10,6 +10,7 @@ from mocapbench.benchmark.filling.edges import jumps
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.markers import markers_of
 from mocapbench.benchmark.filling.request import Request
+from mocapbench.benchmark.filling.zeros import zeros_caution
 from mocapbench.reports import counted, listed
 
 __all__ = ["cautions"]
@@ -23,12 +24,13 @@ _FEW = 10
 
 
 def cautions(filled: Filled) -> Iterator[str]:
-    """Yield that little is visible, that models extrapolate or jump, and that times are odd."""
+    """Yield that little is visible, that models extrapolate or jump, and that numbers are odd."""
     yield from _few_visible(filled)
     yield from _visible_nowhere(filled)
     yield from _at_the_ends(filled.source.request)
     yield from _jumps(filled)
     yield from _slow(filled)
+    yield from filter(None, [zeros_caution(filled.source.request.given)])
 
 
 def _few_visible(filled: Filled) -> Iterator[str]:

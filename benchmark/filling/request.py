@@ -11,6 +11,7 @@ from mocapbench.benchmark.errors import UsageError, first_of
 from mocapbench.benchmark.filling.channels import chosen
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of, mask_of
 from mocapbench.benchmark.filling.markers import is_unlabelled, markers_of
+from mocapbench.benchmark.filling.zeros import zeros_caution
 from mocapbench.datasets import Mask, Recording, unwrapped
 from mocapbench.reports import counted
 
@@ -76,7 +77,7 @@ def select(recording: Recording, entries: Entries) -> Request:
     named = _named(recording, entries)
     unlabelled = _unlabelled(recording, named)
     if not named.any():
-        raise UsageError(f"{recording.name}: {_no_gap(entries, unlabelled)}")
+        raise UsageError(f"{recording.name}: {_no_gap(recording, entries, unlabelled)}")
     given = unwrapped(recording.hide(named))
     if not given.visible.any():
         raise UsageError(
@@ -127,7 +128,7 @@ def _unlabelled(recording: Recording, named: Mask) -> tuple[str, ...]:
     return tuple(name for name in names if is_unlabelled(name))
 
 
-def _no_gap(entries: Entries, unlabelled: Sequence[str]) -> str:
+def _no_gap(recording: Recording, entries: Entries, unlabelled: Sequence[str]) -> str:
     if unlabelled and entries.channels is None:
         return (
             "expected a gap in a labelled marker, got hidden entries of "
@@ -135,6 +136,6 @@ def _no_gap(entries: Entries, unlabelled: Sequence[str]) -> str:
             f"({first_of(markers_of(unlabelled), 3)}); --channels '.*' fills all channels"
         )
     which = "entries" if entries.channels is None else f"entries of {entries.channels!r}"
-    return (
-        f"expected a gap, got all {which} visible; name what to fill with --frames, such as 120:180"
-    )
+    advice = "name what to fill with --frames, such as 120:180"
+    hints = (f"expected a gap, got all {which} visible; {advice}", zeros_caution(recording))
+    return ". ".join(filter(None, hints)).rstrip(".")

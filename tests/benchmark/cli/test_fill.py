@@ -182,6 +182,21 @@ def test_a_channel_never_visible_is_refused_unless_others_have_it(cli, walk, tmp
     assert cli("fill", walk, *named, "--train", other) == 0
 
 
+MARKER = "time,RKNE.x [mm],RKNE.y [mm],RKNE.z [mm]"
+
+
+@pytest.mark.parametrize(("gap", "code"), [(range(50, 60), 0), ((), 2)])
+def test_zeros_that_may_mark_missing_values_are_said_and_kept(cli, tmp_path, out, gap, code):
+    lines = rows(gap=gap)
+    for line in lines[20:30]:
+        line[1:] = ["0"] * 3
+    path = save(tmp_path / "marker.csv", lines, MARKER)
+    assert cli("fill", path, "--model", "linear", "--out", out) == code
+    assert "RKNE is exactly 0, 0, 0 in 10 frames" in " ".join(cli.printed.split())
+    for filled in out.glob("marker.csv"):
+        assert (CSVFormat().read(filled).values[20:30] == 0.0).all()
+
+
 def test_everything_hidden_is_refused(cli, walk, out):
     named = ("--frames", f"0:{N_FRAMES}", "--model", "linear", "--out", out)
     assert cli("fill", walk, *named) == 2

@@ -1,0 +1,40 @@
+"""Zeros that may stand for missing values: a marker that is at the origin for some frames."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mocapbench.benchmark.filling.markers import markers
+from mocapbench.datasets import Recording
+from mocapbench.reports import counted, listed
+
+__all__ = ["zeros_caution"]
+
+_NAMED = 4
+"""Markers that the caution names at most."""
+_ANGLES = frozenset({"deg", "rad"})
+
+
+def zeros_caution(recording: Recording) -> str:
+    """Return which markers are at the origin in some frames and elsewhere in others, if any."""
+    zeros = _zeros(recording)
+    if not zeros:
+        return ""
+    are, each = ("is", "") if len(zeros) == 1 else ("are", "up to ")
+    return (
+        f"{listed([*zeros], _NAMED)} {are} exactly 0, 0, 0 in {each}"
+        f"{counted(max(zeros.values()), 'frame')} and elsewhere in others: if that marks missing "
+        "values, empty these cells."
+    )
+
+
+def _zeros(recording: Recording) -> dict[str, int]:
+    """Return in how many frames each such marker is at the origin."""
+    counts = {}
+    for marker, places in markers(recording.channels).items():
+        values = recording.values[:, places]
+        n_zeros = int((values == 0.0).all(axis=1).sum())
+        angles = _ANGLES.intersection(recording.units[place] for place in places)
+        if n_zeros and not angles and (np.nan_to_num(values) != 0.0).any():
+            counts[marker] = n_zeros
+    return counts
