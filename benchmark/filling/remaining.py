@@ -9,12 +9,12 @@ import numpy as np
 from mocapbench.benchmark.errors import first_of
 from mocapbench.benchmark.filling.markers import markers_of
 from mocapbench.benchmark.filling.request import Request
-from mocapbench.reports import counted
+from mocapbench.reports import counted, listed
 
 __all__ = ["remaining"]
 
 _NAMED = 4
-"""Markers that a remark names at most."""
+"""Markers or channels that a remark names at most."""
 
 
 def remaining(request: Request) -> Iterator[str]:
@@ -24,7 +24,9 @@ def remaining(request: Request) -> Iterator[str]:
         yield f"{n_open} longer gap{'s were' if n_open > 1 else ' was'} left open."
     if request.unlabelled:
         yield _unlabelled(markers_of(request.unlabelled))
-    others = ~np.isin(request.given.channels, request.unlabelled)
+    if request.unknown:
+        yield _unknown(markers_of(request.unknown))
+    others = ~np.isin(request.given.channels, [*request.unlabelled, *request.unknown])
     rest = int((~request.given.visible & ~request.target)[:, others].sum())
     if rest:
         yield f"{rest} hidden entries stay hidden, since they were not to be filled."
@@ -35,4 +37,14 @@ def _unlabelled(markers: Sequence[str]) -> str:
     return (
         f"{counted(len(markers), 'unlabelled marker')} ({first_of(markers, _NAMED)}) {stay}: "
         f"name {them} with --channels to fill {them}."
+    )
+
+
+def _unknown(names: Sequence[str]) -> str:
+    stay, them = (
+        ("It stays as it is", "it") if len(names) == 1 else ("They stay as they are", "them")
+    )
+    return (
+        f"Nothing is visible that {listed(names, _NAMED)} could be filled from. {stay}: name files "
+        f"that have {them} with --train."
     )

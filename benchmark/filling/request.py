@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from mocapbench.benchmark.errors import UsageError, first_of
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.channels import chosen
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of, mask_of
-from mocapbench.benchmark.filling.markers import is_unlabelled, markers_of
-from mocapbench.benchmark.filling.zeros import zeros_caution
+from mocapbench.benchmark.filling.markers import is_unlabelled
+from mocapbench.benchmark.filling.refusals import no_gap, nothing_known
 from mocapbench.datasets import Mask, Recording, unwrapped
-from mocapbench.reports import counted
 
 __all__ = ["Entries", "Request", "select"]
 
@@ -52,12 +52,15 @@ class Request:
         Gaps that were asked for, and are longer than allowed.
     unlabelled : tuple of str
         Channels of unlabelled markers that have hidden entries, and that nobody named.
+    unknown : tuple of str
+        Channels that were asked for, and of which there is nothing to fill them from.
     """
 
     given: Recording
     target: Mask
     left_open: tuple[Gap, ...]
     unlabelled: tuple[str, ...] = ()
+    unknown: tuple[str, ...] = ()
 
     @property
     def gaps(self) -> tuple[Gap, ...]:
@@ -65,8 +68,10 @@ class Request:
         return gaps_of(self.target)
 
 
-def select(recording: Recording, entries: Entries) -> Request:
+def select(recording: Recording, entries: Entries, train: Sequence[Recording] = ()) -> Request:
     """Return the request of filling the entries named.
+
+    Channels of which nothing is visible, here or in recordings to learn from, stay as they are.
 
     Raises
     ------
@@ -74,29 +79,41 @@ def select(recording: Recording, entries: Entries) -> Request:
         If frames or channels are not in the recording, nothing is to be filled, or nothing is
         visible.
     """
-    named = _named(recording, entries)
-    unlabelled = _unlabelled(recording, named)
-    if not named.any():
-        raise UsageError(f"{recording.name}: {_no_gap(recording, entries, unlabelled)}")
-    given = unwrapped(recording.hide(named))
+    asked = _asked(recording, entries)
+    unlabelled = tuple(filter(is_unlabelled, _incomplete(recording, asked)))
+    if not asked.any():
+        raise UsageError(no_gap(recording, entries.channels, unlabelled))
+    given = recording.hide(asked)
     if not given.visible.any():
         raise UsageError(
             f"{recording.name}: expected visible entries to fill the others from, got none; "
             "name fewer frames or channels"
         )
+    known = np.any([one.visible.any(axis=0) for one in (given, *train)], axis=0)
+    unknown = _names(recording, asked.any(axis=0) & ~known)
+    named = asked & known
+    if not named.any():
+        raise UsageError(nothing_known(recording, unknown))
+    left_open = _longer(recording, named, entries.max_gap)
+    target = named & ~mask_of(left_open, named.shape)
+    return Request(unwrapped(recording.hide(named)), target, left_open, unlabelled, unknown)
+
+
+def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[Gap, ...]:
+    """Return the gaps that are longer than allowed, which are not all."""
     gaps = gaps_of(named)
-    open_gaps = tuple(gap for gap in gaps if _seconds(recording, gap) > (entries.max_gap or np.inf))
-    if len(open_gaps) == len(gaps):
+    longer = tuple(gap for gap in gaps if _seconds(recording, gap) > (max_gap or np.inf))
+    if len(longer) == len(gaps):
         shortest = min(_seconds(recording, gap) for gap in gaps)
         raise UsageError(
-            f"{recording.name}: expected a gap of {entries.max_gap:g} s or less, got "
+            f"{recording.name}: expected a gap of {max_gap:g} s or less, got "
             f"{len(gaps)} of {shortest:.3g} s or more; raise --max-gap"
         )
-    return Request(given, named & ~mask_of(open_gaps, named.shape), open_gaps, unlabelled)
+    return longer
 
 
-def _named(recording: Recording, entries: Entries) -> Mask:
-    """Return the entries (N, D) that are named: given frames, or else what is hidden."""
+def _asked(recording: Recording, entries: Entries) -> Mask:
+    """Return the entries (N, D) that are asked for: given frames, or else what is hidden."""
     rows = ~recording.visible if entries.frames is None else _rows(recording, entries.frames)
     return rows & chosen(recording, entries.channels)
 
@@ -121,21 +138,10 @@ def _seconds(recording: Recording, gap: Gap) -> float:
     return len(gap) * span / max(last - first, 1)
 
 
-def _unlabelled(recording: Recording, named: Mask) -> tuple[str, ...]:
-    """Return the channels of unlabelled markers that stay incomplete."""
-    incomplete = ~recording.visible.all(axis=0) & ~named.any(axis=0)
-    names = np.array(recording.channels)[incomplete].tolist()
-    return tuple(name for name in names if is_unlabelled(name))
+def _incomplete(recording: Recording, asked: Mask) -> tuple[str, ...]:
+    """Return the channels with hidden entries of which none is asked for."""
+    return _names(recording, ~recording.visible.all(axis=0) & ~asked.any(axis=0))
 
 
-def _no_gap(recording: Recording, entries: Entries, unlabelled: Sequence[str]) -> str:
-    if unlabelled and entries.channels is None:
-        return (
-            "expected a gap in a labelled marker, got hidden entries of "
-            f"{counted(len(markers_of(unlabelled)), 'unlabelled marker')} only "
-            f"({first_of(markers_of(unlabelled), 3)}); --channels '.*' fills all channels"
-        )
-    which = "entries" if entries.channels is None else f"entries of {entries.channels!r}"
-    advice = "name what to fill with --frames, such as 120:180"
-    hints = (f"expected a gap, got all {which} visible; {advice}", zeros_caution(recording))
-    return ". ".join(filter(None, hints)).rstrip(".")
+def _names(recording: Recording, which: ArrayLike) -> tuple[str, ...]:
+    return tuple(recording.channels[place] for place in np.flatnonzero(which))

@@ -6,9 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
-
-from mocapbench.benchmark.errors import UsageError, first_of
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.request import Entries, Request, select
 from mocapbench.benchmark.formats import format_for
@@ -66,10 +63,7 @@ def read_sources(
         If there is nothing to fill, or nothing to fill it from.
     """
     others = {path.resolve(): _read(path, rate) for path in train}
-    sources = [_source(path, others, rate, entries) for path in files]
-    for source in sources:
-        _require_seen(source.question)
-    return sources
+    return [_source(path, others, rate, entries) for path in files]
 
 
 def _source(
@@ -78,24 +72,9 @@ def _source(
     recording = _read(path, rate)
     train = tuple(other for file, other in others.items() if file != path.resolve())
     check_alike([recording, *train])
-    return Source(path, format_for(path), select(recording, entries), train)
+    return Source(path, format_for(path), select(recording, entries, train), train)
 
 
 def _read(path: Path, rate: float | None) -> Recording:
     """Return the recording of a file under its path, since models want distinct names."""
     return replace(format_for(path).read(path, rate), name=str(path))
-
-
-def _require_seen(question: Question) -> None:
-    """Refuse channels to fill of which nothing is visible anywhere."""
-    seen = question.given.visible.any(axis=0)
-    for recording in question.train:
-        seen |= recording.visible.any(axis=0)
-    unseen = question.target.any(axis=0) & ~seen
-    if unseen.any():
-        names = [question.given.channels[k] for k in np.flatnonzero(unseen)]
-        some = first_of(names, 3)
-        raise UsageError(
-            f"{question.given.name}: expected a visible entry of every channel to fill, got none "
-            f"of {some}; name the other channels with --channels, or --train files that have these"
-        )

@@ -58,6 +58,24 @@ def test_where_only_unlabelled_markers_have_gaps_that_is_said(starred, hidden):
         select(recording, Entries())
 
 
+@pytest.mark.parametrize("entries", [Entries(), Entries(channels="hip.*"), Entries((20, 30))])
+def test_channels_that_nothing_can_tell_stay_as_they_are(waves, hidden, entries):
+    mask = hidden((0, 200, [1]), (20, 30, [0]))
+    request = select(waves().hide(mask), entries)
+    assert request.unknown == ("hip.ry",)
+    assert not request.target[:, 1].any()
+    known = select(waves().hide(mask), entries, train=[waves(name="other")])
+    assert not known.unknown
+    assert known.target[:, 1].any()
+
+
+def test_a_channel_that_is_visible_in_the_frames_to_fill_only_keeps_them(waves, hidden):
+    recording = waves().hide(hidden((0, 50, [1]), (60, 200, [1])))
+    request = select(recording, Entries((50, 60)))
+    assert request.unknown == ("hip.ry",)
+    np.testing.assert_array_equal(request.given.values[:, 1], recording.values[:, 1])
+
+
 def test_longer_gaps_stay_open(waves, hidden):
     recording = waves().hide(hidden((20, 30, [0]), (90, 140, [1])))
     request = select(recording, Entries(max_gap=0.5))  # 25 frames
