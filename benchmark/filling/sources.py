@@ -26,7 +26,7 @@ class Source:
     request : Request
         What of it is to be filled.
     train : tuple of Recording
-        Other files that models learn from.
+        Other files that models learn from, with the channels of the file, in its order.
     """
 
     path: Path
@@ -57,8 +57,8 @@ def read_sources(
     Raises
     ------
     FormatError
-        If a file cannot be read, or has other channels, units or another rate than those to learn
-        from.
+        If a file cannot be read, or one to learn from lacks a channel of it, or has other units or
+        another rate.
     UsageError
         If there is nothing to fill, or nothing to fill it from.
     """
@@ -70,7 +70,9 @@ def _source(
     path: Path, others: dict[Path, Recording], rate: float | None, entries: Entries
 ) -> Source:
     recording = _read(path, rate)
-    train = tuple(other for file, other in others.items() if file != path.resolve())
+    train = tuple(
+        _matched(other, recording) for file, other in others.items() if file != path.resolve()
+    )
     check_alike([recording, *train])
     return Source(path, format_for(path), select(recording, entries, train), train)
 
@@ -78,3 +80,9 @@ def _source(
 def _read(path: Path, rate: float | None) -> Recording:
     """Return the recording of a file under its path, since models want distinct names."""
     return replace(format_for(path).read(path, rate), name=str(path))
+
+
+def _matched(other: Recording, recording: Recording) -> Recording:
+    """Return the channels of ``recording`` from another one, which stays whole if it lacks any."""
+    lacks = set(recording.channels) - set(other.channels)
+    return other if lacks else other.select(recording.channels)

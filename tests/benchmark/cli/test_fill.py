@@ -216,6 +216,19 @@ def test_everything_hidden_is_refused(cli, walk, out):
     assert "expected visible entries to fill the others from, got none" in cli.printed
 
 
+def test_channels_of_files_to_learn_from_are_matched_by_name(cli, walk, tmp_path, out):
+    """Those of a file in another order, with one besides, are learnt from as if it were alike."""
+    alike = save(tmp_path / "alike.csv", rows(gap=()))
+    columns = [[line[k] for k in (0, 3, 2, 1, 1)] for line in rows(gap=())]
+    header = "time,height [cm],knee [deg],hip [deg],*12.x [mm]"
+    other = save(tmp_path / "other.csv", columns, header)
+    for train in (alike, other):
+        named = ("--model", "pca-regression", "--train", train)
+        assert cli("fill", walk, *named, "--out", out / train.stem) == 0
+    one, two = ((out / path.stem / "walk.csv").read_text() for path in (alike, other))
+    assert one == two
+
+
 @pytest.mark.parametrize(
     "other",
     [
