@@ -36,9 +36,9 @@ class RigidBody(Imputer, Inductive, Spatial):
     of them. Others count the more the less their distance to the marker varies in the recording, by
     the inverse of the standard deviation to a ``power``: markers on the same segment hardly vary.
 
-    The coordinates of a marker are channels such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z``. Other
-    channels, and markers beside which fewer than three are visible throughout a gap, are filled as
-    by ``pchip``. There is no predictive distribution.
+    The coordinates of a marker are channels such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z`` that are
+    no angles. Other channels, and markers beside which fewer than three are visible throughout a
+    gap, are filled as by ``pchip``. There is no predictive distribution.
 
     Parameters
     ----------
@@ -110,7 +110,8 @@ class RigidBody(Imputer, Inductive, Spatial):
         check_positive("power", self.power)
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.markers_ = markers_of(self.channels_)
+        markers = markers_of(self.channels_, self.units_).values()
+        self.markers_ = np.array([*markers], dtype=np.intp).reshape(-1, 3)
         self._curves = PchipImputer().fit(checked)
         return self
 

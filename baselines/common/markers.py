@@ -2,26 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import numpy as np
-from numpy.typing import NDArray
+import re
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 
 __all__ = ["markers_of"]
 
+_COORDINATE = re.compile(r"(.+)[._: -]([xyz])", re.IGNORECASE)
+_ANGLES = frozenset({"deg", "rad"})
 
-def markers_of(channels: Sequence[str]) -> NDArray[np.intp]:
-    """Return the places of the coordinates of each marker among channels (M, 3).
 
-    Those of a marker are named ``LKNE.x``, ``LKNE.y`` and ``LKNE.z``, as those of markers in C3D
-    and TRC files, and of joints in `mocapbench.datasets.joint_trajectories`.
+def markers_of(channels: Sequence[str], units: Sequence[str]) -> Mapping[str, tuple[int, ...]]:
+    """Return the places of the coordinates x, y and z of each marker among D channels, by its name.
+
+    They are named such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z``, as in C3D and TRC files and for
+    joints in `mocapbench.datasets.joint_trajectories`, or ``LKNE_X``, and are no angles.
 
     Examples
     --------
-    >>> markers_of(("time", "LKNE.x", "LKNE.z", "LKNE.y", "LANK.x"))
-    array([[1, 3, 2]])
+    >>> markers_of(("force", "LKNE.x", "LKNE.z", "LKNE.y", "LANK.x"), ("N", *["mm"] * 4))
+    {'LKNE': (1, 3, 2)}
     """
-    places = {channel: place for place, channel in enumerate(channels)}
-    names = dict.fromkeys(channel.removesuffix(".x") for channel in channels)
-    found = [[places.get(f"{name}.{axis}", -1) for axis in "xyz"] for name in names]
-    return np.array([each for each in found if min(each) >= 0], dtype=np.intp).reshape(-1, 3)
+    places: dict[str, dict[str, int]] = defaultdict(dict)
+    for place, (channel, unit) in enumerate(zip(channels, units, strict=True)):
+        found = _COORDINATE.fullmatch(channel)
+        if found and unit not in _ANGLES:
+            places[found[1]][found[2].lower()] = place
+    return {
+        marker: tuple(axes[axis] for axis in "xyz")
+        for marker, axes in places.items()
+        if len(axes) == len("xyz")
+    }

@@ -1,7 +1,7 @@
 from .able import require_able
 from .filler import BEST, Filled, fill
 from .page import page_of
-from .request import Entries
+from .requests.request import Entries
 from .sources import Source, read_sources
 from .wording import headline, remarks, verdict
 from .workers import Workers

@@ -60,5 +60,5 @@ def _needed(question: Question) -> type[FrameImputer]:
 
 def _barred(question: Question) -> tuple[type[Model], ...]:
     """Return the marks of models that take what there is not: a process, or markers."""
-    has_markers = len(markers_of(question.given.channels)) > 0
+    has_markers = markers_of(question.given.channels, question.given.units)
     return (Informed, Misinformed) if has_markers else (Informed, Misinformed, Spatial)

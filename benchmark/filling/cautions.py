@@ -8,9 +8,9 @@ import numpy as np
 
 from mocapbench.benchmark.filling.edges import jumps
 from mocapbench.benchmark.filling.filler import Filled
-from mocapbench.benchmark.filling.markers import markers_of
-from mocapbench.benchmark.filling.request import Request
-from mocapbench.benchmark.filling.zeros import zeros_caution
+from mocapbench.benchmark.filling.requests.names import marker_names
+from mocapbench.benchmark.filling.requests.request import Request
+from mocapbench.benchmark.filling.requests.zeros import zeros_caution
 from mocapbench.reports import counted, listed
 
 __all__ = ["cautions"]
@@ -71,7 +71,7 @@ def _at_the_ends(request: Request) -> Iterator[str]:
     if not ends:
         return
     places = sorted({channel for gap in ends for channel in gap.channels})
-    names = listed(markers_of([request.given.channels[place] for place in places]), _NAMED)
+    names = listed(marker_names([request.given.channels[place] for place in places]), _NAMED)
     are = "is" if len(ends) == 1 else "are"
     yield (
         f"{counted(len(ends), 'gap')} {are} at the beginning or the end of the recording, where "

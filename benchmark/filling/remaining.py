@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mocapbench.benchmark.errors import first_of
-from mocapbench.benchmark.filling.markers import markers_of
-from mocapbench.benchmark.filling.request import Request
+from mocapbench.benchmark.filling.requests.names import marker_names
+from mocapbench.benchmark.filling.requests.request import Request
 from mocapbench.reports import counted, listed
 
 __all__ = ["remaining"]
@@ -23,9 +23,9 @@ def remaining(request: Request) -> Iterator[str]:
         n_open = len(request.left_open)
         yield f"{n_open} longer gap{'s were' if n_open > 1 else ' was'} left open."
     if request.unlabelled:
-        yield _unlabelled(markers_of(request.unlabelled))
+        yield _unlabelled(marker_names(request.unlabelled))
     if request.unknown:
-        yield _unknown(markers_of(request.unknown))
+        yield _unknown(marker_names(request.unknown))
     others = ~np.isin(request.given.channels, [*request.unlabelled, *request.unknown])
     rest = int((~request.given.visible & ~request.target)[:, others].sum())
     if rest:

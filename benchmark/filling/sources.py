@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mocapbench.benchmark.filling.question import Question
-from mocapbench.benchmark.filling.request import Entries, Request, select
+from mocapbench.benchmark.filling.requests.request import Entries, Request, select
 from mocapbench.benchmark.formats import format_for
 from mocapbench.datasets import Format, Recording, check_alike
 

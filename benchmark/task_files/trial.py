@@ -78,7 +78,7 @@ class Trial:
             complete &= bool(recording.visible.all())
             if path in tests:
                 self._hide(recording, path)
-        return Facts(complete, len(markers_of(first.channels)) > 0)
+        return Facts(complete, bool(markers_of(first.channels, first.units)))
 
     def _read(self, key: str, path: str) -> Recording:
         with self._blaming(key, path):

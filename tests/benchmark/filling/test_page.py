@@ -9,7 +9,7 @@ import pytest
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.page import page_of
 from mocapbench.benchmark.filling.question import Answer
-from mocapbench.benchmark.filling.request import Request
+from mocapbench.benchmark.filling.requests.request import Request
 from mocapbench.benchmark.filling.sources import Source
 from mocapbench.datasets import AcclaimFormat, CSVFormat, Recording
 

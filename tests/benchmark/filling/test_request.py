@@ -5,7 +5,7 @@ import pytest
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.gaps import Gap
-from mocapbench.benchmark.filling.request import Entries, select
+from mocapbench.benchmark.filling.requests.request import Entries, select
 from mocapbench.datasets import Recording
 
 

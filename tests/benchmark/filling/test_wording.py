@@ -8,7 +8,7 @@ import pytest
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.gaps import Gap
 from mocapbench.benchmark.filling.question import Answer
-from mocapbench.benchmark.filling.request import Request
+from mocapbench.benchmark.filling.requests.request import Request
 from mocapbench.benchmark.filling.sources import Source
 from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.benchmark.filling.trials.race import Runner

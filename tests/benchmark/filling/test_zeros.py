@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.filling.zeros import zeros_caution
+from mocapbench.benchmark.filling.requests.zeros import zeros_caution
 from mocapbench.datasets import Recording
 
 FRAMES = np.arange(10.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mocapbench.benchmark.filling.markers import markers
+from mocapbench.baselines.common.markers import markers_of
 from mocapbench.datasets import Recording
 from mocapbench.reports import counted, listed
 
@@ -12,7 +12,6 @@ __all__ = ["zeros_caution"]
 
 _NAMED = 4
 """Markers that the caution names at most."""
-_ANGLES = frozenset({"deg", "rad"})
 
 
 def zeros_caution(recording: Recording) -> str:
@@ -31,10 +30,9 @@ def zeros_caution(recording: Recording) -> str:
 def _zeros(recording: Recording) -> dict[str, int]:
     """Return in how many frames each such marker is at the origin."""
     counts = {}
-    for marker, places in markers(recording.channels).items():
-        values = recording.values[:, places]
+    for marker, places in markers_of(recording.channels, recording.units).items():
+        values = recording.values[:, list(places)]
         n_zeros = int((values == 0.0).all(axis=1).sum())
-        angles = _ANGLES.intersection(recording.units[place] for place in places)
-        if n_zeros and not angles and (np.nan_to_num(values) != 0.0).any():
+        if n_zeros and (np.nan_to_num(values) != 0.0).any():
             counts[marker] = n_zeros
     return counts

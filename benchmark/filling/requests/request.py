@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.channels import chosen
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of, mask_of
-from mocapbench.benchmark.filling.markers import is_unlabelled
-from mocapbench.benchmark.filling.refusals import no_gap, nothing_known
+from mocapbench.benchmark.filling.requests.channels import chosen
+from mocapbench.benchmark.filling.requests.names import is_unlabelled
+from mocapbench.benchmark.filling.requests.refusals import no_gap, nothing_known
 from mocapbench.datasets import Mask, Recording, unwrapped
 
 __all__ = ["Entries", "Request", "select"]

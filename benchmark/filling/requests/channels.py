@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.markers import is_unlabelled
+from mocapbench.benchmark.filling.requests.names import is_unlabelled
 from mocapbench.datasets import Recording
 
 __all__ = ["chosen"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mocapbench.benchmark.errors import first_of
-from mocapbench.benchmark.filling.markers import markers_of
-from mocapbench.benchmark.filling.zeros import zeros_caution
+from mocapbench.benchmark.filling.requests.names import marker_names
+from mocapbench.benchmark.filling.requests.zeros import zeros_caution
 from mocapbench.datasets import Recording
 from mocapbench.reports import counted
 
@@ -18,7 +18,7 @@ _NAMED = 3
 def no_gap(recording: Recording, pattern: str | None, unlabelled: Sequence[str]) -> str:
     """Return that nothing is hidden in the channels of a pattern, or in the labelled ones."""
     if unlabelled and pattern is None:
-        names = markers_of(unlabelled)
+        names = marker_names(unlabelled)
         return (
             f"{recording.name}: expected a gap in a labelled marker, got hidden entries of "
             f"{counted(len(names), 'unlabelled marker')} only ({first_of(names, _NAMED)}); "
@@ -37,5 +37,5 @@ def nothing_known(recording: Recording, unknown: Sequence[str]) -> str:
     """Return that of no channel to fill anything is visible."""
     return (
         f"{recording.name}: expected a visible entry of a channel to fill, got none of "
-        f"{first_of(markers_of(unknown), _NAMED)}; name files that have these with --train"
+        f"{first_of(marker_names(unknown), _NAMED)}; name files that have these with --train"
     )

@@ -1,0 +1,1 @@
+"""What a user asks to be filled, and what is said if that cannot be met."""
