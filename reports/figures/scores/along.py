@@ -23,7 +23,9 @@ from mocapbench.reports.figures.svg_figure import SvgFigure
 __all__ = ["curves_along"]
 
 HEIGHT, N_BANDS = 220.0, 3
-CAPTION = "bands are of the {n} models with the least mean."
+FEWEST_FOLDS = 3
+"""Of two folds an interval is 13 times as wide as they are apart: it would hide the curves."""
+CAPTION = "bands are of the {n} models with the least mean, where there are {folds} folds or more."
 WITHOUT_BANDS = "folds are not independent, so there are no bands."
 
 
@@ -61,7 +63,7 @@ def curves_along(
     ]
     text = CAPTION if results.layout.independent_folds else WITHOUT_BANDS
     notes = dict.fromkeys(note for _, note in drawn if note)
-    caption = " ".join([text.format(n=N_BANDS), *notes])
+    caption = " ".join([text.format(n=N_BANDS, folds=FEWEST_FOLDS), *notes])
     legend = line_keys({label: styles[label] for label in labels})
     title = f"{results.metrics[metric].title} along {column}"
     return SvgFigure(title, panels(panel for panel, _ in drawn), legend, caption)
@@ -84,13 +86,18 @@ class _Panel:
         title = self.results.metrics[self.metric].title
         axes = Axes(x, y, heading, self.column, title)
         order = sorted(curves, key=lambda label: self._mean_loss(curves[label]))
-        sure = order[:N_BANDS] if self.results.layout.independent_folds else []
+        sure = [n for n in order[:N_BANDS] if self._is_sure(curves[n])]
         marks = [
             *(group(styles[label], _band(curves[label], x, y)) for label in sure),
             *(group(styles[n], _curve(curves[n], x, y, styles[n]), title=n) for n in curves),
         ]
         notes = " ".join(filter(None, (y.about_means, remark(y))))
         return axes.draw(marks, f"{title} along {self.column}: {heading}"), notes
+
+    def _is_sure(self, curve: Mapping[float, Sequence[float]]) -> bool:
+        """Return whether there are intervals of a curve."""
+        enough = max(map(len, curve.values())) >= FEWEST_FOLDS
+        return self.results.layout.independent_folds and enough
 
     def _curves(self, cases: Sequence[CaseLayout]) -> dict[str, dict[float, list[float]]]:
         """Return the values by label and place along the column, in ascending order."""
@@ -116,8 +123,11 @@ def _curve(curve: Mapping[float, Sequence[float]], x: Scale, y: Scale, style: St
 
 
 def _band(curve: Mapping[float, Sequence[float]], x: Scale, y: Scale) -> str:
-    """Return the intervals, cut where the axis ends; a single fold has none."""
-    ends = [interval(folds, y) or (np.nan, np.nan) for folds in curve.values()]
+    """Return the intervals, cut where the axis ends; of too few folds there are none."""
+    ends = [
+        (interval(folds, y) if len(folds) >= FEWEST_FOLDS else None) or (np.nan, np.nan)
+        for folds in curve.values()
+    ]
     low, high = (y.places(np.clip(side, y.low, y.high)) for side in np.array(ends).T)
     return band(x.places(np.array(list(curve))), low, high)
 

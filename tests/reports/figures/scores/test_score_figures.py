@@ -133,6 +133,12 @@ def test_folds_that_are_not_independent_have_no_bands(along):
     assert _bands(_roots(along(TWO_PANELS, independent_folds=False))[0]) == 0
 
 
+@pytest.mark.parametrize(("n_folds", "n_bands"), [(1, 0), (2, 0), (3, 1), (4, 1)])
+def test_too_few_folds_have_no_bands(along, n_folds, n_bands):
+    values = {case: {"knn": [1.0, 1.1, 1.3, 1.2][:n_folds]} for case in "ab"}
+    assert _bands(_roots(along(TWO_PANELS[:2], values))[0]) == n_bands
+
+
 def test_a_single_number_makes_no_curve(along):
     assert along([{"hidden": place, "seconds": 0.5} for place in "abcd"]) is None
 
