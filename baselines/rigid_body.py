@@ -93,7 +93,7 @@ class RigidBody(Imputer, Inductive, Spatial):
     True
     """
 
-    family: ClassVar[str] = "Interpolation"
+    family: ClassVar[str] = "Across channels"
 
     def __init__(self, power: float = 4.0) -> None:
         self.power = power
