@@ -96,7 +96,7 @@ def test_an_entry_point_that_cannot_be_imported_says_so():
     registry._points["mine"] = _Point
     expected = (
         "model 'mine' is registered as 'no_such_package.module:Model', which cannot be imported: "
-        "No module named 'no_such_package'"
+        "ModuleNotFoundError: No module named 'no_such_package'"
     )
     with pytest.raises(UsageError, match=re.escape(expected)):
         registry.get("mine")
