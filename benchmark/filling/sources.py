@@ -6,7 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.requests.names import is_unlabelled
 from mocapbench.benchmark.filling.requests.request import Entries, Request, select
 from mocapbench.benchmark.formats import format_for
 from mocapbench.datasets import Format, Recording, check_alike
@@ -26,7 +29,8 @@ class Source:
     request : Request
         What of it is to be filled.
     train : tuple of Recording
-        Other files that models learn from, with the channels of the file, in its order.
+        Other files that models learn from, with the channels of the file, in its order; unlabelled
+        markers that they lack are hidden throughout.
     """
 
     path: Path
@@ -36,8 +40,18 @@ class Source:
 
     @property
     def question(self) -> Question:
-        """What is asked of a model."""
-        return Question(self.request.given, self.request.target, self.train)
+        """What is asked of a model, without unlabelled markers of which nothing is to be filled."""
+        given, target = self.request.given, self.request.target
+        kept = [
+            place
+            for place, name in enumerate(given.channels)
+            if target[:, place].any() or not is_unlabelled(name)
+        ]
+        if len(kept) == len(given.channels):
+            return Question(given, target, self.train)
+        names = [given.channels[place] for place in kept]
+        train = tuple(recording.select(names) for recording in self.train)
+        return Question(given.select(names), target[:, kept], train)
 
 
 def read_sources(
@@ -83,6 +97,19 @@ def _read(path: Path, rate: float | None) -> Recording:
 
 
 def _matched(other: Recording, recording: Recording) -> Recording:
-    """Return the channels of ``recording`` from another one, which stays whole if it lacks any."""
-    lacks = set(recording.channels) - set(other.channels)
-    return other if lacks else other.select(recording.channels)
+    """Return the channels of ``recording`` from another one, which stays whole if it lacks any.
+
+    An unlabelled marker is nobody's in particular: where the other lacks one, nothing of it shows.
+    """
+    units = dict(zip(recording.channels, recording.units, strict=True))
+    lacking = [name for name in recording.channels if name not in other.channels]
+    if not all(map(is_unlabelled, lacking)):
+        return other
+    hidden = np.full((len(other.times), len(lacking)), np.nan)
+    padded = replace(
+        other,
+        values=np.hstack([other.values, hidden]),
+        channels=(*other.channels, *lacking),
+        units=(*other.units, *(units[name] for name in lacking)),
+    )
+    return padded.select(recording.channels)

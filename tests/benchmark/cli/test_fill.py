@@ -229,6 +229,19 @@ def test_channels_of_files_to_learn_from_are_matched_by_name(cli, walk, tmp_path
     assert one == two
 
 
+def test_unlabelled_markers_change_nothing_of_the_others(cli, walk, tmp_path, out):
+    """Nor must files to learn from have them."""
+    fragment = [[*line, "3" if 5 < frame < 9 else ""] for frame, line in enumerate(rows())]
+    raw = save(tmp_path / "raw.csv", fragment, f"{HEADER},*12.x [mm]")
+    train = save(tmp_path / "train.csv", rows(gap=()))
+    for path in (walk, raw):
+        named = ("--model", "pca-regression", "--train", train, "--out", out)
+        assert cli("fill", path, *named) == 0
+    filled, beside = (CSVFormat().read(out / name).values for name in ("walk.csv", "raw.csv"))
+    np.testing.assert_array_equal(beside[:, :-1], filled)
+    np.testing.assert_array_equal(beside[:, -1], CSVFormat().read(raw).values[:, -1])
+
+
 @pytest.mark.parametrize(
     "other",
     [
