@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["Answer", "Question", "without_unseen"]
+__all__ = ["Answer", "Question", "with_channels", "without_unseen"]
 
 Array = NDArray[np.float64]
 
@@ -58,9 +58,13 @@ def without_unseen(question: Question) -> Question:
     """Return the question without channels of which nothing is visible, unless they are wanted."""
     recordings = (question.given, *question.train)
     seen = np.any([recording.visible.any(axis=0) for recording in recordings], axis=0)
-    kept = np.flatnonzero(seen | question.target.any(axis=0))
-    names = [question.given.channels[channel] for channel in kept]
-    given, *train = _selected(recordings, names)
+    return with_channels(question, seen | question.target.any(axis=0))
+
+
+def with_channels(question: Question, kept: NDArray[np.bool_]) -> Question:
+    """Return the question without channels (D,) that are not kept."""
+    names = [question.given.channels[channel] for channel in np.flatnonzero(kept)]
+    given, *train = _selected((question.given, *question.train), names)
     return Question(given, question.target[:, kept], tuple(train))
 
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import Question, with_channels
+from mocapbench.benchmark.filling.requests.channels import chosen
 from mocapbench.benchmark.filling.requests.names import is_unlabelled
 from mocapbench.benchmark.filling.requests.request import Entries, Request, select
 from mocapbench.benchmark.formats import format_for
@@ -41,17 +42,9 @@ class Source:
     @property
     def question(self) -> Question:
         """What is asked of a model, without unlabelled markers of which nothing is to be filled."""
-        given, target = self.request.given, self.request.target
-        kept = [
-            place
-            for place, name in enumerate(given.channels)
-            if target[:, place].any() or not is_unlabelled(name)
-        ]
-        if len(kept) == len(given.channels):
-            return Question(given, target, self.train)
-        names = [given.channels[place] for place in kept]
-        train = tuple(recording.select(names) for recording in self.train)
-        return Question(given.select(names), target[:, kept], train)
+        request = self.request
+        wanted = chosen(request.given, None) | request.target.any(axis=0)
+        return with_channels(Question(request.given, request.target, self.train), wanted)
 
 
 def read_sources(
