@@ -24,6 +24,7 @@ from .lds import LDS
 from .lgssm import LGSSM
 from .lmc_independent import LMCIndependent
 from .low_rank import LowRank
+from .marker_kriging import MarkerKriging
 from .moa import MOA
 from .mohgp import MOHGP
 from .nn import NN
@@ -98,6 +99,7 @@ __all__ = [
     "LinearImputer",
     "LowRank",
     "MakimaImputer",
+    "MarkerKriging",
     "Misinformed",
     "Model",
     "Oracle",

@@ -53,7 +53,8 @@ class BestOf(Imputer, Inductive):
 
     Candidates are the interpolations, ``lds``, ``fam``, ``low-rank``, ``pca-regression``, ``nn``,
     ``aligned-window``, ``pose-kriging``, ``channel-kriging``, and ``mohgp`` with three components
-    and with one and five that registers recordings. Those that cannot fill a mask, or not learn
+    and with one and five that registers recordings; where channels are coordinates of markers,
+    ``rigid-body`` and ``marker-kriging`` besides. Those that cannot fill a mask, or not learn
     from the recordings, are left out. ``mohgp`` takes part where a recording given to `fit` has
     hidden entries, as where those to fill are among them, and all are few and small: three walks of
     90 frames and 39 channels, which take a minute. It keeps its parameters in rehearsals. The seed

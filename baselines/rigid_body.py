@@ -12,6 +12,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.markers import markers_of
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.rigid import FEWEST, rotations, steadiness
 from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.interpolation import PchipImputer
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spatial
@@ -20,11 +21,6 @@ from mocapbench.datasets import FrameByChannel, Recording
 __all__ = ["RigidBody"]
 
 Array = NDArray[np.float64]
-
-_FEWEST = 3
-"""Markers that a rotation needs."""
-_ROUNDING = 1e-6
-"""Relative changes of a distance below which it counts as constant."""
 
 
 class RigidBody(Imputer, Inductive, Spatial):
@@ -136,32 +132,12 @@ class RigidBody(Imputer, Inductive, Spatial):
         """Return ``filled`` (N, D) with the markers that others can carry, where they do."""
         places = recording.values[:, self.markers_]
         for marker, columns in enumerate(self.markers_):
-            unseen = np.asarray(np.isnan(places[:, marker]).any(axis=1))
-            if unseen.all() or not unseen.any():
-                continue
-            weights = _steadiness(places, marker) ** self.power
-            for gap in runs(unseen):
+            weights = steadiness([places], marker) ** self.power
+            for gap in runs(np.isnan(places[:, marker]).any(axis=1)):
                 position = _through(recording.times, places, marker, gap, weights)
                 if position is not None:
                     filled[np.ix_(gap, columns)] = position
         return filled
-
-
-def _steadiness(places: Array, marker: int) -> Array:
-    """Return the inverse standard deviation of each marker's distance to ``marker`` (M,).
-
-    It is relative to the largest one; 0 for the marker itself and for those never seen beside it.
-    """
-    distances = np.linalg.norm(places - places[:, [marker]], axis=2)
-    distances[:, marker] = np.nan
-    seen = ~np.isnan(distances)
-    counts = np.maximum(seen.sum(axis=0), 1)
-    means = np.where(seen, distances, 0.0).sum(axis=0) / counts
-    variances = np.where(seen, distances - means, 0.0) ** 2
-    deviations = np.sqrt(variances.sum(axis=0) / counts)
-    steadiness = 1.0 / np.maximum(deviations, _ROUNDING * means.max(initial=1e-300))
-    steadiness[seen.sum(axis=0) < 2] = 0.0
-    return np.asarray(steadiness / steadiness.max(initial=1e-300))
 
 
 def _through(
@@ -171,7 +147,7 @@ def _through(
     edges = [frame for frame in (gap[0] - 1, gap[-1] + 1) if 0 <= frame < len(times)]
     beside = places[np.union1d(gap, edges)]
     others = np.flatnonzero(~np.isnan(beside).any(axis=(0, 2)) & (weights > 0.0))
-    if len(others) < _FEWEST:
+    if len(others) < FEWEST or not edges:
         return None
     carried = [
         _moved(places[edge, others], places[gap][:, others], weights[others], places[edge, marker])
@@ -182,13 +158,8 @@ def _through(
 
 
 def _moved(before: Array, after: Array, weights: Array, marker: Array) -> Array:
-    """Return where the rigid motions from ``before`` (K, 3) to ``after`` (T, K, 3) take a marker.
-
-    The rotations are those of Kabsch, by the singular values of weighted covariances.
-    """
+    """Return where motions from ``before`` (K, 3) to ``after`` (T, K, 3) take a marker."""
     shares = weights / weights.sum()
     start, ends = shares @ before, shares @ after
-    covariances = np.einsum("k,ki,tkj->tij", shares, before - start, after - ends[:, None])
-    left, _, right = np.linalg.svd(covariances)
-    right[:, 2] *= np.linalg.det(left @ right)[:, None]  # no mirror image
-    return np.asarray(np.einsum("tij,tjk,i->tk", left, right, marker - start) + ends)
+    turns = rotations(before - start, after - ends[:, None], shares)
+    return np.asarray(np.einsum("tij,i->tj", turns, marker - start) + ends)

@@ -13,6 +13,7 @@ from typing import Self
 from mocapbench.baselines.aligned_window import AlignedWindow
 from mocapbench.baselines.channel_kriging import ChannelKriging
 from mocapbench.baselines.choosing.jointly import Jointly
+from mocapbench.baselines.common.markers import markers_of
 from mocapbench.baselines.fam import FAM
 from mocapbench.baselines.interpolation import (
     CubicSplineImputer,
@@ -22,15 +23,17 @@ from mocapbench.baselines.interpolation import (
 )
 from mocapbench.baselines.lds import LDS
 from mocapbench.baselines.low_rank import LowRank
+from mocapbench.baselines.marker_kriging import MarkerKriging
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.baselines.nn import NN
 from mocapbench.baselines.pca_regression import PCARegression
 from mocapbench.baselines.pose_kriging import PoseKriging
 from mocapbench.baselines.protocols import FrameImputer, Prediction
 from mocapbench.baselines.rehearsal.checkable import Widened
+from mocapbench.baselines.rigid_body import RigidBody
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["CANDIDATES", "LAST_RESORT", "Panel"]
+__all__ = ["CANDIDATES", "LAST_RESORT", "OF_MARKERS", "Panel"]
 
 Impute = Callable[[Sequence[Recording]], list[Prediction]]
 
@@ -65,6 +68,11 @@ CANDIDATES: Mapping[str, Callable[[], FrameImputer]] = {
     "mohgp-registered": partial(_mohgp, {"parent": 1, "child": 5}, "affine"),
 }
 """All are inductive, and take a few seconds at most."""
+OF_MARKERS: Mapping[str, Callable[[], FrameImputer]] = {
+    "rigid-body": RigidBody,
+    "marker-kriging": MarkerKriging,
+}
+"""Candidates besides, where channels are coordinates of markers."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +84,9 @@ class Panel:
     @classmethod
     def of(cls, recordings: Sequence[Recording]) -> Self:
         """Fit every candidate that can be fitted."""
-        return cls(_fitted({name: new() for name, new in CANDIDATES.items()}, recordings))
+        has_markers = markers_of(recordings[0].channels, recordings[0].units)
+        candidates = {**CANDIDATES, **OF_MARKERS} if has_markers else CANDIDATES
+        return cls(_fitted({name: new() for name, new in candidates.items()}, recordings))
 
     def anew(self, recordings: Sequence[Recording]) -> Self:
         """Return the models fitted to other recordings; `Jointly` keeps its parameters."""

@@ -1,0 +1,194 @@
+r"""A Gaussian process of where a marker is, as seen from the markers around it.
+
+The covariance of frames t and t' of recordings r and r', up to scale, is
+
+.. math::
+
+    1 + \delta_{rr'} + \Bigl(1 + \frac{\lVert \phi_t - \phi_{t'} \rVert^2}{\ell^2}\Bigr)^{-1/2}
+    + \delta_{rr'}\, a^2\, m\Bigl(\frac{|t - t'|}{\tau}\Bigr) + \delta_{tt'}\, \varepsilon^2 :
+
+a constant, another one for each recording, what follows from the shape :math:`\phi` of the markers
+around, a drift with Matérn's once differentiable kernel m, and noise. :math:`\ell, a, \tau,
+\varepsilon` are those that predict gaps best, as long as the one to fill, that are left out of what
+is visible (`left_out_gaps`). Each such gap counts as one frame, since its frames err together, and
+logarithms have normal priors with standard deviation 1. The scale is inferred from G gaps, so that
+predictions are Student's t with G degrees of freedom.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+from scipy.optimize import minimize
+from scipy.spatial.distance import cdist
+
+from mocapbench.baselines.gp.prior.kernels import Matern32
+from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
+
+__all__ = ["FramePairs", "MarkerFrames", "MarkerProcess"]
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+
+_TYPICAL = np.log([2.0, 0.3, 0.25, 0.05])
+"""Medians of the priors: ℓ where shapes have variance 1, a, τ in seconds, and ε."""
+_WIDTH = 4.0
+"""Most deviations of a logarithm from its prior median."""
+_STEPS = 15
+"""Of the search: more change predictions little."""
+_FEWEST_GAPS = 4
+"""Gaps that are left out are shorter than the one to fill where there would be fewer."""
+_CONSTANTS = 2.0
+"""The variance of both constants."""
+_JITTER = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class MarkerFrames:
+    """What n frames have in common.
+
+    Parameters
+    ----------
+    shapes : ndarray of shape (n, F)
+        With variance 1, summed over F.
+    times : ndarray of shape (n,)
+        In seconds.
+    recording : ndarray of int, shape (n,)
+        The number of each frame's recording.
+    """
+
+    shapes: Array
+    times: Array
+    recording: Index
+
+    def at(self, which: Index) -> MarkerFrames:
+        """Return some of the frames."""
+        return MarkerFrames(self.shapes[which], self.times[which], self.recording[which])
+
+    def stretches(self, seconds: float) -> Index:
+        """Return the numbers (n,) of stretches that last so long, or less if they would be few."""
+        first = np.array([self.times[self.recording == r].min() for r in self.recording])
+        since = self.times - first
+        total = sum(since[self.recording == r].max() for r in np.unique(self.recording))
+        number = since // max(min(seconds, total / _FEWEST_GAPS), np.finfo(np.float64).tiny)
+        _, stretch = np.unique(
+            np.column_stack([self.recording, number]), axis=0, return_inverse=True
+        )
+        return np.asarray(stretch.ravel())
+
+
+@dataclass(frozen=True, eq=False)
+class FramePairs:
+    """How n frames are related to m others.
+
+    Parameters
+    ----------
+    distances : ndarray of shape (n, m)
+        Squared, between their shapes.
+    lags : ndarray of shape (n, m)
+        In seconds.
+    together : ndarray of bool, shape (n, m)
+        Whether both are of one recording.
+    """
+
+    distances: Array
+    lags: Array
+    together: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, one: MarkerFrames, other: MarkerFrames) -> Self:
+        """Relate frames to others."""
+        return cls(
+            cdist(one.shapes, other.shapes, "sqeuclidean"),
+            np.abs(np.subtract.outer(one.times, other.times)),
+            np.equal.outer(one.recording, other.recording),
+        )
+
+    def covariance(self, parameters: Array) -> Array:
+        """Return the covariance (n, m), noise left out; parameters are logarithms of ℓ, a, τ, ε."""
+        length, drift, duration, _ = np.exp(parameters)
+        shape = 1.0 / np.sqrt(1.0 + self.distances / length**2)
+        course = drift**2 * Matern32().value(self.lags, duration)
+        return np.asarray(1.0 + shape + self.together * (1.0 + course))
+
+    def derivatives(self, parameters: Array) -> list[Array]:
+        """Return those of the covariance by the logarithms of ℓ, a and τ."""
+        length, drift, duration, _ = np.exp(parameters)
+        squares = self.distances / length**2
+        kernel = Matern32()
+        return [
+            squares * (1.0 + squares) ** -1.5,
+            self.together * 2.0 * drift**2 * kernel.value(self.lags, duration),
+            self.together * drift**2 * kernel.gradient(self.lags, duration),
+        ]
+
+
+@dataclass(frozen=True, eq=False)
+class MarkerProcess:
+    """A process with its parameters.
+
+    Parameters
+    ----------
+    parameters : ndarray of shape (4,)
+        Logarithms of ℓ, a, τ and ε.
+    scale : float
+        What variances are multiplied by, for values with variance 1.
+    """
+
+    parameters: Array
+    scale: float
+
+    @classmethod
+    def learnt(cls, frames: MarkerFrames, values: Array, seconds: float) -> Self:
+        """Return the process that predicts gaps best.
+
+        Parameters
+        ----------
+        frames : MarkerFrames
+            In which the marker is visible.
+        values : ndarray of shape (n, 3)
+            Where it is, with mean zero and variance 1.
+        seconds : float
+            How long the gaps are.
+        """
+        pairs, stretch = FramePairs.of(frames, frames), frames.stretches(seconds)
+        weight = (stretch.max() + 1) / len(stretch)
+
+        def objective(parameters: Array) -> tuple[float, Array]:
+            noise = np.exp(2.0 * parameters[-1])
+            left_out = LeftOutGaps(_noisy(pairs, parameters), values, stretch)
+            by = [np.vdot(left_out.sensitivity, each) for each in pairs.derivatives(parameters)]
+            by.append(2.0 * noise * np.trace(left_out.sensitivity))
+            deviations = parameters - _TYPICAL
+            score = weight * left_out.score + 0.5 * float(deviations @ deviations)
+            return score, weight * np.array(by) + deviations
+
+        bounds = np.column_stack([_TYPICAL - _WIDTH, _TYPICAL + _WIDTH])
+        options = {"maxiter": _STEPS}
+        found = minimize(objective, _TYPICAL, jac=True, bounds=bounds, options=options).x
+        scale = LeftOutGaps(_noisy(pairs, found), values, stretch).scale
+        n_gaps = int(stretch.max()) + 1
+        return cls(found, scale * n_gaps / max(n_gaps - 2, 1))
+
+    def predict(
+        self, frames: MarkerFrames, values: Array, wanted: MarkerFrames
+    ) -> tuple[Array, Array]:
+        """Return the mean (m, 3) and the variance (m,) of an observation in the frames wanted."""
+        factor = cho_factor(_noisy(FramePairs.of(frames, frames), self.parameters), lower=True)
+        cross = FramePairs.of(wanted, frames).covariance(self.parameters)
+        explained = (cross * cho_solve(factor, cross.T).T).sum(axis=1)
+        _, drift, _, noise = np.exp(2.0 * self.parameters)
+        total = _CONSTANTS + 1.0 + drift + noise
+        variance = np.maximum(total - explained, noise)
+        return cross @ cho_solve(factor, values), self.scale * variance
+
+
+def _noisy(pairs: FramePairs, parameters: Array) -> Array:
+    """Return the covariance (n, n) of frames with themselves, noise included."""
+    covariance = pairs.covariance(parameters)
+    covariance[np.diag_indices_from(covariance)] += np.exp(2.0 * parameters[-1]) + _JITTER
+    return covariance
