@@ -18,7 +18,16 @@ __all__ = ["Draft", "draft"]
 
 _QUICK = (
     *("hold", "linear", "pchip", "makima", "cubic-spline"),
-    *("rigid-body", "pca-regression", "low-rank", "knn", "nn", "pose-kriging", "lds"),
+    *(
+        "rigid-body",
+        "marker-kriging",
+        "pca-regression",
+        "low-rank",
+        "knn",
+        "nn",
+        "pose-kriging",
+        "lds",
+    ),
 )
 """Models that take seconds rather than minutes on a recording of a minute."""
 

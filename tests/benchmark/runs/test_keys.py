@@ -140,6 +140,7 @@ FIT_PATH = [
     ("baselines.common.gaps", "missing-frames", "knn"),
     ("baselines.common.lapack", "toy-interpolation-1", "mohgp"),
     ("baselines.common.markers", "marker-gaps", "rigid-body"),
+    ("baselines.common.rigid", "marker-gaps", "marker-kriging"),
     ("baselines.common.own_means", "walking-interpolation", "low-rank"),
     ("baselines.common.pose_units", "missing-frames", "pose-viterbi"),
     ("baselines.common.prototypes", "style-clustering", "k-fam"),
