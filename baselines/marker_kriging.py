@@ -148,7 +148,7 @@ class MarkerKriging(Imputer, Inductive, Spatial):
         """Yield the gaps that other markers tell of."""
         others = [other for other in self.recordings_ if other.name != recording.name]
         tracks = [Track(r.times, r.values[:, self.markers_]) for r in (recording, *others)]
-        shown = ~np.isnan(tracks[0].places).any(axis=2)
+        shown = np.asarray(~np.isnan(tracks[0].places).any(axis=2))
         for marker in range(len(self.markers_)):
             steady = steadiness([track.places for track in tracks], marker)
             enough = shown[:, steady > 0.0].sum(axis=1) >= FEWEST

@@ -133,7 +133,7 @@ class RigidBody(Imputer, Inductive, Spatial):
         places = recording.values[:, self.markers_]
         for marker, columns in enumerate(self.markers_):
             weights = steadiness([places], marker) ** self.power
-            for gap in runs(np.isnan(places[:, marker]).any(axis=1)):
+            for gap in runs(np.asarray(np.isnan(places[:, marker]).any(axis=1))):
                 position = _through(recording.times, places, marker, gap, weights)
                 if position is not None:
                     filled[np.ix_(gap, columns)] = position

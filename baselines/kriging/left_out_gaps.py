@@ -31,6 +31,8 @@ __all__ = ["LeftOutGaps"]
 
 Array = NDArray[np.float64]
 
+_TINY = float(np.finfo(np.float64).tiny)
+
 
 @dataclass(frozen=True, eq=False)
 class LeftOutGaps:
@@ -67,18 +69,15 @@ class LeftOutGaps:
 
     @cached_property
     def scale(self) -> float:
-        """The mean ratio of squared errors to variances."""
-        return float((self.errors**2 / self.variances[:, None]).mean())
+        """The mean ratio of squared errors to variances; positive even where nothing errs."""
+        return max(float((self.errors**2 / self.variances[:, None]).mean()), _TINY)
 
     @property
     def score(self) -> float:
         """The negative log-density of the frames left out, each by itself; the less, the better."""
-        n_outputs = self.values.shape[1]
-        return (
-            0.5
-            * n_outputs
-            * (len(self.values) * np.log(self.scale) + float(np.log(self.variances).sum()))
-        )
+        n_frames, n_outputs = self.values.shape
+        logarithms = n_frames * np.log(self.scale) + np.log(self.variances).sum()
+        return float(0.5 * n_outputs * logarithms)
 
     @cached_property
     def sensitivity(self) -> Array:

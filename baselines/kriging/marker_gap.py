@@ -144,4 +144,4 @@ class MarkerGap:
 def _evenly(rows: Index, most: int) -> Index:
     """Return at most so many of the rows, spread evenly."""
     places = np.linspace(0, len(rows) - 1, min(most, len(rows)))
-    return rows[places.round().astype(int)]
+    return np.asarray(rows[places.round().astype(int)])

@@ -23,7 +23,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
-from scipy.optimize import minimize
+from scipy.optimize import Bounds, minimize
 from scipy.spatial.distance import cdist
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
@@ -34,7 +34,7 @@ __all__ = ["FramePairs", "MarkerFrames", "MarkerProcess"]
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-_TYPICAL = np.log([2.0, 0.3, 0.25, 0.05])
+_TYPICAL: Array = np.log([2.0, 0.3, 0.25, 0.05])
 """Medians of the priors: ℓ where shapes have variance 1, a, τ in seconds, and ε."""
 _WIDTH = 4.0
 """Most deviations of a logarithm from its prior median."""
@@ -167,10 +167,16 @@ class MarkerProcess:
             score = weight * left_out.score + 0.5 * float(deviations @ deviations)
             return score, weight * np.array(by) + deviations
 
-        bounds = np.column_stack([_TYPICAL - _WIDTH, _TYPICAL + _WIDTH])
-        options = {"maxiter": _STEPS}
-        found = minimize(objective, _TYPICAL, jac=True, bounds=bounds, options=options).x
-        scale = LeftOutGaps(_noisy(pairs, found), values, stretch).scale
+        bounds = Bounds(_TYPICAL - _WIDTH, _TYPICAL + _WIDTH)
+        found = minimize(
+            objective,
+            _TYPICAL,
+            jac=True,
+            method="L-BFGS-B",
+            bounds=bounds,
+            options={"maxiter": _STEPS},
+        ).x
+        scale = max(LeftOutGaps(_noisy(pairs, found), values, stretch).scale, _JITTER)
         n_gaps = int(stretch.max()) + 1
         return cls(found, scale * n_gaps / max(n_gaps - 2, 1))
 

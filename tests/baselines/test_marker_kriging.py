@@ -120,6 +120,16 @@ def test_with_fewer_than_three_others_the_course_over_time_fills(hidden):
     assert error(places, hidden, prediction.mean) < 3.0 * held
 
 
+@pytest.mark.parametrize("rate", [0.0, 0.01])
+def test_a_body_without_noise_is_filled_exactly(rate):
+    """As one that stands still, or only travels."""
+    standing = np.random.default_rng(8).normal(0.0, 100.0, (1, N_MARKERS, 3))
+    places = standing + rate * np.arange(N_FRAMES)[:, None, None]
+    prediction = filled(places, GAPS[1])
+    np.testing.assert_allclose(prediction.mean, recording(places).values, atol=1e-3)
+    assert (prediction.variance[GAPS[1]] > 0.0).all()
+
+
 def test_channels_that_are_no_markers_are_filled_by_their_course():
     values = np.sin(np.arange(90.0) / 9)[:, None] * [1.0, 2.0]
     angles = Recording("angles", np.arange(90.0) / 30, values, ("a", "b"), ("deg", "deg"))
