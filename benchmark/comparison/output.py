@@ -25,7 +25,7 @@ POWERLESS = (
 TOO_FEW = "too few to test"
 MORE = (
     f"For what is {TOO_FEW}: `mocapbench run` with more --folds helps where n counts folds, and "
-    "recordings of more people where it counts people."
+    "recordings of more people, as many of each, where it counts people."
 )
 
 TARGETED = (
@@ -41,7 +41,7 @@ def outcome(row: Row, sides: tuple[str, str]) -> str:
         return "; ".join(f"{side} {loss}" for side, loss in losses(row, sides))
     if row.identical:
         return "identical"
-    if contrast.n < FEWEST_UNITS:
+    if not contrast.tested:
         return TOO_FEW
     if row.t_p_holm > ALPHA:
         return "not separable"
@@ -77,7 +77,7 @@ def markdown(rows: Sequence[Row], sides: tuple[str, str]) -> str:
 def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
     """Return what a reader of ``rows`` must know."""
     identical = sum(row.identical for row in rows)
-    tested = {row.contrast.n for row in rows if not row.incomplete}
+    tested = {row.contrast.n for row in rows if row.contrast.tested}
     return [
         *incomplete_notes(rows, sides),
         "“Better by” comes with its own 95 % interval by Student’s t. Each p is corrected after "
@@ -85,7 +85,8 @@ def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
         "0 where p is above 0.05. P is by the Bayesian correlated t-test.",
         *([TARGETED] if any(map(_averages_distances, rows)) else []),
         "n counts people where cases or folds go through recordings of people, else independent "
-        "folds or cases, as in the report. Fewer than five are too few to test.",
+        "folds or cases, as in the report. Fewer than five are too few to test, and so are more of "
+        "which a few have most of the weight.",
         *([f"{identical} of {len(rows)} comparisons are identical."] if identical else []),
         *([POWERLESS] if FEWEST_UNITS in tested else []),
         *([MORE] if any(outcome(row, sides) == TOO_FEW for row in rows) else []),

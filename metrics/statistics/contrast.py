@@ -8,14 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from mocapbench.metrics.statistics.differences import (
-    FEWEST_UNITS,
-    Array,
-    mean_interval,
-    signed_rank_test,
-    t_test,
-)
+from mocapbench.metrics.statistics.differences import mean_interval, mean_of, t_test
+from mocapbench.metrics.statistics.means import Array, too_few
 from mocapbench.metrics.statistics.posterior import correlated_t_test
+from mocapbench.metrics.statistics.signed_ranks import signed_rank_test
 
 __all__ = ["ROPE", "Contrast", "contrast"]
 
@@ -30,8 +26,9 @@ class Contrast:
     Parameters
     ----------
     n : int
-        Number of units that both have; if 0, all means are NaN. Below `FEWEST_UNITS` there is
-        neither an interval, nor a test, nor a probability.
+        Number of units that both have; if 0, all means are NaN. Where they are too few
+        (`mocapbench.metrics.statistics.means`) there is neither an interval, nor a test, nor a
+        probability.
     first, second : float
         Mean values over the units, by their shares.
     advantage, low, high : float
@@ -54,6 +51,11 @@ class Contrast:
     better: float = math.nan
     equivalent: float = math.nan
     worse: float = math.nan
+
+    @property
+    def tested(self) -> bool:
+        """Whether there are enough units for a test."""
+        return not math.isnan(self.t_p)
 
 
 def contrast(units: pd.DataFrame, rope: float = ROPE) -> Contrast:
@@ -85,7 +87,7 @@ def contrast(units: pd.DataFrame, rope: float = ROPE) -> Contrast:
         second=float(shares @ second),
         advantage=float(shares @ advantages),
     )
-    if means.n < FEWEST_UNITS:
+    if too_few(mean_of(advantages, shares).freedom):
         return means
     scale = float(shares @ (np.abs(first) + np.abs(second))) / 2.0
     return _tested(means, advantages, shares, rope * scale)
@@ -93,25 +95,12 @@ def contrast(units: pd.DataFrame, rope: float = ROPE) -> Contrast:
 
 def _tested(means: Contrast, advantages: Array, shares: Array, rope: float) -> Contrast:
     """Return ``means`` with the interval, p-values and probabilities of the advantages."""
-    weighted = _of_equal_shares(advantages, shares)
-    low, high = mean_interval(weighted)
+    low, high = mean_interval(advantages, shares=shares)
     return replace(
         means,
         low=low,
         high=high,
-        t_p=t_test(weighted),
+        t_p=t_test(advantages, shares),
         signed_rank_p=signed_rank_test(advantages),
-        **vars(correlated_t_test(weighted, rope)),
+        **vars(correlated_t_test(advantages, rope, shares)),
     )
-
-
-def _of_equal_shares(advantages: Array, shares: Array) -> Array:
-    """Return values of equal shares with the mean and the error of the weighted advantages.
-
-    They are y = x̄ + n s (x − x̄), with x̄ = Σ s x: their mean is x̄, and the squared error of that is
-    n/(n − 1) Σ s² (x − x̄)², that of `means_and_errors`.
-    """
-    if np.ptp(advantages) == 0.0:
-        return advantages
-    mean = shares @ advantages
-    return np.asarray(mean + advantages.size * shares * (advantages - mean))

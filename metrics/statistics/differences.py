@@ -1,4 +1,4 @@
-"""Tests and intervals of the mean of paired differences, and Holm's correction.
+"""The t-test and the interval of a mean of paired differences, and Holm's correction.
 
 A single difference has no variance, so everything that needs one is NaN. Where all differences are
 equal, their interval has no width, and p is 0, or 1 if they are all zero.
@@ -6,37 +6,21 @@ equal, their interval has no width, and p is 0, or 1 if they are all zero.
 
 from __future__ import annotations
 
-import math
-import warnings
-from functools import partial
-
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy import stats
+from numpy.typing import ArrayLike
+
+from mocapbench.metrics.statistics.means import Array, UnitMeans, unit_means
 
 __all__ = [
     "ALPHA",
-    "FEWEST_UNITS",
     "holm",
-    "least_signed_rank_p",
     "mean_interval",
-    "signed_rank_test",
+    "mean_of",
     "t_test",
     "validated",
 ]
 
 ALPHA = 0.05
-
-FEWEST_UNITS = 5
-"""With fewer independent units no difference is tested: not to find one would say nothing."""
-
-_MOST_EXACT = 100
-"""Units that differ, of which signed ranks are enumerated: normal theory is good for more."""
-
-Array = NDArray[np.float64]
-
-# SciPy warns of lost precision where differences are equal except for rounding errors.
-_without_warnings = partial(warnings.catch_warnings, action="ignore", category=RuntimeWarning)
 
 
 def validated(differences: ArrayLike) -> Array:
@@ -56,8 +40,22 @@ def validated(differences: ArrayLike) -> Array:
     return values
 
 
-def mean_interval(differences: ArrayLike, confidence: float = 0.95) -> tuple[float, float]:
-    """Return the confidence interval of the mean by Student's t with n − 1 degrees of freedom.
+def mean_of(differences: ArrayLike, shares: ArrayLike | None = None) -> UnitMeans:
+    """Return the mean of differences, one a unit, whose shares of it are equal unless given.
+
+    Raises
+    ------
+    ValueError
+        If there is no difference, or one is not finite.
+    """
+    values = validated(differences)
+    return unit_means(values, np.full(values.size, 1.0 / values.size) if shares is None else shares)
+
+
+def mean_interval(
+    differences: ArrayLike, confidence: float = 0.95, shares: ArrayLike | None = None
+) -> tuple[float, float]:
+    """Return the confidence interval of the mean by Student's t.
 
     Parameters
     ----------
@@ -65,6 +63,8 @@ def mean_interval(differences: ArrayLike, confidence: float = 0.95) -> tuple[flo
         One per unit; units are independent.
     confidence : float
         Probability that the interval covers the mean, between 0 and 1.
+    shares : array-like of shape (n,) or None
+        What each unit weighs, with the sum 1; by default all weigh the same.
 
     Returns
     -------
@@ -77,23 +77,20 @@ def mean_interval(differences: ArrayLike, confidence: float = 0.95) -> tuple[flo
     ValueError
         If there is no difference, or one is not finite.
     """
-    values = validated(differences)
-    if values.size == 1:
-        return math.nan, math.nan
-    if _all_equal(values):
-        return float(values.mean()), float(values.mean())
-    with _without_warnings():
-        low, high = stats.ttest_1samp(values, 0.0).confidence_interval(confidence)
-    return float(low), float(high)
+    found = mean_of(differences, shares)
+    half = float(found.half_widths(1.0 - confidence))
+    return float(found.mean) - half, float(found.mean) + half
 
 
-def t_test(differences: ArrayLike) -> float:
+def t_test(differences: ArrayLike, shares: ArrayLike | None = None) -> float:
     """Return the two-sided p-value of the paired t-test of a mean difference of zero.
 
     Parameters
     ----------
     differences : array-like of shape (n,)
         One per unit; units are independent.
+    shares : array-like of shape (n,) or None
+        What each unit weighs, with the sum 1; by default all weigh the same.
 
     Returns
     -------
@@ -105,68 +102,7 @@ def t_test(differences: ArrayLike) -> float:
     ValueError
         If there is no difference, or one is not finite.
     """
-    values = validated(differences)
-    if values.size == 1:
-        return math.nan
-    if _all_equal(values):
-        return float(values[0] == 0.0)
-    with _without_warnings():
-        return float(stats.ttest_1samp(values, 0.0).pvalue)
-
-
-def _all_equal(values: Array) -> bool:
-    """Return whether no difference differs; rounding of the mean could hide it in the variance."""
-    return bool(np.ptp(values) == 0.0)
-
-
-def signed_rank_test(differences: ArrayLike) -> float:
-    """Return the two-sided p-value of Wilcoxon's signed-rank test.
-
-    Zero differences are dropped. With up to a hundred others p is exact, ties included: the share
-    of all assignments of signs to the ranks whose sum is as far from zero. Above that it is
-    SciPy's normal approximation, which for few would fall below the least p that they can have.
-
-    Parameters
-    ----------
-    differences : array-like of shape (n,)
-        One per unit; units are independent.
-
-    Returns
-    -------
-    float
-        NaN for a single unit; 1 if all differences are zero.
-
-    Raises
-    ------
-    ValueError
-        If there is no difference, or one is not finite.
-    """
-    values = validated(differences)
-    if values.size == 1:
-        return math.nan
-    if not values.any():
-        return 1.0
-    kept = values[values != 0.0]
-    if kept.size > _MOST_EXACT:
-        return float(stats.wilcoxon(kept, method="approx").pvalue)
-    doubled = np.rint(2.0 * stats.rankdata(np.abs(kept))).astype(int)  # ranks of ties are halves
-    sums = np.arange(-doubled.sum(), doubled.sum() + 1)
-    extreme = np.abs(sums) >= abs(int(np.sign(kept) @ doubled))
-    return float(_chances(doubled)[extreme].sum())
-
-
-def _chances(ranks: NDArray[np.intp]) -> Array:
-    """Return the chance of each sum of ranks, from the least to the largest, with random signs."""
-    chances = np.zeros(2 * ranks.sum() + 1)
-    chances[0] = 1.0
-    for rank in ranks:  # it adds up to all ranks twice, or to none, from the least sum on
-        chances = 0.5 * (chances + np.roll(chances, 2 * rank))
-    return chances
-
-
-def least_signed_rank_p(n: int) -> float:
-    """Return the least p-value that ``n`` units can give in the two-sided signed-rank test."""
-    return math.ldexp(1.0, 1 - n)
+    return float(mean_of(differences, shares).p)
 
 
 def holm(p_values: ArrayLike) -> Array:

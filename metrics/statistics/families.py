@@ -14,11 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import special
 
-from mocapbench.metrics.statistics.differences import ALPHA, Array, holm
+from mocapbench.metrics.statistics.differences import ALPHA, holm
+from mocapbench.metrics.statistics.means import Array, UnitMeans, unit_means
 
-__all__ = ["HolmTests", "holm_tests", "holm_tests_of_means", "means_and_errors"]
+__all__ = ["HolmTests", "holm_tests", "holm_tests_of_means"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,59 +57,21 @@ def holm_tests(differences: ArrayLike) -> HolmTests:
     """
     rows = np.asarray(differences, dtype=float)
     n = rows.shape[1]
-    means, errors = means_and_errors(rows, np.full(n, 1.0 / n))
-    return holm_tests_of_means(means, errors, np.full(len(rows), n))
+    return holm_tests_of_means(unit_means(rows, np.full(n, 1.0 / n)))
 
 
-def means_and_errors(values: ArrayLike, shares: ArrayLike) -> tuple[Array, Array]:
-    """Return weighted means over units and their standard errors, √(n/(n − 1) Σ s² (x − x̄)²).
-
-    This is the error of a mean over cells that come in independent clusters; with equal shares it
-    is that of the mean of the values.
-
-    Parameters
-    ----------
-    values : array-like of shape (m, n)
-        One row per mean, one column per unit.
-    shares : array-like of shape (n,)
-        Their sum is 1.
-
-    Returns
-    -------
-    means, errors : ndarray of shape (m,)
-        Exact where all values of a row are equal. The error of a single unit is NaN.
-    """
-    rows, weights = np.asarray(values, dtype=float), np.asarray(shares, dtype=float)
-    n = rows.shape[1]
-    # Rounding of the mean could hide in the variance that all values are equal.
-    equal = np.ptp(rows, axis=1) == 0.0
-    means = np.where(equal, rows[:, 0], rows @ weights)
-    squares = (weights * (rows - means[:, None])) ** 2
-    errors = np.sqrt(n / max(n - 1, 1) * squares.sum(axis=1))
-    return means, errors if n > 1 else np.full(len(rows), np.nan)
-
-
-def holm_tests_of_means(means: ArrayLike, errors: ArrayLike, n: ArrayLike) -> HolmTests:
+def holm_tests_of_means(means: UnitMeans) -> HolmTests:
     """Test the means of a family.
 
     Parameters
     ----------
-    means, errors : array-like of shape (m,)
-        Means and their standard errors. A NaN error is a test that cannot be made: it does not
-        count in the family. With an error of 0, p is 0, or 1 where the mean is 0.
-    n : array-like of shape (m,)
-        Over how many units each mean is.
+    means : UnitMeans
+        Of shape (m,). A NaN error is a test that cannot be made: it does not count in the family.
     """
-    mean, error = np.asarray(means, dtype=float), np.asarray(errors, dtype=float)
-    freedom = np.maximum(np.asarray(n, dtype=float) - 1.0, 1.0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        p = 2.0 * special.stdtr(freedom, -np.abs(mean) / error)
-    exact = error == 0.0
-    p = np.where(exact, (mean == 0.0).astype(float), p)
+    p = means.p
     corrected = holm(p)
-    half = error * special.stdtrit(freedom, 1.0 - _levels(p, corrected) / 2.0)
-    half = np.where(exact, 0.0, half)
-    return HolmTests(mean, mean - half, mean + half, corrected, p)
+    half = means.half_widths(_levels(p, corrected))
+    return HolmTests(means.mean, means.mean - half, means.mean + half, corrected, p)
 
 
 def _levels(p: Array, corrected: Array) -> Array:

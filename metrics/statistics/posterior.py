@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
 from numpy.typing import ArrayLike
 from scipy import stats
 
-from mocapbench.metrics.statistics.differences import validated
+from mocapbench.metrics.statistics.differences import mean_of
 
 __all__ = ["Posterior", "correlated_t_test"]
 
@@ -23,12 +22,16 @@ class Posterior:
     worse: float
 
 
-def correlated_t_test(differences: ArrayLike, rope: float) -> Posterior:
+def correlated_t_test(
+    differences: ArrayLike, rope: float, shares: ArrayLike | None = None
+) -> Posterior:
     """Return the probabilities that the mean advantage is above, in or below the equivalent region.
 
-    The posterior is Student's t with n − 1 degrees of freedom, location x̄ and squared scale
-    (1/n + ρ/(1 − ρ)) s², with ρ = 1/n after Nadeau and Bengio: folds that share data are
-    correlated, and the posterior of independent ones would be too narrow.
+    The posterior is Student's t with ν degrees of freedom, location x̄ and squared scale
+    (1 + n ρ/(1 − ρ)) e², where e is the standard error of x̄. Here n = ν + 1 is what the units are
+    worth (`mocapbench.metrics.statistics.means`), their number where shares are equal, and ρ = 1/n
+    after Nadeau and Bengio: folds that share data are correlated, and the posterior of independent
+    ones would be too narrow.
 
     Parameters
     ----------
@@ -36,6 +39,8 @@ def correlated_t_test(differences: ArrayLike, rope: float) -> Posterior:
         Advantages of the first entrant, one a unit.
     rope : float
         Half the width of the region of practical equivalence, in the unit of the differences.
+    shares : array-like of shape (n,) or None
+        What each unit weighs, with the sum 1; by default all weigh the same.
 
     Returns
     -------
@@ -49,16 +54,14 @@ def correlated_t_test(differences: ArrayLike, rope: float) -> Posterior:
     comparing multiple classifiers through Bayesian analysis. JMLR 18(77), §3.1.
     C. Nadeau, Y. Bengio (2003). Inference for the generalization error. Machine Learning 52.
     """
-    values = validated(differences)
-    n, mean = values.size, float(values.mean())
-    if n == 1:
+    found = mean_of(differences, shares)
+    mean, error, freedom = float(found.mean), float(found.error), float(found.freedom)
+    if math.isnan(error):
         return Posterior(math.nan, math.nan, math.nan)
-    if np.ptp(values) == 0.0:
-        better, worse = float(values[0] > rope), float(values[0] < -rope)
+    if error == 0.0:
+        better, worse = float(mean > rope), float(mean < -rope)
     else:
-        correlation = 1.0 / n
-        inflation = 1.0 / n + correlation / (1.0 - correlation)
-        scale = math.sqrt(inflation) * float(np.std(values, ddof=1))
-        better = float(stats.t.sf(rope, n - 1, loc=mean, scale=scale))
-        worse = float(stats.t.cdf(-rope, n - 1, loc=mean, scale=scale))
+        scale = math.sqrt(1.0 + (freedom + 1.0) / freedom) * error
+        better = float(stats.t.sf(rope, freedom, loc=mean, scale=scale))
+        worse = float(stats.t.cdf(-rope, freedom, loc=mean, scale=scale))
     return Posterior(better, max(0.0, 1.0 - better - worse), worse)

@@ -7,6 +7,7 @@ one interval and one p-value, wherever the page shows it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
@@ -14,7 +15,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.statistics import ALPHA, FEWEST_UNITS, holm_tests_of_means, means_and_errors
+from mocapbench.metrics.statistics import ALPHA, UnitMeans, holm_tests_of_means, unit_means
 from mocapbench.reports.analysis.cells import Cells
 from mocapbench.reports.analysis.grid import Array
 
@@ -28,7 +29,7 @@ class PairContrast:
     Parameters
     ----------
     n : int
-        The number of units; below `FEWEST_UNITS` nothing is tested.
+        The number of units.
     first, second : float
         Mean values over the units; NaN where there is none.
     advantage : float
@@ -52,7 +53,7 @@ class PairContrast:
     @property
     def tested(self) -> bool:
         """Whether there are enough units for a test."""
-        return self.n >= FEWEST_UNITS
+        return not math.isnan(self.t_p)
 
     @property
     def separable(self) -> bool:
@@ -77,12 +78,12 @@ def contrasts(scored: Cells) -> Mapping[tuple[str, str], PairContrast]:
     rows = np.array([*combinations(range(len(scored.labels)), 2)], dtype=int).reshape(-1, 2)
     if not rows.size:
         return {}
-    n, first, second, mean, error = _samples(scored, rows)
-    errors = np.where(n >= FEWEST_UNITS, error, np.nan)
+    n, first, second, mean, error, freedom = _samples(scored, rows)
     of_best = (rows == scored.best).any(axis=1) & scored.complete[rows].all(axis=1)
     tested = np.full((4, len(rows)), np.nan)
     for family in (of_best, ~of_best):
-        found = holm_tests_of_means(mean[family], errors[family], n[family])
+        means = UnitMeans(mean[family], error[family], freedom[family])
+        found = holm_tests_of_means(means.tested())
         tested[:, family] = found.low, found.high, found.uncorrected_p, found.p
     by_pair = {}
     for pair, count, values in zip(
@@ -97,13 +98,13 @@ def contrasts(scored: Cells) -> Mapping[tuple[str, str], PairContrast]:
 
 
 def _samples(scored: Cells, rows: NDArray[np.int_]) -> Array:
-    """Return units, means of both, and mean and error of the advantages, of each pair.
+    """Return units, means of both, and mean, error and freedom of advantages, of each pair.
 
     Pairs with scores in the same cells, usually all of them, are taken together.
     """
     shared = scored.scored[rows].all(axis=1)
     patterns, pattern_of = np.unique(shared, axis=0, return_inverse=True)
-    found = np.full((5, len(rows)), np.nan)
+    found = np.full((6, len(rows)), np.nan)
     for number, kept in enumerate(patterns):
         chosen = np.flatnonzero(pattern_of.reshape(-1) == number)
         weights = scored.weights(kept)
@@ -115,5 +116,6 @@ def _samples(scored: Cells, rows: NDArray[np.int_]) -> Array:
                 for array in (scored.values, scored.losses)
             )
             found[1:3, chosen] = (values @ shares).T
-            found[3:, chosen] = means_and_errors(losses[:, 1] - losses[:, 0], shares)
+            advantages = unit_means(losses[:, 1] - losses[:, 0], shares)
+            found[3:, chosen] = advantages.mean, advantages.error, advantages.freedom
     return found

@@ -16,14 +16,14 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.statistics import FEWEST_UNITS, holm_tests_of_means, means_and_errors
+from mocapbench.metrics.statistics import FEWEST_UNITS, holm_tests_of_means, unit_means
 from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.grid import Array
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.text import counted
 
-__all__ = ["MOST_LEVEL", "Place", "Standing", "level_with_best", "standings"]
+__all__ = ["MOST_LEVEL", "Place", "Standing", "level_with_best", "standings", "too_few_units"]
 
 MOST_LEVEL = 3
 """Labels that are named at most where their means are the same."""
@@ -86,8 +86,15 @@ class Standing:
     @property
     def finding(self) -> str:
         """What the page says of it, with the number of units where they are too few."""
-        few = f" ({self.units})" if self.standing is Place.UNTESTED else ""
-        return f"{self.standing.value}{few}"
+        if self.standing is Place.UNTESTED:
+            return too_few_units(self.n_units, self.unit)
+        return str(self.standing.value)
+
+
+def too_few_units(n: int, unit: str) -> str:
+    """Return what the page says of units that are too few, by number or as shares are unequal."""
+    unequal = " of unequal weight" if n >= FEWEST_UNITS else ""
+    return f"{Place.UNTESTED.value} ({counted(n, unit)}{unequal})"
 
 
 def standings(
@@ -129,7 +136,7 @@ def _standings(scored: Cells) -> tuple[Standing, ...]:
     differences = losses - losses[best]
     low, high, separable = _tested(differences, shares, complete & others)
     mean = differences @ shares
-    places = _places(others, complete, separable, losses.shape[1])
+    places = _places(others, complete, separable, np.isfinite(low))
     order = np.lexsort((mean, others, ~complete)).tolist()
     intervals = np.stack([mean, low, high], axis=1).tolist()
     return tuple(_standing(scored, row, intervals[row], places[row]) for row in order)
@@ -155,14 +162,11 @@ def _standing(scored: Cells, row: int, interval: Sequence[float], place: Place) 
 def _tested(
     differences: Array, shares: Array, rivals: NDArray[np.bool_]
 ) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """Return intervals and whether 0 is outside, of the rows that are ``rivals``."""
+    """Return intervals, NaN of too few units, and whether 0 is outside, of ``rivals``."""
     low, high = np.full((2, len(rivals)), np.nan)
     separable = np.zeros(len(rivals), dtype=bool)
-    n = len(shares)
-    if n >= FEWEST_UNITS and rivals.any():
-        means, errors = means_and_errors(differences[rivals], shares)
-        tested = holm_tests_of_means(means, errors, np.full(len(means), n))
-        low[rivals], high[rivals], separable[rivals] = tested.low, tested.high, tested.separable
+    found = holm_tests_of_means(unit_means(differences[rivals], shares).tested())
+    low[rivals], high[rivals], separable[rivals] = found.low, found.high, found.separable
     return low, high, separable
 
 
@@ -170,10 +174,9 @@ def _places(
     others: NDArray[np.bool_],
     complete: NDArray[np.bool_],
     separable: NDArray[np.bool_],
-    n_units: int,
+    tested: NDArray[np.bool_],
 ) -> list[Place]:
-    tested = n_units >= FEWEST_UNITS
-    conditions = [~others, ~complete, np.full(len(others), not tested), separable]
+    conditions = [~others, ~complete, ~tested, separable]
     places = [Place.BEST, Place.INCOMPLETE, Place.UNTESTED, Place.BEHIND]
     return [
         next((place for place, holds in zip(places, row, strict=True) if holds), Place.INSEPARABLE)

@@ -11,14 +11,10 @@ with F(c) cells has the weight w(c, f) = 1/(C F(c)). The share of a unit and its
 
     s(u) = Σ w(c, f),    x(u) = Σ w(c, f) x(c, f)/s(u),    over the cells of u,
 
-so that the mean Σ s(u) x(u) is the mean over cases. Its standard error is that of the units,
-
-    e² = n/(n − 1) Σ s(u)² (x(u) − Σ s x)²,
-
-with Student's t at n − 1 degrees of freedom for n units. Two recordings of one subject are thus one
-unit. Where all units have the same share it is the usual t-test over their values.
-
-With fewer than `mocapbench.metrics.statistics.FEWEST_UNITS` units no difference is tested.
+so that the mean Σ s(u) x(u) is the mean over cases. Two recordings of one subject are thus one
+unit. `mocapbench.metrics.statistics.means` has the standard error of the mean, its degrees of
+freedom, and which units are too few to test. Where all units have the same share it is the usual
+t-test over their values.
 """
 
 from __future__ import annotations

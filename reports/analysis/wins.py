@@ -8,8 +8,7 @@ from itertools import product
 from mocapbench.reports.analysis.cells import cells
 from mocapbench.reports.analysis.contrasts import PairContrast, contrasts
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.standings import Place
-from mocapbench.reports.text import counted
+from mocapbench.reports.analysis.standings import Place, too_few_units
 
 __all__ = ["Win", "wins"]
 
@@ -37,7 +36,7 @@ class Win:
     def finding(self) -> str:
         """Whether the lead is more than chance."""
         if not self.contrast.tested:
-            return f"{Place.UNTESTED.value} ({counted(self.contrast.n, self.unit)})"
+            return too_few_units(self.contrast.n, self.unit)
         place = Place.BEHIND if self.contrast.separable else Place.INSEPARABLE
         return place.value
 

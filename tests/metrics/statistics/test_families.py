@@ -4,7 +4,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy import stats
 
-from mocapbench.metrics.statistics import ALPHA, holm, holm_tests, holm_tests_of_means
+from mocapbench.metrics.statistics import ALPHA, UnitMeans, holm, holm_tests, holm_tests_of_means
 
 
 @st.composite
@@ -64,8 +64,9 @@ def test_a_constant_difference_separates_and_none_does_not():
 
 
 def test_a_test_that_cannot_be_made_does_not_count_in_the_family():
-    alone = holm_tests_of_means([1.0], [0.3], [6])
-    beside = holm_tests_of_means([1.0, 9.0], [0.3, np.nan], [6, 1])
+    both = UnitMeans(*np.array([[1.0, 9.0], [0.3, np.nan], [5.0, np.nan]]))
+    alone = holm_tests_of_means(UnitMeans(both.mean[:1], both.error[:1], both.freedom[:1]))
+    beside = holm_tests_of_means(both)
     assert beside.p[0] == alone.p[0]
     assert (beside.low[0], beside.high[0]) == (alone.low[0], alone.high[0])
     assert np.isnan([beside.p[1], beside.low[1], beside.high[1]]).all()

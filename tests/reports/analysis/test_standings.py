@@ -6,7 +6,7 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from mocapbench.metrics.statistics import ALPHA, FEWEST_UNITS, holm
+from mocapbench.metrics.statistics import ALPHA, FEWEST_UNITS, holm, unit_means
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.standings import Place, standings
 from mocapbench.reports.bundle.layout import CaseLayout
@@ -139,9 +139,10 @@ def test_the_error_is_that_of_clusters(small):
     found = by_label(standings_of(small(table, cases=cases, independent_folds=False)))["other"]
     means, shares = np.array([4.0, 1.0, 2.0, 4.0, 8.0]), np.array([2, 1, 1, 1, 1]) / 6
     middle = np.mean([*rows.values()])
-    error = np.sqrt(5 / 4 * np.sum((shares * (means - middle)) ** 2))
+    error = np.sqrt(np.sum(shares**2 / (1 - shares) * (means - middle) ** 2))
+    freedom = unit_means(means, shares).freedom
     assert found.difference == pytest.approx(middle)
-    assert found.high - found.low == pytest.approx(2 * stats.t.ppf(0.975, 4) * error)
+    assert found.high - found.low == pytest.approx(2 * stats.t.ppf(0.975, freedom) * error)
     assert found.n_units == 5
 
 
@@ -154,6 +155,14 @@ def test_below_five_units_nothing_is_tested_and_the_words_say_why(small):
     best, second = standings_of(small(values, cases=cases, independent_folds=False))
     assert (best.label, best.standing, best.n_cases) == ("a", Place.BEST, 6)
     assert (second.standing, second.finding) == (Place.UNTESTED, "too few to test (4 subjects)")
+
+
+def test_units_of_which_one_has_most_of_the_weight_are_too_few_to_test(small):
+    cases = tuple(CaseLayout(f"{n}", {}, subjects=(s,)) for n, s in enumerate("aaaaaabcde"))
+    table = {case.name: {"a": [1.0], "b": [2.0 + 0.1 * n]} for n, case in enumerate(cases)}
+    _, second = standings_of(small(table, cases=cases, independent_folds=False))
+    assert second.finding == "too few to test (5 subjects of unequal weight)"
+    assert math.isnan(second.low)
 
 
 def test_a_label_that_lacks_a_fold_is_incomplete_and_last(small):
