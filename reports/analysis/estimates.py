@@ -6,10 +6,11 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
+from scipy.sparse import csr_array
 
+from mocapbench.metrics.statistics import ALPHA, UnitMeans, unit_means
 from mocapbench.reports.analysis.fold_mean import FoldMean
 from mocapbench.reports.analysis.grid import Array, Grid
-from mocapbench.reports.analysis.interval import half_widths
 from mocapbench.reports.analysis.units import unit_names
 from mocapbench.reports.bundle.layout import CaseLayout
 
@@ -44,13 +45,13 @@ def _of_case(
 ) -> Iterator[tuple[tuple[str, str, str], FoldMean]]:
     folds = grid.values[:, :, column]
     n = np.isfinite(folds).sum(axis=-1)
-    over_units = _unit_means(folds, units)
+    found = _over_units(folds, units)
     columns = (
         n,
-        _mean(over_units),
+        found.mean,
         2.0 * _deviation(folds),
         _mean(grid.sample_two_sd[:, :, column]),
-        half_widths(over_units),
+        found.half_widths(ALPHA),
     )
     for m, label in np.argwhere(n > 0):
         count, mean, two_sd, sample_two_sd, half_width = (float(c[m, label]) for c in columns)
@@ -61,12 +62,18 @@ def _of_case(
         )
 
 
-def _unit_means(folds: Array, units: list[str]) -> Array:
-    """Return the means over the folds of each unit, of shape (..., n_units)."""
-    if len(set(units)) == len(units):
-        return folds
-    names = np.array(units)
-    return np.stack([_mean(folds[..., names == name]) for name in dict.fromkeys(units)], axis=-1)
+def _over_units(folds: Array, units: list[str]) -> UnitMeans:
+    """Return the means over folds, each weighing the same, with the errors of means over units."""
+    place = {unit: number for number, unit in enumerate(dict.fromkeys(units))}
+    ones, places = np.ones(len(units)), (range(len(units)), [place[unit] for unit in units])
+    unit_of = csr_array((ones, places), shape=(len(units), len(place)))
+    present = np.isfinite(folds)
+    counts, sums = (
+        (array.reshape(-1, len(units)) @ unit_of).reshape(*folds.shape[:-1], len(place))
+        for array in (present.astype(float), np.where(present, folds, 0.0))
+    )
+    shares = counts / np.maximum(counts.sum(axis=-1, keepdims=True), 1.0)
+    return unit_means(sums / np.maximum(counts, 1.0), shares)
 
 
 def _mean(values: Array) -> Array:

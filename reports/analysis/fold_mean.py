@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.reports.analysis.interval import half_widths
+from mocapbench.metrics.statistics import ALPHA, unit_means
 
 __all__ = ["FoldMean"]
 
@@ -20,7 +20,7 @@ class FoldMean:
     Parameters
     ----------
     mean : float
-        Over the units of the case (`mocapbench.reports.analysis.units`), each weighing the same.
+        Every fold weighs the same.
     two_sd : float or None
         Two standard deviations (ddof 1) over folds, as the papers print; None for a single fold.
     n : int
@@ -29,8 +29,9 @@ class FoldMean:
         Two standard deviations (ddof 1) over the samples of a fold, averaged over folds; None
         where the values are not means over samples.
     half_width : float or None
-        Half the 95 % interval of the mean by Student's t over units: the ± of the page. None where
-        there is one unit, such as a single fold, or windows of one recording.
+        Half the 95 % interval of the mean by Student's t over units
+        (`mocapbench.reports.analysis.units`): the ± of the page. None where there is one unit, such
+        as a single fold, or windows of one recording.
     """
 
     mean: float
@@ -43,7 +44,8 @@ class FoldMean:
     def of(cls, values: Sequence[float]) -> FoldMean:
         """Return the mean of one or more finite values, one a fold, where folds are units."""
         two_sd = 2.0 * float(np.std(values, ddof=1)) if len(values) > 1 else None
-        half = float(half_widths(np.asarray(values, dtype=float)))
+        found = unit_means(values, np.full(len(values), 1.0 / len(values)))
+        half = float(found.half_widths(ALPHA))
         return cls(
             float(np.mean(values)), two_sd, len(values), None, half if math.isfinite(half) else None
         )

@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
-from mocapbench.reports.analysis.interval import half_widths
+from mocapbench.metrics.statistics import ALPHA, unit_means
+from mocapbench.reports.analysis.fold_sample import FoldSample
+from mocapbench.reports.analysis.grid import Array
 from mocapbench.reports.figures.scale import Scale
 
 __all__ = ["centre", "interval"]
 
 
-def centre(values: Sequence[float], scale: Scale) -> float:
+def centre(sample: FoldSample, scale: Scale) -> float:
     """Return the mean; on a logarithmic scale that of the logarithms, transformed back."""
-    seen = scale.forward(np.array(values, dtype=float))
-    return float(scale.backward(np.asarray(seen.mean())))
+    seen = scale.forward(np.array(sample.values, dtype=float))
+    return float(scale.backward(np.asarray(sample.weights.sum(axis=0) @ seen)))
 
 
-def interval(values: Sequence[float], scale: Scale) -> tuple[float, float] | None:
-    """Return the 95 % interval of the mean by Student's t.
+def interval(sample: FoldSample, scale: Scale) -> tuple[float, float] | None:
+    """Return the 95 % interval of the mean by Student's t over units.
 
     Parameters
     ----------
-    values : sequence of float
-        One a fold, from independent folds.
+    sample : FoldSample
     scale : Scale
         On a logarithmic scale it is the interval of the mean of logarithms, transformed back: it
         holds positive values only and lies around `centre`.
@@ -32,10 +31,13 @@ def interval(values: Sequence[float], scale: Scale) -> tuple[float, float] | Non
     Returns
     -------
     (float, float) or None
-        None for a single fold.
+        None for a single unit.
     """
-    if len(values) < 2:
+    if sample.n_units < 2:
         return None
-    seen = scale.forward(np.array(values, dtype=float))
-    low, high = scale.backward(seen.mean() + half_widths(seen) * np.array([-1.0, 1.0]))
+    seen = scale.forward(np.array(sample.values, dtype=float))
+    shares: Array = sample.weights.sum(axis=1)
+    sums: Array = np.asarray(sample.weights @ seen)
+    found = unit_means(sums / shares, shares)
+    low, high = scale.backward(found.mean + found.half_widths(ALPHA) * np.array([-1.0, 1.0]))
     return float(low), float(high)

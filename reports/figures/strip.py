@@ -5,14 +5,15 @@ All strips of a column share one scale, which its head or foot shows by `strip_a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 import numpy as np
 from markupsafe import Markup, escape
 
+from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.figures.axes import written
 from mocapbench.reports.figures.fitting import fitted
-from mocapbench.reports.figures.intervals import centre
+from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.marks import dot, horizontal, text, vertical
 from mocapbench.reports.figures.scale import Scale
 from mocapbench.reports.figures.styles import Style
@@ -31,32 +32,24 @@ def strip_scale(values: Iterable[float]) -> Scale:
     return fitted(values, _EDGE, STRIP_WIDTH - _EDGE)
 
 
-def strip(
-    values: Sequence[float],
-    interval: tuple[float, float] | None,
-    scale: Scale,
-    label: str,
-    style: Style,
-) -> Markup:
-    """Return the strip of one row.
+def strip(sample: FoldSample, scale: Scale, label: str, style: Style) -> Markup:
+    """Return the strip of one row, with the interval of the mean where there are several units.
 
     Parameters
     ----------
-    values : sequence of float
-        One a fold; on a logarithmic scale the dot is at their geometric mean.
-    interval : (float, float) or None
-        Of the mean, for example by `mocapbench.reports.figures.intervals.interval`; it is cut
-        where the scale ends. None where the folds give none.
+    sample : FoldSample
+        On a logarithmic scale the dot is at its geometric mean.
     scale : Scale
+        The interval is cut where it ends.
     label : str
         Accessible name, such as "knn, 5 folds".
     style : Style
     """
-    places = scale.places(np.array(values, dtype=float))
-    middle = scale.place(centre(values, scale))
+    places = scale.places(np.array(sample.values, dtype=float))
+    middle, ends = scale.place(centre(sample, scale)), interval(sample, scale)
     marks = [
-        *([_interval(interval, scale)] if interval else []),
-        *([vertical(places, _MIDDLE - _TICK, _MIDDLE + _TICK)] if len(values) > 1 else []),
+        *([_interval(ends, scale)] if ends else []),
+        *([vertical(places, _MIDDLE - _TICK, _MIDDLE + _TICK)] if len(places) > 1 else []),
         dot(middle, _MIDDLE, style.shape),
     ]
     return Markup(  # marks are numbers

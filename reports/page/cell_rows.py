@@ -20,7 +20,7 @@ COLUMNS = (
 )
 """``folds`` to ``peak_memory_mb`` have one value a fold; ``keys`` are their bytes in base 64.
 ``scores`` has for each metric of the task its values by fold, their mean, half the 95 % interval
-of the mean where the folds give one, and the published value beside it where there is one."""
+of the mean where there are several units, and the published value beside it where there is one."""
 
 Job = tuple[Any, ...]
 """Fold, model, parameters, seconds to fit and to predict, megabytes."""
@@ -49,15 +49,12 @@ class CellScore:
     Parameters
     ----------
     estimate : FoldMean
-    half_width : float or None
-        Half the 95 % interval of the mean; None where the folds give none.
     published : Comparison or None
     values : mapping of int to float
         The finite values by fold.
     """
 
     estimate: FoldMean
-    half_width: float | None
     published: Comparison | None
     values: Mapping[int, float] = field(default_factory=dict)
 
@@ -103,7 +100,8 @@ def cell_row(
 def _score(score: CellScore, folds: Sequence[int], shared: Shared) -> list[Any]:
     values = [_rounded(score.values.get(fold)) for fold in folds]
     published = [_published(score.published, shared)] if score.published else []
-    return [values, _rounded(score.estimate.mean), _rounded(score.half_width), *published]
+    mean, half_width = score.estimate.mean, score.estimate.half_width
+    return [values, _rounded(mean), _rounded(half_width), *published]
 
 
 def _published(pair: Comparison, shared: Shared) -> list[Any]:

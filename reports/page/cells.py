@@ -84,17 +84,11 @@ def _jobs(results: TaskResults) -> dict[tuple[str, str], list[Job]]:
 
 def _scores(results: TaskResults) -> dict[tuple[str, str, str], CellScore]:
     """Return every score of the metrics that the page shows, by case, label and metric."""
-    shown, independent = results.layout.page.metrics, results.layout.independent_folds
     values, published = _values(results), _published(results)
     return {
-        address: CellScore(
-            estimate,
-            estimate.half_width if independent else None,
-            published.get(address),
-            values[address],
-        )
+        address: CellScore(estimate, published.get(address), values[address])
         for address, estimate in results.estimates.items()
-        if address[2] in shown
+        if address[2] in results.layout.page.metrics
     }
 
 

@@ -9,16 +9,20 @@ from typing import Self
 
 import numpy as np
 from markupsafe import Markup
+from numpy.typing import NDArray
 
+from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.units import unit_names
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.figures.intervals import interval
 from mocapbench.reports.figures.scale import Scale
 from mocapbench.reports.figures.strip import strip, strip_axis, strip_scale
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.text import counted
 
 __all__ = ["Drawing"]
+
+Names = NDArray[np.str_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,19 +31,16 @@ class Drawing:
 
     Parameters
     ----------
-    values : mapping of str to sequence of float
-        By label, the values of the cases that enter means, one a fold.
+    samples : mapping of str to FoldSample
+        By label, of the cases that enter means.
     scale : Scale or None
         None where no label has a value.
     styles : mapping of str to Style
-    independent : bool
-        Whether folds are independent draws, of which there is an interval.
     """
 
-    values: Mapping[str, Sequence[float]]
+    samples: Mapping[str, FoldSample]
     scale: Scale | None
     styles: Mapping[str, Style]
-    independent: bool
 
     @classmethod
     def of(
@@ -50,15 +51,18 @@ class Drawing:
         styles: Mapping[str, Style],
     ) -> Self:
         """Return the drawing of the scores of ``metric`` in ``cases``."""
-        grid, names = results.grid, [case.name for case in cases]
-        chosen = grid.select(metric, grid.labels, [name for name in names if name in grid.cases])
-        flat = {
-            label: row[np.isfinite(row)].tolist()
-            for label, row in zip(grid.labels, chosen, strict=True)
+        grid = results.grid
+        scored = [case for case in cases if case.name in grid.cases]
+        chosen = grid.select(metric, grid.labels, [case.name for case in scored])
+        rows = zip(grid.labels, map(np.ravel, chosen), strict=True)
+        units, of_cells = _cells(results, scored)
+        samples = {
+            label: FoldSample.of(row[kept].tolist(), units[kept], of_cells[kept])
+            for label, row in rows
+            if (kept := np.isfinite(row)).any()
         }
-        values = {label: row for label, row in flat.items() if row}
-        scale = strip_scale(chain.from_iterable(values.values())) if values else None
-        return cls(values, scale, styles, results.layout.independent_folds)
+        every = chain.from_iterable(sample.values for sample in samples.values())
+        return cls(samples, strip_scale(every) if samples else None, styles)
 
     @property
     def axis(self) -> Markup | None:
@@ -67,9 +71,15 @@ class Drawing:
 
     def strip(self, label: str) -> Markup | None:
         """Return the strip of ``label``; None where it has no value."""
-        if self.scale is None or label not in self.values:
+        if self.scale is None or label not in self.samples:
             return None
-        values = self.values[label]
-        ends = interval(values, self.scale) if self.independent else None
-        name = f"{label}, {counted(len(values), 'value')}"
-        return strip(values, ends, self.scale, name, self.styles[label])
+        sample = self.samples[label]
+        name = f"{label}, {counted(len(sample.values), 'value')}"
+        return strip(sample, self.scale, name, self.styles[label])
+
+
+def _cells(results: TaskResults, cases: Sequence[CaseLayout]) -> tuple[Names, Names]:
+    """Return the unit and the case of every fold of the cases."""
+    folds, independent = results.grid.folds, results.layout.independent_folds
+    units = [unit for case in cases for unit in unit_names(case, folds, independent=independent)]
+    return np.array(units), np.repeat([case.name for case in cases], len(folds))

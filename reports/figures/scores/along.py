@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from markupsafe import Markup
 
+from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
@@ -22,11 +23,13 @@ from mocapbench.reports.figures.svg_figure import SvgFigure
 
 __all__ = ["curves_along"]
 
+Curve = Mapping[float, FoldSample]
+"""By place along the column, in ascending order."""
+
 HEIGHT, N_BANDS = 220.0, 3
-FEWEST_FOLDS = 3
-"""Of two folds an interval is 13 times as wide as they are apart: it would hide the curves."""
-CAPTION = "bands are of the {n} models with the least mean, where there are {folds} folds or more."
-WITHOUT_BANDS = "folds are not independent, so there are no bands."
+FEWEST_BANDED = 3
+"""Of two units an interval is 13 times as wide as they are apart: it would hide the curves."""
+CAPTION = "bands are of the {n} models with the least mean, where there are {units} units or more."
 
 
 def curves_along(
@@ -61,9 +64,8 @@ def curves_along(
         _Panel(results, metric, column, values).draw(heading, cases, styles)
         for heading, cases in groups.items()
     ]
-    text = CAPTION if results.layout.independent_folds else WITHOUT_BANDS
     notes = dict.fromkeys(note for _, note in drawn if note)
-    caption = " ".join([text.format(n=N_BANDS, folds=FEWEST_FOLDS), *notes])
+    caption = " ".join([CAPTION.format(n=N_BANDS, units=FEWEST_BANDED), *notes])
     legend = line_keys({label: styles[label] for label in labels})
     title = f"{results.metrics[metric].title} along {column}"
     return SvgFigure(title, panels(panel for panel, _ in drawn), legend, caption)
@@ -80,29 +82,27 @@ class _Panel:
     ) -> tuple[Markup, str]:
         """Return the panel, and a remark on its axis."""
         curves = self._curves(cases)
-        y = fitted((v for folds in curves.values() for of in folds.values() for v in of), 0, 1)
+        samples = (sample for curve in curves.values() for sample in curve.values())
+        y = fitted((value for sample in samples for value in sample.values), 0, 1)
         y = type(y)(y.low, y.high, TOP + HEIGHT, TOP)
         x = fitted((float(case.columns[self.column]) for case in cases), LEFT, WIDTH)
         title = self.results.metrics[self.metric].title
         axes = Axes(x, y, heading, self.column, title)
         order = sorted(curves, key=lambda label: self._mean_loss(curves[label]))
-        sure = [n for n in order[:N_BANDS] if self._is_sure(curves[n])]
+        banded = [
+            label for label in order[:N_BANDS] if any(map(_is_banded, curves[label].values()))
+        ]
         marks = [
-            *(group(styles[label], _band(curves[label], x, y)) for label in sure),
+            *(group(styles[label], _band(curves[label], x, y)) for label in banded),
             *(group(styles[n], _curve(curves[n], x, y, styles[n]), title=n) for n in curves),
         ]
         notes = " ".join(filter(None, (y.about_means, remark(y))))
         return axes.draw(marks, f"{title} along {self.column}: {heading}"), notes
 
-    def _is_sure(self, curve: Mapping[float, Sequence[float]]) -> bool:
-        """Return whether there are intervals of a curve."""
-        enough = max(map(len, curve.values())) >= FEWEST_FOLDS
-        return self.results.layout.independent_folds and enough
-
-    def _curves(self, cases: Sequence[CaseLayout]) -> dict[str, dict[float, list[float]]]:
+    def _curves(self, cases: Sequence[CaseLayout]) -> Mapping[str, Curve]:
         """Return the values by label and place along the column, in ascending order."""
         ordered = sorted(cases, key=lambda case: float(case.columns[self.column]))
-        curves: dict[str, dict[float, list[float]]] = defaultdict(dict)
+        curves: dict[str, dict[float, FoldSample]] = defaultdict(dict)
         for label in self.results.layout.labels:
             for case in ordered:
                 if (case.name, label) in self.values:
@@ -110,23 +110,27 @@ class _Panel:
                     curves[label][place] = self.values[case.name, label]
         return curves
 
-    def _mean_loss(self, curve: Mapping[float, Sequence[float]]) -> float:
+    def _mean_loss(self, curve: Curve) -> float:
         loss = self.results.metrics[self.metric].loss
-        return float(np.mean([loss(float(np.mean(folds))) for folds in curve.values()]))
+        return float(np.mean([loss(float(np.mean(sample.values))) for sample in curve.values()]))
 
 
-def _curve(curve: Mapping[float, Sequence[float]], x: Scale, y: Scale, style: Style) -> str:
+def _is_banded(sample: FoldSample) -> bool:
+    return sample.n_units >= FEWEST_BANDED
+
+
+def _curve(curve: Curve, x: Scale, y: Scale, style: Style) -> str:
     places = x.places(np.array(list(curve)))
-    heights = y.places(np.array([centre(folds, y) for folds in curve.values()]))
+    heights = y.places(np.array([centre(sample, y) for sample in curve.values()]))
     dots = (dot(*point, style.shape) for point in zip(places, heights, strict=True))
     return "".join([polyline(places, heights), *dots])
 
 
-def _band(curve: Mapping[float, Sequence[float]], x: Scale, y: Scale) -> str:
-    """Return the intervals, cut where the axis ends; of too few folds there are none."""
+def _band(curve: Curve, x: Scale, y: Scale) -> str:
+    """Return the intervals, cut where the axis ends; of too few units there are none."""
     ends = [
-        (interval(folds, y) if len(folds) >= FEWEST_FOLDS else None) or (np.nan, np.nan)
-        for folds in curve.values()
+        (interval(sample, y) if _is_banded(sample) else None) or (np.nan, np.nan)
+        for sample in curve.values()
     ]
     low, high = (y.places(np.clip(side, y.low, y.high)) for side in np.array(ends).T)
     return band(x.places(np.array(list(curve))), low, high)

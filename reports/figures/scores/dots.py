@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from markupsafe import Markup
 
+from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
@@ -23,7 +24,7 @@ __all__ = ["dot_plot"]
 
 MOST_PANELS = 6
 """More cases are for the strips of the table, which show them on one scale."""
-WINDOWS = "windows overlap, so there is no interval."
+WINDOWS = "windows of one recording are one unit, so there is no interval."
 
 
 def dot_plot(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> SvgFigure | None:
@@ -34,7 +35,8 @@ def dot_plot(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> 
     if not 1 < len(cases) <= MOST_PANELS:
         return None
     drawn = [_panel(results, metric, case, values, styles) for case in cases]
-    overlap = () if results.layout.independent_folds else (WINDOWS,)
+    alone = all(sample.n_units == 1 for sample in values.values())
+    overlap = (WINDOWS,) if alone and not results.layout.independent_folds else ()
     remarks = dict.fromkeys(remark for _, remark in drawn if remark)
     return SvgFigure(
         f"{results.metrics[metric].short} by case",
@@ -52,14 +54,13 @@ def _panel(
     styles: Mapping[str, Style],
 ) -> tuple[Markup, str]:
     """Return the panel of one case, and a remark on its axis."""
-    of_case = {label: folds for (name, label), folds in values.items() if name == case.name}
-    scale = fitted((value for folds in of_case.values() for value in folds), NAMES, WIDTH - 8.0)
+    of_case = {label: sample for (name, label), sample in values.items() if name == case.name}
+    every = (value for sample in of_case.values() for value in sample.values)
+    scale = fitted(every, NAMES, WIDTH - 8.0)
     loss = results.metrics[metric].loss
     order = sorted(of_case, key=lambda label: loss(centre(of_case[label], scale)))
-    sure, bottom = results.layout.independent_folds, TOP + ROW * len(order)
-    rows = (
-        _row(styles[label], of_case[label], place, scale, sure) for place, label in enumerate(order)
-    )
+    bottom = TOP + ROW * len(order)
+    rows = (_row(styles[label], of_case[label], place, scale) for place, label in enumerate(order))
     marks = [
         text(0.0, 13.0, case.heading, "title"),
         vertical(map(scale.place, scale.ticks(4)), TOP, bottom, "grid"),
@@ -70,12 +71,12 @@ def _panel(
     return svg(WIDTH, bottom + BOTTOM, name, marks), remark(scale)
 
 
-def _row(style: Style, values: Sequence[float], place: int, scale: Scale, sure: bool) -> str:
-    """Return ticks, interval and dot of a model; ``sure`` says whether folds give an interval."""
-    y = place_of(place)
-    ends = interval(values, scale) if sure else None
+def _row(style: Style, sample: FoldSample, place: int, scale: Scale) -> str:
+    """Return ticks, interval and dot of a model."""
+    y, values = place_of(place), sample.values
+    ends = interval(sample, scale)
     low, high = (min(max(end, scale.low), scale.high) for end in ends or (scale.low, scale.low))
-    middle = centre(values, scale)
+    middle = centre(sample, scale)
     marks = (
         horizontal(scale.place(low), scale.place(high), y) if ends else "",
         vertical(map(scale.place, values), y - 4.0, y + 4.0) if len(values) > 1 else "",

@@ -2,14 +2,17 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
+from mocapbench.metrics.statistics import mean_interval
 from mocapbench.reports.analysis.fold_mean import FoldMean
 from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.analysis.troubles import troubles
 from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.front.board_cells import board_cells
 
 values = st.lists(st.floats(-1e3, 1e3), min_size=2, max_size=12)
 
@@ -120,6 +123,24 @@ def test_the_interval_of_a_row_is_over_its_units(small, subjects, independent, u
     assert found.half_width == (
         pytest.approx(FoldMean.of(units).half_width) if len(units) > 1 else None
     )
+
+
+@given(st.lists(st.floats(0.1, 9.0), min_size=5, max_size=9), st.sampled_from([1, 2, 3, 4]))
+@settings(max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_sentence_board_and_table_have_one_mean_and_the_interval_is_about_it(small, values, people):
+    """Also where a person has more folds than another."""
+    subjects = tuple(f"{number:02}" for number in range(people))
+    cases = (CaseLayout("row", {}, subjects=subjects),)
+    results = results_of(small({"row": {"a": values}}, cases=cases))
+    found = results.estimate("row", "a", "mse")
+    assert found.mean == pytest.approx(np.mean(values))
+    (standing,) = standings(results, "mse")
+    assert standing.mean == pytest.approx(found.mean)
+    assert board_cells(results)["a"].value == pytest.approx(found.mean)
+    of_people = [values[person::people] for person in range(people)]
+    shares = [len(folds) / len(values) for folds in of_people]
+    low, high = mean_interval([np.mean(folds) for folds in of_people], shares=shares)
+    assert found.half_width == (pytest.approx((high - low) / 2) if people > 1 else None)
 
 
 @pytest.mark.parametrize("rows", [{"one", "two", "both"}, {"one", "both"}, {"both"}])

@@ -4,13 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
-from scipy import stats
 
 from mocapbench.reports.figures.axes import written
 from mocapbench.reports.figures.fitting import fitted, remark
-from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.scale import LinearScale, LogScale
 
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False).map(lambda x: round(x, 6))
@@ -59,25 +57,6 @@ def test_values_over_more_than_a_factor_ten_take_a_logarithmic_scale():
 def test_an_axis_that_spans_little_says_so():
     assert "spans 1 %" in remark(LinearScale(99.0, 100.0, 0.0, 1.0))
     assert remark(LinearScale(50.0, 100.0, 0.0, 1.0)) == ""
-
-
-@given(values=st.lists(st.floats(0.01, 100.0), min_size=2, max_size=12))
-def test_the_interval_of_the_logarithm_has_its_closed_form(values):
-    assume(np.ptp(np.log(values)) > 1e-6)
-    expected = stats.ttest_1samp(np.log(values), 0.0).confidence_interval(0.95)
-    scale = LogScale(0.001, 1000.0, 0.0, 1.0)
-    assert interval(values, scale) == pytest.approx((np.exp(expected.low), np.exp(expected.high)))
-    assert centre(values, scale) == pytest.approx(stats.gmean(values))
-
-
-def test_the_linear_interval_covers_as_it_claims():
-    rng, scale = np.random.default_rng(0), LinearScale(-9.0, 9.0, 0.0, 1.0)
-    bounds = [interval(rng.standard_normal(5).tolist(), scale) for _ in range(2000)]
-    assert np.mean([low < 0.0 < high for low, high in bounds]) == pytest.approx(0.95, abs=0.02)
-
-
-def test_one_fold_has_no_interval(kind):
-    assert interval([2.0], kind(1.0, 3.0, 0.0, 1.0)) is None
 
 
 @pytest.mark.parametrize(

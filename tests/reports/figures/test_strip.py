@@ -6,7 +6,9 @@ from xml.etree import ElementTree
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from samples import draws
 
+from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.strip import strip, strip_axis, strip_scale
 from mocapbench.reports.figures.styles import Style
@@ -27,34 +29,38 @@ def _marks(svg):
 @given(values=VALUES)
 def test_the_values_can_be_read_back(values):
     scale = strip_scale(values)
-    marks = _marks(strip(values, None, scale, "knn", STYLE))
+    marks = _marks(strip(draws(values), scale, "knn", STYLE))
     assert marks["fold"] == pytest.approx(scale.places(values).tolist(), abs=0.051)
-    assert marks["dot"] == pytest.approx([scale.place(centre(values, scale))], abs=0.051)
-    assert "interval" not in marks
+    assert marks["dot"] == pytest.approx([scale.place(centre(draws(values), scale))], abs=0.051)
 
 
 @given(values=VALUES)
 def test_the_interval_is_drawn_from_end_to_end_and_cut_at_the_ends_of_the_scale(values):
     scale = strip_scale(values)
-    low, high = interval(values, scale)
+    low, high = interval(draws(values), scale)
     ends = [scale.place(max(low, scale.low)), scale.place(min(high, scale.high))]
-    marks = _marks(strip(values, (low, high), scale, "knn", STYLE))
+    marks = _marks(strip(draws(values), scale, "knn", STYLE))
     assert marks["interval"] == pytest.approx(ends, abs=0.051)
 
 
 def test_a_single_fold_is_its_dot():
-    assert set(_marks(strip([2.0], None, strip_scale([1.0, 2.0]), "knn", STYLE))) == {"dot"}
+    assert set(_marks(strip(draws([2.0]), strip_scale([1.0, 2.0]), "knn", STYLE))) == {"dot"}
+
+
+def test_folds_of_one_unit_have_no_interval():
+    sample = FoldSample.of([1.0, 2.0, 4.0], ["subject 07"] * 3, ["walk"] * 3)
+    assert set(_marks(strip(sample, strip_scale([1.0, 4.0]), "knn", STYLE))) == {"fold", "dot"}
 
 
 def test_it_names_itself_and_its_model_whatever_its_name():
-    root = ElementTree.fromstring(strip([1.0], None, strip_scale([1.0]), "<&>, 1 fold", STYLE))
+    root = ElementTree.fromstring(strip(draws([1.0]), strip_scale([1.0]), "<&>, 1 fold", STYLE))
     assert root.attrib["data-model"] == "knn <&>"
     assert root.attrib["aria-label"] == "<&>, 1 fold"
     assert root.attrib["class"] == "strip h3 k1"
 
 
 def test_a_row_is_small():
-    row = strip([1.0, 2.0, 3.0, 4.0], (1.5, 3.0), strip_scale([1.0, 4.0]), "knn", STYLE)
+    row = strip(draws([1.0, 2.0, 3.0, 4.0]), strip_scale([1.0, 4.0]), "knn", STYLE)
     assert len(row) < 420
 
 

@@ -157,15 +157,21 @@ def test_the_lag_says_what_the_test_found(small, place):
             assert 0.0 < low < found.value < high
 
 
-def test_strips_show_every_value_and_an_interval_where_folds_are_draws(small):
-    for independent in (True, False):
-        bundle = small(TWO, independent_folds=independent)
-        styles = model_styles(bundle.layouts)
-        results = results_of(bundle)
-        drawing = Drawing.of(results, "mse", results.cases, styles)
-        assert drawing.values == {"a": [1.0, 3.0, 4.0, 4.0], "b": [5.0, 5.0, 2.0, 2.0]}
-        assert ('class="interval"' in drawing.strip("a")) is independent
-        assert 'aria-label="a, 4 values"' in drawing.strip("a")
+@pytest.mark.parametrize(
+    ("independent", "subject", "n_units"), [(True, "", 4), (False, "", 2), (True, "07", 1)]
+)
+def test_strips_show_every_value_and_an_interval_over_units(small, independent, subject, n_units):
+    subjects = (subject,) if subject else ()
+    cases = tuple(CaseLayout(name, {}, subjects=subjects) for name in TWO)
+    bundle = small(TWO, independent_folds=independent, cases=cases)
+    styles = model_styles(bundle.layouts)
+    results = results_of(bundle)
+    drawing = Drawing.of(results, "mse", results.cases, styles)
+    values = {label: sample.values for label, sample in drawing.samples.items()}
+    assert values == {"a": (1.0, 3.0, 4.0, 4.0), "b": (5.0, 5.0, 2.0, 2.0)}
+    assert drawing.samples["a"].n_units == n_units
+    assert ('class="interval"' in drawing.strip("a")) == (n_units > 1)
+    assert 'aria-label="a, 4 values"' in drawing.strip("a")
     (missing,) = map(drawing.strip, ["stranger"])
     assert missing is None
 
