@@ -10,8 +10,9 @@ from mocapbench.benchmark.comparison.fact_changes import (
     changed_provenance,
     changed_recordings,
 )
+from mocapbench.benchmark.comparison.folds import Pair, asked, both_ok
 from mocapbench.benchmark.comparison.problems import differences, require_same_problems
-from mocapbench.benchmark.comparison.score_changes import Pair, score_changes
+from mocapbench.benchmark.comparison.score_changes import score_changes
 from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import TASKS
@@ -43,14 +44,14 @@ def run_changes(first: Side, second: Side, names: tuple[str, str]) -> RunChanges
     common = [(record, other[address]) for address, record in one.items() if address in other]
     if not common:
         raise UsageError("report: the two runs have no (task, case, fold, entrant) in common")
-    scored = [pair for pair in common if _both_ok(pair)]
+    scored = [pair for pair in common if both_ok(pair)]
     pairs = [pair for pair in scored if not differences(*pair)]
     if not pairs:
         require_same_problems(scored)
     return RunChanges(
         names=names,
         tasks=[_task(name) for name in dict.fromkeys(a.address.task for a, _ in pairs)],
-        scores=score_changes(pairs),
+        scores=score_changes(_comparable(first, second)),
         newly_failing=_endings(common, without_score=1),
         newly_passing=_endings(common, without_score=0),
         parameters=changed_parameters(common),
@@ -71,8 +72,11 @@ def _task(name: str) -> ComparedTask:
     return ComparedTask(name, page.title, {metric: metric_info(metric) for metric in page.metrics})
 
 
-def _both_ok(pair: Pair) -> bool:
-    return all(record.status is Status.OK for record in pair)
+def _comparable(first: Side, second: Side) -> dict[Address, Pair]:
+    """Return the jobs that both were asked for, but for those that solve different problems."""
+    one, other = (asked(side, ()) for side in (first, second))
+    common = {address: (one[address], other[address]) for address in one if address in other}
+    return {a: pair for a, pair in common.items() if not (both_ok(pair) and differences(*pair))}
 
 
 def _endings(common: Iterable[Pair], *, without_score: int) -> list[Ending]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from mocapbench.benchmark.comparison.score_changes import Pair
+from mocapbench.benchmark.comparison.folds import Pair
 from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.results.origins import DIGEST_OF, recordings
 from mocapbench.reports import ChangedFact, ChangedParameter

@@ -16,10 +16,11 @@ from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["asked", "both_ok", "paired_folds"]
+__all__ = ["Pair", "asked", "both_ok", "paired_folds"]
 
 Fold = tuple[str, int | None]
 Pair = tuple[Record, Record]
+"""The records of one job on both sides."""
 
 
 def asked(side: Side, tasks: Sequence[str]) -> dict[Address, Record]:

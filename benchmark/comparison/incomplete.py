@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from mocapbench.benchmark.comparison.contrasts import Row
+from mocapbench.benchmark.comparison.rows import Row
 
 __all__ = ["incomplete_notes", "losses"]
 

@@ -9,8 +9,8 @@ from itertools import groupby
 from rich.box import SIMPLE
 from rich.table import Table
 
-from mocapbench.benchmark.comparison.contrasts import POOLED, Row
 from mocapbench.benchmark.comparison.incomplete import incomplete_notes, losses
+from mocapbench.benchmark.comparison.rows import POOLED, Row
 from mocapbench.benchmark.markdown import escape, table_lines
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.metrics.statistics import ALPHA, FEWEST_UNITS, Contrast, least_signed_rank_p

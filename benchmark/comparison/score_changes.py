@@ -1,103 +1,66 @@
-"""The scores of one cell in two runs, and whether they differ by more than the noise of folds.
+"""The scores of one cell in two runs, and whether they differ by more than chance.
 
-Runs are paired fold by fold. The differences over the folds of a cell are tested by the paired
-t-test, with Holm's correction over the scores of one task and metric that changed at all: a score
-that is the same to the last digit needs no test.
+Folds are paired, and units tested, as `mocapbench compare` does it. Holm's correction is over the
+scores of one task and metric that changed at all: a score that is the same to the last digit needs
+no test.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 
-import numpy as np
-from numpy.typing import NDArray
-
-from mocapbench.benchmark.registry import METRICS, TASKS
-from mocapbench.benchmark.runs.record import Record
+from mocapbench.benchmark.comparison.folds import Pair, paired_folds
+from mocapbench.benchmark.comparison.rows import Row, case_rows, corrected
+from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Task
-from mocapbench.metrics.statistics import ALPHA, holm, mean_interval, t_test
+from mocapbench.metrics.statistics import ALPHA
 from mocapbench.reports import ChangeVerdict, ScoreChange
 
-__all__ = ["Pair", "score_changes"]
-
-Pair = tuple[Record, Record]
-"""The records of one job in both runs, which solve the same problem and have scores."""
-
-Cell = tuple[str, str]
-Folds = NDArray[np.float64]
+__all__ = ["score_changes"]
 
 
-def score_changes(pairs: Iterable[Pair]) -> list[ScoreChange]:
-    """Return every metric that the tables show of every cell, by task and metric.
+def score_changes(common: Mapping[Address, Pair]) -> list[ScoreChange]:
+    """Return every metric that the tables show of every cell, by task and metric, changed first.
 
     Parameters
     ----------
-    pairs : iterable of Pair
+    common : mapping of Address to pair of Record
+        The jobs that both runs were asked for; two with scores solve the same problem.
     """
-    tasks: dict[str, dict[Cell, list[Pair]]] = {}
-    for pair in pairs:
-        address = pair[0].address
-        cells = tasks.setdefault(address.task, {})
-        cells.setdefault((address.case, address.label), []).append(pair)
+    names = dict.fromkeys(address.task for address in common)
     return [
         change
-        for name, cells in tasks.items()
-        for task in [TASKS.get(name)]
+        for task in map(TASKS.get, names)
         for metric in task.page.metrics
-        for change in _changes(task, metric, cells)
+        for change in _changes(task, metric, common)
     ]
 
 
-def _changes(task: Task, metric: str, cells: Mapping[Cell, Sequence[Pair]]) -> list[ScoreChange]:
-    values = {cell: _values(pairs, metric) for cell, pairs in cells.items()}
-    compared = {cell: folds for cell, folds in values.items() if len(folds)}
-    p_values = holm([_p_value(task, metric, folds) for folds in compared.values()])
-    return [
-        _change(task, metric, cell, folds, p)
-        for (cell, folds), p in zip(compared.items(), p_values, strict=True)
-    ]
+def _changes(task: Task, metric: str, common: Mapping[Address, Pair]) -> list[ScoreChange]:
+    rows = case_rows(task, metric, paired_folds(task.name, metric, common))
+    identical = [row for row in rows if row.identical]
+    changed = corrected([row for row in rows if not row.identical])
+    return [_change(row) for row in (*changed, *identical) if row.contrast.n]
 
 
-def _values(pairs: Sequence[Pair], metric: str) -> Folds:
-    """Return the finite values that both runs have, a row a fold."""
-    both = [[record.scores.get(metric, np.nan) for record in pair] for pair in pairs]
-    values: Folds = np.array(both, dtype=float).reshape(-1, 2)
-    finite: Folds = values[np.isfinite(values).all(axis=1)]
-    return finite
+def _change(row: Row) -> ScoreChange:
+    found = row.contrast
+    return ScoreChange(
+        *(row.task, row.case, row.entrant, row.metric),
+        *(found.n, found.first, found.second),
+        *(-found.high, -found.low),
+        _verdict(row),
+    )
 
 
-def _p_value(task: Task, metric: str, folds: Folds) -> float:
-    """Return p of the paired t-test; NaN where nothing changed or one unit allows no test."""
-    return np.nan if _same(folds) else t_test(_advantages(task, metric, folds))
-
-
-def _same(folds: Folds) -> bool:
-    return np.array_equal(folds[:, 0], folds[:, 1])
-
-
-def _advantages(task: Task, metric: str, folds: Folds) -> NDArray[np.float64]:
-    """Return by how much the second run is better, a unit each.
-
-    Folds are units where they are independent draws; else their mean is the only unit.
-    """
-    loss = np.vectorize(METRICS.get(metric).loss, otypes=[float])
-    advantages: Folds = loss(folds[:, 0]) - loss(folds[:, 1])
-    return advantages if task.independent_folds else advantages.mean(keepdims=True)
-
-
-def _change(task: Task, metric: str, cell: Cell, folds: Folds, p: float) -> ScoreChange:
-    advantages = _advantages(task, metric, folds)
-    first, second = (float(mean) for mean in folds.mean(axis=0))
-    interval = mean_interval(advantages)
-    verdict = _verdict(folds, p, better=float(advantages.mean()) > 0.0)
-    return ScoreChange(task.name, *cell, metric, len(folds), first, second, *interval, verdict)
-
-
-def _verdict(folds: Folds, p: float, *, better: bool) -> ChangeVerdict:
-    if _same(folds):
+def _verdict(row: Row) -> ChangeVerdict:
+    if row.incomplete:
+        return ChangeVerdict.INCOMPLETE
+    if row.identical:
         return ChangeVerdict.IDENTICAL
-    if np.isnan(p):
+    if not row.contrast.tested:
         return ChangeVerdict.UNTESTED
-    if p > ALPHA:
-        return ChangeVerdict.WITHIN_NOISE
-    return ChangeVerdict.BETTER if better else ChangeVerdict.WORSE
+    if row.t_p_holm > ALPHA:
+        return ChangeVerdict.MAY_BE_CHANCE
+    return ChangeVerdict.BETTER if row.contrast.advantage < 0.0 else ChangeVerdict.WORSE

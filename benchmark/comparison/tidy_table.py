@@ -7,8 +7,8 @@ from dataclasses import asdict
 
 import pandas as pd
 
-from mocapbench.benchmark.comparison.contrasts import Row
 from mocapbench.benchmark.comparison.output import outcome
+from mocapbench.benchmark.comparison.rows import Row
 
 __all__ = ["tidy"]
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
-from scipy import stats
+from scipy import special
 
 from mocapbench.metrics.statistics.differences import mean_of
 
@@ -62,6 +62,6 @@ def correlated_t_test(
         better, worse = float(mean > rope), float(mean < -rope)
     else:
         scale = math.sqrt(1.0 + (freedom + 1.0) / freedom) * error
-        better = float(stats.t.sf(rope, freedom, loc=mean, scale=scale))
-        worse = float(stats.t.cdf(-rope, freedom, loc=mean, scale=scale))
+        better = float(special.stdtr(freedom, (mean - rope) / scale))
+        worse = float(special.stdtr(freedom, (-rope - mean) / scale))
     return Posterior(better, max(0.0, 1.0 - better - worse), worse)

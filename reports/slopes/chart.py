@@ -19,7 +19,7 @@ LOG_SPAN = 10.0
 
 
 def slope_chart(title: str, names: tuple[str, str], scores: Sequence[ScoreChange]) -> Markup:
-    """Return the lines of ``scores`` as SVG, those beyond the noise of folds in colour.
+    """Return the lines of ``scores`` as SVG, those that differ by more than chance in colour.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def slope_chart(title: str, names: tuple[str, str], scores: Sequence[ScoreChange
     """
     values = [value for score in scores for value in (score.first, score.second)]
     height, ends = _height(values), sorted({min(values), max(values)})
-    ordered = sorted(scores, key=lambda score: score.verdict.beyond_noise)  # colours on top
+    ordered = sorted(scores, key=lambda score: score.verdict.more_than_chance)  # colours on top
     labels = _labels(ordered, height)
     marks = [
         _text(0, 14, _short(names[0]), "start"),
@@ -72,9 +72,9 @@ def _described(score: ScoreChange) -> str:
 
 
 def _labels(scores: Sequence[ScoreChange], height: Callable[[float], float]) -> list[Markup]:
-    """Return the names of the largest changes beyond noise, beside their ends, none on another."""
-    beyond = [score for score in scores if score.verdict.beyond_noise]
-    largest = sorted(beyond, key=lambda score: score.relative)[-MOST_NAMED:]
+    """Return the names of the largest changes in colour, beside their ends, none on another."""
+    coloured = [score for score in scores if score.verdict.more_than_chance]
+    largest = sorted(coloured, key=lambda score: score.relative)[-MOST_NAMED:]
     named = sorted(largest, key=lambda score: height(score.second))
     labels: list[Markup] = []
     last = float(TOP - GAP)

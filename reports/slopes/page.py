@@ -50,9 +50,10 @@ def _summary(changes: RunChanges) -> str:
     counts, (_, other) = changes.counts, changes.names
     parts = [
         f"{counts[ChangeVerdict.BETTER]} better and {counts[ChangeVerdict.WORSE]} worse in "
-        f"{other} beyond fold noise",
-        f"{counts[ChangeVerdict.WITHIN_NOISE]} differ within it",
-        f"{counts[ChangeVerdict.UNTESTED]} differ on one unit, which allows no test",
+        f"{other} by more than chance",
+        f"{counts[ChangeVerdict.MAY_BE_CHANCE]} differ by what may be chance",
+        f"{counts[ChangeVerdict.UNTESTED]} differ over too few units to test",
+        f"{counts[ChangeVerdict.INCOMPLETE]} are incomplete",
         f"{counts[ChangeVerdict.IDENTICAL]} are identical",
     ]
     return (

@@ -29,12 +29,13 @@ class ChangeVerdict(Enum):
 
     BETTER = "better"
     WORSE = "worse"
-    WITHIN_NOISE = "within fold noise"
-    UNTESTED = "on one unit"
+    MAY_BE_CHANCE = "may be chance"
+    UNTESTED = "too few to test"
+    INCOMPLETE = "incomplete"
     IDENTICAL = "identical"
 
     @property
-    def beyond_noise(self) -> bool:
+    def more_than_chance(self) -> bool:
         """Whether the difference is more than chance."""
         return self in {ChangeVerdict.BETTER, ChangeVerdict.WORSE}
 
@@ -47,11 +48,11 @@ class ScoreChange:
     ----------
     task, case, label, metric : str
     n : int
-        Number of folds that both runs have.
+        Number of independent units (`mocapbench.reports.analysis.units`).
     first, second : float
-        Means over these folds in A and in B.
+        Means in A and in B over the folds that both have.
     low, high : float
-        95 % interval of how much better B is; NaN where one unit gives none.
+        95 % interval of how much better B is; NaN where nothing is tested.
     verdict : ChangeVerdict
     """
 
@@ -154,7 +155,7 @@ class RunChanges:
         What to call the runs.
     tasks : sequence of ComparedTask
     scores : sequence of ScoreChange
-        Every metric of every cell that both runs have, in table order.
+        Every metric of every cell that both runs have, task by task.
     newly_failing, newly_passing : sequence of Ending
     parameters : sequence of ChangedParameter
     provenance, recordings : sequence of ChangedFact
@@ -182,14 +183,20 @@ class RunChanges:
         return {verdict: counts[verdict] for verdict in ChangeVerdict}
 
     @property
-    def beyond_noise(self) -> list[ScoreChange]:
+    def more_than_chance(self) -> list[ScoreChange]:
         """The scores whose difference is more than chance, the largest first."""
-        found = [score for score in self.scores if score.verdict.beyond_noise]
-        return sorted(found, key=lambda score: score.relative, reverse=True)
+        return self._largest_first(ChangeVerdict.BETTER, ChangeVerdict.WORSE)
 
     @property
     def undecided(self) -> list[ScoreChange]:
-        """The scores that differ, which may be noise, the largest first."""
-        open_verdicts = {ChangeVerdict.WITHIN_NOISE, ChangeVerdict.UNTESTED}
-        found = [score for score in self.scores if score.verdict in open_verdicts]
+        """The scores that differ, which may be chance or is not tested, the largest first."""
+        return self._largest_first(ChangeVerdict.MAY_BE_CHANCE, ChangeVerdict.UNTESTED)
+
+    @property
+    def incomplete(self) -> list[ScoreChange]:
+        """The scores of which a run lost folds, the largest difference first."""
+        return self._largest_first(ChangeVerdict.INCOMPLETE)
+
+    def _largest_first(self, *verdicts: ChangeVerdict) -> list[ScoreChange]:
+        found = [score for score in self.scores if score.verdict in verdicts]
         return sorted(found, key=lambda score: score.relative, reverse=True)

@@ -6,11 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.comparison import run_changes
+from mocapbench.benchmark.comparison import compare, outcome, run_changes
+from mocapbench.benchmark.comparison.rows import POOLED
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
+from mocapbench.metrics.statistics import ROPE
 from mocapbench.reports import ChangeVerdict
 
 TOY, FRAMES = "toy-interpolation-1", "missing-frames"
@@ -106,11 +109,11 @@ def test_a_run_against_itself_shows_no_change(cli, run):
 @pytest.mark.parametrize(
     ("amount", "verdict"), [(2.0, ChangeVerdict.WORSE), (-2.0, ChangeVerdict.BETTER)]
 )
-def test_one_cell_beyond_noise_is_exactly_what_is_shown(cli, run, amount, verdict):
+def test_one_cell_that_changed_is_exactly_what_is_shown(cli, run, amount, verdict):
     other = changed(side(), plus(amount), label="knn", case="test 2", task=TOY)
     changes = run_changes(side(), other, NAMES)
     assert verdicts(changes) == {(TOY, "test 2", "knn", "mse"): verdict}
-    (score,) = changes.beyond_noise
+    (score,) = changes.more_than_chance
     assert score.low <= -1.2 * amount <= score.high
     one, two = run("a", side()), run("b", other)
     assert cli("report", one, two) == 0
@@ -130,13 +133,70 @@ def test_turning_the_runs_round_turns_the_verdicts_round():
     np.testing.assert_allclose(intervals[0], turned_round)
 
 
-def test_one_fold_in_five_is_within_noise_and_windows_allow_no_test():
+def test_one_fold_in_five_may_be_chance_and_windows_allow_no_test():
     first = changed(side(), plus(50.0), label="knn", case="test 1", fold=3)
     assert verdicts(run_changes(side(), first, NAMES)) == {
-        (TOY, "test 1", "knn", "mse"): ChangeVerdict.WITHIN_NOISE
+        (TOY, "test 1", "knn", "mse"): ChangeVerdict.MAY_BE_CHANCE
     }
     windows = changed(side(), lambda r: replace(r, scores={"rms_per_frame": 99.0}), task=FRAMES)
     assert list(verdicts(run_changes(side(), windows, NAMES)).values()) == [ChangeVerdict.UNTESTED]
+
+
+def random_side(task, metric, n_folds, seed, location):
+    rng = np.random.default_rng(seed)
+    return [
+        record("knn", case.name, fold, float(rng.normal(location, 0.05)), task=task, metric=metric)
+        for case in TASKS.get(task).cases[:3]
+        for fold in range(n_folds)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("task", "metric", "n_folds", "n_units"),
+    [
+        (TOY, "mse", 6, 6),
+        ("toy-synthesis", "variance_ratio", 6, 6),  # folds lie on both sides of its target
+        (FRAMES, "rms_per_frame", 6, 1),
+        ("marker-gaps", "mpjpe", 12, 4),
+        ("walking-synthesis", "mcc", 6, 1),
+    ],
+)
+@pytest.mark.parametrize("location", [1.0, 0.8])
+def test_units_advantages_and_verdicts_are_those_of_compare(
+    task, metric, n_folds, n_units, location
+):
+    sides = [random_side(task, metric, n_folds, *of) for of in ((1, 1.0), (2, location))]
+    changes = {(s.case, s.metric): s for s in run_changes(*sides, NAMES).scores}
+    rows = [r for r in compare(*sides, metrics=[metric], rope=ROPE) if r.case != POOLED]
+    for row in rows:
+        score = changes[row.case, row.metric]
+        found = row.contrast
+        assert (score.n, score.first, score.second) == (n_units, found.first, found.second)
+        assert (score.low, score.high) == pytest.approx((-found.high, -found.low), nan_ok=True)
+        outcomes = {
+            ChangeVerdict.BETTER: "after better",
+            ChangeVerdict.WORSE: "before better",
+            ChangeVerdict.MAY_BE_CHANCE: "not separable",
+            ChangeVerdict.UNTESTED: "too few to test",
+        }
+        assert outcomes[score.verdict] == outcome(row, NAMES)
+
+
+def test_a_cell_of_which_a_run_lost_folds_is_not_compared(cli, run):
+    """However much better the folds are that it has."""
+    other = changed(side(), plus(-2.0), label="knn", case="test 1")
+    other = changed(other, failed, label="knn", case="test 1", fold=2)
+    changes = run_changes(side(), other, NAMES)
+    assert verdicts(changes) == {
+        (TOY, "test 1", "knn", metric): ChangeVerdict.INCOMPLETE
+        for metric in ("mse", "smse_pooled")
+    }
+    assert all(np.isnan((score.low, score.high)).all() for score in changes.incomplete)
+    one, two = run("a", side()), run("b", other)
+    assert cli("report", one, two) == 0
+    page = (two / "report-against-a.html").read_text(encoding="utf-8")
+    assert "2 are incomplete" in page
+    assert "2 scores not compared, because a run lost folds" in page
 
 
 def test_jobs_that_newly_fail_or_pass_are_listed_with_their_reason(cli, run):
