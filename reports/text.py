@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
+from itertools import count
 from urllib.parse import quote
 
 import numpy as np
@@ -10,6 +12,7 @@ import numpy as np
 __all__ = [
     "FEWEST_DECIMALS",
     "MINUS",
+    "apart",
     "cell_anchor",
     "counted",
     "decimals",
@@ -55,6 +58,16 @@ def decimals(values: Iterable[float]) -> int:
 def number(value: float, places: int) -> str:
     """Return ``value`` with ``places`` decimals, a true minus sign, and no negative zero."""
     return f"{value:z.{places}f}".replace("-", MINUS)
+
+
+def apart(first: float, second: float, places: int) -> int:
+    """Return the fewest decimals, ``places`` or more, that show two values as different.
+
+    Values that differ by rounding alone need no more than ``places``.
+    """
+    if math.isclose(first, second):
+        return places
+    return next(more for more in count(places) if number(first, more) != number(second, more))
 
 
 def plus_minus(spread: float | None, places: int) -> str:

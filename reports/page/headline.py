@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.text import decimals, number
+from mocapbench.reports.text import apart, decimals, number
 
 __all__ = ["Headline", "cases_phrase", "same_places"]
 
@@ -34,6 +34,8 @@ def cases_phrase(cases: Sequence[CaseLayout]) -> str:
     return whole + (f" ({synthetic} synthetic)" if synthetic else "")
 
 
-def same_places(*values: float) -> list[str]:
-    """Return ``values`` with one number of decimals for all."""
-    return [number(value, decimals(values)) for value in values]
+def same_places(value: float, *others: float) -> list[str]:
+    """Return values with one number of decimals for all, which tells the first two apart."""
+    values = (value, *others)
+    places = apart(value, others[0], decimals(values)) if others else decimals(values)
+    return [number(each, places) for each in values]

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.reports.text import counted, decimals, number, slug
+from mocapbench.reports.text import apart, counted, decimals, number, slug
 
 
 @pytest.mark.parametrize(
@@ -23,6 +23,14 @@ def test_a_number_reads_back_to_its_places(value, places):
     text = number(value, places)
     assert "-" not in text
     assert float(text.replace("−", "-")) == pytest.approx(value, abs=0.51 * 10.0**-places)
+
+
+@given(st.floats(-1e3, 1e3), st.floats(1e-3, 1e3), st.integers(2, 4))
+def test_two_values_are_written_apart_with_no_more_digits_than_that_takes(value, more, places):
+    found = apart(value, value + more, places)
+    assert number(value, found) != number(value + more, found)
+    assert found == places or number(value, found - 1) == number(value + more, found - 1)
+    assert apart(value, value, places) == places
 
 
 @pytest.mark.parametrize(

@@ -161,10 +161,37 @@ def test_an_answer_names_the_model_that_leads_its_margin_and_the_test(small):
     (finding,) = answer.findings
     assert answer.model == "a"
     assert finding.text.startswith("a 1.00, next b 9.05 (behind by ")
-    assert (
-        answer.sure == "The lead: more than chance (6 folds)." or "more than chance" in answer.sure
-    )
+    assert answer.sure == "1 lead: 1 more than chance"
     assert finding.id == "task-small"
+
+
+FEW = {"a": [1.0], "b": [2.0]}
+CHANCE = {"a": [1.0, 1.1, 0.9, 1.0, 1.1, 0.9], "b": [1.1, 1.0, 1.0, 0.9, 1.2, 0.9]}
+
+
+@pytest.mark.parametrize(
+    ("rows", "doubt"),
+    [
+        ([CLEAR], ""),
+        ([CLEAR, CLEAR, FEW], ""),
+        ([CLEAR, FEW], "too few to test"),
+        ([FEW, CHANCE], "may be chance"),
+        ([{"a": [1.0]}], "no rival"),
+    ],
+)
+def test_the_head_names_a_model_without_a_doubt_only_where_most_leads_are_more_than_chance(
+    small, rows, doubt
+):
+    tasks = [small({"row": row}, task=f"task {place}") for place, row in enumerate(rows)]
+    (answer,) = answers([results_of(task) for task in tasks])
+    assert (answer.model, answer.doubt) == ("a", doubt)
+
+
+def test_a_lead_below_the_digits_of_the_scoreboard_is_told_with_more(small):
+    results = results_of(small({"row": {"a": [17.304], "b": [17.3046], "c": [20.0]}}))
+    (answer,) = answers([results])
+    assert answer.findings[0].text == "a 17.304, next b 17.305"
+    assert {board_cells(results)[label].text for label in "ab"} == {"17.30"}
 
 
 def test_where_as_many_tasks_have_other_leaders_it_depends(small):

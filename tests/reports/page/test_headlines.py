@@ -182,6 +182,11 @@ def test_a_model_that_lacks_a_case_is_not_next_best(small):
     assert "by MSE, 1.00; no other entrant has every score." in lead_of(results_of(small(values)))
 
 
+def test_two_means_are_told_apart_by_their_digits(small):
+    text = lead_of(results_of(small({"row": {"a": [17.304], "b": [17.3046]}})))
+    assert "17.304, next best b 17.305;" in text
+
+
 def test_two_with_the_same_mean_are_level(small):
     text = lead_of(results_of(small({"row": {"a": [0.5], "b": [0.5], "c": [0.7]}})))
     assert text.startswith("a is level with b over the only case by MSE, 0.50.")
