@@ -10,7 +10,6 @@ import numpy as np
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Standing, standings
-from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.front.board import INCOMPLETE, SHADES, BoardCell
 from mocapbench.reports.text import cell_anchor, number
 
@@ -54,12 +53,22 @@ def reference_of(results: TaskResults) -> str | None:
     return next((name for name in names if _mean(results, metric, name) is not None), None)
 
 
-def _mean(results: TaskResults, metric: str, label: str) -> float | None:
-    """Return the mean over the cases that count; None where the label has no score."""
+def _means(results: TaskResults, metric: str, label: str) -> list[float]:
+    """Return the means of the cases that count in which the label has a score."""
     cases = results.representative_cases(metric)
     found = [results.estimate(case.name, label, metric) for case in cases]
-    means = [estimate.mean for estimate in found if estimate is not None]
+    return [estimate.mean for estimate in found if estimate is not None]
+
+
+def _mean(results: TaskResults, metric: str, label: str) -> float | None:
+    """Return the mean over the cases that count; None where the label has no score."""
+    means = _means(results, metric, label)
     return float(np.mean(means)) if means else None
+
+
+def _mean_loss(results: TaskResults, metric: str, label: str) -> float:
+    """Return the mean loss over the cases that count, where the label has a score."""
+    return float(np.mean([*map(results.metrics[metric].loss, _means(results, metric, label))]))
 
 
 def _cell(
@@ -74,8 +83,8 @@ def _cell(
     if not own.complete:
         return BoardCell(text, mean, INCOMPLETE, link=link, note=f"{INCOMPLETE} ({lacking})")
     reference = reference_of(results)
-    beaten = label != reference and _beaten(results, metric, mean, reference)
-    return BoardCell(text, mean, _shade(results.metrics[metric], own, best), beaten, link, lacking)
+    beaten = label != reference and _beaten(results, metric, label, reference)
+    return BoardCell(text, mean, _shade(results, metric, own, best), beaten, link, lacking)
 
 
 def _lacking(own: Standing, best: Standing, n_cases: int) -> str:
@@ -85,22 +94,27 @@ def _lacking(own: Standing, best: Standing, n_cases: int) -> str:
     return "" if own.complete else f"{own.n_folds} of {best.n_folds} folds"
 
 
-def _beaten(results: TaskResults, metric: str, mean: float, reference: str | None) -> bool:
-    """Return whether a mean is no better than that of the reference."""
-    other = _mean(results, metric, reference) if reference else None
-    loss = results.metrics[metric].loss
-    return other is not None and loss(mean) >= loss(other)
+def _beaten(results: TaskResults, metric: str, label: str, reference: str | None) -> bool:
+    """Return whether a label is no better than the reference."""
+    if reference is None:
+        return False
+    own, other = (_mean_loss(results, metric, name) for name in (label, reference))
+    return own >= other
 
 
-def _shade(info: MetricInfo, own: Standing, best: Standing) -> str:
+def _shade(results: TaskResults, metric: str, own: Standing, best: Standing) -> str:
     """Return the name of the shade: how many times worse than the best a mean is."""
-    times = 1.0 if own is best else _times_worse(info, own.mean, best.mean)
+    times = 1.0 if own is best else _times_worse(results, metric, own, best)
     return next((name for most, name in SHADES if times <= most), WORSE)
 
 
-def _times_worse(info: MetricInfo, mean: float, best: float) -> float:
-    """Return the ratio of a mean to the best one, above 1; infinite across zero."""
-    better, worse = (mean, best) if info.direction is Direction.HIGHER else (best, mean)
-    if info.direction is Direction.TARGET:
-        better, worse = info.loss(best), info.loss(mean)
-    return max(worse / better, NEXT) if better > 0.0 and worse > 0.0 else math.inf
+def _times_worse(results: TaskResults, metric: str, own: Standing, best: Standing) -> float:
+    """Return the ratio of a mean to the best one, above 1; infinite across zero.
+
+    Where there is a target, it is of the mean distances from it.
+    """
+    sizes = [own.mean, best.mean]
+    if results.metrics[metric].direction is Direction.TARGET:
+        sizes = [_mean_loss(results, metric, one.label) for one in (own, best)]
+    least, most = sorted(sizes)
+    return max(most / least, NEXT) if least > 0.0 else math.inf

@@ -111,6 +111,16 @@ def test_what_is_no_better_than_the_reference_is_marked(small):
     assert reference_of(results_of(small({"row": {"a": [1.0]}}))) is None
 
 
+def test_near_a_target_the_distances_of_cases_count_and_not_that_of_their_mean(small):
+    values = {
+        "x": {"a": [0.52], "b": [0.53], "trivial": [0.525]},
+        "y": {"a": [0.48], "b": [0.53], "trivial": [0.525]},
+    }
+    cells = board_cells(results_of(small(values, metric="coverage_50")))
+    assert (cells["a"].shade, cells["b"].shade) == ("best", "within 50 %")
+    assert (cells["a"].beaten, cells["b"].beaten) == (False, True)
+
+
 @pytest.mark.parametrize(("loser", "said"), [(3.0, True), (1.5, False)])
 def test_the_key_of_the_mark_is_there_where_something_has_it(small, loser, said):
     results = results_of(small({"row": {"a": [1.0], "trivial": [2.0], "b": [loser]}}))
