@@ -9,7 +9,7 @@ from .digests import DigestMismatch, UnregisteredDigestWarning
 from .errors import FetchError, RecordingUnavailable, ServerUnreachable, SkeletonUnavailable
 from .features import THESIS_CHANNELS, gpdm_features, hlm_features
 from .formats.base import Extra, Format
-from .formats.errors import FormatError, MissingExtraError
+from .formats.errors import FormatError, MissingExtraError, TextColumnsWarning
 from .formats.joints.acclaim_motion import AcclaimFormat
 from .formats.joints.bvh import BVHFormat
 from .formats.markers.c3d import C3DFormat
@@ -75,6 +75,7 @@ __all__ = [
     "Skeleton",
     "SkeletonUnavailable",
     "TRCFormat",
+    "TextColumnsWarning",
     "ToyProcess",
     "TruncatedFrameWarning",
     "UnregisteredDigestWarning",

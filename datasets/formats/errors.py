@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["FormatError", "MissingExtraError"]
+__all__ = ["FormatError", "MissingExtraError", "TextColumnsWarning"]
 
 
 class FormatError(ValueError):
@@ -59,3 +59,7 @@ class MissingExtraError(FormatError):
     def __str__(self) -> str:
         suffix = self.file[self.file.rfind(".") :]
         return f"{self.file}: reading {suffix} needs {self.package}; {self.advice}"
+
+
+class TextColumnsWarning(UserWarning):
+    """Columns of a table are no channels, because they are not numbers."""

@@ -18,8 +18,9 @@ from mocapbench.datasets.acclaim.skeleton_reader import read_skeleton
 from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import even_times
 from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.text.cells import Words
+from mocapbench.datasets.formats.text.lines import read_lines, write_lines
 from mocapbench.datasets.formats.text.numbers import written
-from mocapbench.datasets.formats.text.rows import Words, read_lines, write_lines
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["AcclaimFormat"]
@@ -60,7 +61,7 @@ class AcclaimFormat(Format):
             line = start + frame * (1 + len(moving)) + 1 + place.segment
             number = written(stated[frame, channel])
             lines[line] = Words().replaced(lines[line], {place.word: number})
-        write_lines(path, lines)
+        write_lines(path, lines, like)
 
     def skeleton(self, path: Path) -> Skeleton:
         """Return the skeleton beside a motion.

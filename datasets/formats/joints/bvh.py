@@ -11,8 +11,10 @@ from pathlib import Path
 from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import even_times, recording_of
 from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.text.cells import Words
+from mocapbench.datasets.formats.text.lines import read_lines, write_lines
 from mocapbench.datasets.formats.text.numbers import numeric
-from mocapbench.datasets.formats.text.rows import Table, Words, read_lines, write_lines
+from mocapbench.datasets.formats.text.rows import Table
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["BVHFormat"]
@@ -54,7 +56,7 @@ class BVHFormat(Format):
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's lines with the new numbers."""
         table = _head(like.name, read_lines(like)).table
-        write_lines(path, table.with_numbers(range(table.width), values, new))
+        write_lines(path, table.with_numbers(range(table.width), values, new), like)
 
 
 @dataclass(frozen=True)

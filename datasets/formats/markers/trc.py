@@ -10,7 +10,9 @@ from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import even_times, recording_of
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.markers.channels import marker_channels
-from mocapbench.datasets.formats.text.rows import Separated, Table, read_lines, write_lines
+from mocapbench.datasets.formats.text.cells import Separated
+from mocapbench.datasets.formats.text.lines import read_lines, write_lines
+from mocapbench.datasets.formats.text.rows import Table
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["TRCFormat"]
@@ -45,7 +47,7 @@ class TRCFormat(Format):
         """Write the file's lines with the new coordinates."""
         _, table = _parsed(like)
         columns = range(_LEADING, table.width)
-        write_lines(path, table.with_numbers(columns, values, new))
+        write_lines(path, table.with_numbers(columns, values, new), like)
 
 
 @dataclass(frozen=True)

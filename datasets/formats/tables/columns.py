@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Sequence
 from typing import NamedTuple
 
 from mocapbench.datasets.formats.building import even_times, recording_of
-from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.errors import FormatError, TextColumnsWarning
 from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
 
 __all__ = ["TableColumns", "sort_columns", "table_recording"]
@@ -28,6 +29,8 @@ class TableColumns(NamedTuple):
     """The column of seconds, if there is one."""
     channels: tuple[int, ...]
     """Those of numbers."""
+    left_out: tuple[int, ...]
+    """Those of something else."""
 
 
 def sort_columns(names: Sequence[str], is_number: Sequence[bool]) -> TableColumns:
@@ -39,13 +42,15 @@ def sort_columns(names: Sequence[str], is_number: Sequence[bool]) -> TableColumn
         Column ``time`` is in seconds (also ``time [s]``, ``time_s``, ``t``, ``seconds``); ``frame``
         and a column without a name count the frames. Case does not matter.
     is_number : sequence of bool
-        Whether a column has numbers; others are no channels.
+        Whether a column has numbers; others are left out.
     """
     plain = [name.strip().lower() for name in names]
     times = [index for index, name in enumerate(plain) if name in _TIME]
     apart = {*times[:1], *(index for index, name in enumerate(plain) if name in _COUNT)}
-    channels = (k for k, number in enumerate(is_number) if number and k not in apart)
-    return TableColumns(times[0] if times else None, tuple(channels))
+    others = [index for index in range(len(names)) if index not in apart]
+    channels = tuple(index for index in others if is_number[index])
+    left_out = tuple(index for index in others if not is_number[index])
+    return TableColumns(times[0] if times else None, channels, left_out)
 
 
 def table_recording(
@@ -74,6 +79,11 @@ def table_recording(
     ------
     FormatError
         If neither a rate nor a column of times is given, or as `recording_of`.
+
+    Warns
+    -----
+    TextColumnsWarning
+        If columns are left out, as they are not numbers.
     """
     times, channels = values
     if rate is not None:
@@ -85,6 +95,10 @@ def table_recording(
             f"the columns {', '.join(names[:4])}{', …' if len(names) > 4 else ''}",
             "name the rate in frames per second, such as --rate 100",
         )
+    if columns.left_out:
+        left_out = ", ".join(names[index] for index in columns.left_out)
+        text = f"{file}: left out, as they are not numbers: {left_out}"
+        warnings.warn(text, TextColumnsWarning, stacklevel=2)
     named = [_channel(names[index]) for index in columns.channels]
     return recording_of(
         file, times, channels, [name for name, _ in named], [unit for _, unit in named]

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from math import nan
 
 import numpy as np
 
-__all__ = ["is_missing", "numeric", "written"]
+__all__ = ["is_missing", "is_number", "looks_numeric", "numeric", "written"]
 
 _MISSING = frozenset({"", "nan", "na", "null"})
+_NUMERIC = re.compile(
+    r"""\s*[+\-−]?
+    (?=[.,]?\d)
+    (\d*|\d{1,3}([.,'’_\s]\d{3})+)  # whole, perhaps with thousands separators
+    ([.,]\d*)?
+    (e[+\-]?\d+)?\s*""",
+    re.IGNORECASE | re.VERBOSE,
+)
 
 
 def is_missing(cell: str) -> bool:
@@ -17,8 +26,37 @@ def is_missing(cell: str) -> bool:
     return cell.strip().lower() in _MISSING
 
 
-def numeric(cells: Sequence[str]) -> list[float]:
+def is_number(cell: str, decimal: str) -> bool:
+    """Return whether `numeric` takes a cell, and it is not missing."""
+    try:
+        numeric([cell], decimal)
+    except ValueError:
+        return False
+    return not is_missing(cell)
+
+
+def looks_numeric(cell: str) -> bool:
+    """Return whether people would read a cell as a number, in whatever notation.
+
+    Examples
+    --------
+    >>> from mocapbench.datasets.formats.text.numbers import looks_numeric
+    >>> [looks_numeric(cell) for cell in ("1.5", "1,5", "1.234,5", "1'000")]
+    [True, True, True, True]
+    >>> [looks_numeric(cell) for cell in ("left", "2024-01-31", "31.01.2024", "v1.2")]
+    [False, False, False, False]
+    """
+    return is_number(cell, ".") or _NUMERIC.fullmatch(cell) is not None
+
+
+def numeric(cells: Sequence[str], decimal: str = ".") -> list[float]:
     """Return the numbers of some cells, NaN for those that are missing.
+
+    Parameters
+    ----------
+    cells : sequence of str
+    decimal : str
+        The decimal mark, a point or a comma.
 
     Raises
     ------
@@ -29,12 +67,16 @@ def numeric(cells: Sequence[str]) -> list[float]:
     # float() also accepts Python's 1_000 and the digits of other scripts; the formats do not.
     if not joined.isascii() or "_" in joined:
         raise ValueError("digits of another script, or an underscore")
+    if decimal != ".":
+        if "." in joined:
+            raise ValueError("another decimal mark")
+        cells = [cell.replace(decimal, ".") for cell in cells]
     try:
         return list(map(float, cells))
     except ValueError:  # much slower
         return [nan if is_missing(cell) else float(cell) for cell in cells]
 
 
-def written(value: float) -> str:
+def written(value: float, decimal: str = ".") -> str:
     """Return the shortest decimal number, without an exponent, that reads back the same."""
-    return np.format_float_positional(value, trim="0")
+    return np.format_float_positional(value, trim="0").replace(".", decimal)

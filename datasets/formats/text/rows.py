@@ -1,103 +1,25 @@
-"""Text files as lines with their ends, and rows of which only some cells are changed.
-
-A file is written as the lines that were read, byte for byte, but for the cells that are new.
-"""
+"""Text files as rows of which only some cells are changed."""
 
 from __future__ import annotations
 
-import re
 from array import array
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
 from mocapbench.datasets.formats.errors import FormatError
-from mocapbench.datasets.formats.text.numbers import is_missing, numeric, written
+from mocapbench.datasets.formats.text.cells import Cells
+from mocapbench.datasets.formats.text.numbers import (
+    is_missing,
+    is_number,
+    looks_numeric,
+    numeric,
+    written,
+)
 from mocapbench.datasets.recording import FrameByChannel, Mask
 
-__all__ = ["Cells", "Separated", "Table", "Words", "read_lines", "write_lines"]
-
-_ENDS = "\r\n"
-_BYTE_ORDER_MARK = "\ufeff"
-
-
-def read_lines(path: Path) -> list[str]:
-    """Return the lines of a text file with their ends; bytes that are not UTF-8 are kept."""
-    with path.open(encoding="utf-8", errors="surrogateescape", newline="\n") as file:
-        return file.readlines()
-
-
-def write_lines(path: Path, lines: Sequence[str]) -> None:
-    """Write lines that have their ends, the inverse of `read_lines`."""
-    with path.open("w", encoding="utf-8", errors="surrogateescape", newline="\n") as file:
-        file.writelines(lines)
-
-
-class Cells(Protocol):
-    """How the cells of a row are told apart."""
-
-    def split(self, line: str) -> list[str]:
-        """Return the cells of a line."""
-
-    def replaced(self, line: str, new: Mapping[int, str]) -> str:
-        """Return the line with the cells of some indices replaced."""
-
-
-@dataclass(frozen=True)
-class Separated:
-    """Cells between separators; those within double quotes belong to the cell.
-
-    Parameters
-    ----------
-    separator : str
-        One character.
-    """
-
-    separator: str
-
-    def split(self, line: str) -> list[str]:
-        """Return the cells of a line, without quotes and the blanks around."""
-        text = line.removeprefix(_BYTE_ORDER_MARK)
-        if '"' not in text:
-            return text.rstrip(_ENDS).split(self.separator)
-        return [cell.strip().strip('"') for cell in self._quoted(text)]
-
-    def replaced(self, line: str, new: Mapping[int, str]) -> str:
-        """Return the line with the cells of some indices replaced; a short line is lengthened."""
-        body = line.rstrip(_ENDS)
-        cells = self._quoted(body)
-        cells += [""] * (1 + max(new) - len(cells))
-        for index, cell in new.items():
-            cells[index] = cell
-        return self.separator.join(cells) + line[len(body) :]
-
-    def _quoted(self, line: str) -> list[str]:
-        cells: list[str] = []
-        for piece in line.rstrip(_ENDS).split(self.separator):
-            if cells and cells[-1].count('"') % 2:
-                cells[-1] += self.separator + piece
-            else:
-                cells.append(piece)
-        return cells
-
-
-class Words:
-    """Cells between blanks."""
-
-    def split(self, line: str) -> list[str]:
-        """Return the words of a line."""
-        return line.split()
-
-    def replaced(self, line: str, new: Mapping[int, str]) -> str:
-        """Return the line with the words of some indices replaced, and all blanks as they were."""
-        words = re.findall(r"\s*\S+", line)
-        end = line[sum(map(len, words)) :]
-        for index, word in new.items():
-            words[index] = words[index].removesuffix(words[index].lstrip()) + word
-        return "".join(words) + end
+__all__ = ["Table"]
 
 
 @dataclass(frozen=True)
@@ -118,6 +40,10 @@ class Table:
         Cells of a row.
     shortest : int
         Cells that a row has at least, if the empty ones at its end may be left out.
+    decimal : str
+        The decimal mark, a point or a comma.
+    names : sequence of str
+        Of the columns, for errors; without them, columns are counted from 1.
     """
 
     file: str
@@ -126,6 +52,8 @@ class Table:
     cells: Cells
     width: int
     shortest: int
+    decimal: str = "."
+    names: Sequence[str] = ()
 
     @property
     def stop(self) -> int:
@@ -164,30 +92,30 @@ class Table:
         values = array("d")  # lists would take four times the memory
         for index in range(self.start, self.stop):
             row = self.row(index)
-            chosen = [row[column] for column in columns]
             try:
-                values.extend(numeric(chosen))
+                values.extend(numeric([row[column] for column in columns], self.decimal))
             except ValueError:
-                raise self._not_a_number(chosen, index) from None
+                raise self._not_a_number(row, columns, index) from None
         return np.frombuffer(values, dtype=np.float64).reshape(-1, len(columns))
 
     def with_numbers(self, columns: Sequence[int], values: FrameByChannel, new: Mask) -> list[str]:
         """Return the lines of the file with the ``new`` (N, columns) cells replaced."""
         lines = list(self.lines)
         for row in np.flatnonzero(new.any(axis=1)).tolist():
-            cells = {columns[k]: written(values[row, k]) for k in np.flatnonzero(new[row]).tolist()}
+            places = np.flatnonzero(new[row]).tolist()
+            cells = {columns[k]: written(values[row, k], self.decimal) for k in places}
             lines[self.start + row] = self.cells.replaced(lines[self.start + row], cells)
         return lines
 
-    def _not_a_number(self, cells: Sequence[str], index: int) -> FormatError:
-        wrong = next(filter(_is_wrong, cells))
-        advice = "correct the cell, or leave it empty if the value is missing"
-        return FormatError(self.file, "a number", repr(wrong[:60]), advice, index + 1)
+    def _not_a_number(self, row: Sequence[str], columns: Sequence[int], index: int) -> FormatError:
+        wrong = next(column for column in columns if self._is_wrong(row[column]))
+        expected, advice = "a number", "correct the cell, or leave it empty if the value is missing"
+        if looks_numeric(row[wrong]):
+            expected = f"a number such as 1{self.decimal}5 or -1000"
+            advice = "write all numbers of the file so, without other marks"
+        column = repr(self.names[wrong]) if self.names else wrong + 1
+        got = f"{row[wrong][:60]!r} in column {column}"
+        return FormatError(self.file, expected, got, advice, index + 1)
 
-
-def _is_wrong(cell: str) -> bool:
-    try:
-        numeric([cell])
-    except ValueError:
-        return not is_missing(cell)
-    return False
+    def _is_wrong(self, cell: str) -> bool:
+        return not (is_missing(cell) or is_number(cell, self.decimal))

@@ -14,6 +14,9 @@ from mocapbench.datasets.formats import base, memory
 
 NAMES = FORMATS.names()
 
+# Samples of tables have a column of text.
+pytestmark = pytest.mark.filterwarnings("ignore::mocapbench.datasets.TextColumnsWarning")
+
 
 @pytest.mark.parametrize("name", NAMES)
 def test_what_is_not_filled_stays_a_gap(name, tmp_path):

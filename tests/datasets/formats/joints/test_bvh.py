@@ -93,7 +93,9 @@ WRONG = {
     ): "line 18: expected 'Frame Time:' with a positive number, got",
     SMALL.replace("7.\n", "\n"): "line 21: expected 7 cells, got 6 cells; export",
     SMALL.replace("6.00", "6.00 7"): "line 20: expected 7 cells, got 8 cells; export",
-    SMALL.replace("6.00", "soon"): "line 20: expected a number, got 'soon'; correct the cell",
+    SMALL.replace(
+        "6.00", "soon"
+    ): "line 20: expected a number, got 'soon' in column 7; correct the cell",
     SMALL.replace("6.00", "1e999"): "finite numbers, .*, got inf at frame 1 of Left Knee.rx",
     SMALL[:300]: "expected 4 frames, as 'Frames:' says|expected|7 cells",
 }

@@ -1,0 +1,69 @@
+"""The first line of a file of separated values, and the causes why it may not name the columns."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.text.cells import Separated
+from mocapbench.datasets.formats.text.numbers import is_missing, looks_numeric
+
+__all__ = ["check_lines", "column_names"]
+
+_SHOWN = 60
+_EXPECTED = "the names of the columns, with commas, semicolons or tabs between them"
+_EXAMPLE = "write such as 'time,hip.x [cm],hip.y [cm]' in the first line"
+
+
+def check_lines(file: str, lines: Sequence[str]) -> None:
+    """Refuse what is no text, and what is one line to all but old programs.
+
+    Raises
+    ------
+    FormatError
+        If there is no line, one has a NUL byte, or a carriage return alone ends the first.
+    """
+    if not lines:
+        raise FormatError(file, _EXPECTED, "an empty file", _EXAMPLE, line=1)
+    for number, line in enumerate(lines, start=1):
+        if "\0" in line:
+            expected = "text in UTF-8, or in UTF-16 with a byte order mark"
+            raise FormatError(file, expected, "a NUL byte", "save it as CSV in UTF-8", number)
+    if "\r" in lines[0].rstrip("\r\n"):
+        expected, got = "lines that end with LF or CR LF", "lines that end with CR alone"
+        raise FormatError(file, expected, got, "save it with other line ends", line=1)
+
+
+def column_names(file: str, lines: Sequence[str], cells: Separated) -> list[str]:
+    """Return the names of the columns, which are in the first line.
+
+    Raises
+    ------
+    FormatError
+        If that line has something else, or the one below has more cells than there are names.
+    """
+    names = [name.strip() for name in cells.split(lines[0])]
+    below = cells.split(lines[1]) if len(lines) > 1 else []
+    if _stands_above(names, below):
+        advice = "remove what stands above the names of the columns"
+        raise FormatError(file, _EXPECTED, _shown(lines[0]), advice, line=1)
+    if all(is_missing(name) or looks_numeric(name) for name in names):
+        raise FormatError(file, _EXPECTED, _shown(lines[0]), _EXAMPLE, line=1)
+    if cells.separator == "," and len(names) < len(below) and all(map(looks_numeric, below)):
+        advice = (
+            "if commas are decimal marks here, put semicolons between columns, else name every "
+            "column in the first line"
+        )
+        got = f"{len(below)} between commas"
+        raise FormatError(file, f"{len(names)} cells", got, advice, line=2)
+    return names
+
+
+def _stands_above(names: Sequence[str], below: Sequence[str]) -> bool:
+    """Return whether the first line is a comment, or tells Excel what separates columns."""
+    other = len(names) != len(below) or not any(map(looks_numeric, below))
+    return names[0].lower().startswith("sep=") or (names[0].startswith("#") and other)
+
+
+def _shown(line: str) -> str:
+    return repr(line.lstrip("\ufeff")[:_SHOWN].rstrip())
