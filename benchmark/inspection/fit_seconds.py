@@ -10,7 +10,7 @@ from mocapbench.benchmark.runs.execution.durations import Durations
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["MEASURED", "alike", "of_fits", "of_predictions", "of_records", "typical"]
+__all__ = ["MEASURED", "alike", "of_records", "typical"]
 
 MEASURED = {"smoke": "smoke", "quick": "quick", "paper": "quick"}
 """Of each profile, the one whose fits were measured; those of ``paper`` take longer."""
@@ -32,21 +32,10 @@ def of_records(records: Iterable[Record]) -> Durations:
     )
 
 
-def of_fits(records: Iterable[Record]) -> Durations:
-    """Return how long the fits of ``records`` took."""
-    return _learnt((record.address, record.fit_seconds) for record in records)
-
-
-def of_predictions(records: Iterable[Record]) -> Durations:
-    """Return how long the predictions of ``records`` took."""
-    return _learnt((record.address, record.predict_seconds) for record in records)
-
-
-def _learnt(seconds: Iterable[tuple[Address, float | None]]) -> Durations:
+def _learnt(seconds: Iterable[tuple[Address, float]]) -> Durations:
     durations = Durations()
     for address, each in seconds:
-        if each is not None:
-            durations.learn(alike(address), each)
+        durations.learn(alike(address), each)
     return durations
 
 

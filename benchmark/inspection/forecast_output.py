@@ -7,9 +7,9 @@ from pathlib import Path
 
 from mocapbench.benchmark.inspection.explanation import Step
 from mocapbench.benchmark.inspection.fit_seconds import MEASURED
-from mocapbench.benchmark.inspection.forecast import Basis, Forecast, Work
+from mocapbench.benchmark.inspection.forecast import Forecast
+from mocapbench.benchmark.inspection.work import Basis
 from mocapbench.benchmark.runs.job import Job
-from mocapbench.benchmark.runs.progress import in_words
 from mocapbench.reports.text import counted
 
 __all__ = ["forecast_lines", "lacking", "lacking_line"]
@@ -51,18 +51,10 @@ def forecast_lines(forecast: Forecast, out: Path, n_workers: int | None) -> Iter
     if not forecast.with_all.seconds:
         return
     if forecast.now.seconds:
-        yield f"time: {_time(forecast.now, n_workers)}"
+        yield f"time: {forecast.now.in_words(n_workers)}"
     if forecast.with_all != forecast.now:
-        yield f"time with the missing recordings: {_time(forecast.with_all, n_workers)}"
+        yield f"time with the missing recordings: {forecast.with_all.in_words(n_workers)}"
     yield from _known(forecast)
-
-
-def _time(work: Work, n_workers: int | None) -> str:
-    fits = f"{in_words(work.total)} of work in {counted(len(work.seconds), 'fit')}"
-    if n_workers is None:
-        return f"about {fits}, divided among the workers of the cluster"
-    wall = in_words(work.wall_time(n_workers))
-    return f"about {wall} with {counted(n_workers, 'job')} at once ({fits})"
 
 
 def _known(forecast: Forecast) -> Iterator[str]:

@@ -84,8 +84,8 @@ def state_lines(state: RunState, now: datetime) -> Iterable[str]:
     lines = [f"{state.name}{_origin(state.about, now)}"]
     if "wall time" in state.about and not state.writing:
         lines.append(f"wall time: {state.about['wall time']}")
-    if state.seconds_left:
-        lines.append(f"about {progress.in_words(state.seconds_left)} of work left")
+    if state.work_left.seconds:
+        lines.append(f"time left: {state.work_left.in_words(state.workers)}")
     if state.name == "interrupted":
         lines.append("the same command resumes it")
     return lines

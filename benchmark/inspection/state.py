@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from mocapbench.benchmark.inspection.fit_seconds import alike, of_fits, of_predictions
+from mocapbench.benchmark.inspection.fit_seconds import MEASURED
+from mocapbench.benchmark.inspection.work import Work, work_of
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, planned_jobs
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
@@ -49,8 +50,10 @@ class RunState:
         Whether a run is writing to the folder now.
     about : mapping of str to str
         The run's provenance.
-    seconds_left : float
-        About how long the jobs that are left take.
+    work_left : Work
+        The fits of jobs that are left.
+    workers : int
+        How many jobs run at once.
     damaged : tuple of str
         Files that are not whole.
     """
@@ -58,7 +61,8 @@ class RunState:
     tasks: Mapping[str, TaskState]
     writing: bool
     about: Mapping[str, str]
-    seconds_left: float
+    work_left: Work
+    workers: int
     damaged: tuple[str, ...]
 
     @property
@@ -90,13 +94,12 @@ def run_state(store: Store) -> RunState:
         known = record or jobs.get(key)
         tasks[known.address.task if known else UNKNOWN].append(record)
     left = [job for job in jobs.values() if records[job.key] is None]
-    predicted = [key for key in sorted(store.fit_keys()) if store.has_fit(key)]
-    seconds = _seconds_left(left, set(predicted), list(filter(None, records.values())))
     return RunState(
         {task: _counted(several) for task, several in tasks.items()},
         writing,
         plan["provenance"],
-        seconds / plan.get("workers", 1),
+        _work_left(left, store, plan["provenance"].get("profile", "")),
+        plan.get("workers", 1),
         tuple(dict.fromkeys(store.damaged)),
     )
 
@@ -107,18 +110,14 @@ def _counted(records: Iterable[Record | None]) -> TaskState:
     return TaskState(counts[Status.OK], failed, counts[Status.DATA_MISSING], counts[None])
 
 
-def _seconds_left(
-    left: Sequence[PlannedJob], predicted: set[str], records: Sequence[Record]
-) -> float:
-    """Return the seconds of work in jobs, each expected to take as long as those most like it.
+def _work_left(left: Sequence[PlannedJob], store: Store, profile: str) -> Work:
+    """Return the fits of jobs, as a forecast of the same run tells them.
 
     To score predictions that are there, or that another row asks for too, takes no time beside it.
     A model that several jobs share is fitted once.
     """
+    predicted = {key for key in sorted(store.fit_keys()) if store.has_fit(key)}
     new = [job for job in left if job.fit_key not in predicted]
-    to_predict = {job.fit_key: job.address for job in new}
-    to_fit = {job.training_key or job.fit_key: job.address for job in new}
-    fits, predictions = of_fits(records), of_predictions(records)
-    return sum(fits.expected(alike(address)) for address in to_fit.values()) + sum(
-        predictions.expected(alike(address)) for address in to_predict.values()
-    )
+    fits = {job.training_key or job.fit_key: job.address for job in new}
+    known = profile if profile in MEASURED else "quick"  # runs that were merged have no profile
+    return work_of(fits.values(), store.records(), known)

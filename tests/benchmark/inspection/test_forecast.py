@@ -6,8 +6,9 @@ from hypothesis import strategies as st
 
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.inspection.explanation import Step, explain
-from mocapbench.benchmark.inspection.forecast import Basis, Work, forecast
+from mocapbench.benchmark.inspection.forecast import forecast
 from mocapbench.benchmark.inspection.forecast_output import forecast_lines, lacking, lacking_line
+from mocapbench.benchmark.inspection.work import Basis, Work
 from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.runs.store import Store

@@ -5,9 +5,16 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
+from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.inspection.explanation import explain
+from mocapbench.benchmark.inspection.forecast import forecast
+from mocapbench.benchmark.inspection.forecast_output import forecast_lines
 from mocapbench.benchmark.inspection.output import state_lines
 from mocapbench.benchmark.inspection.state import UNKNOWN, run_state
+from mocapbench.benchmark.inspection.work import Basis
+from mocapbench.benchmark.runs.directory.plan_file import plan_document
+from mocapbench.benchmark.runs.plan import Request, plan
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.runs.store import Store
 
@@ -43,7 +50,8 @@ def test_a_run_is_running_interrupted_or_finished(write_run, tmp_path):
 def test_the_time_left_is_that_of_jobs_alike_over_the_workers(write_run, tmp_path, left, expected):
     rows = ROWS[:6] + [("v", "a", "x", fold) for fold in range(4)]
     path = write_run(tmp_path / "run", rows, left=rows[6 : 6 + left], seconds=4.0)
-    assert run_state(Store(path)).seconds_left == expected
+    state = run_state(Store(path))
+    assert state.work_left.total / state.workers == expected
 
 
 @pytest.mark.parametrize(
@@ -51,7 +59,6 @@ def test_the_time_left_is_that_of_jobs_alike_over_the_workers(write_run, tmp_pat
     [
         (("t", "a", "x", 2), 10.0),  # as in the same task
         (("w", "a", "x", 0), 6.0),  # as the same entrant elsewhere
-        (("w", "a", "z", 0), 22.0 / 3),  # as any job
     ],
 )
 def test_the_most_alike_jobs_count(write_run, tmp_path, row, expected):
@@ -60,7 +67,24 @@ def test_the_most_alike_jobs_count(write_run, tmp_path, row, expected):
     write_run(path, slow, seconds=10.0)
     write_run(path, fast, seconds=2.0)
     write_run(path, [*slow, *fast, row], left=[*slow, *fast, row])
-    assert run_state(Store(path)).seconds_left == pytest.approx(expected / 2)
+    assert run_state(Store(path)).work_left.seconds == (expected,)
+
+
+@pytest.mark.parametrize("done", [(), ("linear",), ("linear", "mohgp-1")])
+def test_what_is_left_takes_as_long_as_a_dry_run_says(tmp_path, done):
+    """Also where the jobs that are left are of models that the run directory does not know."""
+    request = Request("quick", ("toy-interpolation-1",), ("linear", "mohgp"), folds=2)
+    planned, store = plan(request, archive_at(None)), Store.create(tmp_path / "run")
+    for job in planned:
+        if job.address.label in done and job.address.fold == 0:
+            store.save(job.record(Status.OK, fit_seconds=0.01, predict_seconds=0.01))
+    store.save_plan(plan_document(planned, workers=2, provenance={"profile": "quick"}))
+    dry = forecast(planned, explain(planned, store.path), store.path, "quick")
+    state = run_state(store)
+    assert state.work_left == dry.now
+    assert Basis.TYPICAL in state.work_left.known_by
+    (line,) = (line for line in forecast_lines(dry, store.path, 2) if line.startswith("time: "))
+    assert f"time left: {line.removeprefix('time: ')}" in [*state_lines(state, NOW)]
 
 
 def test_to_score_what_is_predicted_takes_no_time(write_run, tmp_path):
@@ -68,18 +92,18 @@ def test_to_score_what_is_predicted_takes_no_time(write_run, tmp_path):
     record = store.planned()[0]
     store.record_path(record.key).unlink()
     state = run_state(store)
-    assert (state.total.left, state.seconds_left) == (1, 0.0)
+    assert (state.total.left, state.work_left.seconds) == (1, ())
     store.fit_path(record.fit_key).unlink()
-    assert run_state(store).seconds_left == 0.5
+    assert run_state(store).work_left.seconds == (1.0,)
 
 
 def test_a_model_that_jobs_share_is_fitted_once(write_run, tmp_path):
     store = Store(write_run(tmp_path / "run", ROWS, left=ROWS[6:], seconds=4.0))
-    each = run_state(store).seconds_left
+    each = run_state(store).work_left.total
     plan = dict(store.load_plan())
     plan["jobs"] = [row | {"training_key": row["task"]} for row in plan["jobs"]]
     store.save_plan(plan)
-    assert run_state(store).seconds_left == pytest.approx(each / len(ROWS[6:]))
+    assert run_state(store).work_left.total == pytest.approx(each / len(ROWS[6:]))
 
 
 def test_damaged_files_are_named(write_run, tmp_path):
@@ -120,7 +144,7 @@ def test_it_is_said_since_when_and_for_how_long(write_run, tmp_path):
     started = (NOW - timedelta(minutes=5)).isoformat()
     told = _lines(store, started=started)
     assert told.startswith("interrupted, started 2026-01-01 11:55 UTC, 5 min ago")
-    assert "about 2.0 h of work left" in told
+    assert "time left: about 2.0 h with 2 jobs at once (4.0 h of work in 4 fits)" in told
     assert "the same command resumes it" in told
     finished = Store(write_run(tmp_path / "all", ROWS))
     assert _lines(finished, started=started, **{"wall time": "12 s"}).endswith("wall time: 12 s")
