@@ -20,6 +20,8 @@ __all__ = ["Hiding", "HidingError", "Place", "RandomEntries", "RandomGaps", "Sam
 
 _SAME_RATE = 0.01
 """Relative, as rates of files are rounded."""
+_ROUNDING = 0.05
+"""Of a frame, as people write 1/30 s as 0.033 or 0.03333."""
 
 
 class HidingError(ValueError):
@@ -136,7 +138,7 @@ class RandomGaps:
     Parameters
     ----------
     seconds : float
-        Their length, rounded to whole frames.
+        Their length, rounded to whole frames, of which it is one or more.
     count : int
         How many.
     together : str
@@ -152,8 +154,7 @@ class RandomGaps:
 
     def mask(self, recording: Recording, place: Place, /) -> Mask:
         """Return a draw of the fold; see `Hiding`."""
-        groups = self._groups(recording)
-        length = max(1, round(self.seconds * frame_rate(recording)))
+        groups, length = self._groups(recording), self.frames(recording)
         free = recording.visible.copy()
         starts = [_starts(free[:, group], length) for group in groups]
         for _ in range(self.count):
@@ -165,6 +166,21 @@ class RandomGaps:
             free[start : start + length, groups[drawn]] = False
             starts[drawn] = _starts(free[:, groups[drawn]], length)
         return recording.visible & ~free
+
+    def frames(self, recording: Recording) -> int:
+        """Return how many frames of a recording a gap has.
+
+        Raises
+        ------
+        HidingError
+            If a gap is shorter than one.
+        """
+        rate = frame_rate(recording)
+        if self.seconds * rate < 1.0 - _ROUNDING:
+            raise HidingError(
+                f"gaps of a frame or more, which is {1.0 / rate:.3g} s", f"{self.seconds:g} s"
+            )
+        return max(1, round(self.seconds * rate))
 
     def _no_room(self, length: int, recording: Recording) -> HidingError:
         return HidingError(

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
+import numpy as np
+
+from mocapbench.baselines import Prediction
 from mocapbench.benchmark.problems.body import Body, JointAngles
-from mocapbench.benchmark.problems.impute import ImputeProblem
+from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
+from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.task_files.hiding import Hiding, Place
 from mocapbench.benchmark.task_files.selection import Selection
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive, Recording, SkeletonUnavailable
 
-__all__ = ["Protocol", "own_problem"]
+__all__ = ["Protocol", "defined_metrics", "own_body", "own_problem"]
 
 
 @dataclass(frozen=True)
@@ -59,11 +64,11 @@ def own_problem(
             protocol.selection.of(archive.recording(uri)).select(recording.channels)
             for uri in training
         ],
-        body=_body(recording, test, archive),
+        body=own_body(recording, test, archive),
     )
 
 
-def _body(recording: Recording, uri: str, archive: Archive) -> Body | None:
+def own_body(recording: Recording, uri: str, archive: Archive) -> Body | None:
     """Return what places the joints, if the file has a skeleton and the recording all of it."""
     try:
         skeleton = archive.skeleton(uri)
@@ -72,3 +77,11 @@ def _body(recording: Recording, uri: str, archive: Archive) -> Body | None:
     needed = {f"{segment}.{freedom}" for segment, of in skeleton.moving.items() for freedom in of}
     whole = needed <= {*recording.channels} and recording.visible.all()
     return JointAngles(skeleton) if whole else None
+
+
+def defined_metrics(names: Iterable[str], problem: ImputeProblem) -> tuple[str, ...]:
+    """Return the metrics that are defined for the true values, had a model found these."""
+    (truth,) = problem.truth
+    known = Prediction(np.nan_to_num(truth), np.ones(truth.shape))
+    outcome = problem.outcome(FilledRecordings((known,)))
+    return tuple(name for name in names if METRICS.get(name).applies(outcome))

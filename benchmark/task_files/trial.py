@@ -5,16 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from pathlib import PurePosixPath
 from typing import NamedTuple
 
 import numpy as np
 
 from mocapbench.baselines.common.markers import markers_of
-from mocapbench.benchmark.task_files.document import Document
+from mocapbench.benchmark.problems.impute import ImputeProblem
+from mocapbench.benchmark.registry import METRICS
+from mocapbench.benchmark.task_files.document import Document, TaskFileError
 from mocapbench.benchmark.task_files.grouping import check_alike_in_any_order
 from mocapbench.benchmark.task_files.hidden_settings import Hidden
-from mocapbench.benchmark.task_files.hiding import HidingError, Place
+from mocapbench.benchmark.task_files.hiding import HidingError, Place, RandomGaps
 from mocapbench.benchmark.task_files.library import address_of
+from mocapbench.benchmark.task_files.problem import defined_metrics, own_body
 from mocapbench.benchmark.task_files.settings import Settings
 from mocapbench.datasets import (
     Archive,
@@ -23,6 +27,7 @@ from mocapbench.datasets import (
     Recording,
     RecordingUnavailable,
 )
+from mocapbench.reports import counted
 
 __all__ = ["Facts", "Trial"]
 
@@ -66,18 +71,23 @@ class Trial:
         Raises
         ------
         TaskFileError
-            If a recording cannot be read, is unlike the first, or cannot be hidden from as asked.
+            If a recording cannot be read, is unlike the first, or cannot be hidden from as asked,
+            or a metric is defined for none of them.
         """
         if self.hidden.pattern:
             self._read("hide.pattern-of", self.hidden.pattern)
         first, complete = self._selected(tests[0]), True
+        undefined = {*self.settings.metrics}
         for path in dict.fromkeys((*tests, *training)):
             recording = self._selected(path)
             with self._blaming("files", path):
                 check_alike_in_any_order(first, recording)
             complete &= bool(recording.visible.all())
             if path in tests:
-                self._hide(recording, path)
+                problem = self._posed(recording, path)
+                undefined.difference_update(defined_metrics(undefined, problem))
+        if undefined:
+            raise self._undefined(min(undefined), tests, problem)
         return Facts(complete, bool(markers_of(first.channels, first.units)))
 
     def _read(self, key: str, path: str) -> Recording:
@@ -100,13 +110,46 @@ class Trial:
             raise self.document.error("frames", expected, got, advice)
         return selected
 
-    def _hide(self, recording: Recording, path: str) -> None:
+    def _posed(self, recording: Recording, path: str) -> ImputeProblem:
+        """Return the problem of the last variant and fold, after all were posed."""
+        self._check_lengths(recording, path)
         for variant in self.hidden.variants:
             for fold in range(self.settings.folds):
                 place = Place(fold, np.random.default_rng(fold), self.archive)
                 with self._blaming("hide", path):
                     hidden = variant.hiding.mask(recording, place)
                 self._check_mask(hidden, recording, path)
+        body = own_body(recording, address_of(path, self.settings.rate), self.archive)
+        return ImputeProblem.of_one(recording, hidden, body=body)
+
+    def _check_lengths(self, recording: Recording, path: str) -> None:
+        """Refuse gaps of different lengths that are as many frames."""
+        hidings = [variant.hiding for variant in self.hidden.variants]
+        seconds: dict[int, float] = {}
+        for gaps in (hiding for hiding in hidings if isinstance(hiding, RandomGaps)):
+            with self._blaming("hide.runs.seconds", path):
+                length = gaps.frames(recording)
+            if length in seconds:
+                raise self.document.error(
+                    "hide.runs.seconds",
+                    f"lengths of different numbers of frames in {path}",
+                    f"{seconds[length]:g} and {gaps.seconds:g} s of {counted(length, 'frame')}",
+                    "leave one of them out",
+                )
+            seconds[length] = gaps.seconds
+
+    def _undefined(
+        self, name: str, tests: tuple[str, ...], problem: ImputeProblem
+    ) -> TaskFileError:
+        suffixes = sorted({PurePosixPath(path).suffix for path in tests})
+        fitting = defined_metrics(METRICS.names(), problem)
+        lacks = " without a whole skeleton" if problem.body is None else ""
+        return self.document.error(
+            "metrics",
+            "metrics that are defined for a recording of the task",
+            f"{name!r} for {' and '.join(suffixes)}{lacks}",
+            f"choose from {', '.join(fitting)}",
+        )
 
     def _check_mask(self, hidden: Mask, recording: Recording, path: str) -> None:
         """Refuse masks that leave nothing to score, or nothing to see."""

@@ -5,13 +5,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from format_files import walk, write_acclaim
 from own_files import write_csv
 
 from mocapbench.baselines import RigidBody
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.task_files.building import build_task
-from mocapbench.benchmark.task_files.checking import open_task_file, open_task_files
-from mocapbench.benchmark.task_files.document import TaskFileError
+from mocapbench.benchmark.task_files.checking import checked, open_task_file, open_task_files
+from mocapbench.benchmark.task_files.document import Document, TaskFileError
 from mocapbench.benchmark.task_files.hidden_settings import HIDE_KEYS, RUN_KEYS
 from mocapbench.benchmark.task_files.settings import KEYS
 
@@ -73,6 +74,22 @@ WRONG = [
     (
         'files = "*.csv"\n[hide]\nruns = { seconds = "long" }',
         r"hide.runs.seconds: .* got 'long'; wr",
+    ),
+    (
+        'files = "*.csv"\n[hide]\nruns = { seconds = [0.1, 0.005] }',
+        r"line 3, key hide.runs.seconds: .* a frame or more, which is 0.02 s, got 0.005 s; hide",
+    ),
+    (
+        'files = "*.csv"\n[hide]\nruns = { seconds = [0.1, 0.104] }',
+        r"line 3, key hide.runs.seconds: .* in a.csv, got 0.1 and 0.104 s of 5 frames; leave one",
+    ),
+    (
+        'files = "*.csv"\nmetrics = ["mse", "mpjpe"]\n[hide]\nfraction = 0.2',
+        r"line 2, key metrics: .*, got 'mpjpe' for .csv without a whole skeleton; choose .*mse",
+    ),
+    (
+        'files = "*.csv"\nmetrics = ["cumulative_scaled_error"]\n[hide]\nfraction = 0.2',
+        r"line 2, key metrics: .*, got 'cumulative_scaled_error' for .csv",
     ),
     (
         'files = "*.csv"\n[hide]\nruns = { seconds = 1, count = 0 }',
@@ -195,6 +212,16 @@ def test_what_cannot_be_is_refused_with_the_place(check, text, message):
         check(text)
     assert re.match(r"my.toml(, line \d+)?, key ", str(refused.value))
     assert "; " in str(refused.value)  # what to do
+
+
+def test_metrics_of_joints_are_accepted_for_whole_motions_with_a_skeleton(tmp_path):
+    write_acclaim(tmp_path / "walk.amc", walk(60))
+    text = 'files = "walk.amc"\nmetrics = ["mpjpe", "jerk_ratio"]\ntraining = "none"\n{}'
+    document = Document("my.toml", text.format("[hide]\nruns = { seconds = 0.1 }\n"))
+    assert checked(document, tmp_path).tests == ("walk.amc",)
+    fewer = Document("my.toml", text.format('channels = ["l.*"]\n[hide]\nfraction = 0.2\n'))
+    with pytest.raises(TaskFileError, match=r"got 'jerk_ratio' for .amc without a whole skeleton"):
+        checked(fewer, tmp_path)
 
 
 UNLIKE = {
