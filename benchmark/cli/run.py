@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import signal
 import sys
 import time
@@ -214,12 +215,19 @@ def _run(
     about["wall time"] = _wall_time(time.monotonic() - started, records, about["started"])
     store.save_plan(document(provenance=about))
     if not with_report:
-        line = f"no report was written; `mocapbench report --out {store.path}` writes one"
-        console.print(line, soft_wrap=True, highlight=False)
+        console.print(_without_report(store.path, report), soft_wrap=True, highlight=False)
         return code
     write_report(records, about, store, bench.archive_at(config.data_dir), report, console)
     store.save_plan(document(provenance=about, drawn=found))
     return code
+
+
+def _without_report(run: Path, report: Path) -> str:
+    """Return how to write a report, and that the one there shows other results."""
+    command = f"`mocapbench report --out {shlex.quote(str(run))}`"
+    if report.exists():
+        return f"{report.resolve()} shows an earlier run; {command} renews it"
+    return f"no report was written; {command} writes one"
 
 
 def _wall_time(seconds: float, records: Sequence[Record], started: str) -> str:

@@ -165,6 +165,9 @@ def test_a_run_without_a_report_leaves_it_to_a_later_one(cli, tmp_path):
     assert cli(*run) == 0
     assert page.read_text() == "drawn"
     assert cli(*run, "--folds", 1, "--no-report") == 0
+    renewed = re.escape(f"report.html shows an earlier run; `mocapbench report --out {run[-1]}`")
+    assert re.search(f"{renewed} renews it", cli.printed)
+    assert page.read_text() == "drawn"
     assert cli(*run) == 0
     assert page.read_text() != "drawn"
 
