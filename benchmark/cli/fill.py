@@ -64,16 +64,18 @@ def fill(
     shows them.
     """
     console, plugins = LiteralConsole(), load_plugins(plugin)
-    outputs = filling.outputs_of(files, out)
+    outputs = dict(zip(files, filling.outputs_of(files, out), strict=True))
     entries = filling.Entries(_range(frames), channels, max_gap)
-    sources = filling.read_sources(files, train or (), rate, entries)
+    sources, left_out = filling.read_sources(files, train or (), rate, entries)
     for source in sources:
         if model != filling.BEST:
             filling.require_able(model, source.question)
+    for reason in left_out:
+        console.print(f"left out: {reason}", soft_wrap=True, highlight=False)
     try:
         with filling.Workers(bench.n_cores(), plugins) as workers:
-            for source, written in zip(sources, outputs, strict=True):
-                _fill(source, model, workers, budget, written, console)
+            for source in sources:
+                _fill(source, model, workers, budget, outputs[source.path], console)
     except KeyboardInterrupt:
         console.print("interrupted; files that were filled are kept, others were not written")
         raise typer.Exit(ExitCode.INTERRUPTED) from None

@@ -11,6 +11,7 @@ import numpy as np
 from mocapbench.benchmark.filling.question import Question, with_channels
 from mocapbench.benchmark.filling.requests.channels import chosen
 from mocapbench.benchmark.filling.requests.names import is_unlabelled
+from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import Entries, Request, select
 from mocapbench.benchmark.formats import format_for
 from mocapbench.datasets import Format, Recording, check_alike
@@ -49,8 +50,10 @@ class Source:
 
 def read_sources(
     files: Sequence[Path], train: Sequence[Path], rate: float | None, entries: Entries
-) -> list[Source]:
-    """Return the files to fill, all of them read and found to be usable.
+) -> tuple[list[Source], list[str]]:
+    """Return the files to fill, and why others are left out: there is nothing to fill in them.
+
+    All of them are read, and those to fill are found to be usable.
 
     Parameters
     ----------
@@ -67,10 +70,19 @@ def read_sources(
         If a file cannot be read, or one to learn from lacks a channel of it, or has other units or
         another rate.
     UsageError
-        If there is nothing to fill, or nothing to fill it from.
+        If there is nothing to fill in any file, or nothing to fill it from.
     """
     others = {path.resolve(): _read(path, rate) for path in train}
-    return [_source(path, others, rate, entries) for path in files]
+    sources: list[Source] = []
+    left_out: list[NothingToFillError] = []
+    for path in files:
+        try:
+            sources.append(_source(path, others, rate, entries))
+        except NothingToFillError as error:
+            left_out.append(error)
+    if not sources:
+        raise left_out[0]
+    return sources, [str(error) for error in left_out]
 
 
 def _source(

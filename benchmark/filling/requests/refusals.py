@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mocapbench.benchmark.errors import first_of
+from mocapbench.benchmark.errors import UsageError, first_of
 from mocapbench.benchmark.filling.requests.names import marker_names
 from mocapbench.benchmark.filling.requests.zeros import zeros_caution
 from mocapbench.datasets import Recording
 from mocapbench.reports import counted
 
-__all__ = ["no_gap", "nothing_known"]
+__all__ = ["NothingToFillError", "no_gap", "nothing_known"]
 
 _NAMED = 3
+
+
+class NothingToFillError(UsageError):
+    """A recording that needs no filling; others may need it."""
 
 
 def no_gap(recording: Recording, pattern: str | None, unlabelled: Sequence[str]) -> str:

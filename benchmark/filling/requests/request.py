@@ -12,7 +12,11 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of, mask_of
 from mocapbench.benchmark.filling.requests.channels import chosen
 from mocapbench.benchmark.filling.requests.names import is_unlabelled
-from mocapbench.benchmark.filling.requests.refusals import no_gap, nothing_known
+from mocapbench.benchmark.filling.requests.refusals import (
+    NothingToFillError,
+    no_gap,
+    nothing_known,
+)
 from mocapbench.datasets import Mask, Recording, unwrapped
 
 __all__ = ["Entries", "Request", "select"]
@@ -75,14 +79,15 @@ def select(recording: Recording, entries: Entries, train: Sequence[Recording] = 
 
     Raises
     ------
+    NothingToFillError
+        If no entry is to be filled.
     UsageError
-        If frames or channels are not in the recording, nothing is to be filled, or nothing is
-        visible.
+        If frames or channels are not in the recording, or nothing is visible.
     """
     asked = _asked(recording, entries)
     unlabelled = tuple(filter(is_unlabelled, _incomplete(recording, asked)))
     if not asked.any():
-        raise UsageError(no_gap(recording, entries.channels, unlabelled))
+        raise NothingToFillError(no_gap(recording, entries.channels, unlabelled))
     given = recording.hide(asked)
     if not given.visible.any():
         raise UsageError(
@@ -105,7 +110,7 @@ def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[G
     longer = tuple(gap for gap in gaps if _seconds(recording, gap) > (max_gap or np.inf))
     if len(longer) == len(gaps):
         shortest = min(_seconds(recording, gap) for gap in gaps)
-        raise UsageError(
+        raise NothingToFillError(
             f"{recording.name}: expected a gap of {max_gap:g} s or less, got "
             f"{len(gaps)} of {shortest:.3g} s or more; raise --max-gap"
         )

@@ -210,6 +210,27 @@ def test_zeros_that_may_mark_missing_values_are_said_and_kept(cli, tmp_path, out
         assert (CSVFormat().read(filled).values[20:30] == 0.0).all()
 
 
+def test_files_with_nothing_to_fill_are_left_out_and_the_others_filled(cli, walk, tmp_path, out):
+    complete = save(tmp_path / "complete.csv", rows(gap=()))
+    other = save(tmp_path / "other.csv", rows(gap=range(20, 22)))
+    fill = ("fill", walk, complete, other, "--model", "linear", "--out", out)
+    assert cli(*fill) == 0
+    assert f"left out: {complete}: expected a gap, got all entries visible" in cli.printed
+    assert {path.name for path in out.glob("*.csv.html")} == {"walk.csv.html", "other.csv.html"}
+    assert not (out / "complete.csv").exists()
+    assert cli(*fill[:-1], out / "short", "--max-gap", "0.05") == 0
+    assert f"left out: {walk}: expected a gap of 0.05 s or less" in cli.printed
+    assert {path.name for path in (out / "short").glob("*.html")} == {"other.csv.html"}
+
+
+def test_a_file_that_cannot_be_read_stops_all_before_anything_is_written(cli, walk, tmp_path, out):
+    broken = save(tmp_path / "broken.csv", changed(7, 1, "n/a!"))
+    complete = save(tmp_path / "complete.csv", rows(gap=()))
+    assert cli("fill", walk, complete, broken, "--model", "linear", "--out", out) == 2
+    assert "broken.csv, line 9: expected a number" in cli.printed
+    assert not out.exists()
+
+
 def test_everything_hidden_is_refused(cli, walk, out):
     named = ("--frames", f"0:{N_FRAMES}", "--model", "linear", "--out", out)
     assert cli("fill", walk, *named) == 2
