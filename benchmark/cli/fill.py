@@ -26,6 +26,8 @@ __all__ = ["app"]
 
 app = typer.Typer(add_completion=False)
 
+_PLAIN_INTERVAL = 5.0
+"""Seconds between lines of progress."""
 _FRAMES = re.compile(r"(\d{1,9}):(\d{1,9})")
 
 
@@ -90,7 +92,8 @@ def _fill(
     console: LiteralConsole,
 ) -> None:
     with console.status(f"{source.path.name}: trials") as status:
-        watch = _watch(source.path.name, status.update) if console.is_terminal else _ignore
+        show = status.update if console.is_terminal else _now_and_then(console)
+        watch = _watch(source.path.name, show)
         filled = filling.fill(source, model, workers, budget, watch)
     filling.write(filled, outputs, reports.render_filled(filling.page_of(filled, _command())))
     _say(filled, outputs, console)
@@ -105,8 +108,17 @@ def _watch(name: str, show: Callable[[str], object]) -> Callable[[int, int], Non
     return watch
 
 
-def _ignore(_done: int, _total: int) -> None:
-    """Show nothing: the output is no terminal."""
+def _now_and_then(console: LiteralConsole) -> Callable[[str], None]:
+    """Return what prints a line unless it printed one just before, where there is no terminal."""
+    shown = time.monotonic()
+
+    def show(text: str) -> None:
+        nonlocal shown
+        if time.monotonic() - shown >= _PLAIN_INTERVAL:
+            console.print(text, soft_wrap=True, highlight=False)
+            shown = time.monotonic()
+
+    return show
 
 
 def _say(filled: Filled, outputs: Outputs, console: LiteralConsole) -> None:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mocapbench.baselines import Interpolator
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.able import require_able
+from mocapbench.benchmark.filling.able import able_models, require_able
 from mocapbench.benchmark.filling.attempt import Attempt
 from mocapbench.benchmark.filling.question import Answer, Question
 from mocapbench.benchmark.filling.sources import Source
 from mocapbench.benchmark.filling.trials.choice import Choice, choose
 from mocapbench.benchmark.filling.workers import Workers
+from mocapbench.benchmark.registry import MODELS
 from mocapbench.datasets import Recording
 
 __all__ = ["BEST", "Filled", "fill"]
@@ -41,6 +43,8 @@ class Filled:
         By which trials the model was chosen; None if it was named.
     failed : tuple of (str, str)
         Models that did better in trials and failed here, each with the reason.
+    uncompared : bool
+        Whether no model filled a trial gap in time, so that there was none to choose.
     """
 
     source: Source
@@ -49,6 +53,7 @@ class Filled:
     windows: int
     choice: Choice | None
     failed: tuple[tuple[str, str], ...]
+    uncompared: bool = False
 
     @property
     def recording(self) -> Recording:
@@ -71,6 +76,8 @@ def fill(
 ) -> Filled:
     """Return a file, filled.
 
+    If no model fills a trial gap within the budget, an interpolation fills the file.
+
     Parameters
     ----------
     source : Source
@@ -91,8 +98,33 @@ def fill(
     if model != BEST:
         require_able(model, question)
         return _filled(source, (model,), None, workers)
-    choice = choose(question, workers, budget, watch)
+    race = _Watched(watch)
+    try:
+        choice = choose(question, workers, budget, race)
+    except UsageError:
+        if not race.has_begun:  # there is no room for trials
+            raise
+        filled = _filled(source, _interpolations(question), None, workers)
+        return replace(filled, uncompared=True)
     return _filled(source, choice.ranking.order, choice, workers)
+
+
+class _Watched:
+    """Tells how many trials are done, and remembers that there were any."""
+
+    def __init__(self, watch: Callable[[int, int], object]) -> None:
+        self._watch = watch
+        self.has_begun = False
+
+    def __call__(self, done: int, total: int) -> None:
+        self.has_begun = True
+        self._watch(done, total)
+
+
+def _interpolations(question: Question) -> tuple[str, ...]:
+    """Return the models that interpolate, of which linear interpolation cannot overshoot."""
+    able = [n for n in able_models(question) if issubclass(MODELS.get(n), Interpolator)]
+    return tuple(sorted(able, key=lambda name: name != "linear"))
 
 
 def _filled(

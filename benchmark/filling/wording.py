@@ -30,6 +30,11 @@ def headline(filled: Filled) -> str:
 
 def verdict(filled: Filled) -> str:
     """Return by how much the model leads in trials, and whether by more than chance."""
+    if filled.uncompared:
+        return (
+            "Nothing could be compared, since no model filled a trial gap within its part of the "
+            "budget: raise --budget to choose among models."
+        )
     if filled.choice is None:
         return ""
     ranking = filled.choice.ranking

@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 import shutil
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 from mocapbench.benchmark import FORMATS, format_for
+from mocapbench.benchmark.cli import fill as command
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.datasets import AcclaimFormat, CSVFormat
 from mocapbench.datasets.formats import memory
@@ -73,6 +75,12 @@ def test_the_best_model_is_chosen_and_the_page_shows_the_ranking(cli, walk, out)
     assert "linear</th>" in page
     assert "cubic-spline" in page
     assert "http" not in page.replace("http://www.w3.org", "").replace("http-equiv", "")
+
+
+def test_progress_is_shown_where_there_is_no_terminal(cli, walk, out, monkeypatch):
+    monkeypatch.setattr(command, "_PLAIN_INTERVAL", 0.0)
+    assert cli("fill", walk, "--budget", "1", "--out", out) == 0
+    assert re.search(r"walk.csv: \d+ of \d+ trials, \d+ s walk.csv: ", cli.printed)
 
 
 def test_named_frames_of_a_motion_are_replaced_and_its_page_shows_it(cli, tmp_path, out):

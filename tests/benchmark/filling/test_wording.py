@@ -62,6 +62,13 @@ def test_the_headline_counts(filled):
     assert headline(filled()) == "one filled 20 entries in 1 gap."
 
 
+def test_that_nothing_could_be_compared_is_said_with_what_to_do(filled):
+    assert verdict(filled()) == ""
+    said = verdict(replace(filled(), uncompared=True))
+    assert said.startswith("Nothing could be compared, since no model filled a trial gap")
+    assert "raise --budget" in said
+
+
 @pytest.mark.parametrize(
     ("errors", "said"),
     [
