@@ -12,6 +12,7 @@ from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, plan_document
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.runs.source_code import own_code, reading
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 
@@ -79,9 +80,10 @@ def forget():
     """Return a function after which digests are computed anew, as in a fresh process."""
 
     def forget():
-        for value in vars(sources).values():
-            if hasattr(value, "cache_clear"):
-                value.cache_clear()
+        for module in (sources, reading, own_code):
+            for value in vars(module).values():
+                if hasattr(value, "cache_clear"):
+                    value.cache_clear()
 
     forget()
     yield forget

@@ -3,19 +3,19 @@ import time
 import psutil
 import pytest
 
-from mocapbench.benchmark.runs import sources
+from mocapbench.benchmark.runs.source_code import reading
 
 
 @pytest.fixture
 def append(monkeypatch, forget):
     """Return a function that appends a line to one module, as digests read it."""
-    read = sources._source
+    read = reading._source
 
     def append(module, line="CHANGED = 1"):
         def source(name):
             return f"{read(name)}\n{line}\n" if name == module else read(name)
 
-        monkeypatch.setattr(sources, "_source", source)
+        monkeypatch.setattr(reading, "_source", source)
         forget()
 
     return append

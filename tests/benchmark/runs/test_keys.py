@@ -17,9 +17,10 @@ from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
-from mocapbench.benchmark.runs import keys, sources
+from mocapbench.benchmark.runs import keys
 from mocapbench.benchmark.runs.keys import fit_contents, key_of, metric_contents, score_contents
 from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.source_code import reading
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case
 from mocapbench.benchmark.tasks.seeds import Seeds
@@ -221,13 +222,13 @@ def test_prose_is_not(append, module, line):
 @pytest.fixture
 def covered(monkeypatch, forget):
     """Return the modules that the fit keys of all models and all problems cover."""
-    read, covered = sources._source, set()
+    read, covered = reading._source, set()
 
     def source(module):
         covered.add(module)
         return read(module)
 
-    monkeypatch.setattr(sources, "_source", source)
+    monkeypatch.setattr(reading, "_source", source)
     forget()
     for model in map(MODELS.get, MODELS.names()):
         _key(model=model)

@@ -173,15 +173,50 @@ def test_code_counts(project, old, new):
     assert after != before
 
 
-def test_other_projects_count_only_if_they_are_named(project):
-    files = _package("import strides.step\n") | {
-        "strides/__init__.py": "",
-        "strides/step.py": "LENGTH = 1\n",
-    }
-    changed = files | {"strides/step.py": "LENGTH = 2\n"}
-    assert project(files) == project(changed)
-    within = ("strides",)
-    assert project(files, within=within) != project(changed, within=within)
+STRIDES = {"strides/__init__.py": "", "strides/step.py": "LENGTH = 1\n"}
+INSTALLED = {"strides-1.0.dist-info/RECORD": "strides/__init__.py,,\nstrides/step.py,,\n"}
+
+
+def _changes(project, files, path, **options):
+    """Return whether another line in one file changes the digest."""
+    return project(files, **options) != project(
+        files | {path: f"{files[path]}CHANGED = 1\n"}, **options
+    )
+
+
+def test_another_project_counts_unless_it_is_installed(project):
+    files = _package("import strides.step\n") | STRIDES
+    assert _changes(project, files, "strides/step.py")
+    assert not _changes(project, files | INSTALLED, "strides/step.py")
+
+
+def test_an_installed_project_counts_if_it_is_named(project):
+    files = _package("import strides.step\n") | STRIDES | INSTALLED
+    assert _changes(project, files, "strides/step.py", within=("strides",))
+
+
+def test_what_lies_beside_an_installed_project_counts(project):
+    """Such as a folder of one's own into which pip installed something."""
+    files = _package("import strides.step\n") | STRIDES
+    others = {"other-1.0.dist-info/RECORD": "stridesother/__init__.py,,\n"}
+    assert _changes(project, files | others, "strides/step.py")
+
+
+def test_the_init_above_a_module_counts_with_what_it_uses_itself(project):
+    """Python runs it first, so that it may change what the module computes."""
+    used = "from .other import UNUSED as steps\nfrom . import engine\nengine.STEPS = steps\n"
+    files = _package("from walks.engine import solve\n") | {"walks/__init__.py": used}
+    assert _changes(project, files, "walks/other.py")
+    assert _changes(project, files, "walks/__init__.py")
+    effect = files | {"walks/__init__.py": "import walks.other\n"}
+    assert _changes(project, effect, "walks/other.py")
+    passed_on = files | {"walks/__init__.py": "from .other import UNUSED\n"}
+    assert not _changes(project, passed_on, "walks/other.py")
+
+
+def test_a_name_of_a_package_counts_where_one_of_its_modules_is_imported(project):
+    files = _package("import walks.engine\nX = walks.UNUSED\n", **EAGER)
+    assert _changes(project, files, "walks/other.py")
 
 
 def test_a_module_is_known_by_its_name_too(project):
@@ -300,11 +335,59 @@ def test_a_users_file_counts_by_its_code_and_not_by_its_name_or_prose(plugin):
     assert plugin({"mine.py": f"{FILE}X = 1\n", **HELPERS}) != before
 
 
-def test_single_files_elsewhere_do_not_count(plugin, tmp_path, monkeypatch):
+def test_single_files_elsewhere_count(plugin, tmp_path, monkeypatch):
     elsewhere = tmp_path / "elsewhere"
     monkeypatch.syspath_prepend(elsewhere)
     files = {"mine.py": f"import stride_d\n{FILE}", **HELPERS, "elsewhere/stride_d.py": "X = 1\n"}
-    assert plugin(files) == plugin(files | {"elsewhere/stride_d.py": "X = 2\n"})
+    assert plugin(files) != plugin(files | {"elsewhere/stride_d.py": "X = 2\n"})
+
+
+PACKAGE = {
+    "stride_lab/__init__.py": "",
+    "stride_lab/core.py": "from .deep.inner import B\n",
+    "stride_lab/deep/inner.py": "import stride_tools\nB = 1\n",
+    "stride_lab/other.py": "",
+    "stride_tools/__init__.py": "from .hammer import HEAD\n",
+    "stride_tools/hammer.py": "HEAD = 1\n",
+}
+IMPORTS = (
+    "from stride_lab.core import B\n",
+    "import stride_lab.core\n",
+    "from stride_lab import core\n",
+    "def late():\n    from stride_lab.core import B\n",
+)
+
+
+@pytest.mark.parametrize("line", IMPORTS)
+@pytest.mark.parametrize("path", [path for path in PACKAGE if "other" not in path])
+def test_packages_beside_a_users_file_count(plugin, line, path):
+    files = {"mine.py": f"{line}{FILE}", **HELPERS, **PACKAGE}
+    changed = files | {path: f"{files[path]}CHANGED = 1\n"}
+    assert plugin(files) != plugin(changed)
+    other = files | {"stride_lab/other.py": "CHANGED = 1\n"}
+    assert plugin(files) == plugin(other)
+
+
+def test_a_package_installed_as_editable_counts(plugin, tmp_path, monkeypatch):
+    """Its files are elsewhere than what says that it is installed."""
+    site, source = tmp_path / "site-packages", tmp_path / "source"
+    for folder in (site, source):
+        monkeypatch.syspath_prepend(folder)
+    editable = {
+        "site-packages/stride_lab-1.0.dist-info/RECORD": "stride_lab.pth,,\n",
+        "site-packages/stride_fixed.py": "X = 1\n",
+        "source/stride_lab/__init__.py": "X = 1\n",
+    }
+    files = {"mine.py": f"import stride_lab, stride_fixed\n{FILE}", **HELPERS, **editable}
+    assert plugin(files) != plugin(files | {"source/stride_lab/__init__.py": "X = 2\n"})
+    assert plugin(files) == plugin(files | {"site-packages/stride_fixed.py": "X = 2\n"})
+
+
+def test_no_module_is_imported_to_find_out_whose_code_it_is(plugin):
+    """Nor what a function imports, which may take seconds."""
+    line = "def late():\n    import antigravity\n"
+    plugin({"mine.py": f"{line}{FILE}", **HELPERS})
+    assert "antigravity" not in sys.modules
 
 
 def test_what_a_users_file_takes_from_the_package_counts(plugin, append):

@@ -1,0 +1,1 @@
+"""Source code of modules: what a module builds on, and whose it is."""
