@@ -31,7 +31,7 @@ from .inspection.planned import forecast_text, plan_table
 from .inspection.recordings import DataRequest, data_totals, next_data_step
 from .inspection.state import RunState, run_state
 from .merging.merge import merge
-from .plugins import load_plugin
+from .plugins import load_plugin, load_plugins
 from .problems.base import Answer, InvalidPredictionError, Problem
 from .problems.body import Body, JointAngles, JointPositions
 from .problems.cluster import ClusterProblem, Clusters
@@ -151,6 +151,7 @@ __all__ = [
     "left_out_lines",
     "library_entry",
     "load_plugin",
+    "load_plugins",
     "memory_share",
     "merge",
     "metric_entry",

@@ -4,72 +4,51 @@ from __future__ import annotations
 
 import hashlib
 import sys
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from mocapbench.baselines import Model
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.messages import reason
-from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS, Registry
-from mocapbench.benchmark.tasks.base import Task
-from mocapbench.datasets import Format, Library
-from mocapbench.metrics import Metric
+from mocapbench.benchmark.plugin_kinds import PLUGIN_KINDS, check_definition
+from mocapbench.benchmark.registry import Registry
 
-__all__ = ["load_plugin"]
+__all__ = ["load_plugin", "load_plugins"]
+
+Definitions = Mapping[str, Mapping[str, Any]]
+"""The values of a file by name, by the name of their kind."""
 
 
-@dataclass(frozen=True)
-class _PluginKind:
-    """What a file may define under one name: a mapping from names to values of one kind.
+def load_plugins(paths: Iterable[Path]) -> None:
+    """Register what several Python files define.
 
     Parameters
     ----------
-    registry : Registry
-        Where they are registered.
-    expected : str
-        What the values are.
-    fits : callable
-        Whether a value is of the kind.
-    arguments : tuple
-        With which a class of the kind is built.
-    built : str
-        The same in words.
+    paths : iterable of Path
+        See `load_plugin`.
+
+    Raises
+    ------
+    UsageError
+        If two of them define the same name, or one of them is refused by itself.
     """
-
-    registry: Registry[Any]
-    expected: str
-    fits: Callable[[object], bool]
-    arguments: tuple[object, ...] = ()
-    built: str = "without arguments"
-
-
-def _subclass_of(kind: type) -> Callable[[object], bool]:
-    return lambda value: isinstance(value, type) and issubclass(value, kind)
+    files: dict[tuple[str, str], Path] = {}
+    for path in dict.fromkeys(paths):
+        defined = _definitions(path)
+        for place in ((attribute, name) for attribute in defined for name in defined[attribute]):
+            _require_only_one(files.setdefault(place, path), path, *place)
+        _register(defined)
 
 
-def _instance_of(kind: type) -> Callable[[object], bool]:
-    return lambda value: isinstance(value, kind)
-
-
-_PLUGIN_KINDS: Mapping[str, _PluginKind] = {
-    "MODELS": _PluginKind(MODELS, "subclasses of mocapbench.baselines.Model", _subclass_of(Model)),
-    "TASKS": _PluginKind(TASKS, "mocapbench.benchmark.Task objects", _instance_of(Task)),
-    "METRICS": _PluginKind(METRICS, "mocapbench.metrics.Metric objects", _instance_of(Metric)),
-    "LIBRARIES": _PluginKind(
-        LIBRARIES,
-        "subclasses of mocapbench.datasets.Library",
-        _subclass_of(Library),
-        arguments=(None,),  # no folder of recordings is named
-        built="with one argument, a folder of recordings or None",
-    ),
-    "FORMATS": _PluginKind(
-        FORMATS, "subclasses of mocapbench.datasets.Format", _subclass_of(Format)
-    ),
-}
+def _require_only_one(first: Path, path: Path, attribute: str, name: str) -> None:
+    if first != path:
+        raise UsageError(
+            f"{path}: expected a {PLUGIN_KINDS[attribute].registry.kind} under a name that no "
+            f"other --plugin defines, got {name!r}, which {first} defines too; rename one of the "
+            "two, or leave one file out"
+        )
 
 
 def load_plugin(path: Path) -> tuple[str, ...]:
@@ -92,65 +71,33 @@ def load_plugin(path: Path) -> tuple[str, ...]:
     UsageError
         If the file cannot be run, defines none of these, or something else under their names.
     """
+    defined = _definitions(path)
+    _register(defined)
+    return tuple(name for values in defined.values() for name in values)
+
+
+def _definitions(path: Path) -> Definitions:
+    """Return what a file defines, once it is known to be usable."""
     module = _execute(path)
     defined = {
         name: value
         for name, value in vars(module).items()
-        if name in _PLUGIN_KINDS and not isinstance(value, Registry)  # ours, which it may import
+        if name in PLUGIN_KINDS and not isinstance(value, Registry)  # ours, which it may import
     }
     if not defined:
         raise UsageError(
-            f"{path}: expected one or more of {', '.join(_PLUGIN_KINDS)}, each a mapping such as "
+            f"{path}: expected one or more of {', '.join(PLUGIN_KINDS)}, each a mapping such as "
             'MODELS = {"name": ModelClass}, got none'
         )
     for attribute, values in defined.items():
-        _check(path, attribute, values)
+        check_definition(path, attribute, values)
+    return defined
+
+
+def _register(defined: Definitions) -> None:
     for attribute, values in defined.items():
         for name, value in values.items():
-            _PLUGIN_KINDS[attribute].registry.add(name, value)
-    return tuple(name for values in defined.values() for name in values)
-
-
-def _check(path: Path, attribute: str, values: object) -> None:
-    kind = _PLUGIN_KINDS[attribute]
-    if not (isinstance(values, dict) and values and all(map(kind.fits, values.values()))):
-        raise UsageError(
-            f"{path}: expected {attribute} to map one or more names to {kind.expected}, got "
-            f'{values!r}; write {attribute} = {{"name": …}}'
-        )
-    for name, value in values.items():
-        _check_name(path, kind.registry, name, value)
-        _check_constructor(path, name, value, kind)
-
-
-def _check_name(path: Path, registry: Registry[Any], name: object, value: Any) -> None:
-    """Refuse a name that stands for something else already, and what cannot be used under it."""
-    tasks = map(TASKS.get, TASKS.names())
-    entrants = (entrant for task in tasks for entrant in task.entrants)
-    others = {entrant.label for entrant in entrants if entrant.model != name}
-    taken = registry is MODELS and name in others
-    if not isinstance(name, str) or taken or registry.is_installed(name):
-        raise UsageError(
-            f"{path}: expected a name that no {registry.kind} or entrant has, got {name!r}; "
-            "choose another"
-        )
-    if not isinstance(value, type) and value.name != name:
-        raise UsageError(
-            f"{path}: expected the {registry.kind} under its own name {value.name!r}, got "
-            f"{name!r}; rename one of the two"
-        )
-
-
-def _check_constructor(path: Path, name: str, value: object, kind: _PluginKind) -> None:
-    if not isinstance(value, type):
-        return
-    try:
-        value(*kind.arguments)
-    except Exception as error:
-        raise UsageError(
-            f"{path}: expected a class that can be built {kind.built}, got {name!r}: "
-            f"{reason(error)}; give every other parameter a default, and define abstract methods"
-        ) from error
+            PLUGIN_KINDS[attribute].registry.add(name, value)
 
 
 def _execute(path: Path) -> ModuleType:

@@ -87,8 +87,7 @@ def cases_named(texts: Sequence[str], tasks: Sequence[str]) -> tuple[str, ...]:
 def load_plugins(paths: Sequence[Path] | None) -> tuple[Path, ...]:
     """Register what the user's own files define, and return their full paths."""
     files = tuple(path.resolve() for path in paths or ())
-    for path in files:
-        bench.load_plugin(path)
+    bench.load_plugins(files)
     return files
 
 

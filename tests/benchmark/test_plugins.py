@@ -134,6 +134,25 @@ def test_the_same_file_may_be_loaded_again_and_another_one_overrides_it(load):
     assert MODELS.get("my-model").__name__ == "Trivial"
 
 
+@pytest.mark.parametrize("door", DOORS)
+def test_two_files_that_define_one_name_are_refused_by_name(cli, tmp_path, door):
+    one, two = (tmp_path / name for name in ("one.py", "two.py"))
+    one.write_text(HEAD + DOORS[door])
+    two.write_text(f"{HEAD}X = 1\n{DOORS[door]}")
+    assert cli("list", door.lower(), "--plugin", one, "--plugin", two) == 2
+    expected = f"{two}: expected a {REGISTRY[door].kind} under a name that no other --plugin "
+    assert expected in cli.printed
+    assert f"got {NAMES[door]!r}, which {one} defines too; rename one of the two" in cli.printed
+
+
+def test_one_name_of_two_kinds_and_one_file_named_twice_are_no_clash(cli, tmp_path):
+    one, two = (tmp_path / name for name in ("one.py", "two.py"))
+    one.write_text(f"{HEAD}MODELS = {{'mine': Mine}}\n")
+    two.write_text(f"{HEAD}METRICS = {{'mine': mine('mine')}}\n")
+    assert cli("list", "models", "--plugin", one, "--plugin", two, "--plugin", one) == 0
+    assert "mine" in cli.printed
+
+
 def test_what_other_files_define_can_be_used_by_pickle(load):
     load(DOORS["MODELS"])
     model = MODELS.get("my-model")
