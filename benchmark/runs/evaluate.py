@@ -16,6 +16,7 @@ from mocapbench.benchmark.runs.answering import Answered, answer
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.fitting.trained import Trained
 from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
+from mocapbench.benchmark.runs.posed import problem_digest
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.datasets import Archive
 from mocapbench.metrics import Metric, Score
@@ -79,7 +80,7 @@ def _record(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -
 
 def _scored(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
     costs = {**fit.costs, "warnings": (*fit.warnings, *work.remarks)}
-    results = {**costs, **_scores(work.job, problem, fit)}
+    results = {"problem": problem_digest(problem), **costs, **_scores(work.job, problem, fit)}
     return work.job.record(Status.OK, **results, provenance=_provenance(work.job, config))
 
 

@@ -70,6 +70,9 @@ class Record:
         Warnings that the model or the data raised.
     provenance : mapping of str to str
         Versions, commit, CPU, threads, data digests, command line.
+    problem : str
+        Digest of the problem that was posed; empty where there are no scores, and in records of
+        earlier versions.
     """
 
     key: str
@@ -92,6 +95,7 @@ class Record:
     engine: str = ""
     warnings: tuple[str, ...] = ()
     provenance: Mapping[str, str] = field(default_factory=dict)
+    problem: str = ""
 
     def __post_init__(self) -> None:
         for name in ("message", "traceback", "engine"):
@@ -126,6 +130,7 @@ class Record:
                 name: math.nan if value is None else float(value)
                 for name, value in document["scores"].items()
             }
+            document.setdefault("problem", "")  # of an earlier version
             missing = _ENTRIES ^ set(document)
             if missing:
                 raise RecordError(f"fields missing or unknown: {sorted(missing)}")

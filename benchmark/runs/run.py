@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 from rich.console import Console
 
@@ -15,7 +16,8 @@ from mocapbench.benchmark.runs.execution.job_queue import JobQueue
 from mocapbench.benchmark.runs.execution.scratch import scratch_folder
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.fitting.trained import TrainedModels
-from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
+from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
+from mocapbench.benchmark.runs.posed import PosedProblems
 from mocapbench.benchmark.runs.progress import watch
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
@@ -35,8 +37,8 @@ def run(
     """Return the records of ``jobs``, in their order.
 
     A record that exists is not computed again, unless its job broke, in which case it is tried
-    once more. Records and predictions are written as they come, so that an interrupted run loses
-    nothing.
+    once more. A job that was posed another problem than the others of its fold has failed. Records
+    and predictions are written as they come, so that an interrupted run loses nothing.
 
     Parameters
     ----------
@@ -52,8 +54,9 @@ def run(
     """
     log = log or EventLog()
     store.keep_keys({job.key: KeyEntry(job.address, job.parts) for job in jobs})
-    known = {job.key: store.load(job.key) for job in jobs}
-    finished = {key: record for key, record in known.items() if record and not record.status.broken}
+    posed = PosedProblems()
+    known = {job.key: posed.checked(r) for job in jobs if (r := store.load(job.key))}
+    finished = {key: record for key, record in known.items() if not record.status.broken}
     todo = [job for job in jobs if job.key not in finished]
     log.run_started(store.path, len(jobs), len(finished))
     if finished:
@@ -64,7 +67,7 @@ def run(
             store.save(finished[job.key])
             _log_end(log, finished[job.key], 0.0)
     todo = [job for job in todo if not job.missing]
-    for record in _computed(todo, store, config, site, console, log=log):
+    for record in _computed(todo, store, config, site, console, log=log, posed=posed):
         finished[record.key] = record
     return [finished[job.key] for job in jobs]
 
@@ -77,6 +80,7 @@ def _computed(
     console: Console,
     *,
     log: EventLog,
+    posed: PosedProblems,
 ) -> Iterator[Record]:
     """Yield the record of each job as it ends, once it is in the store."""
     archive, queue = archive_at(config.data_dir), JobQueue(jobs)
@@ -94,7 +98,7 @@ def _computed(
         def left() -> float:
             return queue.time_left(site.n_workers)
 
-        outcomes = execute(queue, work, config, spool, site)
+        outcomes = map(partial(_checked, posed), execute(queue, work, config, spool, site))
         for outcome in watch(outcomes, len(jobs), left, console):
             if outcome.fit is not None:
                 store.save_fit(outcome.record.fit_key, outcome.fit)
@@ -103,6 +107,12 @@ def _computed(
             store.save(outcome.record)
             _log_end(log, outcome.record, outcome.seconds)
             yield outcome.record
+
+
+def _checked(posed: PosedProblems, outcome: Outcome) -> Outcome:
+    """Return the outcome; without predictions if they are of another problem than expected."""
+    record = posed.checked(outcome.record)
+    return outcome if record is outcome.record else outcome._replace(record=record, fit=None)
 
 
 def _log_end(log: EventLog, record: Record, seconds: float) -> None:
