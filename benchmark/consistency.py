@@ -1,25 +1,27 @@
-"""Whether a task's entrants and cases can be told apart, and its entrants be made."""
+"""Whether a task can be run: its rows told apart, its entrants made, and its page shown."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from numbers import Integral
 
-from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.errors import UnregisteredNameError, UsageError
+from mocapbench.benchmark.registry import METRICS, MODELS
 from mocapbench.benchmark.tasks.base import Entrant, Task
 
 __all__ = ["require_consistent"]
 
 
 def require_consistent(task: Task) -> None:
-    """Refuse a task whose results would be mixed up, or whose entrants cannot be made.
+    """Refuse a task whose results would be mixed up, or that could not be run or shown.
 
     Raises
     ------
     UsageError
         If two entrants or cases share a name, a label is empty, has a slash or is the name of
-        another model, or a model has no such parameter.
+        another model, a model has no such parameter, a profile has no case or no fold, or the page
+        shows no metric or one that is not registered.
     UnregisteredNameError
         If a model is not registered.
     """
@@ -28,6 +30,8 @@ def require_consistent(task: Task) -> None:
     for entrant in task.entrants:
         _require_label(task, entrant)
         _require_parameters(task, entrant)
+    _require_profiles(task)
+    _require_metrics(task)
 
 
 def _require_distinct(task: Task, kind: str, names: Sequence[str]) -> None:
@@ -62,3 +66,29 @@ def _require_parameters(task: Task, entrant: Entrant) -> None:
             f"{entrant.model!r} ({', '.join(known) or 'it has none'}), got {unknown[0]!r}; "
             "correct its name"
         )
+
+
+def _require_profiles(task: Task) -> None:
+    for name, profile in task.profiles.items():
+        if not profile.cases:
+            raise UsageError(
+                f"task {task.name!r}, profile {name!r}: expected one or more cases, got none; name "
+                "them in its Profile, or leave the profile out"
+            )
+        if not isinstance(profile.folds, Integral) or profile.folds < 1:
+            raise UsageError(
+                f"task {task.name!r}, profile {name!r}: expected a whole number of folds from 1, "
+                f"got {profile.folds!r}; change its Profile, or leave the profile out"
+            )
+
+
+def _require_metrics(task: Task) -> None:
+    if not task.page.metrics:
+        raise UsageError(
+            f"task {task.name!r}: expected metrics to show on its page, got none; name one or more "
+            "in its TaskPage"
+        )
+    for name in task.page.metrics:
+        if name not in METRICS.names():
+            error = UnregisteredNameError(METRICS.kind, name, METRICS.names())
+            raise UsageError(f"task {task.name!r}, metrics of its page: {error}")

@@ -10,7 +10,7 @@ from typing import Any
 from mocapbench.baselines import Model
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.messages import reason
-from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS, Registry
+from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, NAME, TASKS, Registry
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.datasets import Format, Library
 from mocapbench.metrics import Metric
@@ -107,6 +107,11 @@ def _check_name(path: Path, registry: Registry[Any], name: object, value: Any) -
         raise UsageError(
             f"{path}: expected a name that no {registry.kind} or entrant has, got {name!r}; "
             "choose another"
+        )
+    if not NAME.fullmatch(name):
+        raise UsageError(
+            f"{path}: expected a name of letters, digits, dots, hyphens and underscores for the "
+            f"{registry.kind}, got {name!r}; rename it, for example to 'my-{registry.kind}'"
         )
     if not isinstance(value, type) and value.name != name:
         raise UsageError(

@@ -8,6 +8,7 @@ Ours and third parties' are found in the same way: by entry points of the groups
 
 from __future__ import annotations
 
+import re
 from functools import partial
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Generic, TypeVar, cast
@@ -19,9 +20,21 @@ from mocapbench.benchmark.tasks.base import Task
 from mocapbench.datasets import Format, Library
 from mocapbench.metrics import Metric
 
-__all__ = ["FORMATS", "LIBRARIES", "METRICS", "MODELS", "REGISTRIES", "TASKS", "Registry"]
+__all__ = [
+    "FORMATS",
+    "LIBRARIES",
+    "METRICS",
+    "MODELS",
+    "NAME",
+    "REGISTRIES",
+    "TASKS",
+    "Registry",
+]
 
 T = TypeVar("T")
+
+NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
+"""A name of a user's own that every option of the command line can take."""
 
 
 class Registry(Generic[T]):

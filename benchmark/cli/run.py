@@ -121,7 +121,7 @@ def run(
     )
     archive = open_archive(data_dir, task_files)
     if not (offline or dry_run):
-        fetch_missing(archive, bench.required_sources(request), console)
+        fetch_missing(archive, bench.required_sources(request, archive), console)
     planned = bench.plan(request, archive)
     if not planned:
         raise UsageError(

@@ -68,23 +68,27 @@ def plan(request: Request, archive: Archive) -> tuple[Job, ...]:
     DigestMismatch
         If a recording is here but is not the registered one.
     """
-    _check_names(request)
-    for task in _tasks(request):
-        require_consistent(task)
     return tuple(
         job
-        for task in _tasks(request)
+        for task in _consistent_tasks(request)
         for case in _cases(request, task)
         for job in _case_jobs(request, task, case, archive)
     )
 
 
-def required_sources(request: Request) -> tuple[str, ...]:
-    """Return the addresses of every recording that ``request`` needs, each once."""
-    _check_names(request)
-    tasks = [task for task in _tasks(request) if _chosen_entrants(request, task)]
-    sources = [uri for task in tasks for case in _cases(request, task) for uri in case.recordings]
-    return tuple(dict.fromkeys(sources))
+def required_sources(request: Request, archive: Archive) -> tuple[str, ...]:
+    """Return the addresses of every recording that ``request`` needs, each once.
+
+    Raises
+    ------
+    UnknownNameError, UsageError
+        As `plan` does; and if ``archive`` has no library for an address.
+    """
+    tasks = [task for task in _consistent_tasks(request) if _chosen_entrants(request, task)]
+    cases = [(task, case) for task in tasks for case in _cases(request, task)]
+    for task, case in cases:
+        _missing(task, case, archive)
+    return tuple(dict.fromkeys(uri for _, case in cases for uri in case.recordings))
 
 
 def entrants(task: Task) -> tuple[Entrant, ...]:
@@ -110,6 +114,14 @@ def _check_names(request: Request) -> None:
     for wanted in request.cases:
         if not matching_cases(wanted, _case_names(request)):
             raise UnknownNameError("case", wanted, _case_names(request))
+
+
+def _consistent_tasks(request: Request) -> list[Task]:
+    """Return the tasks of a request, once its names and they themselves are known to be right."""
+    _check_names(request)
+    for task in _tasks(request):
+        require_consistent(task)
+    return _tasks(request)
 
 
 def _tasks(request: Request) -> list[Task]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any
 
 from mocapbench.benchmark.errors import UnregisteredNameError
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS, Registry
+from mocapbench.benchmark.registry import METRICS, MODELS, NAME, TASKS, Registry
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.selection import Selection
 from mocapbench.benchmark.task_files.values import (
@@ -29,7 +28,6 @@ KEYS = (
     *("name", "title", "description", "files", "training", "rate", "frames", "channels"),
     *("folds", "models", "metrics", "hide"),
 )
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
 _METRICS = ("mse", "smse", "crps", "coverage_95")
 
 
@@ -96,7 +94,7 @@ def read_settings(document: Document) -> Settings:
 def _name(document: Document) -> str:
     """Return the task's name: that of the file, unless the file says another."""
     name = document.read("name", PurePath(document.file).stem, is_text, "a text", '"our-walks"')
-    if not _NAME.fullmatch(name):
+    if not NAME.fullmatch(name):
         expected = "letters, digits, dots, hyphens and underscores"
         raise document.error("name", expected, repr(name), 'write for example name = "our-walks"')
     if TASKS.is_installed(name):

@@ -196,6 +196,10 @@ WRONG = {
     "MODELS = {'trivial': Mine}": "expected a name that no model or entrant has, got 'trivial'",
     "MODELS = {'mohgp-3': Mine}": "expected a name that no model or entrant has, got 'mohgp-3'",
     "MODELS = {1: Mine}": "expected a name that no model or entrant has, got 1; choose another",
+    "MODELS = {'': Mine}": "name of letters, digits, .* for the model, got ''; rename it",
+    "MODELS = {'mi ne,x': Mine}": "name of letters, digits, .* for the model, got 'mi ne,x'; ren",
+    "METRICS = {'a,b': mine('a,b')}": "name of letters, digits, .* for the metric, got 'a,b'; ",
+    "TASKS = {'-a': task('-a')}": "name of letters, digits, .* for the task, got '-a'; rename it",
     "TASKS = {'missing-frames': task('missing-frames')}": "expected a name that no task .* has",
     "METRICS = {'mse': mine('mse')}": "expected a name that no metric .* has, got 'mse'; choose",
     "METRICS = {'spread': mine('spread')}": "expected a name that no metric .* has, got 'spread'",
@@ -218,6 +222,7 @@ def test_a_wrong_entry_says_what_was_expected_and_got(load, text, complaint):
         "choose another",
         '= {"name": …}',
         "rename one of the two",
+        "rename it, for example",
         "give every other parameter",
     )
     assert [part in message for part in ("expected", ", got ")] == [True, True]

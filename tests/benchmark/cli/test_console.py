@@ -173,10 +173,10 @@ def test_of_hostile_models_a_run_shows_the_text(printed, tmp_path):
         "class Raises(CubicSplineImputer):\n"
         "    def fit(self, recordings):\n"
         "        raise ValueError(HOSTILE)\n"
-        "MODELS = {HOSTILE: Raises}\n"
+        "MODELS = {'raises': Raises}\n"
     )
     options = ("--plugin", plugin, "--offline", "--profile", "smoke", "--folds", 1)
-    chosen = ("--tasks", "toy-interpolation-1", "--models", HOSTILE)
+    chosen = ("--tasks", "toy-interpolation-1", "--models", "raises")
     text = printed("run", *options, *chosen, "--out", tmp_path / "run")
     assert SHOWN in OURS.sub("", text)
     assert "1 failed" in OURS.sub("", text)

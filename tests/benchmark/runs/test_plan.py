@@ -10,8 +10,13 @@ from mocapbench.benchmark.tasks.base import Entrant
 
 
 def test_recordings_are_wanted_only_where_a_chosen_model_can_run():
-    assert required_sources(Request(tasks=("missing-frames",), models=("mohgp",))) == ()
-    wanted = required_sources(Request(tasks=("missing-frames",), models=("cubic-spline",)))
+    assert (
+        required_sources(Request(tasks=("missing-frames",), models=("mohgp",)), archive_at(None))
+        == ()
+    )
+    wanted = required_sources(
+        Request(tasks=("missing-frames",), models=("cubic-spline",)), archive_at(None)
+    )
     assert "cmu:35_03" in wanted
     assert len(set(wanted)) == len(wanted)
 
@@ -66,8 +71,26 @@ def test_two_rows_of_one_name_are_refused(complaint, changes):
 def test_an_address_that_no_library_can_have_is_refused_by_task_and_case(uri):
     case = dataclasses.replace(FIRST, sources=(uri,))
     TASKS.add("mine", dataclasses.replace(TASK, name="mine", cases=(case, *TASK.cases[1:])))
-    with pytest.raises(UsageError, match=f"task 'mine', case '{FIRST.name}': .* got '{uri}'"):
-        plan(Request("paper", tasks=("mine",), cases=(FIRST.name,)), archive_at(None))
+    request = Request("paper", tasks=("mine",), cases=(FIRST.name,))
+    for ask in (plan, required_sources):
+        with pytest.raises(UsageError, match=f"task 'mine', case '{FIRST.name}': .* got '{uri}'"):
+            ask(request, archive_at(None))
+
+
+PAGE = TASK.page
+CANNOT_RUN = {
+    "got 0": {"profiles": {"smoke": dataclasses.replace(TASK.profile("smoke"), folds=0)}},
+    "unknown metric 'msee'": {"page": dataclasses.replace(PAGE, metrics=("mse", "msee"))},
+    "metrics to show on its page, got none": {"page": dataclasses.replace(PAGE, metrics=())},
+}
+
+
+@pytest.mark.parametrize(("complaint", "changes"), CANNOT_RUN.items(), ids=CANNOT_RUN)
+def test_what_could_not_be_run_or_shown_is_refused_before_the_run(complaint, changes):
+    TASKS.add("mine", dataclasses.replace(TASK, name="mine", **changes))
+    for ask in (plan, required_sources):
+        with pytest.raises(UsageError, match=f"task 'mine'.*{complaint}"):
+            ask(Request("smoke", tasks=("mine",)), archive_at(None))
 
 
 def test_a_recording_as_the_database_writes_it_finds_the_cases_on_it():

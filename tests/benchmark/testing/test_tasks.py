@@ -96,7 +96,13 @@ def _case(name):
         ("requires", (int,), "expected abilities from mocapbench.baselines"),
         ("profiles", {}, "at least one profile, got none"),
         ("profiles", {"smoke": Profile(("test 0",), 1)}, "cases of profile smoke"),
-        ("profiles", {"smoke": Profile(("test 1",), 0)}, "folds in profile smoke, got 0"),
+        (
+            "profiles",
+            {"smoke": Profile(("test 1",), 0)},
+            "'smoke': .* whole .* from 1, got 0",
+        ),
+        ("profiles", {"smoke": Profile(("test 1",), 1.5)}, "whole number of folds from 1, got 1.5"),
+        ("profiles", {"smoke": Profile((), 1)}, "profile 'smoke': expected one or more cases"),
         ("max_folds", 1, "expected 1 to 1 folds in profile smoke, got 2"),
     ],
 )
@@ -108,8 +114,8 @@ def test_the_fault_of_a_task_is_named(field, value, complaint):
 @pytest.mark.parametrize(
     ("field", "value", "complaint"),
     [
-        ("metrics", (), "expected metrics to show, got none"),
-        ("metrics", ("msee",), r"metrics among .* got \['msee'\]"),
+        ("metrics", (), "expected metrics to show on its page, got none"),
+        ("metrics", ("msee",), "metrics of its page: unknown metric 'msee': did you mean .*mse"),
         ("published_models", {"me": "ME"}, r"published_models among .* got \['me'\]"),
         ("published_metrics", {"pit": "PIT"}, r"published_metrics among .* got \['pit'\]"),
         ("rows", {"test 0": RowNotes()}, r"rows of the page among .* got \['test 0'\]"),
