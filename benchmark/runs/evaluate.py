@@ -18,6 +18,7 @@ from mocapbench.benchmark.runs.fitting.trained import Trained
 from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
 from mocapbench.benchmark.runs.posed import problem_digest
 from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.score_values import fault_of_score
 from mocapbench.datasets import Archive
 from mocapbench.metrics import Metric, Score
 
@@ -117,9 +118,10 @@ def _scored_by(metric: Metric[Any], outcome: object) -> dict[str, Score]:
         raise
     except BaseException as error:
         raise RuntimeError(f"the metric {metric.name!r} raised {reason(error)}") from error
-    if not isinstance(score, Score):
-        kind = type(score).__name__
-        raise ValueError(f"expected the metric {metric.name!r} to return a Score, got {kind}")
+    fault = fault_of_score(score)
+    if fault:
+        raise ValueError(f"expected the metric {metric.name!r} {fault}")
+    assert isinstance(score, Score)
     _require_finite(metric.name, float(score.value), bool(overflows))
     return {metric.name: score}
 

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from mocapbench.benchmark.testing.errors import raised_by, require
+from mocapbench.benchmark.score_values import fault_of_score
+from mocapbench.benchmark.testing.errors import ConformanceError, raised_by, require
 from mocapbench.benchmark.testing.subject import COMPLETE, GAP, TIMES
 from mocapbench.metrics import (
     Clustering,
@@ -18,7 +19,6 @@ from mocapbench.metrics import (
     Metric,
     Recovery,
     SampledPoses,
-    Score,
     Synthesis,
 )
 
@@ -115,7 +115,10 @@ def _plain(metric: Metric[Any]) -> Any:
 def _check_values(metric: Metric[Any]) -> None:
     outcome = _plain(metric)
     one, two = (metric(outcome) for _ in range(2))
-    require(type(one) is Score, "a Score", type(one).__name__, "return Score(value)")
+    for score in (one, two):
+        fault = fault_of_score(score)
+        if fault:
+            raise ConformanceError(f"expected it {fault}")
     advice = "leave degenerate outputs out"
     require(np.isfinite(one.value), "a finite value of a plain outcome", one.value, advice)
     advice = "draw nothing in a metric"

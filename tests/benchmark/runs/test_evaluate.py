@@ -43,6 +43,21 @@ def _overflowed_difference(outcome):
 FAULTS = {
     "a float": ({"statistic": lambda outcome: 0.5}, "to return a Score, got float"),
     "nothing": ({"statistic": _nothing}, "to return a Score, got NoneType"),
+    "an array": (
+        {"statistic": lambda outcome: Score(outcome.truth)},
+        "to return a Score of one real number, got an array of float64 of shape",
+    ),
+    "an array of one number": (
+        {"statistic": lambda outcome: Score(np.ones(1))},
+        "one real number, got an array of float64 of shape (1,); write for example",
+    ),
+    "a text": ({"statistic": lambda outcome: Score("1.5")}, "one real number, got '1.5'; write"),
+    "a complex number": ({"statistic": lambda outcome: Score(1 + 2j)}, "number, got (1+2j); wri"),
+    "no value": ({"statistic": lambda outcome: Score(None)}, "one real number, got None; write"),
+    "parts as a list": (
+        {"statistic": lambda outcome: Score(1.0, {"frame": [1.0]})},
+        "to give the parts of its Score as arrays, got [1.0] for 'frame'; write",
+    ),
     "an error": ({"statistic": _raises}, "the metric 'mine' raised KeyError: 'x'"),
     "work in place": ({"statistic": _in_place}, "raised ValueError: output array is read-only"),
     "in defined": ({"defined": _raises}, "the metric 'mine' raised KeyError: 'x'"),
@@ -103,8 +118,10 @@ def test_a_score_that_is_not_finite_fails_the_job(record, statistic, message):
     assert not failed.scores
 
 
-@pytest.mark.parametrize("value", [math.nan, 0.0, 1e300, -1e300])
+@pytest.mark.parametrize(
+    "value", [math.nan, 0.0, 1e300, -1e300, 3, True, np.float32(0.5), np.array(2.0), np.True_]
+)
 def test_a_finite_score_and_one_that_is_not_defined_are_kept(record, value):
     ended = record(statistic=lambda outcome: Score(value))
     assert ended.status is Status.OK
-    assert ended.scores == pytest.approx({"mine": value}, rel=0, nan_ok=True)
+    assert ended.scores == pytest.approx({"mine": float(value)}, rel=0, nan_ok=True)

@@ -33,6 +33,21 @@ def _number(outcome):
     return 1.0
 
 
+def _complex(outcome):
+    """Return a complex number."""
+    return Score(1 + 2j)
+
+
+def _array(outcome):
+    """Return a number an entry."""
+    return Score(outcome.truth)
+
+
+def _listed(outcome):
+    """Return parts that are no array."""
+    return Score(1.0, {"frame": [1.0]})
+
+
 def _random(outcome):
     """Return something else every time."""
     return Score(float(np.random.default_rng().random()))
@@ -67,7 +82,10 @@ def test_a_metric_that_conforms_passes():
     [
         ({"statistic": _undocumented}, "a docstring of the statistic"),
         ({"statistic": _nan}, "a finite value of a plain outcome, got nan"),
-        ({"statistic": _number}, "expected a Score, got float"),
+        ({"statistic": _number}, "to return a Score, got float"),
+        ({"statistic": _complex}, r"a Score of one real number, got \(1\+2j\); write"),
+        ({"statistic": _array}, r"one real number, got an array of float64 of shape \(20, 2\)"),
+        ({"statistic": _listed}, r"parts of its Score as arrays, got \[1.0\] for 'frame'; write"),
         ({"statistic": _random}, "draw nothing in a metric"),
         ({"statistic": _everything}, "whatever the visible entries are"),
         ({"statistic": _raises}, "got ZeroDivisionError: no frames"),
