@@ -35,9 +35,14 @@ __all__ = ["check_model", "model_checks"]
 
 ModelCheck = Callable[[Subject], None]
 
+_UNNAMED = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
+
 
 def check_model(model: type[Model], **parameters: Any) -> None:
     """Check a model class against the protocols of the abilities it inherits.
+
+    The model runs in this process: if it calls ``os._exit`` or crashes, that ends the tests without
+    a message, where a run would only fail its job.
 
     Parameters
     ----------
@@ -102,6 +107,11 @@ def names_its_family(subject: Subject) -> None:
 
 def constructor_only_stores(subject: Subject) -> None:
     """Check that the constructor works without arguments and only stores them."""
+    unnamed = [
+        str(p) for p in inspect.signature(subject.model).parameters.values() if p.kind in _UNNAMED
+    ]
+    expected = "arguments of __init__ that have names and defaults"
+    require(not unnamed, expected, ", ".join(unnamed), "name each: others cannot be set or kept")
     model = subject.model()
     learned = sorted(name for name in vars(model) if name.endswith("_"))
     require(not learned, "no learned state before fit", learned, "set it in fit")

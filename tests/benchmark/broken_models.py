@@ -3,6 +3,7 @@
 import os
 import resource
 import subprocess
+import sys
 import time
 import warnings
 
@@ -36,6 +37,16 @@ class _Mean(Imputer):
 class Raises(_Mean):
     def fit(self, recordings):
         raise RuntimeError("the model <b>raised</b>")
+
+
+class Quits(_Mean):
+    def fit(self, recordings):
+        sys.exit(0)
+
+
+class Anything(_Mean):
+    def __init__(self, **options):
+        self.options = options
 
 
 class Wordy(_Mean):
@@ -367,6 +378,8 @@ class Bends(_Styles):
 NONCONFORMING = {
     Nameless: "expected a family, such as 'Your models', got ''",
     Raises: "expected that .* got RuntimeError: the model <b>raised</b>",
+    Quits: "expected that .* got SystemExit: 0",
+    Anything: r"arguments of __init__ that have names and defaults, got \*\*options: name each",
     NotANumber: "expected a finite mean, got 40 NaN or infinite entries",
     WrongShape: r"expected a mean of shape \(20, 2\), got \(2, 2\)",
     WrongCount: r"expected impute to return a list of 1 Prediction, got \[\]",
