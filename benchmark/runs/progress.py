@@ -99,7 +99,8 @@ def in_words(seconds: float) -> str:
 def _announce(record: Record, console: Console) -> None:
     if record.status.broken:
         # Rich's search for what to highlight takes a minute in a word of 50 000 letters.
-        line = f"{record.status}: {record.address}: {record.message}"
+        tables = f"(fold {record.address.fold} in tables)"
+        line = f"{record.status}: {record.address} {tables}: {record.message}"
         console.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
