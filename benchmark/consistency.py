@@ -70,15 +70,16 @@ def _require_parameters(task: Task, entrant: Entrant) -> None:
 
 def _require_profiles(task: Task) -> None:
     for name, profile in task.profiles.items():
+        folds: object = profile.folds
         if not profile.cases:
             raise UsageError(
                 f"task {task.name!r}, profile {name!r}: expected one or more cases, got none; name "
                 "them in its Profile, or leave the profile out"
             )
-        if not isinstance(profile.folds, Integral) or profile.folds < 1:
+        if not isinstance(folds, Integral) or int(folds) < 1:
             raise UsageError(
                 f"task {task.name!r}, profile {name!r}: expected a whole number of folds from 1, "
-                f"got {profile.folds!r}; change its Profile, or leave the profile out"
+                f"got {folds!r}; change its Profile, or leave the profile out"
             )
 
 
