@@ -31,8 +31,8 @@ class Row:
 
     ``identical`` says whether both sides have the same value in every fold. Of ``folds`` that both
     were asked for, they lost ``first_lost`` and ``second_lost``; if any, there are means alone.
-    ``t_p_holm`` and ``signed_rank_p_holm`` are corrected over the rows of one task and metric,
-    the pooled ones apart from those of single cases.
+    ``t_p_holm`` and ``signed_rank_p_holm`` are corrected over the rows of one task and metric
+    that are not identical, the pooled ones apart from those of single cases.
     """
 
     task: str
@@ -73,9 +73,14 @@ def pooled_rows(task: Task, metric: str, folds: Folds, rope: float = ROPE) -> li
 
 
 def corrected(rows: Sequence[Row]) -> list[Row]:
-    """Return rows with p-values after Holm's correction over all of them that have a test."""
+    """Return rows with p-values after Holm's correction over all of them that have a test.
+
+    Rows with the same values on both sides need none: otherwise models that nobody has changed
+    would hide what became of the one that was.
+    """
     t, signed = (
-        holm([getattr(row.contrast, test) for row in rows]) for test in ("t_p", "signed_rank_p")
+        holm([math.nan if row.identical else getattr(row.contrast, test) for row in rows])
+        for test in ("t_p", "signed_rank_p")
     )
     return [
         replace(row, t_p_holm=float(one), signed_rank_p_holm=float(other))

@@ -115,6 +115,22 @@ def test_a_run_against_itself_is_identical(cli, run):
     assert "3 of 3 comparisons are identical" in cli.printed
 
 
+def test_models_that_nobody_changed_do_not_hide_one_that_was(cli, run, tmp_path):
+    others = [records(name, GOOD) for name in ("nn", "trivial", "linear")]
+    before, after = (
+        run(name, records("knn", scores)) for name, scores in (("a", GOOD), ("b", BAD))
+    )
+    alone = compared(cli, tmp_path, before, after)
+    before, after = (
+        run(name, records("knn", scores), *others) for name, scores in (("c", GOOD), ("d", BAD))
+    )
+    beside = compared(cli, tmp_path, before, after)
+    assert beside["identical"].sum() == 3 * len(alone)
+    changed = beside[~beside["identical"]]
+    np.testing.assert_array_equal(changed["t_p_holm"], alone["t_p_holm"])
+    np.testing.assert_array_equal(changed["signed_rank_p_holm"], alone["signed_rank_p_holm"])
+
+
 def test_overlapping_windows_of_one_person_count_as_one(cli, run, tmp_path):
     windows = {"35-03 three-walkers": [1.0, 2.0, 3.0], "07-01 three-walkers": [2.0, 3.0, 5.0]}
     groups = [
