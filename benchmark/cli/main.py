@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -73,7 +73,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]  # terminals that know ASCII only
     with warnings.catch_warnings():  # which puts the function back
-        warnings.showwarning = _show_warning
+        warnings.showwarning = _showing_each_once()
         try:
             app(args=None if arguments is None else list(arguments))
         except Exception as error:
@@ -90,8 +90,16 @@ def _explained(error: Exception) -> int:
         return ExitCode.INTERRUPTED
 
 
-def _show_warning(*warning: Any, **origin: Any) -> None:
-    cli.show_warning(*warning, **origin)  # the module takes time to import, so not before
+def _showing_each_once() -> Callable[..., None]:
+    """Return what shows warnings; Python forgets those it showed when its filters change."""
+    shown: set[tuple[str, type[Warning]]] = set()
+
+    def show(message: Warning | str, category: type[Warning], *origin: Any) -> None:
+        if (str(message), category) not in shown:
+            shown.add((str(message), category))
+            cli.show_warning(message, category, *origin)  # imported late, as it takes time
+
+    return show
 
 
 if __name__ == "__main__":

@@ -22,6 +22,7 @@ from mocapbench.benchmark.cli.main import main
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
+from mocapbench.datasets import TextColumnsWarning
 
 CLEAR, LINK = "\x1b[2J", "\x1b]8;;http://elsewhere\x1b\\"
 SHOWN = ":bomb:[/x][link=http://elsewhere]here[/link]"
@@ -206,6 +207,17 @@ def test_a_warning_is_text(printed, run, monkeypatch):
     assert f"UserWarning: {SHOWN}\n" in text
     assert not obeyed(text)
     assert warnings.showwarning is before
+
+
+def test_a_warning_is_shown_once_whatever_becomes_of_the_filters(printed, run, monkeypatch):
+    def warn(path):
+        for text in ("one", "two", "one"):
+            warnings.simplefilter("always")
+            warnings.warn(f"{text} column", TextColumnsWarning, stacklevel=1)
+
+    monkeypatch.setattr(gate, "read_reference", warn)
+    text = printed("check", run, "--reference", "b.csv")
+    assert [text.count(f"{each} column") for each in ("one", "two")] == [1, 1]
 
 
 def calls(path):
