@@ -11,8 +11,8 @@ from mocapbench.benchmark.filling.cautions import cautions
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.remaining import remaining
 from mocapbench.benchmark.filling.trials.choice import Choice
-from mocapbench.metrics.statistics import FEWEST_UNITS
-from mocapbench.reports import RankedModel, listed
+from mocapbench.benchmark.filling.trials.ranking import Ranking
+from mocapbench.reports import RankedModel, counted, listed
 
 __all__ = ["headline", "left_out", "ranked", "remarks", "units", "verdict"]
 
@@ -38,15 +38,21 @@ def verdict(filled: Filled) -> str:
     if filled.choice is None:
         return ""
     ranking = filled.choice.ranking
-    trials = f"{ranking.n} trial gap{'s' if ranking.n != 1 else ''}"
+    trials = _trials(ranking)
     if len(ranking.order) == 1:
         return f"No other model has a rank, over {trials}."
-    if ranking.n < FEWEST_UNITS:
+    if not ranking.tested:
         return f"It did best in {trials}, too few to tell whether that is chance."
     others = [model for model in ranking.sharing if model != ranking.order[0]]
     if not others:
         return f"Its lead over {ranking.order[1]} is more than chance, over {trials}."
     return f"Its lead over {listed(others, len(others))} could be chance, over {trials}."
+
+
+def _trials(ranking: Ranking) -> str:
+    trials = counted(ranking.n, "trial gap")
+    at = f" at {counted(ranking.n_places, 'place')}" if ranking.n_places < ranking.n else ""
+    return trials + at
 
 
 def remarks(filled: Filled) -> Iterator[str]:
@@ -87,7 +93,7 @@ def _with_bands(filled: Filled) -> str:
     Models that are behind one that trials do tell apart are not meant: they err so differently from
     gap to gap that trials tell nothing of them.
     """
-    if filled.choice is None or filled.failed or filled.choice.ranking.n < FEWEST_UNITS:
+    if filled.choice is None or filled.failed:
         return ""
     ranking = filled.choice.ranking
     leading = takewhile(lambda model: model in ranking.sharing, ranking.order)

@@ -11,6 +11,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.trials.making import Trial, make_trials
+from mocapbench.benchmark.filling.trials.places import places_of
 from mocapbench.benchmark.filling.trials.race import Runner, race
 from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
 from mocapbench.benchmark.filling.trials.scores import held_errors, scores_of, weights_of
@@ -106,7 +107,7 @@ def _ranked(trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:
         if len(runner.answers) >= len(trials)
     }
     return Choice(
-        ranking=rank(scores, weights_of(trials)),
+        ranking=rank(scores, weights_of(trials), places_of(trials)),
         left_out=tuple(runner for runner in runners if runner.model not in scores),
         share=min(trial.share for trial in trials),
         seconds={r.model: r.seconds / len(r.answers) for r in runners if r.model in scores},

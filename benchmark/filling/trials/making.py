@@ -47,6 +47,8 @@ class Trial:
         The values of the wanted entries, in the order of ``np.nonzero(question.target)``.
     units : tuple of ndarray of int
         The places among them (M,) of the entries of each trial gap, which are scored together.
+    copies : tuple of Episode
+        The trial gaps, at their frames in the whole recording.
     originals : tuple of Episode
         The real gaps of which these are copies.
     share : float
@@ -56,6 +58,7 @@ class Trial:
     question: Question
     truth: NDArray[np.float64]
     units: tuple[NDArray[np.intp], ...]
+    copies: tuple[Episode, ...]
     originals: tuple[Episode, ...]
     share: float
 
@@ -237,6 +240,7 @@ def _made(question: Question, placed: _Placement) -> Trial:
         question=Question(recording.hide(target), target, question.train),
         truth=recording.values[target],
         units=tuple(units),
+        copies=tuple(placed.episodes),
         originals=tuple(placed.originals),
         share=placed.share,
     )

@@ -10,7 +10,12 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.filling.trials.scores import Scores
-from mocapbench.metrics.statistics import ALPHA, holm_tests
+from mocapbench.metrics.statistics import (
+    ALPHA,
+    FEWEST_UNITS,
+    holm_tests_of_means,
+    means_and_errors,
+)
 
 __all__ = ["Ranking", "rank"]
 
@@ -26,20 +31,29 @@ class Ranking:
     means : mapping of str to float
         The weighted mean error of each.
     scores : mapping of str to Scores
-    n : int
-        The number of trial gaps.
+    n, n_places : int
+        The number of trial gaps, and that of the places where they are.
     sharing : tuple of str
-        Models whose errors differ from those of the one with the least by no more than chance.
+        Models whose errors differ from those of the one with the least by no more than chance, that
+        one first. Of too few places nothing can be told: the first alone.
     """
 
     order: tuple[str, ...]
     means: Mapping[str, float]
     scores: Mapping[str, Scores]
     n: int
+    n_places: int
     sharing: tuple[str, ...]
 
+    @property
+    def tested(self) -> bool:
+        """Whether there are enough places to tell what is chance."""
+        return self.n_places >= FEWEST_UNITS
 
-def rank(scores: Mapping[str, Scores], weights: NDArray[np.float64]) -> Ranking:
+
+def rank(
+    scores: Mapping[str, Scores], weights: NDArray[np.float64], places: NDArray[np.intp]
+) -> Ranking:
     """Return the ranking of one or more models that answered the same trials.
 
     Of equal ones, that which comes first in ``scores`` is the better one.
@@ -49,22 +63,34 @@ def rank(scores: Mapping[str, Scores], weights: NDArray[np.float64]) -> Ranking:
     scores : mapping of str to Scores
     weights : ndarray of shape (n,)
         How much each trial gap counts, 1 in the mean.
+    places : ndarray of int of shape (n,)
+        Where each is: those at the same place are one unit of the test.
     """
     losses = pd.DataFrame({model: score.errors * weights for model, score in scores.items()})
     means = losses.mean()
     order = tuple(means.sort_values(kind="stable").index)
-    means_by_model = {model: float(means[model]) for model in order}
-    return Ranking(order, means_by_model, scores, len(losses), _sharing(losses[list(order)]))
+    sharing = _sharing(losses[list(order)], places)
+    n_places = len(np.unique(places))
+    return Ranking(
+        order,
+        {model: float(means[model]) for model in order},
+        scores,
+        len(losses),
+        n_places,
+        sharing,
+    )
 
 
-def _sharing(losses: pd.DataFrame) -> tuple[str, ...]:
+def _sharing(losses: pd.DataFrame, places: NDArray[np.intp]) -> tuple[str, ...]:
     """Return the first model, and those that the paired t-test does not separate from it.
 
-    P-values are corrected by Holm's method. A single trial is no test: only an equal error shares.
+    P-values are corrected by Holm's method.
     """
     best, *others = losses.columns
-    if not others:
+    units = (losses[others].sub(losses[best], axis=0)).groupby(places)
+    shares = units.size() / len(losses)
+    if not others or len(shares) < FEWEST_UNITS:
         return (best,)
-    differences = (losses[others].to_numpy(float) - losses[[best]].to_numpy(float)).T
-    alike = (holm_tests(differences).p > ALPHA) | ~differences.any(axis=1)
+    means, errors = means_and_errors(units.mean().to_numpy(float).T, shares)
+    alike = holm_tests_of_means(means, errors, np.full(len(means), len(shares))).p > ALPHA
     return (best, *(model for model, shares in zip(others, alike, strict=True) if shares))

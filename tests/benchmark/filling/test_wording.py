@@ -32,11 +32,12 @@ def filled(waves, hidden):
     return make
 
 
-def choice_of(errors, share=1.0):
+def choice_of(errors, share=1.0, places=None):
     scores = {
         model: Scores(np.array(e, dtype=float), {"deg": 1.0}, None) for model, e in errors.items()
     }
-    ranking = rank(scores, np.ones(len(next(iter(errors.values())))))
+    n = len(next(iter(errors.values())))
+    ranking = rank(scores, np.ones(n), np.arange(n) if places is None else np.array(places))
     seconds = dict.fromkeys(errors, 0.1)
     return Choice(ranking, (), share, seconds, dict.fromkeys(errors, 2))
 
@@ -206,7 +207,7 @@ def test_nothing_special_is_passed_over_in_silence(filled):
 
 
 def test_the_ranking_notes_the_choice_and_what_is_not_separable(filled):
-    rows = list(ranked(filled(choice_of({"one": [1, 2, 1, 2], "two": [2, 1, 2, 1.5]}))))
+    rows = list(ranked(filled(choice_of({"one": [1, 2, 1, 2, 1], "two": [2, 1, 2, 1.5, 1]}))))
     assert [row.name for row in rows] == ["one", "two"]
     assert rows[0].note == "chosen, fitted to windows"
     assert rows[1].note.startswith("not separable from one")

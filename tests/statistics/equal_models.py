@@ -1,0 +1,132 @@
+"""How often `mocapbench fill` says "more than chance" of equal models: `equal_models.py [PAGE]`.
+
+A simulated file is a random walk in three channels with a little noise. One model fills a gap by a
+line with a bow above it, and another with the same bow below it, so that neither is better. With a
+lead, the first one's bow is half as high.
+
+Prints the table, and writes it into the page if one is given.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from mocapbench.benchmark.filling.gaps import gaps_of
+from mocapbench.benchmark.filling.question import Answer, Question
+from mocapbench.benchmark.filling.trials.making import Trial, make_trials
+from mocapbench.benchmark.filling.trials.places import places_of
+from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
+from mocapbench.benchmark.filling.trials.scores import held_errors, scores_of, weights_of
+from mocapbench.datasets import Mask, Recording
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "speed"))
+from page import place, table
+
+__all__ = ["files", "rankings", "report", "told_apart"]
+
+SEED = 20_240_603
+N_FILES = 400
+HEIGHT, LEAD = 0.5, 0.25
+ALL = (0, 1, 2)
+SHORT = tuple((400 + 100 * n, 405 + 100 * n, (0,)) for n in range(8))
+FILES = {
+    "1500 frames, a gap of 15": (1500, ((700, 715, ALL),)),
+    "120 frames, a gap of 40": (120, ((40, 80, ALL),)),
+    "200 frames, a gap of 60": (200, ((70, 130, ALL),)),
+    "300 frames, a gap of 60": (300, ((120, 180, ALL),)),
+    "600 frames, a gap of 90": (600, ((200, 290, ALL),)),
+    "600 frames, three gaps of 30": (
+        600,
+        ((100, 130, ALL), (250, 280, ALL), (400, 430, ALL)),
+    ),
+    "1500 frames, a gap of 90, eight of 5 in one channel": (1500, ((200, 290, ALL), *SHORT)),
+}
+
+
+def files(name: str, n_files: int) -> Iterator[Question]:
+    """Yield files of one kind, with their gaps."""
+    n_frames, gaps = FILES[name]
+    target = np.zeros((n_frames, len(ALL)), dtype=bool)
+    for start, stop, channels in gaps:
+        target[start:stop, channels] = True
+    times = np.arange(n_frames) / 30
+    rng = np.random.default_rng([SEED, n_frames, len(gaps)])
+    for _ in range(n_files):
+        walk = np.cumsum(rng.normal(size=n_frames))[:, None]
+        values = walk + rng.normal(0.0, 0.05, target.shape)
+        yield Question(
+            Recording("r", times, values, ("a", "b", "c"), ("mm",) * 3).hide(target), target
+        )
+
+
+def rankings(question: Question, lead: float = 0.0) -> tuple[Ranking, Ranking]:
+    """Return the ranking of both models, with each trial gap as one unit, and with places."""
+    trials = make_trials(question, np.random.default_rng(0))
+    scales, heights = held_errors(trials), {"above": HEIGHT - lead, "below": -HEIGHT}
+    scores = {
+        model: scores_of(trials, [_answer(trial, height) for trial in trials], scales)
+        for model, height in heights.items()
+    }
+    weights, places = weights_of(trials), places_of(trials)
+    return rank(scores, weights, np.arange(len(places))), rank(scores, weights, places)
+
+
+def _answer(trial: Trial, height: float) -> Answer:
+    values = trial.question.given.values
+    filled = np.column_stack([_line(column) for column in values.T])
+    filled += height * _bows(~np.isfinite(values))
+    return Answer(filled[trial.question.target], None)
+
+
+def _line(column: np.ndarray) -> np.ndarray:
+    frames, seen = np.arange(len(column)), np.isfinite(column)
+    return np.interp(frames, frames[seen], column[seen])
+
+
+def _bows(hidden: Mask) -> np.ndarray:
+    """Return a bow over each gap, which is as high as a random walk strays from the line."""
+    bows = np.zeros(hidden.shape)
+    for gap in gaps_of(hidden):
+        along = np.arange(1, len(gap) + 1) / (len(gap) + 1)
+        bow = np.sqrt(len(gap)) * 4.0 * along * (1.0 - along)
+        bows[gap.start : gap.stop, list(gap.channels)] = bow[:, None]
+    return bows
+
+
+def told_apart(found: Sequence[Ranking]) -> float:
+    """Return the share of rankings of which a page says "more than chance"."""
+    return float(np.mean([ranking.tested and len(ranking.sharing) == 1 for ranking in found]))
+
+
+def _rows() -> Iterator[list[str]]:
+    for name in FILES:
+        asked = list(files(name, N_FILES))
+        alone, placed = zip(*(rankings(question) for question in asked), strict=True)
+        _, better = zip(*(rankings(question, LEAD) for question in asked), strict=True)
+        sizes = (placed[0].n, placed[0].n_places)
+        shares = (f"{100.0 * told_apart(found):.1f} %" for found in (alone, placed, better))
+        yield [name, *map(str, sizes), *shares]
+
+
+def report() -> str:
+    """Return the table."""
+    head = [
+        "file",
+        "trial gaps",
+        "places",
+        "each trial gap a unit",
+        "each place a unit",
+        "and a lead",
+    ]
+    return table(head, _rows())
+
+
+if __name__ == "__main__":
+    text = report()
+    print(text)
+    for page in sys.argv[1:]:
+        place(Path(page), "equal-models", text)
