@@ -13,7 +13,7 @@ from mocapbench.benchmark.filling.able import able_models, require_able
 from mocapbench.benchmark.filling.attempt import Attempt
 from mocapbench.benchmark.filling.question import Answer, Question
 from mocapbench.benchmark.filling.sources import Source
-from mocapbench.benchmark.filling.trials.choice import Choice, choose
+from mocapbench.benchmark.filling.trials.choice import Choice, NoneInTimeError, choose
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.datasets import Recording
@@ -98,27 +98,12 @@ def fill(
     if model != BEST:
         require_able(model, question)
         return _filled(source, (model,), None, workers)
-    race = _Watched(watch)
     try:
-        choice = choose(question, workers, budget, race)
-    except UsageError:
-        if not race.has_begun:  # there is no room for trials
-            raise
+        choice = choose(question, workers, budget, watch)
+    except NoneInTimeError:
         filled = _filled(source, _interpolations(question), None, workers)
         return replace(filled, uncompared=True)
     return _filled(source, choice.ranking.order, choice, workers)
-
-
-class _Watched:
-    """Tells how many trials are done, and remembers that there were any."""
-
-    def __init__(self, watch: Callable[[int, int], object]) -> None:
-        self._watch = watch
-        self.has_begun = False
-
-    def __call__(self, done: int, total: int) -> None:
-        self.has_begun = True
-        self._watch(done, total)
 
 
 def _interpolations(question: Question) -> tuple[str, ...]:

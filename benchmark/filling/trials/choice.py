@@ -17,9 +17,13 @@ from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
 from mocapbench.benchmark.filling.trials.scores import held_errors, scores_of, weights_of
 from mocapbench.benchmark.filling.workers import Workers
 
-__all__ = ["Choice", "choose"]
+__all__ = ["Choice", "NoneInTimeError", "choose"]
 
 _SEED = 0
+
+
+class NoneInTimeError(UsageError):
+    """No model answered a trial within its part of the budget."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +67,10 @@ def choose(
 
     Raises
     ------
+    NoneInTimeError
+        If no model answers a trial within the budget.
     UsageError
-        If there is no room for a trial, or no model answers one within the budget.
+        If there is no room for a trial.
     """
     models = able_models(question)
     trials = make_trials(question, np.random.default_rng(_SEED))
@@ -76,7 +82,7 @@ def choose(
     runners = race(models, trials, workers, budget, watch)
     count = _common(runners)
     if count == 0:
-        raise UsageError(
+        raise NoneInTimeError(
             f"{question.given.name}: expected a model that fills a trial gap in its part of the "
             f"budget of {budget:g} s, got none ({runners[0].model}: {runners[0].trouble}); raise "
             "--budget"

@@ -10,12 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.filling.trials.scores import Scores
-from mocapbench.metrics.statistics import (
-    ALPHA,
-    FEWEST_UNITS,
-    holm_tests_of_means,
-    means_and_errors,
-)
+from mocapbench.metrics.statistics import ALPHA, holm_tests_of_means, too_few, unit_means
 
 __all__ = ["Ranking", "rank"]
 
@@ -33,6 +28,9 @@ class Ranking:
     scores : mapping of str to Scores
     n, n_places : int
         The number of trial gaps, and that of the places where they are.
+    tested : bool
+        Whether there are enough places to tell what is chance; a few that most trial gaps share are
+        not.
     sharing : tuple of str
         Models whose errors differ from those of the one with the least by no more than chance, that
         one first. Of too few places nothing can be told: the first alone.
@@ -43,12 +41,8 @@ class Ranking:
     scores: Mapping[str, Scores]
     n: int
     n_places: int
+    tested: bool
     sharing: tuple[str, ...]
-
-    @property
-    def tested(self) -> bool:
-        """Whether there are enough places to tell what is chance."""
-        return self.n_places >= FEWEST_UNITS
 
 
 def rank(
@@ -69,28 +63,27 @@ def rank(
     losses = pd.DataFrame({model: score.errors * weights for model, score in scores.items()})
     means = losses.mean()
     order = tuple(means.sort_values(kind="stable").index)
-    sharing = _sharing(losses[list(order)], places)
-    n_places = len(np.unique(places))
+    by_place = losses[list(order)].groupby(places)
+    shares = by_place.size().to_numpy(float) / len(losses)
+    found = by_place.mean()
+    tested = not too_few(unit_means(found.to_numpy(float).T, shares).freedom).any()
     return Ranking(
         order,
         {model: float(means[model]) for model in order},
         scores,
         len(losses),
-        n_places,
-        sharing,
+        len(shares),
+        tested,
+        _sharing(found, shares) if tested else order[:1],
     )
 
 
-def _sharing(losses: pd.DataFrame, places: NDArray[np.intp]) -> tuple[str, ...]:
+def _sharing(losses: pd.DataFrame, shares: NDArray[np.float64]) -> tuple[str, ...]:
     """Return the first model, and those that the paired t-test does not separate from it.
 
     P-values are corrected by Holm's method.
     """
     best, *others = losses.columns
-    units = (losses[others].sub(losses[best], axis=0)).groupby(places)
-    shares = units.size() / len(losses)
-    if not others or len(shares) < FEWEST_UNITS:
-        return (best,)
-    means, errors = means_and_errors(units.mean().to_numpy(float).T, shares)
-    alike = holm_tests_of_means(means, errors, np.full(len(means), len(shares))).p > ALPHA
+    differences = losses[others].sub(losses[best], axis=0).to_numpy(float).T
+    alike = holm_tests_of_means(unit_means(differences, shares)).p > ALPHA
     return (best, *(model for model, shares in zip(others, alike, strict=True) if shares))
