@@ -48,7 +48,7 @@ class ScoreChange:
     ----------
     task, case, label, metric : str
     n : int
-        Number of independent units (`mocapbench.reports.analysis.units`).
+        Number of independent units, such as people.
     first, second : float
         Means in A and in B over the folds that both have.
     low, high : float

@@ -36,6 +36,7 @@ RECORDINGS = (
     (6, 4, 1, 1, 1, 1, 1, 1),
     (10, *[1] * 11),
     (10, 10, 10, *[1] * 9),
+    (20, 20, 20, *[1] * 18),
 )
 CORRELATIONS = (0.0, 0.3, 0.5, 1.0)
 SIGMA = 1.5
@@ -107,7 +108,7 @@ def _skewed_rows() -> Iterator[list[str]]:
 
 def report() -> tuple[str, str]:
     """Return the tables of unequal shares and of skewed differences."""
-    rules = [f"{c:g}, {rule}" for c in CORRELATIONS for rule in ("n − 1", "ν")]
+    rules = [f"ICC {c:g}: {rule}" for c in CORRELATIONS for rule in ("n − 1", "ν")]
     head = ["recordings", "scatter", "worth", "tested", *rules]
     rows = (row for noise in (normal, heavy) for row in _rows(noise))
     return table(head, rows), table(["units", "false alarms"], _skewed_rows())
