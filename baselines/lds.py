@@ -21,7 +21,8 @@ from mocapbench.baselines.protocols import (
 from mocapbench.baselines.rehearsal.checkable import Relearning
 from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.baselines.state_space.em import expectation_maximisation
-from mocapbench.baselines.state_space.model import PRIORS
+from mocapbench.baselines.state_space.model import PRIORS, Parameters
+from mocapbench.baselines.state_space.noise import with_noise_shown
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.prediction import drawn, moments
 from mocapbench.baselines.state_space.smoothing import smoothed
@@ -153,10 +154,27 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
         self._check_given(recordings)
+        return self._smoothed(recordings, self.parameters_)
+
+    def least_claimed(
+        self, recordings: Sequence[Recording], claimed: Sequence[Prediction]
+    ) -> list[Prediction]:
+        """Return what it claims with as much noise as the entries that it has learnt from show.
+
+        The prior adds ten frames that are all noise. Where there is little of it, most of the
+        claim is that prior.
+        """
+        del claimed
+        shown = with_noise_shown(self.parameters_, self._observations(self.learnt_from_))
+        return self._smoothed(recordings, shown)
+
+    def _smoothed(
+        self, recordings: Sequence[Recording], parameters: Parameters
+    ) -> list[Prediction]:
         if not len(recordings):
             return []
         data = self._observations(recordings)
-        mean, variance = moments(self.parameters_, smoothed(self.parameters_, data))
+        mean, variance = moments(parameters, smoothed(parameters, data))
         means = map(self.scaling_.restore, data.unpad(mean))
         variances = data.unpad(variance * self.scaling_.scale**2)
         return list(map(Prediction.around, recordings, means, variances))

@@ -3,7 +3,8 @@ r"""What a recording's own trials say of the variances that a model claims.
 The variance of a channel is multiplied by the mean ratio, in the trials, of squared errors to
 claimed variances, where that is above one. Three trials say too little to make variances as small
 as they show, but none is left larger than four times what the worst of three shows, and none less
-than a ten-thousandth of what is claimed.
+than a ten-thousandth of what is claimed. Where the model knows from other evidence how small its
+variances may be, they are made as small as the worst of three shows, but no smaller than that.
 
 Where copies of a channel's gap had to be shorter, they are easier: their entries lie nearer to
 visible ones. They are then tried at half their length, too. If the ratio of such channels grows
@@ -83,7 +84,12 @@ class VarianceCheck:
         """Return the recording as each trial shows it, the copies first."""
         return [self.recording.hide(mask) for mask in (*self.copies, *self.halves)]
 
-    def applied(self, claimed: Prediction, answers: Sequence[Prediction]) -> Prediction:
+    def applied(
+        self,
+        claimed: Prediction,
+        answers: Sequence[Prediction],
+        least: Prediction | None = None,
+    ) -> Prediction:
         """Return a prediction with variances that the answers to the trials bear out.
 
         Parameters
@@ -92,11 +98,17 @@ class VarianceCheck:
             Of the recording.
         answers : sequence of Prediction
             Of the `trials`, in their order.
+        least : Prediction, optional
+            The same with the least variances that other evidence bears out.
         """
         if not answers or claimed.variance is None:
             return claimed
-        factors = np.maximum(self.factors(answers), self._least(answers))
-        return Prediction(claimed.mean, claimed.variance * factors)
+        factors = self.factors(answers)
+        variance = claimed.variance * np.maximum(factors, self._least(answers))
+        if least is not None and least.variance is not None:
+            shown = claimed.variance * np.maximum(factors, self._worst(answers))
+            variance = np.minimum(variance, np.maximum(shown, least.variance))
+        return Prediction(claimed.mean, variance)
 
     def factors(self, answers: Sequence[Prediction]) -> Array:
         """Return by how much squared errors exceed claimed variances in the gaps: (D,).
@@ -127,6 +139,14 @@ class VarianceCheck:
         by_trial = self._ratios(self.copies, answers[: len(self.copies)])
         worst = np.max([geometric_ratios(*one) for one in by_trial], axis=0)
         return np.asarray(np.clip(_MARGIN * worst * self.steepest, _LEAST, 1.0))
+
+    def _worst(self, answers: Sequence[Prediction]) -> Array:
+        """Return what the worst of three trials shows: (D,), 1 where copies are shorter."""
+        if len(self.copies) < _SURE:
+            return np.ones(len(self.recording.channels))
+        by_trial = self._ratios(self.copies, answers[: len(self.copies)])
+        worst = np.max([mean_ratios(*one) for one in by_trial], axis=0)
+        return np.where(self.steepest > 1.0, 1.0, worst)
 
     def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
         """Return by what the ratio grows from the copies to the gaps: (D,)."""

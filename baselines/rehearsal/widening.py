@@ -36,9 +36,11 @@ def widened(
     checks = [VarianceCheck.of(recording) for recording in recordings]
     trials = [trial for check in checks for trial in check.trials()]
     answers = iter(model.as_tried(trials) if trials else ())
+    claims = model.as_claimed(recordings)
+    least = model.least_claimed(recordings, claims)
     filled = [
-        check.applied(claimed, list(islice(answers, check.n_trials)))
-        for check, claimed in zip(checks, model.as_claimed(recordings), strict=True)
+        check.applied(claimed, list(islice(answers, check.n_trials)), smallest)
+        for check, claimed, smallest in zip(checks, claims, least, strict=True)
     ]
     if not learnt_from:
         return filled

@@ -149,3 +149,20 @@ def test_bad_parameters_are_refused(parameters, message):
 def test_other_channels_are_refused():
     with pytest.raises(ValueError, match="expected channels"):
         LDS(2).fit(WALKS).impute([WALKS[0].select(("knee.rx",))])
+
+
+@pytest.mark.parametrize("noise", [0.3, 1.0])
+def test_bands_are_hardly_wider_than_the_noise_of_a_recording_that_repeats_itself(noise):
+    rng, angle = np.random.default_rng(20), 2 * np.pi * np.arange(600) / 60
+    phases = rng.uniform(0.0, 6.0, 6)
+    waves = 20 * np.sin(angle[:, None] + phases) + 6 * np.sin(2 * angle[:, None] + 2 * phases)
+    values, mask = waves + rng.normal(0.0, noise, waves.shape), np.zeros(waves.shape, dtype=bool)
+    for channel, first in enumerate((30, 120, 210, 300, 390, 480)):
+        mask[first : first + 30, channel] = True
+    whole = Recording("r", np.arange(600) / 60, values, tuple("abcdef"), ("deg",) * 6)
+    given = whole.hide(mask)
+    model = LDS().fit([given])
+    (claimed,), (prediction,) = model.as_claimed([given]), model.impute([given])
+    squares = (prediction.mean - values)[mask] ** 2 / prediction.variance[mask]
+    assert 0.6 < squares.mean() < 1.5
+    assert prediction.variance[mask].mean() < 0.5 * claimed.variance[mask].mean()

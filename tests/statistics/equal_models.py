@@ -29,7 +29,7 @@ from page import place, table
 __all__ = ["files", "rankings", "report", "told_apart"]
 
 SEED = 20_240_603
-N_FILES = 400
+N_FILES = 1000
 HEIGHT, LEAD = 0.5, 0.25
 ALL = (0, 1, 2)
 SHORT = tuple((400 + 100 * n, 405 + 100 * n, (0,)) for n in range(8))

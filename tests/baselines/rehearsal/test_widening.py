@@ -6,7 +6,7 @@ from claiming import Claiming, Drifting
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines import FAM, GPLVM, LDS, LowRank
+from mocapbench.baselines import FAM, GPLVM, LDS, LowRank, Prediction
 from mocapbench.baselines.rehearsal.ratios import (
     geometric_ratios,
     mean_ratios,
@@ -49,6 +49,46 @@ def test_means_stay_and_variances_lie_between_what_trials_show_and_what_is_claim
     mean, worst = ratios(recording, model)
     expected = np.maximum(mean, np.clip(4.0 * worst, 1e-4, 1.0))
     np.testing.assert_allclose(after.variance[90] / claim, expected)
+
+
+class Knowing(Claiming):
+    """Knows how small its variances may be."""
+
+    def __init__(self, variance, least):
+        super().__init__(variance)
+        self.least = least
+
+    def least_claimed(self, recordings, claimed):
+        return [Prediction(each.mean, np.full(each.mean.shape, self.least)) for each in claimed]
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.lists(st.floats(0.1, 10.0), min_size=1, max_size=4),
+    st.floats(0.01, 100.0),
+    st.floats(0.01, 100.0),
+)
+def test_variances_are_as_small_as_trials_show_and_the_model_knows(scales, claim, least):
+    """Neither makes them smaller alone, but for those that are more than four times too large."""
+    recording, model = noise("r", np.array(scales)), Knowing(claim, least)
+    (without,) = widened(Claiming(claim), [recording])
+    (prediction,) = widened(model, [recording])
+    check = VarianceCheck.of(recording)
+    answers = zip(check.copies, model.as_tried(check.trials()), strict=True)
+    shown = [mean_ratios(*squared_ratios(recording, mask, answer)) for mask, answer in answers]
+    mean, _ = ratios(recording, model)
+    both = np.maximum(claim * np.max([mean, *shown], axis=0), least)
+    np.testing.assert_allclose(prediction.variance[90], np.minimum(without.variance[90], both))
+
+
+def test_where_copies_are_shorter_what_a_model_knows_makes_no_variance_smaller():
+    recording = walk(80)
+    assert (VarianceCheck.of(recording).steepest > 1.0).all()
+    (without,), (prediction,) = (
+        widened(model, [recording]) for model in (Claiming(10.0), Knowing(10.0, 1e-6))
+    )
+    hidden = ~recording.visible
+    np.testing.assert_array_equal(prediction.variance[hidden], without.variance[hidden])
 
 
 def ratios(recording, model):

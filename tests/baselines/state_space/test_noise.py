@@ -1,0 +1,39 @@
+import numpy as np
+import pytest
+
+from mocapbench.baselines.state_space.model import PRIORS
+from mocapbench.baselines.state_space.noise import with_noise_shown
+from mocapbench.baselines.state_space.observations import Observations
+from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.start import initial_states, start
+
+
+def sines(noise, n_frames=600):
+    """Return observations of six channels of two frequencies, with noise, some of them hidden."""
+    rng, angles = np.random.default_rng(0), np.arange(n_frames) / 10
+    waves = [np.sin(angles + k) + 0.3 * np.sin(2 * angles + 2 * k) for k in range(6)]
+    values = np.stack(waves, axis=1) + rng.normal(0.0, noise, (n_frames, 6))
+    values[100:130, 0] = np.nan
+    return Observations.of([values])
+
+
+@pytest.mark.parametrize("noise", [0.05, 0.1, 0.3])
+def test_it_is_the_noise_that_data_have(noise):
+    data = sines(noise)
+    learnt = start(initial_states(data, 4), data, PRIORS)
+    shown = with_noise_shown(learnt, data)
+    np.testing.assert_allclose(np.sqrt(shown.noise), noise, rtol=0.2)
+    assert (learnt.noise > shown.noise).all()
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_all_else_is_kept_and_the_likelihood_rises(pose, seed):
+    problem = pose(seed, lengths=(40, 30))
+    shown = with_noise_shown(problem.parameters, problem.data)
+    np.testing.assert_array_equal(shown.loadings, problem.parameters.loadings)
+    np.testing.assert_array_equal(shown.offset, problem.parameters.offset)
+    assert shown.dynamics is problem.parameters.dynamics
+    before, after = (
+        smoothed(each, problem.data).log_likelihood.sum() for each in (problem.parameters, shown)
+    )
+    assert after > before
