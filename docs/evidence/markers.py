@@ -6,7 +6,7 @@ quarter of a second, by a standard deviation of 0, 3 or 10 mm in each direction,
 with one of 0.2 mm. Single markers are lost, or all three of a segment. Errors are root mean squared
 distances in mm, and of recordings the geometric mean is shown; then the share of coordinates that
 the 95 % bands of `marker-kriging` hold. Nothing was chosen on the recordings of the second table.
-Takes twenty minutes on two cores:
+Takes 35 minutes on two cores:
 
     MOCAPBENCH_DATA=FOLDER python docs/evidence/markers.py [MOST_SECONDS]
 """
