@@ -74,10 +74,10 @@ class PosedProblems:
     def checked(self, record: Record) -> Record:
         """Return ``record``; a failed one in its place if it solves another problem than the first.
 
-        Records without a digest, such as those of earlier versions, are not compared, nor are
-        records of different machines, which may round differently.
+        Records that failed or are without a digest, such as those of earlier versions, are not
+        compared, nor are records of different machines, which may round differently.
         """
-        if not record.problem:
+        if not record.problem or record.status is not Status.OK:
             return record
         problem = record.address._replace(label="")
         facts = (record.provenance.get(name, "") for name in _ROUNDING)
