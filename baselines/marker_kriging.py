@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import runs
-from mocapbench.baselines.common.markers import markers_of
+from mocapbench.baselines.common.markers import marker_places
 from mocapbench.baselines.common.recordings import check_channels, check_recordings, pool
 from mocapbench.baselines.common.rigid import FEWEST, steadiness
 from mocapbench.baselines.common.scaling import Standardisation
@@ -114,8 +114,7 @@ class MarkerKriging(Imputer, Inductive, Spatial):
         # In the order of names, so that the order given does not affect results.
         self.recordings_ = tuple(sorted(check_recordings(recordings), key=lambda r: r.name))
         self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
-        markers = markers_of(self.channels_, self.units_).values()
-        self.markers_ = np.array([*markers], dtype=np.intp).reshape(-1, 3)
+        self.markers_ = marker_places(self.channels_, self.units_)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -149,7 +148,7 @@ class MarkerKriging(Imputer, Inductive, Spatial):
         others = [other for other in self.recordings_ if other.name != recording.name]
         tracks = [Track(r.times, r.values[:, self.markers_]) for r in (recording, *others)]
         shown = np.asarray(~np.isnan(tracks[0].places).any(axis=2))
-        for marker in range(len(self.markers_)):
+        for marker in np.flatnonzero(~shown.all(axis=0)).tolist():
             steady = steadiness([track.places for track in tracks], marker)
             enough = shown[:, steady > 0.0].sum(axis=1) >= FEWEST
             for frames in runs(~shown[:, marker] & enough):

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import runs
-from mocapbench.baselines.common.markers import markers_of
+from mocapbench.baselines.common.markers import marker_places
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.rigid import FEWEST, rotations, steadiness
 from mocapbench.baselines.common.validation import check_positive
@@ -106,8 +106,7 @@ class RigidBody(Imputer, Inductive, Spatial):
         check_positive("power", self.power)
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        markers = markers_of(self.channels_, self.units_).values()
-        self.markers_ = np.array([*markers], dtype=np.intp).reshape(-1, 3)
+        self.markers_ = marker_places(self.channels_, self.units_)
         self._curves = PchipImputer().fit(checked)
         return self
 
@@ -131,12 +130,13 @@ class RigidBody(Imputer, Inductive, Spatial):
     def _carried(self, recording: Recording, filled: FrameByChannel) -> FrameByChannel:
         """Return ``filled`` (N, D) with the markers that others can carry, where they do."""
         places = recording.values[:, self.markers_]
-        for marker, columns in enumerate(self.markers_):
+        hidden = np.asarray(np.isnan(places).any(axis=2))
+        for marker in np.flatnonzero(hidden.any(axis=0)).tolist():
             weights = steadiness([places], marker) ** self.power
-            for gap in runs(np.asarray(np.isnan(places[:, marker]).any(axis=1))):
+            for gap in runs(hidden[:, marker]):
                 position = _through(recording.times, places, marker, gap, weights)
                 if position is not None:
-                    filled[np.ix_(gap, columns)] = position
+                    filled[np.ix_(gap, self.markers_[marker])] = position
         return filled
 
 

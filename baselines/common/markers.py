@@ -6,7 +6,10 @@ import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
-__all__ = ["markers_of"]
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["marker_places", "markers_of"]
 
 _COORDINATE = re.compile(r"(.+)[._: -]([xyz])", re.IGNORECASE)
 _ANGLES = frozenset({"deg", "rad"})
@@ -33,3 +36,14 @@ def markers_of(channels: Sequence[str], units: Sequence[str]) -> Mapping[str, tu
         for marker, axes in places.items()
         if len(axes) == len("xyz")
     }
+
+
+def marker_places(channels: Sequence[str], units: Sequence[str]) -> NDArray[np.intp]:
+    """Return the places of the coordinates of M markers among D channels (M, 3), as `markers_of`.
+
+    Examples
+    --------
+    >>> marker_places(("force", "LKNE.x", "LKNE.z", "LKNE.y"), ("N", *["mm"] * 3))
+    array([[1, 3, 2]])
+    """
+    return np.array([*markers_of(channels, units).values()], dtype=np.intp).reshape(-1, 3)

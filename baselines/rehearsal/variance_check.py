@@ -14,7 +14,7 @@ so up to the distance in the gap.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Self
@@ -106,7 +106,7 @@ class VarianceCheck:
         factors = self.factors(answers)
         variance = claimed.variance * np.maximum(factors, self._least(answers))
         if least is not None and least.variance is not None:
-            shown = claimed.variance * np.maximum(factors, self._worst(answers))
+            shown = claimed.variance * np.maximum(factors, self._shown(answers))
             variance = np.minimum(variance, np.maximum(shown, least.variance))
         return Prediction(claimed.mean, variance)
 
@@ -136,17 +136,21 @@ class VarianceCheck:
         """Return the least that variances may be multiplied by: (D,), at most 1."""
         if len(self.copies) < _SURE:
             return np.ones(len(self.recording.channels))
-        by_trial = self._ratios(self.copies, answers[: len(self.copies)])
-        worst = np.max([geometric_ratios(*one) for one in by_trial], axis=0)
+        worst = self._worst(answers, geometric_ratios)
         return np.asarray(np.clip(_MARGIN * worst * self.steepest, _LEAST, 1.0))
 
-    def _worst(self, answers: Sequence[Prediction]) -> Array:
+    def _shown(self, answers: Sequence[Prediction]) -> Array:
         """Return what the worst of three trials shows: (D,), 1 where copies are shorter."""
         if len(self.copies) < _SURE:
             return np.ones(len(self.recording.channels))
+        return np.where(self.steepest > 1.0, 1.0, self._worst(answers, mean_ratios))
+
+    def _worst(
+        self, answers: Sequence[Prediction], ratios: Callable[[Array, Array], Array]
+    ) -> Array:
+        """Return the ratio of the trial in which it is largest, for each channel: (D,)."""
         by_trial = self._ratios(self.copies, answers[: len(self.copies)])
-        worst = np.max([mean_ratios(*one) for one in by_trial], axis=0)
-        return np.where(self.steepest > 1.0, 1.0, worst)
+        return np.asarray(np.max([ratios(*one) for one in by_trial], axis=0))
 
     def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
         """Return by what the ratio grows from the copies to the gaps: (D,)."""
