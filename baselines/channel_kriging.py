@@ -11,13 +11,12 @@ from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
 
-from mocapbench.baselines.common.gaps import hidden_together
+from mocapbench.baselines.common.gaps import hidden_together, runs
 from mocapbench.baselines.common.recordings import check_recordings, pool
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.validation import check_not_negative, check_positive
-from mocapbench.baselines.kriging.left_out import left_out_scales
+from mocapbench.baselines.kriging.channel_pairs import DescribedFrames
+from mocapbench.baselines.kriging.channel_process import ChannelProcess
 from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.baselines.rehearsal.checkable import Widened
@@ -29,46 +28,32 @@ __all__ = ["ChannelKriging"]
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-_LEAST_SCALE = 1e-12
-"""Least variance of a channel, as a fraction of its variance over all recordings."""
-
 
 class ChannelKriging(Widened, Imputer, Inductive):
     r"""Predict hidden channels from the visible ones around a frame, by a Gaussian process.
 
     A frame x of recording r at time t is described by the visible channels in it and in the frames
-    two and four before and after. Each hidden channel has the covariance
+    four and eight before and after. Each hidden channel has the covariance
 
-    .. math:: \sigma_d^2 \left[(1 + k)\, (1 + a\, \delta_{rr'})
-        + b\, \delta_{rr'} e^{-|t - t'| / \tau} + \varepsilon\, \delta\right], \qquad
+    .. math:: \sigma_d^2 \left[(1 + \alpha\, \delta_{rr'})\, (1 + \beta\, x^\top x' + k)
+        + \gamma\, \delta_{rr'}\, m(|t - t'| / \tau) + \varepsilon\, \delta\right], \qquad
         k = \left(1 + \|x - x'\|^2 / \ell^2\right)^{-1/2},
 
-    where the squared distance is the mean over the values that describe a frame, in units of the
-    channels' standard deviations. The first term is what all recordings share; a is the part of it
-    in which recordings differ, and b that of a drift over time. The scale is such that variances
-    are right on average where each recording in turn is predicted from the others. Frames of all
+    where m is Matérn's once differentiable kernel. The first term is what all recordings share: a
+    constant, a linear and a curved function of the visible channels; α is the part of it in which
+    recordings differ, and γ the variance of a drift over time. A visible channel counts the more,
+    the larger its coefficients in a ridge regression of the hidden ones on all visible ones.
+
+    The six parameters are those that best predict gaps which are left out of what is visible, as
+    long as those to fill. These gaps say, too, how far variances are right. Frames of all
     recordings, those of the recording to fill included, are what the process is conditioned on.
-    Channels hidden in the same frames are filled together; where others are hidden besides, these
-    are interpolated over time for the comparison.
+    Channels hidden in the same frames are filled together, with parameters of their own; where
+    others are hidden besides, these are interpolated over time for the comparison.
 
     Variances are multiplied by what trials in the recording, and training recordings in its place,
-    show (``docs/calibration.md``). What is hidden as a whole has nothing to be predicted from, and
-    tends to the recording's mean. The defaults had the least error, of values a factor of two
-    or more apart, where the second half of a leg or of the upper body was left out in each training
-    recording of ``subject-35-missing`` in turn. Time is counted in frames.
-
-    Parameters
-    ----------
-    lengthscale : float, default=1.0
-        The distance ℓ, in standard deviations; positive.
-    own : float, default=0.1
-        The part a in which recordings differ; not negative.
-    drift : float, default=0.1
-        The variance b of a recording's drift; not negative.
-    time_lengthscale : float, default=8.0
-        How many frames τ a drift lasts; positive.
-    noise : float, default=0.05
-        The variance ε of the noise; positive.
+    show (``docs/calibration.md``). Time is counted in frames. The model has no parameters to
+    choose: the medians of their priors, the ridge and the window are those with which limbs were
+    filled best in recordings that are in no test (``docs/frontier/imputation.md``).
 
     Attributes
     ----------
@@ -78,9 +63,10 @@ class ChannelKriging(Widened, Imputer, Inductive):
     References
     ----------
     Not from a publication. The Gaussian-process regression is that of C. E. Rasmussen and C. K. I.
-    Williams (2006), Gaussian Processes for Machine Learning, MIT Press, eq. (2.25) and (2.26); the
-    task for which it was written is that of G. W. Taylor, G. E. Hinton and S. T. Roweis (2007),
-    Modeling Human Motion Using Binary Latent Variables, NIPS 19.
+    Williams (2006), Gaussian Processes for Machine Learning, MIT Press, eq. (2.25) and (2.26), and
+    what is left out is predicted as in its §5.4.2; the task for which it was written is that of
+    G. W. Taylor, G. E. Hinton and S. T. Roweis (2007), Modeling Human Motion Using Binary Latent
+    Variables, NIPS 19.
 
     Examples
     --------
@@ -102,34 +88,14 @@ class ChannelKriging(Widened, Imputer, Inductive):
 
     max_frames = 3000
 
-    def __init__(
-        self,
-        lengthscale: float = 1.0,
-        *,
-        own: float = 0.1,
-        drift: float = 0.1,
-        time_lengthscale: float = 8.0,
-        noise: float = 0.05,
-    ) -> None:
-        self.lengthscale = lengthscale
-        self.own = own
-        self.drift = drift
-        self.time_lengthscale = time_lengthscale
-        self.noise = noise
-
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the recordings.
 
         Raises
         ------
         ValueError
-            If a parameter is out of range, there is no recording, channels differ, or a name
-            repeats.
+            If there is no recording, channels differ, or a name repeats.
         """
-        for name in ("lengthscale", "time_lengthscale", "noise"):
-            check_positive(name, getattr(self, name))
-        for name in ("own", "drift"):
-            check_not_negative(name, getattr(self, name))
         # In the order of names, so that the order given does not affect results.
         self.recordings_ = tuple(sorted(check_recordings(recordings), key=lambda r: r.name))
         self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
@@ -159,51 +125,42 @@ class ChannelKriging(Widened, Imputer, Inductive):
         pooled = pool(self.recordings_, [recording])
         scaling = Standardisation.of(pooled)
         frames = StackedFrames.of([scaling.apply(each) for each in pooled])
-        number = [each.name for each in pooled].index(recording.name)
-        rows = np.flatnonzero(frames.recording == number)
+        own = [each.name for each in pooled].index(recording.name)
         mean, variance = np.zeros_like(recording.values), np.ones_like(recording.values)
         for channels in hidden_together(~recording.visible):
-            hidden = np.flatnonzero(~recording.visible[:, channels[0]])
-            place = np.ix_(hidden, channels)
-            mean[place], variance[place] = self._moments(frames, rows[hidden], channels)
+            hidden = ~recording.visible[:, channels[0]]
+            place = np.ix_(np.flatnonzero(hidden), channels)
+            duration = float(np.median([len(gap) + 1 for gap in runs(hidden)]))
+            mean[place], variance[place] = _moments(frames, own, channels, duration)
         mean, variance = scaling.mean + scaling.scale * mean, scaling.scale**2 * variance
         return Prediction.around(recording, mean, variance)
 
-    def _moments(
-        self, frames: StackedFrames, wanted: Index, channels: Index
-    ) -> tuple[Array, Array]:
-        """Return the mean and variance of ``channels`` in the frames ``wanted``."""
-        values = frames.values[:, channels]
-        known = np.flatnonzero(~np.isnan(values).any(axis=1))
-        if not len(known):
-            raise ValueError(
-                f"expected a frame of some recording in which the {len(channels)} channels that "
-                f"are hidden together (numbers {channels.tolist()} from 0) are all visible, got "
-                f"none: give a recording that has such frames, or take a model that fills each "
-                f"channel alone, such as pchip"
-            )
-        others = np.setdiff1d(np.arange(frames.values.shape[1]), channels)
-        prior = self._covariance(frames, known, known, others)
-        prior[np.diag_indices_from(prior)] += self.noise
-        factor, lower = cho_factor(prior, lower=True, overwrite_a=True)
-        dual = cho_solve((factor, lower), values[known])
-        cross = self._covariance(frames, wanted, known, others)
-        explained = (cross * cho_solve((factor, lower), cross.T).T).sum(axis=1)
-        total = (1.0 + self.own) * 2.0 + self.drift + self.noise
-        scales = left_out_scales(factor, dual, frames.recording[known])
-        return cross @ dual, np.outer(total - explained, np.maximum(scales, _LEAST_SCALE))
 
-    def _covariance(
-        self, frames: StackedFrames, one: Index, other: Index, channels: Index
-    ) -> Array:
-        """Return the prior covariance (n, m) of frames without noise, up to scale."""
-        covariance = frames.distances(one, other, channels)
-        covariance /= self.lengthscale**2
-        covariance += 1.0
-        np.sqrt(covariance, out=covariance)
-        np.reciprocal(covariance, out=covariance)
-        covariance += 1.0
-        for place, lags in frames.together(one, other):
-            drift = self.drift * np.exp(-lags / self.time_lengthscale)
-            covariance[place] = (1.0 + self.own) * covariance[place] + drift
-        return covariance
+def _moments(
+    frames: StackedFrames, own: int, channels: Index, duration: float
+) -> tuple[Array, Array]:
+    """Return the mean and variance of ``channels`` where a recording hides them."""
+    hidden = np.isnan(frames.values[:, channels])
+    known = np.flatnonzero(~hidden.any(axis=1))
+    if not len(known):
+        raise ValueError(
+            f"expected a frame of some recording in which the {len(channels)} channels that "
+            f"are hidden together (numbers {channels.tolist()} from 0) are all visible, got "
+            f"none: give a recording that has such frames, or take a model that fills each "
+            f"channel alone, such as pchip"
+        )
+    wanted = np.flatnonzero(hidden[:, 0] & (frames.recording == own))
+    others = np.setdiff1d(np.arange(frames.values.shape[1]), channels)
+    weights = frames.relevance(known, channels, others)
+    rows = np.concatenate([known, wanted])
+    described = DescribedFrames(
+        frames.described(rows, others, weights), frames.place[rows], frames.recording[rows]
+    )
+    given, asked = (
+        described.at(np.arange(len(known))),
+        described.at(np.arange(len(known), len(rows))),
+    )
+    values = frames.values[np.ix_(known, channels)]
+    spread = np.nanmean(frames.values[:, channels] ** 2, axis=0)
+    process = ChannelProcess.learnt(given, values, spread, own, duration)
+    return process.predict(given, values, asked)

@@ -70,7 +70,12 @@ class LeftOutGaps:
     @cached_property
     def scale(self) -> float:
         """The mean ratio of squared errors to variances; positive even where nothing errs."""
-        return max(float((self.errors**2 / self.variances[:, None]).mean()), _TINY)
+        return max(float(self.scales.mean()), _TINY)
+
+    @property
+    def scales(self) -> Array:
+        """(O,) the mean ratio of squared errors to variances of each output."""
+        return np.asarray((self.errors**2 / self.variances[:, None]).mean(axis=0))
 
     @property
     def score(self) -> float:

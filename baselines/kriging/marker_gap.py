@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.rigid import FEWEST
+from mocapbench.baselines.kriging.learning import evenly
 from mocapbench.baselines.kriging.local_frames import LocalFrames
 from mocapbench.baselines.kriging.marker_process import MarkerFrames, MarkerProcess
 
@@ -91,7 +92,7 @@ class MarkerGap:
         """Return the moments in the gap, with which ``frames`` begin, given ``values`` after it."""
         wanted, known = np.split(np.arange(len(self._rows)), [len(self.frames)])
         learnt = np.concatenate(
-            [_evenly(known[(self._given[:, 0] == 0) == own], _LEARNT) for own in (True, False)]
+            [evenly(known[(self._given[:, 0] == 0) == own], _LEARNT) for own in (True, False)]
         )
         first = learnt - len(self.frames)
         process = MarkerProcess.learnt(frames.at(learnt), values[first], self._seconds)
@@ -124,8 +125,8 @@ class MarkerGap:
         shown = [self._shown(number) for number in range(len(self.tracks))]
         own, further = shown[0], np.concatenate([shown[0][:0], *shown[1:]])
         beside = np.abs(own[:, 1] - np.clip(own[:, 1], self.frames[0], self.frames[-1])) <= _BESIDE
-        own = np.unique(np.concatenate([_evenly(own, _FURTHER), own[beside]]), axis=0)
-        return np.concatenate([own, _evenly(further, _FURTHER)])
+        own = np.unique(np.concatenate([evenly(own, _FURTHER), own[beside]]), axis=0)
+        return np.concatenate([own, evenly(further, _FURTHER)])
 
     def _shown(self, number: int) -> Index:
         places = self.tracks[number].places[:, [self.marker, *self.others]]
@@ -139,9 +140,3 @@ class MarkerGap:
         return np.array(
             [self.tracks[number].places[frame, markers] for number, frame in self._rows]
         )
-
-
-def _evenly(rows: Index, most: int) -> Index:
-    """Return at most so many of the rows, spread evenly."""
-    places = np.linspace(0, len(rows) - 1, min(most, len(rows)))
-    return np.asarray(rows[places.round().astype(int)])

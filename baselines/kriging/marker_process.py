@@ -23,10 +23,10 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
-from scipy.optimize import Bounds, minimize
 from scipy.spatial.distance import cdist
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
+from mocapbench.baselines.kriging.learning import best_predicting, noisy, stretches
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 
 __all__ = ["FramePairs", "MarkerFrames", "MarkerProcess"]
@@ -36,15 +36,9 @@ Index = NDArray[np.intp]
 
 _TYPICAL: Array = np.log([2.0, 0.3, 0.25, 0.05])
 """Medians of the priors: ℓ where shapes have variance 1, a, τ in seconds, and ε."""
-_WIDTH = 4.0
-"""Most deviations of a logarithm from its prior median."""
-_STEPS = 15
-"""Of the search: more change predictions little."""
-_FEWEST_GAPS = 4
-"""Gaps that are left out are shorter than the one to fill where there would be fewer."""
 _CONSTANTS = 2.0
 """The variance of both constants."""
-_JITTER = 1e-6
+_LEAST_SCALE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,17 +62,6 @@ class MarkerFrames:
     def at(self, which: Index) -> MarkerFrames:
         """Return some of the frames."""
         return MarkerFrames(self.shapes[which], self.times[which], self.recording[which])
-
-    def stretches(self, seconds: float) -> Index:
-        """Return the numbers (n,) of stretches that last so long, or less if they would be few."""
-        first = np.array([self.times[self.recording == r].min() for r in self.recording])
-        since = self.times - first
-        total = sum(since[self.recording == r].max() for r in np.unique(self.recording))
-        number = since // max(min(seconds, total / _FEWEST_GAPS), np.finfo(np.float64).tiny)
-        _, stretch = np.unique(
-            np.column_stack([self.recording, number]), axis=0, return_inverse=True
-        )
-        return np.asarray(stretch.ravel())
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,46 +138,21 @@ class MarkerProcess:
         seconds : float
             How long the gaps are.
         """
-        pairs, stretch = FramePairs.of(frames, frames), frames.stretches(seconds)
-        weight = (stretch.max() + 1) / len(stretch)
-
-        def objective(parameters: Array) -> tuple[float, Array]:
-            noise = np.exp(2.0 * parameters[-1])
-            left_out = LeftOutGaps(_noisy(pairs, parameters), values, stretch)
-            by = [np.vdot(left_out.sensitivity, each) for each in pairs.derivatives(parameters)]
-            by.append(2.0 * noise * np.trace(left_out.sensitivity))
-            deviations = parameters - _TYPICAL
-            score = weight * left_out.score + 0.5 * float(deviations @ deviations)
-            return score, weight * np.array(by) + deviations
-
-        bounds = Bounds(_TYPICAL - _WIDTH, _TYPICAL + _WIDTH)
-        found = minimize(
-            objective,
-            _TYPICAL,
-            jac=True,
-            method="L-BFGS-B",
-            bounds=bounds,
-            options={"maxiter": _STEPS},
-        ).x
-        scale = max(LeftOutGaps(_noisy(pairs, found), values, stretch).scale, _JITTER)
+        pairs = FramePairs.of(frames, frames)
+        stretch = stretches(frames.times, frames.recording, seconds)
         n_gaps = int(stretch.max()) + 1
+        found = best_predicting(pairs, values, stretch, _TYPICAL, n_gaps / len(stretch))
+        scale = max(LeftOutGaps(noisy(pairs, found), values, stretch).scale, _LEAST_SCALE)
         return cls(found, scale * n_gaps / max(n_gaps - 2, 1))
 
     def predict(
         self, frames: MarkerFrames, values: Array, wanted: MarkerFrames
     ) -> tuple[Array, Array]:
         """Return the mean (m, 3) and the variance (m,) of an observation in the frames wanted."""
-        factor = cho_factor(_noisy(FramePairs.of(frames, frames), self.parameters), lower=True)
+        factor = cho_factor(noisy(FramePairs.of(frames, frames), self.parameters), lower=True)
         cross = FramePairs.of(wanted, frames).covariance(self.parameters)
         explained = (cross * cho_solve(factor, cross.T).T).sum(axis=1)
         _, drift, _, noise = np.exp(2.0 * self.parameters)
         total = _CONSTANTS + 1.0 + drift + noise
         variance = np.maximum(total - explained, noise)
         return cross @ cho_solve(factor, values), self.scale * variance
-
-
-def _noisy(pairs: FramePairs, parameters: Array) -> Array:
-    """Return the covariance (n, n) of frames with themselves, noise included."""
-    covariance = pairs.covariance(parameters)
-    covariance[np.diag_indices_from(covariance)] += np.exp(2.0 * parameters[-1]) + _JITTER
-    return covariance

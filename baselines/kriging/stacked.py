@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.metrics.pairwise import euclidean_distances
+from sklearn.linear_model import Ridge
 
 from mocapbench.baselines.common.recordings import stack
 from mocapbench.datasets import FrameByChannel, Recording
@@ -18,8 +18,11 @@ __all__ = ["StackedFrames"]
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-_BESIDE = np.array([-4, -2, 0, 2, 4])
+_BESIDE = np.array([-8, -4, 0, 4, 8])
 """The frames by which a frame is compared with others: those at these distances from it."""
+_RIDGE = 0.01
+"""Penalty of squared coefficients, per frame, where channels have variance 1."""
+_LEAST_RELEVANCE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,26 +57,32 @@ class StackedFrames:
             np.concatenate([np.arange(length) for length in lengths]),
         )
 
-    def distances(self, one: Index, other: Index, channels: Index) -> Array:
-        """Return the mean squared differences (n, m) of the windows of frames in some channels.
+    def described(self, frames: Index, channels: Index, weights: Array) -> Array:
+        """Return the windows (n, W C) of frames in some channels, times weights (C,).
 
-        They are 0 without channels.
+        They are divided by the root of W C: squared distances are means. One zero stands for no
+        channels.
         """
         if not len(channels):
-            return np.zeros((len(one), len(other)))
-        wide = self.windows[:, :, channels].reshape(len(self.windows), -1)
-        squares = euclidean_distances(wide[one], wide[other], squared=True)
-        return np.asarray(squares / wide.shape[1])
+            return np.zeros((len(frames), 1))
+        weighted = self.windows[np.ix_(frames, np.arange(len(_BESIDE)), channels)] * weights
+        return np.asarray(weighted.reshape(len(frames), -1) / np.sqrt(weighted[0].size))
 
-    def together(self, one: Index, other: Index) -> Iterator[tuple[tuple[Index, ...], Array]]:
-        """Yield, for each recording, where in an array (n, m) both frames are of it.
+    def relevance(self, known: Index, channels: Index, others: Index) -> Array:
+        """Return how much each of the others says of channels, in the frames known: (C,).
 
-        With each place comes the number of frames between those frames.
+        It is the root of the mean squared coefficients of ridge regression, such that its mean
+        square is 1.
         """
-        for number in np.intersect1d(self.recording[one], self.recording[other]):
-            rows, columns = (np.flatnonzero(self.recording[of] == number) for of in (one, other))
-            lags = np.subtract.outer(self.place[one[rows]], self.place[other[columns]])
-            yield np.ix_(rows, columns), np.abs(lags).astype(np.float64)
+        if not len(others):
+            return np.ones(0)
+        middle = self.windows[known][:, len(_BESIDE) // 2]
+        ridge = Ridge(alpha=_RIDGE * len(known)).fit(
+            middle[:, others], self.values[known][:, channels]
+        )
+        coefficients = ridge.coef_.reshape(len(channels), -1)
+        relevance = np.sqrt((coefficients**2).mean(axis=0)) + _LEAST_RELEVANCE
+        return np.asarray(relevance / np.sqrt((relevance**2).mean()))
 
 
 def _interpolated(recording: Recording) -> FrameByChannel:

@@ -35,21 +35,38 @@ def error(model, truth, first, last=None):
 
 def test_a_curved_relation_is_learnt():
     truth = walk("new", 11)
-    assert error(ChannelKriging(), truth, 30) < 0.3 * error(PCARegression(), truth, 30)
+    assert error(ChannelKriging(), truth, 30) < 0.5 * error(PCARegression(), truth, 30)
 
 
 def test_what_recordings_have_of_their_own_is_learnt_from_their_visible_part():
     truth = walk("new", 11, offset=0.3, style=0.2)
-    assert error(ChannelKriging(), truth, 30) < 0.5 * error(ChannelKriging(own=0.0), truth, 30)
+    hidden_throughout = error(ChannelKriging(), truth, 0)
+    assert error(ChannelKriging(), truth, 30) < 0.3 * hidden_throughout
 
 
 def test_a_drift_is_bridged():
     plain = walk("new", 11)
     drift = np.outer(0.2 * np.sin(np.arange(60) / 8), [0, 1, 0])
     truth = plain.with_values(plain.values + drift)
-    assert error(ChannelKriging(), truth, 30, 36) < 0.7 * error(
-        ChannelKriging(drift=0.0), truth, 30, 36
-    )
+    assert error(ChannelKriging(), truth, 30, 36) < 0.3 * error(PCARegression(), truth, 30, 36)
+
+
+def test_whole_frames_are_bridged_smoothly():
+    """Nothing describes frames then but when they are."""
+    truth = walk("new", 11)
+    gap = np.repeat(((np.arange(60) > 30) & (np.arange(60) < 34))[:, None], 3, axis=1)
+    (filled,) = ChannelKriging().fit([truth.hide(gap)]).impute([truth.hide(gap)])
+    assert np.abs(filled.mean - truth.values).max() < 0.1
+
+
+def test_a_single_frame_that_shows_hidden_channels_together_gives_bands_as_wide_as_they_spread():
+    hidden, without_hip = np.zeros((2, 60, 3), dtype=bool)
+    hidden[:59, :2] = without_hip[:, 0] = True
+    given, other = walk("new", 0).hide(hidden), walk("other", 7)
+    others = [other.hide(without_hip), knee_hidden(walk("third", 3), 0)]
+    (filled,) = ChannelKriging().fit([given, *others]).as_claimed([given])
+    assert (0.1 < np.sqrt(filled.variance[:50, :2])).all()
+    assert (np.sqrt(filled.variance[:50, :2]) < 10.0).all()
 
 
 @settings(max_examples=10, deadline=None)
@@ -82,21 +99,6 @@ def test_neither_the_order_of_training_nor_company_matters():
     two = ChannelKriging().fit(TRAINING[::-1]).impute(recordings[::-1])[::-1]
     for here, there in zip(one, two, strict=True):
         np.testing.assert_allclose(here.mean, there.mean, atol=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("parameters", "message"),
-    [
-        ({"lengthscale": 0.0}, "lengthscale to be a finite positive"),
-        ({"time_lengthscale": -1.0}, "time_lengthscale to be a finite positive"),
-        ({"noise": 0.0}, "noise to be a finite positive"),
-        ({"own": -0.1}, "own to be a finite number of at least 0"),
-        ({"drift": "1"}, "drift to be a finite number of at least 0"),
-    ],
-)
-def test_parameters_are_validated(parameters, message):
-    with pytest.raises(ValueError, match=message):
-        ChannelKriging(**parameters).fit(TRAINING)
 
 
 def test_what_cannot_be_filled_is_refused():

@@ -66,6 +66,14 @@ def test_the_scale_of_the_covariance_does_not_matter():
     assert other.scale == pytest.approx(one.scale / 9.0)
 
 
+def test_the_scale_is_the_mean_of_those_of_the_outputs():
+    covariance, values = process(4)
+    left_out = LeftOutGaps(covariance, values, STRETCH)
+    each = [LeftOutGaps(covariance, values[:, [d]], STRETCH).scale for d in range(2)]
+    np.testing.assert_allclose(left_out.scales, each)
+    assert left_out.scale == pytest.approx(np.mean(each))
+
+
 def test_a_covariance_that_is_none_is_refused():
     with pytest.raises(np.linalg.LinAlgError, match="positive definite"):
         assert LeftOutGaps(-np.eye(10), process(0)[1], STRETCH).score

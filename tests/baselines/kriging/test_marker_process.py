@@ -24,17 +24,6 @@ def values(given, noise, seed=1):
     return rough / rough.std()
 
 
-def test_stretches_last_as_long_as_asked_and_are_of_one_recording():
-    given = frames()
-    stretch = given.stretches(0.5)
-    assert [int((stretch == number).sum()) for number in np.unique(stretch)] == [15] * 6
-    assert set(stretch[given.recording == 0]).isdisjoint(stretch[given.recording == 4])
-
-
-def test_stretches_are_shorter_where_there_would_be_fewer_than_four():
-    assert frames().stretches(100.0).max() + 1 >= 4
-
-
 def test_derivatives_are_those_of_finite_differences():
     pairs = FramePairs.of(frames(), frames().at(np.arange(7)))
     parameters, step = np.array([0.2, -0.4, -1.0, -3.0]), 1e-6

@@ -1,4 +1,5 @@
 import numpy as np
+import pytest
 
 from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.datasets import Recording
@@ -23,21 +24,33 @@ def test_hidden_entries_are_interpolated_for_comparison_only():
 
 
 def test_windows_end_where_the_recording_does():
-    np.testing.assert_array_equal(FRAMES.windows[0, :, 0], [0, 0, 0, 2, 4])
-    np.testing.assert_array_equal(FRAMES.windows[8, :, 0], [4, 6, 8, 8, 8])
+    np.testing.assert_array_equal(FRAMES.windows[0, :, 0], [0, 0, 0, 4, 8])
+    np.testing.assert_array_equal(FRAMES.windows[8, :, 0], [0, 4, 8, 8, 8])
 
 
-def test_distances_are_means_of_squared_differences():
-    rows, channels = np.array([3, 4, 11]), np.array([0, 1])
-    wide = FRAMES.windows[rows].reshape(3, -1)
+def test_frames_are_described_by_their_weighted_windows():
+    """Such that squared distances are means."""
+    rows, channels, weights = np.array([3, 4, 11]), np.array([1, 0]), np.array([0.5, 2.0])
+    described = FRAMES.described(rows, channels, weights)
+    wide = (FRAMES.windows[rows][:, :, channels] * weights).reshape(3, -1)
     expected = ((wide[:, None] - wide) ** 2).mean(axis=2)
-    np.testing.assert_allclose(FRAMES.distances(rows, rows, channels), expected, atol=1e-12)
-    assert not FRAMES.distances(rows, rows, np.array([], dtype=int)).any()
+    distances = ((described[:, None] - described) ** 2).sum(axis=2)
+    np.testing.assert_allclose(distances, expected, atol=1e-12)
+    none = FRAMES.described(rows, np.array([], dtype=int), np.array([]))
+    np.testing.assert_array_equal(none, np.zeros((3, 1)))
+
+
+def test_channels_that_say_more_count_more():
+    rng = np.random.default_rng(0)
+    values = rng.normal(size=(200, 3))
+    values[:, 2] = values[:, 0] + 0.1 * rng.normal(size=200)
+    frames = StackedFrames.of([recording("one", values)])
+    relevance = frames.relevance(np.arange(200), np.array([2]), np.array([0, 1]))
+    assert relevance[0] > 5.0 * relevance[1] > 0.0
+    assert np.mean(relevance**2) == pytest.approx(1.0)
+    assert not frames.relevance(np.arange(200), np.array([2]), np.array([], dtype=int)).size
 
 
 def test_frames_know_their_recording_and_their_place():
-    lags = np.full((3, 4), np.nan)
-    for place, between in FRAMES.together(np.array([0, 9, 8]), np.array([8, 10, 0, 3])):
-        lags[place] = between
-    expected = [[8, NAN, 0, 3], [NAN, 1, NAN, NAN], [0, NAN, 8, 5]]
-    np.testing.assert_array_equal(lags, expected)
+    np.testing.assert_array_equal(FRAMES.recording, [0] * 9 + [1] * 4)
+    np.testing.assert_array_equal(FRAMES.place, [*range(9), *range(4)])

@@ -1,0 +1,65 @@
+import numpy as np
+import pytest
+
+from mocapbench.baselines.kriging.channel_pairs import TYPICAL, ChannelPairs, DescribedFrames
+from mocapbench.baselines.kriging.channel_process import ChannelProcess
+
+N_FRAMES, SPREAD = 90, np.ones(2)
+
+
+def frames(seed=0):
+    rng = np.random.default_rng(seed)
+    phase = np.cumsum(rng.uniform(0.0, 0.3, N_FRAMES))
+    description = np.column_stack([np.sin(phase), np.cos(phase)])
+    place = np.concatenate([np.arange(60), np.arange(30)])
+    return DescribedFrames(description, place, np.repeat([0, 4], [60, 30]))
+
+
+def values(given, noise, seed=1):
+    sines, cosines = given.description.T
+    clean = np.column_stack([sines, cosines**2])
+    rough = clean + noise * np.random.default_rng(seed).normal(size=clean.shape)
+    return (rough - rough.mean(axis=0)) / rough.std(axis=0)
+
+
+def test_predictions_are_those_of_a_dense_gaussian():
+    given, process = frames(), ChannelProcess(TYPICAL, np.array([2.0, 3.0]))
+    known, wanted = np.arange(20, N_FRAMES), np.arange(20)
+    shown = values(given, 0.1)
+    covariance = ChannelPairs.of(given, given).covariance(TYPICAL)
+    covariance += np.exp(2 * TYPICAL[-1]) * np.eye(N_FRAMES)
+    gain = covariance[np.ix_(wanted, known)] @ np.linalg.inv(covariance[np.ix_(known, known)])
+    rest = np.diag(covariance[np.ix_(wanted, wanted)] - gain @ covariance[np.ix_(known, wanted)])
+    mean, variance = process.predict(given.at(known), shown[known], given.at(wanted))
+    np.testing.assert_allclose(mean, gain @ shown[known], atol=1e-3)
+    np.testing.assert_allclose(variance, np.outer(rest, [2.0, 3.0]), rtol=1e-3)
+
+
+@pytest.mark.parametrize("noise", [0.01, 0.1, 0.5])
+def test_what_is_learnt_says_how_far_it_errs(noise):
+    ratios = []
+    for seed in range(6):
+        given = frames(seed)
+        shown, gap = values(given, noise, seed), np.arange(20, 35)
+        known = np.setdiff1d(np.arange(N_FRAMES), gap)
+        process = ChannelProcess.learnt(given.at(known), shown[known], SPREAD, 0, 16.0)
+        mean, variance = process.predict(given.at(known), shown[known], given.at(gap))
+        ratios.append(np.mean((mean - shown[gap]) ** 2 / variance))
+    assert 0.3 < np.mean(ratios) < 2.0
+
+
+def test_the_scale_of_a_channel_does_not_change_what_is_learnt():
+    given, factors = frames(), np.array([1.0, 100.0])
+    shown = values(given, 0.1)
+    one = ChannelProcess.learnt(given, shown, SPREAD, 0, 16.0)
+    other = ChannelProcess.learnt(given, shown * factors, SPREAD * factors**2, 0, 16.0)
+    np.testing.assert_allclose(other.parameters, one.parameters)
+    np.testing.assert_allclose(other.scales, one.scales * factors**2)
+
+
+def test_one_frame_tells_little_of_the_scale():
+    given = frames().at(np.arange(1))
+    process = ChannelProcess.learnt(given, np.full((1, 2), 1e-3), SPREAD, 0, 5.0)
+    typical = 1.0 / given.variances(process.parameters)
+    assert (process.scales > typical).all()
+    assert (process.scales < 4.0 * typical).all()

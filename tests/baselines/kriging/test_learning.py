@@ -1,0 +1,61 @@
+import numpy as np
+import pytest
+
+from mocapbench.baselines.kriging.channel_pairs import TYPICAL, ChannelPairs, DescribedFrames
+from mocapbench.baselines.kriging.learning import best_predicting, evenly, noisy, stretches
+from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
+
+TIMES = np.concatenate([np.arange(60), np.arange(30)]) / 30
+RECORDING = np.repeat([0, 4], [60, 30])
+
+
+def test_stretches_last_as_long_as_asked_and_are_of_one_recording():
+    stretch = stretches(TIMES, RECORDING, 0.5)
+    assert [int((stretch == number).sum()) for number in np.unique(stretch)] == [15] * 6
+    assert set(stretch[RECORDING == 0]).isdisjoint(stretch[RECORDING == 4])
+
+
+def test_stretches_are_shorter_where_there_would_be_fewer_than_four():
+    assert stretches(TIMES, RECORDING, 100.0).max() + 1 >= 4
+
+
+def test_rows_are_spread_evenly():
+    rows = np.arange(11) + 5
+    np.testing.assert_array_equal(evenly(rows, 3), [5, 10, 15])
+    np.testing.assert_array_equal(evenly(rows, 20), rows)
+    assert not evenly(rows[:0], 3).size
+
+
+def test_nothing_beside_what_is_learnt_predicts_better():
+    """Of what priors and left-out gaps say together."""
+    rng = np.random.default_rng(0)
+    phase = np.cumsum(rng.uniform(0.0, 0.3, 90))
+    description = np.column_stack([np.sin(phase), np.cos(phase)])
+    frames = DescribedFrames(description, np.r_[np.arange(60), np.arange(30)], RECORDING)
+    values = description[:, [0]] ** 2 + 0.1 * rng.normal(size=(90, 1))
+    values = (values - values.mean()) / values.std()
+    stretch = stretches(TIMES, RECORDING, 0.3)
+    pairs = ChannelPairs.of(frames, frames)
+    weight = (stretch.max() + 1) / 90
+
+    def score(parameters):
+        left_out = LeftOutGaps(noisy(pairs, parameters), values, stretch)
+        return weight * left_out.score + 0.5 * np.sum((parameters - TYPICAL) ** 2)
+
+    found = best_predicting(pairs, values, stretch, TYPICAL, weight)
+    assert score(found) < score(TYPICAL)
+    for _ in range(5):
+        assert score(found + 0.3 * rng.normal(size=6)) > score(found) - 1e-3
+
+
+def test_noise_is_on_the_diagonal():
+    pairs = ChannelPairs.of(*[DescribedFrames(np.zeros((3, 1)), np.arange(3), np.zeros(3))] * 2)
+    added = noisy(pairs, TYPICAL) - pairs.covariance(TYPICAL)
+    np.testing.assert_allclose(added, np.exp(2 * TYPICAL[-1]) * np.eye(3), atol=2e-6)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_copy_of_frames_changes_no_stretch(seed):
+    order = np.random.default_rng(seed).permutation(90)
+    one, other = stretches(TIMES, RECORDING, 0.4), stretches(TIMES[order], RECORDING[order], 0.4)
+    np.testing.assert_array_equal(one[order], other)
