@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mocapbench.baselines import (
+    BestOf,
     FrameImputer,
     Imputer,
     Informed,
@@ -18,11 +19,16 @@ from mocapbench.benchmark.registry import MODELS
 
 __all__ = ["able_models", "require_able"]
 
+_TURNS = {Interpolator: 0, Spatial: 1, BestOf: 3}
+"""When models are tried; 2 for all others."""
+
 
 def able_models(question: Question) -> tuple[str, ...]:
-    """Return the models that have the abilities to answer, those that interpolate first.
+    """Return the models that have the abilities to answer, in the order in which they are tried.
 
-    All models learn from the recording that they fill, so that none needs to be `Inductive`.
+    Those that interpolate take no time and come first, then those made for markers, where there are
+    markers. `BestOf`, which tries most of the others itself, is last. All models learn from the
+    recording that they fill, so that none needs to be `Inductive`.
     """
     needed, barred = _needed(question), _barred(question)
     names = [
@@ -30,7 +36,11 @@ def able_models(question: Question) -> tuple[str, ...]:
         for name in MODELS.names()
         if issubclass(MODELS.get(name), needed) and not issubclass(MODELS.get(name), barred)
     ]
-    return tuple(sorted(names, key=lambda name: not issubclass(MODELS.get(name), Interpolator)))
+    return tuple(sorted(names, key=lambda name: _turn(MODELS.get(name))))
+
+
+def _turn(model: type[Model]) -> int:
+    return min((turn for kind, turn in _TURNS.items() if issubclass(model, kind)), default=2)
 
 
 def require_able(name: str, question: Question) -> None:

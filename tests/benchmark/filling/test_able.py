@@ -27,3 +27,11 @@ def test_models_of_markers_are_tried_on_markers_alone():
 
 def test_models_that_need_a_process_are_never_tried():
     assert not {"oracle", "control"} & set(able_models(question(("LKNE.x", "LKNE.y", "LKNE.z"))))
+
+
+def test_models_are_tried_the_sooner_the_less_they_take_or_the_more_they_are_made_for_it():
+    names = able_models(question(("LKNE.x", "LKNE.y", "LKNE.z", "force")))
+    turns = [names.index(name) for name in ("pchip", "rigid-body", "channel-kriging", "best-of")]
+    assert turns == sorted(turns)
+    assert names[-1] == "best-of"
+    assert {"marker-kriging", "rigid-body"} == {*names[turns[1] - 1 : turns[1] + 1]}
