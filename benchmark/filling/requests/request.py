@@ -106,12 +106,12 @@ def select(recording: Recording, entries: Entries, train: Sequence[Recording] = 
 
 def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[Gap, ...]:
     """Return the gaps that are longer than allowed, which are not all."""
-    gaps = gaps_of(named)
-    longer = tuple(gap for gap in gaps if _seconds(recording, gap) > (max_gap or np.inf))
+    gaps, limit = gaps_of(named), np.inf if max_gap is None else max_gap
+    longer = tuple(gap for gap in gaps if not _seconds(recording, gap) <= limit)
     if len(longer) == len(gaps):
         shortest = min(_seconds(recording, gap) for gap in gaps)
         raise NothingToFillError(
-            f"{recording.name}: expected a gap of {max_gap:g} s or less, got "
+            f"{recording.name}: expected a gap of {limit:g} s or less, got "
             f"{len(gaps)} of {shortest:.3g} s or more; raise --max-gap"
         )
     return longer

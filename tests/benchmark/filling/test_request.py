@@ -1,3 +1,4 @@
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -99,6 +100,8 @@ def test_angles_beside_a_named_gap_are_unwrapped_across_it():
         (Entries(frames=(60, 60)), "the first before the last, got 60:60"),
         (Entries(channels="("), "expected a regular expression"),
         (Entries(frames=(50, 100), max_gap=0.1), "raise --max-gap"),
+        (Entries(frames=(50, 51), max_gap=0.0), "expected a gap of 0 s or less, got 1 of"),
+        (Entries(frames=(50, 51), max_gap=math.nan), "expected a gap of nan s or less"),
     ],
 )
 def test_what_cannot_be_filled_is_refused(waves, entries, message):
