@@ -19,6 +19,8 @@ __all__ = ["PosedProblems", "problem_digest"]
 
 _ROUNDING = ("CPU", "machine", "libc", "BLAS", "python version", "numpy version", "scipy version")
 """The facts of a record that decide how the numbers of a problem are rounded."""
+_FORMAT = 2
+"""How digests are made; those of another format say nothing about each other."""
 
 
 def problem_digest(problem: Problem[Any]) -> str:
@@ -33,7 +35,7 @@ def problem_digest(problem: Problem[Any]) -> str:
     for piece in _pieces(problem):
         digest.update(len(piece).to_bytes(8, "big"))
         digest.update(piece)
-    return digest.hexdigest()[:16]
+    return f"{_FORMAT}:{digest.hexdigest()[:16]}"
 
 
 def _pieces(value: object) -> Iterator[bytes]:
@@ -46,7 +48,9 @@ def _pieces(value: object) -> Iterator[bytes]:
         case None | bool() | int() | float() | complex() | str() | bytes() | np.generic():
             yield repr(value).encode("utf-8", "backslashreplace")
         case _:
-            for part in _parts(value):
+            parts = _parts(value)
+            yield str(len(parts)).encode()
+            for part in parts:
                 yield from _pieces(part)
 
 
@@ -74,14 +78,15 @@ class PosedProblems:
     def checked(self, record: Record) -> Record:
         """Return ``record``; a failed one in its place if it solves another problem than the first.
 
-        Records that failed or are without a digest, such as those of earlier versions, are not
-        compared, nor are records of different machines, which may round differently.
+        Records that failed or are without a digest are not compared, nor are digests of different
+        formats, as of earlier versions, and of different machines, which may round differently.
         """
         if not record.problem or record.status is not Status.OK:
             return record
         problem = record.address._replace(label="")
         facts = (record.provenance.get(name, "") for name in _ROUNDING)
-        first = self._first.setdefault((problem, record.seed, *facts), record)
+        made = record.problem.rpartition(":")[0]
+        first = self._first.setdefault((problem, record.seed, made, *facts), record)
         if first.problem == record.problem:
             return record
         message = (
