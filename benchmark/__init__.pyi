@@ -55,7 +55,8 @@ from .runs.execution.fork_server import fork_server
 from .runs.execution.this_machine import ThisMachine
 from .runs.job import Job, WorkerConfig
 from .runs.machine import memory_share, n_cores
-from .runs.plan import Request, plan, required_sources
+from .runs.plan import plan, required_sources
+from .runs.planning.request import Request
 from .runs.provenance import provenance
 from .runs.record import Record, Status
 from .runs.run import run

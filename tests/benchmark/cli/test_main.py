@@ -15,7 +15,8 @@ from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.cli.main import COMMANDS, main
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES, METRICS, MODELS, REGISTRIES, TASKS
-from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.plan import plan
+from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address

@@ -15,7 +15,8 @@ from mocapbench.benchmark.problems.masks import hide_all_but
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.runs.evaluate import evaluate
 from mocapbench.benchmark.runs.job import Work, WorkerConfig
-from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.plan import plan
+from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.provenance import provenance
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks import toy_interpolation

@@ -15,7 +15,8 @@ from mocapbench.benchmark.runs import keys
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.fitting import solve
 from mocapbench.benchmark.runs.fitting.fit import Fit
-from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.plan import plan
+from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.runs.store import Store
 

@@ -6,9 +6,9 @@ from dataclasses import replace
 import pytest
 
 from mocapbench.benchmark.inspection.fit_seconds import MEASURED, alike, of_records, typical
-from mocapbench.benchmark.runs.plan import PROFILES
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
+from mocapbench.benchmark.tasks.base import PROFILES
 
 ONE = Address("toy-synthesis", 1, "test 1", 0, "hgp")
 

@@ -9,7 +9,8 @@ from mocapbench.benchmark.inspection.explanation import Step, explain
 from mocapbench.benchmark.inspection.forecast import forecast
 from mocapbench.benchmark.inspection.forecast_output import forecast_lines, lacking, lacking_line
 from mocapbench.benchmark.inspection.work import Basis, Work
-from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.plan import plan
+from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.runs.store import Store
 

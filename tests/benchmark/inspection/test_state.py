@@ -14,7 +14,8 @@ from mocapbench.benchmark.inspection.output import state_lines
 from mocapbench.benchmark.inspection.state import UNKNOWN, run_state
 from mocapbench.benchmark.inspection.work import Basis
 from mocapbench.benchmark.runs.directory.plan_file import plan_document
-from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.plan import plan
+from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.runs.store import Store
 

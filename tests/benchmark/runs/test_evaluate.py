@@ -10,7 +10,8 @@ from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.evaluate import evaluate
 from mocapbench.benchmark.runs.job import Work, WorkerConfig
-from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.plan import plan
+from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.metrics import Direction, Imputation, Metric, Score
 

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.runs.key_parts import key_parts
 from mocapbench.benchmark.runs.keys import key_of
-from mocapbench.benchmark.runs.plan import Request, plan
+from mocapbench.benchmark.runs.plan import plan
+from mocapbench.benchmark.runs.planning.request import Request
 
 TEXT = st.text("ab:é", max_size=3)
 LONG = st.sampled_from(["a" * 64, "b" * 64, "a"])
