@@ -10,7 +10,7 @@ from mocapbench.benchmark.comparison.fact_changes import (
     changed_provenance,
     changed_recordings,
 )
-from mocapbench.benchmark.comparison.folds import Pair, asked, both_ok
+from mocapbench.benchmark.comparison.folds import Pair, asked, both_scored
 from mocapbench.benchmark.comparison.problems import differences, require_same_problems
 from mocapbench.benchmark.comparison.score_changes import score_changes
 from mocapbench.benchmark.comparison.sides import Side
@@ -44,7 +44,7 @@ def run_changes(first: Side, second: Side, names: tuple[str, str]) -> RunChanges
     common = [(record, other[address]) for address, record in one.items() if address in other]
     if not common:
         raise UsageError("report: the two runs have no (task, case, fold, entrant) in common")
-    scored = [pair for pair in common if both_ok(pair)]
+    scored = [pair for pair in common if both_scored(pair)]
     pairs = [pair for pair in scored if not differences(*pair)]
     if not pairs:
         require_same_problems(scored)
@@ -76,11 +76,11 @@ def _comparable(first: Side, second: Side) -> dict[Address, Pair]:
     """Return the jobs that both were asked for, but for those that solve different problems."""
     one, other = (asked(side, ()) for side in (first, second))
     common = {address: (one[address], other[address]) for address in one if address in other}
-    return {a: pair for a, pair in common.items() if not (both_ok(pair) and differences(*pair))}
+    return {a: pair for a, pair in common.items() if not (both_scored(pair) and differences(*pair))}
 
 
 def _endings(common: Iterable[Pair], *, without_score: int) -> list[Ending]:
-    """Return the jobs that only one run has a score of: not run 0, or not run 1."""
+    """Return the jobs that ended well in only one run: not in run 0, or not in run 1."""
     scored = (without_score == 1, without_score == 0)
     return [
         Ending(str(a.address), a.status.value, b.status.value, (a, b)[without_score].message)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mocapbench.benchmark.comparison.folds import asked, both_ok, paired_folds
+from mocapbench.benchmark.comparison.folds import asked, both_scored, paired_folds
 from mocapbench.benchmark.comparison.problems import require_same_problems
 from mocapbench.benchmark.comparison.rows import Row, case_rows, corrected, pooled_rows
 from mocapbench.benchmark.comparison.sides import Side
@@ -46,7 +46,7 @@ def compare(
     common = {address: (one[address], other[address]) for address in one if address in other}
     if not common:
         raise UsageError("compare: the two have no scored (task, case, fold, entrant) in common")
-    require_same_problems(list(filter(both_ok, common.values())))
+    require_same_problems(list(filter(both_scored, common.values())))
     names = list(dict.fromkeys(address.task for address in common))
     chosen = list(dict.fromkeys(map(METRICS.current_name, metrics)))
     rows = [

@@ -1,7 +1,7 @@
 """The folds that both sides were asked for, with the values of a metric; NaN where one is lost.
 
-A side *loses* a fold if its job failed or has no result, or if its value is not finite, as that
-of a model that diverged.
+A side *loses* a fold if its job has no result, if the metric or all of the job failed, or if its
+value is not finite, as that of a model that diverged.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["Pair", "asked", "both_ok", "paired_folds"]
+__all__ = ["Pair", "asked", "both_scored", "paired_folds"]
 
 Fold = tuple[str, int | None]
 Pair = tuple[Record, Record]
@@ -35,9 +35,9 @@ def asked(side: Side, tasks: Sequence[str]) -> dict[Address, Record]:
     }
 
 
-def both_ok(pair: Pair) -> bool:
-    """Return whether both jobs have a result."""
-    return all(record.status is Status.OK for record in pair)
+def both_scored(pair: Pair) -> bool:
+    """Return whether both jobs have scores, be it that a metric failed."""
+    return all(record.scores for record in pair)
 
 
 def paired_folds(task: str, metric: str, common: Mapping[Address, Pair]) -> dict[str, pd.DataFrame]:
@@ -65,7 +65,7 @@ def paired_folds(task: str, metric: str, common: Mapping[Address, Pair]) -> dict
 
 def _folds(metric: str, pairs: Mapping[Fold, Pair]) -> pd.DataFrame:
     values = np.array([[_value(record, metric) for record in pair] for pair in pairs.values()])
-    answered = np.array([[_answered(record) for record in pair] for pair in pairs.values()])
+    answered = np.array([[_answered(record, metric) for record in pair] for pair in pairs.values()])
     finite, undefined = np.isfinite(values), answered & np.isnan(values)
     never = answered.any(axis=0) & (undefined == answered).all(axis=0)
     kept = (finite.any(axis=1) | ~undefined.any(axis=1)) & ~never.any()
@@ -74,11 +74,11 @@ def _folds(metric: str, pairs: Mapping[Fold, Pair]) -> pd.DataFrame:
     return pd.DataFrame(values[kept], index[kept], columns=["first", "second"])
 
 
-def _answered(record: Record) -> bool:
+def _answered(record: Record, metric: str) -> bool:
     """Return whether there is a result; all scores of a model that diverged are not finite."""
     finite = not record.scores or any(map(math.isfinite, record.scores.values()))
-    return record.status is Status.OK and finite
+    return (record.status is Status.OK or metric in record.scores) and finite
 
 
 def _value(record: Record, metric: str) -> float:
-    return record.scores.get(metric, math.nan) if record.status is Status.OK else math.nan
+    return record.scores.get(metric, math.nan)

@@ -49,7 +49,8 @@ def check(
                 f"{run.about.get(name)}; their values cannot be paired"
             )
     troubles = {record.address: record for record in records if record.status is not Status.OK}
-    return (*_paired(reference, run, troubles, tolerances), *_unforeseen(reference, troubles))
+    unforeseen = _unforeseen(reference, run, troubles)
+    return (*_paired(reference, run, troubles, tolerances), *unforeseen)
 
 
 def _paired(
@@ -97,12 +98,12 @@ def _reasons(absent: Mapping[int, tuple[Verdict, str]]) -> str:
     return "; ".join(texts)
 
 
-def _unforeseen(reference: Reference, troubles: Troubles) -> Iterator[Finding]:
-    """Yield the failed jobs that have no reference value, one an entrant."""
+def _unforeseen(reference: Reference, run: Reference, troubles: Troubles) -> Iterator[Finding]:
+    """Yield the failed jobs that lack no value of the reference, one an entrant."""
     known = {
         series.address._replace(fold=fold)
         for series, folds in reference.values.items()
-        for fold in folds
+        for fold in folds.keys() - run.values.get(series, {}).keys()
     }
     failed = {
         address.all_folds: record

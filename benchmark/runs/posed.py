@@ -78,10 +78,10 @@ class PosedProblems:
     def checked(self, record: Record) -> Record:
         """Return ``record``; a failed one in its place if it solves another problem than the first.
 
-        Records that failed or are without a digest are not compared, nor are digests of different
-        formats, as of earlier versions, and of different machines, which may round differently.
+        Records without scores or a digest are not compared, nor are digests of different formats,
+        as of earlier versions, and of different machines, which may round differently.
         """
-        if not record.problem or record.status is not Status.OK:
+        if not (record.problem and record.scores):
             return record
         problem = record.address._replace(label="")
         facts = (record.provenance.get(name, "") for name in _ROUNDING)

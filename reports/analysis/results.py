@@ -36,7 +36,7 @@ class TaskResults:
         The scores as an array.
     estimates : mapping of (case, label, metric) to FoldMean
     troubles : mapping of (case, label) to tuple of Trouble
-        Jobs that failed or whose data are missing.
+        Jobs that failed, be it by one metric alone, or whose data are missing.
     published : mapping of (case, metric, model) to PublishedValue
         In the paper's names.
     """
@@ -72,6 +72,20 @@ class TaskResults:
         for (_, _, metric), estimate in self.estimates.items():
             means.setdefault(metric, []).append(estimate.mean)
         return {metric: decimals(values) for metric, values in means.items()}
+
+    def lost(self, case: str, label: str, metric: str) -> tuple[Trouble, ...]:
+        """Return the troubles that cost a score of ``metric``: another may be what failed."""
+        folds = self._scored_folds.get((case, label, metric), set())
+        found = self.troubles.get((case, label), ())
+        return tuple(trouble for trouble in found if trouble.fold not in folds)
+
+    @cached_property
+    def _scored_folds(self) -> Mapping[tuple[str, str, str], set[int]]:
+        folds: dict[tuple[str, str, str], set[int]] = {}
+        columns = (self.scores[name].tolist() for name in ("case", "label", "metric", "fold"))
+        for case, label, metric, fold in zip(*columns, strict=True):
+            folds.setdefault((case, label, metric), set()).add(fold)
+        return folds
 
     def estimate(self, case: str, label: str, metric: str) -> FoldMean | None:
         """Return the mean over folds, or None where the label has no score."""

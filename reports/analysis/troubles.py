@@ -1,4 +1,4 @@
-"""The jobs that gave no score."""
+"""The jobs that gave no score, or none of some metric."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ DATA_MISSING = "data-missing"
 
 @dataclass(frozen=True)
 class Trouble:
-    """A job without a score.
+    """A job that did not end well; if only a metric failed, it has the scores of the others.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ class Trouble:
     fold : int
     label : str
     status : str
-        Why there is no score: any status but ``"ok"``.
+        How it ended: any status but ``"ok"``.
     message, traceback : str
     """
 
@@ -44,7 +44,7 @@ FIELDS = ("task", "case", "label", "status", "message", "traceback")
 
 
 def troubles(bundle: Bundle, task: str | None = None) -> tuple[Trouble, ...]:
-    """Return the jobs without a score, of one task or of all, in the order of the records."""
+    """Return the jobs that did not end well, of one task or all, in the order of the records."""
     lost = bundle.records["status"].to_numpy() != "ok"
     wanted = lost if task is None else lost & (bundle.records["task"].to_numpy() == task)
     rows = bundle.records.loc[wanted, ["fold", *FIELDS]].assign(number=np.cumsum(lost)[wanted])

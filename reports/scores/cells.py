@@ -16,7 +16,7 @@ def score_cell(
 ) -> ScoreCell:
     """Return the mean over folds, bold where it is the ``best``, or why there is none."""
     estimate = results.estimate(case.name, label, metric)
-    troubles = results.troubles.get((case.name, label), ())
+    troubles = results.lost(case.name, label, metric)
     link = cell_anchor(results.layout.name, case.name, label)
     if estimate is None:
         reasons = _reasons(troubles)

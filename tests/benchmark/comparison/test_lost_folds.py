@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 
 from mocapbench.benchmark import comparison
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
@@ -92,6 +93,18 @@ def test_folds_that_both_lost_are_lost_of_either(lose):
         assert by_case(one, other)["all cases"][1] == "one better"
     else:
         assert by_case(one, other)["all cases"][1] == f"one {LOST}; other {LOST}"
+
+
+def test_a_metric_that_failed_is_lost_and_the_others_are_compared():
+    def fail(record):
+        return replace(record, status=Status.FAILED, scores={"smse": record.scores["smse"]})
+
+    one, other = (in_folds(records("knn", value), HARD, fail) for value in (1.0, 2.0))
+    assert by_case(one, other)["all cases"][1] == f"one {LOST}; other {LOST}"
+    assert by_case(one, other, "smse")["all cases"][1] == "one better"
+    elsewhere = [replace(r, seed=1) for r in other]
+    with pytest.raises(UsageError, match="do not solve the same problems"):
+        by_case([r for r in one if r.scores.keys() == {"smse"}], elsewhere, "smse")
 
 
 def test_jobs_that_diverged_on_both_sides_are_lost():

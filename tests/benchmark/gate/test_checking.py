@@ -23,6 +23,9 @@ def _record(label, fold, found, about, version):
     fields = {"status": found, "message": "no | luck\x1b"}
     if isinstance(found, dict):
         fields = {"status": Status.OK, "scores": found}
+    if isinstance(found, tuple):  # a metric failed, and others did not
+        status, scores = found
+        fields |= {"status": status, "scores": scores}
     return Record(
         *(key, key, Address(TASK, version, CASE, fold, label), 0, label, {}),
         **fields,
@@ -128,6 +131,15 @@ def test_a_failed_job_is_3(check, cli, status, known):
     before = {"knn": _mse(1.0), **({"nn": _mse(1.0)} if known else {})}
     assert check(before, {"knn": _mse(1.0), "nn": [status]}) == 3
     assert f"{status}: no | luck" in cli.printed
+
+
+@pytest.mark.parametrize("known", [["mse"], ["mse", "smse"]])
+def test_a_job_that_one_metric_failed_is_3_and_its_other_scores_are_compared(check, cli, known):
+    before = {"knn": [dict.fromkeys(known, 1.0)]}
+    assert check(before, {"knn": [(Status.FAILED, {"mse": 1.0})]}) == 3
+    assert "check: 1 job failed, 1 same" in cli.printed
+    assert check(before, {"knn": [(Status.FAILED, {"mse": 1.1})]}) == 1
+    assert "check: 1 worse, 1 job failed" in cli.printed
 
 
 def test_a_failed_fold_that_the_reference_lacks_is_3_too(check):

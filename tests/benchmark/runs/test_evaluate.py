@@ -126,3 +126,40 @@ def test_a_finite_score_and_one_that_is_not_defined_are_kept(record, value):
     ended = record(statistic=lambda outcome: Score(value))
     assert ended.status is Status.OK
     assert ended.scores == pytest.approx({"mine": float(value)}, rel=0, nan_ok=True)
+
+
+@pytest.fixture
+def job_record(monkeypatch):
+    """Return a function from metrics by name to the record of a job that they and `mse` score."""
+
+    def job_record(**statistics):
+        added = {
+            name: Metric(name, name, Direction.LOWER, Imputation, statistic)
+            for name, statistic in statistics.items()
+        }
+        monkeypatch.setattr(METRICS, "_added", {**METRICS._added, **added})
+        task, archive = "toy-interpolation-1", archive_at(None)
+        request = Request("smoke", (task,), ("trivial",), metrics=("mse", *added), folds=1)
+        return evaluate(Work(plan(request, archive)[0], None), CONFIG, archive).record
+
+    return job_record
+
+
+def test_a_metric_that_fails_costs_no_other_its_score(job_record):
+    failed, whole = job_record(bad=_raises, worse=_nothing), job_record()
+    assert failed.status is Status.FAILED
+    assert dict(failed.scores) == dict(whole.scores) != {}
+    assert failed.parts == whole.parts
+    assert failed.problem == whole.problem
+    assert "the metric 'bad' raised KeyError: 'x'" in failed.message
+    assert "expected the metric 'worse' to return a Score" in failed.message
+    assert failed.message.endswith("(1 other score kept)")
+    assert failed.traceback.count("Traceback") >= 2
+
+
+def test_a_job_of_which_every_metric_fails_has_no_score(job_record, monkeypatch):
+    monkeypatch.setattr(METRICS.get("mse").__class__, "__call__", lambda *_: _raises(None))
+    failed = job_record()
+    assert failed.status is Status.FAILED
+    assert (failed.scores, failed.parts) == ({}, {})
+    assert "kept" not in failed.message

@@ -123,6 +123,14 @@ def test_lost_folds_and_lacking_cases_are_counted(small):
     assert row(table, "a").behind is NO_SCORE
 
 
+def test_a_fold_that_another_metric_failed_is_not_lost(small):
+    bundle = small(TWO)
+    bundle.records.loc[bundle.records["label"] == "a", "status"] = "failed"
+    found = cell(table_of(bundle), "one", "a")
+    assert (found.text, found.note) == ("2.00", "")
+    assert len(results_of(bundle).troubles["one", "a"]) == 2
+
+
 def test_missing_recordings_are_told_in_the_head_alone(bundle):
     table = table_of(bundle, "rms_per_frame", task=2)
     (head,) = (head for head in table.heads if head.name == "12-02 four-walkers")

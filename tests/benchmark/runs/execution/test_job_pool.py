@@ -87,6 +87,21 @@ def test_a_metric_fails_its_jobs_and_ends_no_run(cli, records, arguments, broken
 
 
 @pytest.mark.slow
+def test_one_bad_metric_leaves_the_other_scores_and_is_tried_again(
+    cli, records, arguments, broken_metrics, tmp_path
+):
+    chosen = ("--models", "trivial", "--metrics", "mse,raises", "--plugin", broken_metrics)
+    for _ in range(2):
+        assert cli(*arguments, *chosen, "--jobs", 1) == 3
+        assert "1 failed" in cli.printed
+        (record,) = records(tmp_path / "run").values()
+        assert record["status"] == "failed"
+        assert record["scores"].keys() == {"mse"}
+    page = (tmp_path / "run" / "report.html").read_text()
+    assert "the metric &#39;raises&#39; raised RuntimeError" in page
+
+
+@pytest.mark.slow
 def test_what_a_model_does_to_metrics_changes_no_score_of_its_own(cli, records, arguments):
     assert cli(*arguments, "--models", "rigs,well-behaved", "--jobs", 1, "--no-report") == 0
     out = arguments[arguments.index("--out") + 1]
