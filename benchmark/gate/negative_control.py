@@ -58,7 +58,8 @@ def _lines(
         yield from (f"{task}: {reason}" for reason in _reasons(findings))
     for record in broken[:1]:
         failure = f"{record.address.label}: {record.message}"
-        yield f"{counted(len(broken), 'job')} failed, and nothing without a score was checked ({failure})"
+        jobs = counted(len(broken), "job")
+        yield f"{jobs} failed, and nothing without a score was checked ({failure})"
 
 
 def _exit_code(findings: Sequence[NegativeControlResult], broken: Sequence[Record]) -> ExitCode:

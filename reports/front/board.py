@@ -5,13 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import groupby
 
-__all__ = ["INCOMPLETE", "SHADES", "BoardCell", "BoardColumn", "BoardRow", "Scoreboard"]
+__all__ = ["FAILED", "INCOMPLETE", "SHADES", "BoardCell", "BoardColumn", "BoardRow", "Scoreboard"]
 
 SHADES = ((1.0, "best"), (1.1, "within 10 %"), (1.5, "within 50 %"), (3.0, "within 3×"))
 """How many times worse than the best a mean may be, and the name of that shade."""
 
 INCOMPLETE = "incomplete"
 """In place of a shade: the mean is over other folds than that of the best, and not compared."""
+
+FAILED = "failed"
+"""In place of a shade: there is no mean, since the model failed."""
 
 
 @dataclass(frozen=True)
@@ -52,8 +55,10 @@ class BoardCell:
     ----------
     text : str
     value : float
+        NaN where there is none.
     shade : str
-        The name of its distance from the best, or `INCOMPLETE`; empty for what does not compete.
+        The name of its distance from the best, `INCOMPLETE` or `FAILED`; empty for what does not
+        compete.
     beaten : bool
         Whether it is no better than the task's reference.
     link : str
@@ -72,8 +77,8 @@ class BoardCell:
     @property
     def style(self) -> str:
         """Its classes in the style sheet."""
-        if self.shade == INCOMPLETE:
-            return INCOMPLETE
+        if self.shade in (INCOMPLETE, FAILED):
+            return self.shade
         step = [name for _, name in SHADES].index(self.shade) if self._near else len(SHADES)
         return f"shade-{step}" + (" beaten" if self.beaten else "") if self.shade else "reference"
 
@@ -84,7 +89,7 @@ class BoardCell:
 
 @dataclass(frozen=True)
 class BoardRow:
-    """A model, or a reference. ``cells`` hold None where it took no part."""
+    """A model, or a reference. ``cells`` hold None where it took no part, or has no recording."""
 
     label: str
     cells: tuple[BoardCell | None, ...]

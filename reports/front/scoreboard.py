@@ -12,6 +12,7 @@ from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.questions import question
 from mocapbench.reports.front.board import BoardCell, BoardColumn, BoardRow, Scoreboard
 from mocapbench.reports.front.board_cells import board_cells, first_metric, is_generated
+from mocapbench.reports.front.failed_cells import failed_cells
 from mocapbench.reports.text import counted, slug
 
 __all__ = ["scoreboard"]
@@ -35,7 +36,7 @@ def scoreboard(tasks: Sequence[TaskResults], families: Mapping[str, Sequence[str
         The labels of each family, families in the order of the rows.
     """
     shown = [task for task in tasks if board_cells(task) and not task.layout.page.crossed]
-    columns = [board_cells(task) for task in shown]
+    columns = [_cells(task) for task in shown]
     groups = {family: _rows(labels, columns) for family, labels in families.items()}
     below = groups.pop(REFERENCES, ())
     return Scoreboard(
@@ -43,6 +44,11 @@ def scoreboard(tasks: Sequence[TaskResults], families: Mapping[str, Sequence[str
         tuple((family, rows) for family, rows in groups.items() if rows),
         (*below, *_best_interpolations(shown, columns)),
     )
+
+
+def _cells(results: TaskResults) -> Column:
+    scored = board_cells(results)
+    return {**scored, **failed_cells(results, scored)}
 
 
 def _rows(labels: Sequence[str], columns: Sequence[Column]) -> tuple[BoardRow, ...]:

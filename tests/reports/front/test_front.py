@@ -6,6 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from mocapbench.reports import render
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.front.answers import answers
@@ -94,6 +95,26 @@ def test_the_key_of_what_is_incomplete_is_there_where_something_is(small, value)
     results = results_of(small({"row": {"a": [1.0, 1.0], "b": [0.5, value]}}))
     board = scoreboard([results], {"Models": ["a", "b"]})
     assert board.has_incomplete == (value is NAN)
+
+
+def test_a_model_that_failed_wherever_it_was_tried_has_a_row_and_no_rank(small):
+    values = {"x": {"a": [1.0, 2.0], "b": [NAN, NAN]}, "y": {"a": [1.0, 2.0], "b": [NAN, NAN]}}
+    first, second = small(values, task="first"), small({"x": {"b": [1.0]}}, task="second")
+    board = scoreboard([results_of(first), results_of(second)], {"Models": ["a", "b"]})
+    ((_, (a, b)),) = board.groups
+    cell = b.cells[0]
+    assert (cell.text, cell.note, cell.style) == ("failed", "in 4 of 4", "failed")
+    assert cell.link == results_of(first).troubles["x", "b"][0].id
+    assert (a.cells[0].shade, b.cells[1].shade) == ("best", "best")
+    assert not board.has_incomplete
+    assert 'data-v="nan"' not in render(first)
+
+
+def test_a_model_without_recordings_did_not_fail(small):
+    bundle = small({"x": {"a": [1.0], "b": [NAN]}})
+    bundle.records.loc[bundle.records["label"] == "b", "status"] = "data-missing"
+    ((_, rows),) = scoreboard([results_of(bundle)], {"Models": ["a", "b"]}).groups
+    assert [row.label for row in rows] == ["a"]
 
 
 def test_an_incomplete_interpolation_is_not_the_best_one(small):
