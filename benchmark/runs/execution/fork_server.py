@@ -10,7 +10,14 @@ from contextlib import contextmanager
 from multiprocessing import forkserver, resource_tracker
 from multiprocessing.context import BaseContext
 
-__all__ = ["fork_server"]
+from mocapbench.benchmark.errors import UsageError
+
+__all__ = ["UNGUARDED", "fork_server"]
+
+UNGUARDED = (
+    "expected workers to start, got a script that starts the run again in each of them; put what "
+    'it does below `if __name__ == "__main__":`'
+)
 
 _PRELOAD = [
     "mocapbench.benchmark.runs.execution.worker",
@@ -26,12 +33,24 @@ def fork_server() -> BaseContext:
     """Start the server unless it runs, and return the context of processes forked from it.
 
     It takes a second or two to load the libraries, while this process goes on.
+
+    Raises
+    ------
+    UsageError
+        If a worker reads a script that starts a run wherever it is read.
     """
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(_PRELOAD)
     with _environment(_ONE_THREAD), _without_interrupts():
-        forkserver.ensure_running()
+        _ensure_running()
     return context
+
+
+def _ensure_running() -> None:
+    try:
+        forkserver.ensure_running()
+    except RuntimeError:  # this process is starting itself, and reads the user's script again
+        raise UsageError(UNGUARDED) from None
 
 
 @contextmanager

@@ -9,10 +9,13 @@ from __future__ import annotations
 import signal
 from collections.abc import Collection
 from concurrent.futures import CancelledError, Future
+from concurrent.futures.process import BrokenProcessPool
 
 from pebble import ProcessExpired
 
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.messages import reason
+from mocapbench.benchmark.runs.execution.fork_server import UNGUARDED
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.execution.worker import run_job
 from mocapbench.benchmark.runs.execution.worker_pool import WorkerPool
@@ -47,9 +50,17 @@ class JobPool:
         return self._pool.ended(futures)
 
     def outcome(self, future: Future[Outcome], job: Job) -> Outcome:
-        """Return the job's outcome, or one that says why its worker gave none."""
+        """Return the job's outcome, or one that says why its worker gave none.
+
+        Raises
+        ------
+        UsageError
+            If no worker can start, since a script starts the run again in each.
+        """
         try:
             return future.result()
+        except BrokenProcessPool as error:
+            raise UsageError(UNGUARDED) from error
         except ProcessExpired as error:
             if error.exitcode == -signal.SIGALRM:
                 return Outcome(job.timed_out(self._config.timeout), None, self._config.timeout)
