@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 
 from mocapbench.benchmark.task_files.selection import Span, matching_channels
 from mocapbench.datasets import Archive, Mask, Recording, frame_rate
+from mocapbench.datasets.formats.sets import same_rate
 
 __all__ = ["Hiding", "HidingError", "Place", "RandomEntries", "RandomGaps", "SameGaps", "Spans"]
 
-_SAME_RATE = 0.01
-"""Relative, as rates of files are rounded."""
 _ROUNDING = 0.05
 """Of a frame, as people write 1/30 s as 0.033 or 0.03333."""
 
@@ -226,9 +225,9 @@ class SameGaps:
     def mask(self, recording: Recording, place: Place, /) -> Mask:
         """Return the gaps, moved by the draw of the fold; see `Hiding`."""
         pattern = place.archive.recording(self.uri)
-        one, other = frame_rate(pattern), frame_rate(recording)
-        if abs(one - other) > _SAME_RATE * other:
-            raise HidingError(f"{other:.6g} frames per second in {self.uri} too", f"{one:.6g}")
+        if not same_rate(recording, pattern):
+            expected = f"{frame_rate(recording):.6g} frames per second in {self.uri} too"
+            raise HidingError(expected, f"{frame_rate(pattern):.6g}")
         gaps, n_frames = self._gaps(pattern, recording), len(recording.times)
         drawn = place.rng.permutation(len(gaps)) if gaps.any() else ()
         for shift in (0, *drawn) if place.fold == 0 else drawn:

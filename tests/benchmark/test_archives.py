@@ -38,8 +38,10 @@ def test_a_folder_laid_out_as_expected_is_taken(database):
     check(database)
 
 
-def test_whoever_names_no_folder_is_refused_none():
-    require_recordings(None, archive_at(None))
+def test_without_a_folder_none_is_looked_for_and_a_wrong_one_is_refused(empty):
+    assert require_recordings(None, archive_at(None)) is None
+    with pytest.raises(UsageError):
+        require_recordings(empty, archive_at(empty))
 
 
 def test_an_empty_folder_is_said_to_be_empty_with_the_layout_expected(empty):

@@ -54,9 +54,12 @@ def test_a_log_is_added_to(tmp_path):
     assert len((tmp_path / "log.jsonl").read_text().splitlines()) == 2
 
 
-def test_without_a_file_nothing_is_written():
+def test_without_a_file_nothing_is_written(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
     with event_log(None) as log:
         log.job_started(HERE)
+    assert not [*tmp_path.iterdir()]
+    assert capfd.readouterr() == ("", "")
 
 
 def test_what_json_does_not_have_is_refused():
