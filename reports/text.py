@@ -75,6 +75,6 @@ def plus_minus(spread: float | None, places: int) -> str:
     return "" if spread is None else number(spread, places)
 
 
-def counted(count: int, noun: str) -> str:
-    """Return a count with its noun in the singular or plural: "1 case", "2 cases"."""
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+def counted(count: int, noun: str, plural: str = "") -> str:
+    """Return a count with its noun: "1 case", "2 cases"; an irregular ``plural`` is named."""
+    return f"{count} {noun}" if count == 1 else f"{count} {plural or f'{noun}s'}"

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench import reports
 from mocapbench.benchmark import gate
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
@@ -126,15 +127,17 @@ def _refuse_to_update(
         raise UsageError(f"--update: {reference} is a run directory; name a .csv file or a folder")
     if reference.is_file() and reference.suffix != ".csv":
         raise UsageError(f"--update: expected a .csv file or a folder, got the file {reference}")
-    if len(records) < n_planned:
+    n_lacking = n_planned - len(records)
+    if n_lacking:
+        lacking = reports.counted(n_lacking, "job of the run has", "jobs of the run have")
         raise UsageError(
-            f"--update: {n_planned - len(records)} jobs of the run have no whole record, so the "
-            "reference would lack them; resume it with `mocapbench run`"
+            f"--update: {lacking} no whole record, so the reference would be incomplete; resume "
+            "it with `mocapbench run`"
         )
     failed = [record for record in records if record.status.broken]
     if failed and not allow_failures:
         raise UsageError(
-            f"--update: {len(failed)} jobs failed ({failed[0].address.label}: "
+            f"--update: {reports.counted(len(failed), 'job')} failed ({failed[0].address.label}: "
             f"{failed[0].message}); mend them, or keep their old values with --allow-failures"
         )
     if not run.values:

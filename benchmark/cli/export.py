@@ -41,7 +41,9 @@ def export(
             with atomic_write(folder / f"{name}.parquet") as file:
                 table.to_parquet(file, index=False)
         suffixes = ".csv and .parquet" if with_parquet else ".csv"
-        console.print(f"{len(table)} rows: {folder / name}{suffixes}", soft_wrap=True)
+        console.print(
+            f"{reports.counted(len(table), 'row')}: {folder / name}{suffixes}", soft_wrap=True
+        )
     if not with_parquet:
         advice = "no Parquet files, which need pyarrow: `pip install 'mocapbench[parquet]'`"
         console.print(advice)

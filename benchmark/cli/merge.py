@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench import reports
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins, show_left_out
 from mocapbench.benchmark.errors import ExitCode
@@ -36,8 +37,10 @@ def merge(
     show_left_out(merged.damaged, console)
     for path in merged.busy:
         console.print(f"a run is writing to {path}: what it writes from now on is not merged")
-    counts = f"{len(merged.plan['keys'])} jobs, {len(merged.records)} records, "
-    console.print(f"{out}: {counts}{len(merged.fits)} sets of predictions", soft_wrap=True)
+    jobs = reports.counted(len(merged.plan["keys"]), "job")
+    records = reports.counted(len(merged.records), "record")
+    fits = reports.counted(len(merged.fits), "set of predictions", "sets of predictions")
+    console.print(f"{out}: {jobs}, {records}, {fits}", soft_wrap=True)
     console.print(f"write its report with `mocapbench report --out {out}`", soft_wrap=True)
     if not merged.records:
         raise typer.Exit(ExitCode.NOTHING_RAN)

@@ -257,7 +257,7 @@ def _ending(
     if bench.lacking(planned):
         line = bench.lacking_line(planned, _fetching(planned, config.plugins))
         console.print(line, soft_wrap=True, highlight=False)
-    console.print(f"{len(records)} jobs: {summary}")
+    console.print(f"{reports.counted(len(records), 'job')}: {summary}")
     if any(record.status.broken for record in records):
         return ExitCode.JOBS_FAILED
     return ExitCode.OK if counts[bench.Status.OK] else ExitCode.NOTHING_RAN

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.results.origins import recordings
 from mocapbench.benchmark.runs.record import Record
+from mocapbench.reports.text import counted
 
 __all__ = ["differences", "require_same_problems"]
 
@@ -22,7 +23,9 @@ def require_same_problems(pairs: Sequence[tuple[Record, Record]]) -> None:
     """
     reasons = Counter(reason for pair in pairs for reason in differences(*pair))
     if reasons:
-        listed = "; ".join(f"{reason} ({count} jobs)" for reason, count in reasons.most_common(3))
+        listed = "; ".join(
+            f"{reason} ({counted(count, 'job')})" for reason, count in reasons.most_common(3)
+        )
         raise UsageError(
             f"compare: the two do not solve the same problems, so nothing is paired: {listed}; "
             "compare runs of one seed, one version of the tasks and the same recordings"

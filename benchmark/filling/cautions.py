@@ -86,11 +86,11 @@ def _jumps(filled: Filled) -> Iterator[str]:
     if found:
         frame, channel, size, largest = found[0]
         unit = f" {recording.units[channel]}".rstrip()
-        edges = "one edge" if len(found) == 1 else f"{len(found)} edges"
         yield (
-            f"At {edges} of gaps, a channel jumps further than between any two visible frames: "
-            f"{recording.channels[channel]} by {size:.3g}{unit} at frame {frame}, elsewhere by at "
-            f"most {largest:.3g}{unit}. Look at its curve before you use these entries."
+            f"At {counted(len(found), 'edge')} of gaps, a channel jumps further than between any "
+            f"two visible frames: {recording.channels[channel]} by {size:.3g}{unit} at frame "
+            f"{frame}, elsewhere by at most {largest:.3g}{unit}. Look at its "
+            "curve before you use these entries."
         )
 
 

@@ -20,8 +20,8 @@ _NAMED = 4
 def remaining(request: Request) -> Iterator[str]:
     """Yield how many gaps were left open, and how many entries stay hidden for other reasons."""
     if request.left_open:
-        n_open = len(request.left_open)
-        yield f"{n_open} longer gap{'s were' if n_open > 1 else ' was'} left open."
+        were = counted(len(request.left_open), "longer gap was", "longer gaps were")
+        yield f"{were} left open."
     if request.unlabelled:
         yield _unlabelled(marker_names(request.unlabelled))
     if request.unknown:
@@ -29,7 +29,8 @@ def remaining(request: Request) -> Iterator[str]:
     others = ~np.isin(request.given.channels, [*request.unlabelled, *request.unknown])
     rest = int((~request.given.visible & ~request.target)[:, others].sum())
     if rest:
-        yield f"{rest} hidden entries stay hidden, since they were not to be filled."
+        stay = counted(rest, "hidden entry stays", "hidden entries stay")
+        yield f"{stay} hidden, since {'it was' if rest == 1 else 'they were'} not to be filled."
 
 
 def _unlabelled(markers: Sequence[str]) -> str:

@@ -23,9 +23,8 @@ _NAMED = 4
 def headline(filled: Filled) -> str:
     """Return which model filled how much."""
     request = filled.source.request
-    n_entries, n_gaps = int(request.target.sum()), len(request.gaps)
-    gaps = "1 gap" if n_gaps == 1 else f"{n_gaps} gaps"
-    return f"{filled.model} filled {n_entries} entries in {gaps}."
+    entries = counted(int(request.target.sum()), "entry", "entries")
+    return f"{filled.model} filled {entries} in {counted(len(request.gaps), 'gap')}."
 
 
 def verdict(filled: Filled) -> str:
@@ -121,7 +120,7 @@ def ranked(filled: Filled) -> Iterator[RankedModel]:
 def left_out(filled: Filled) -> Iterator[tuple[str, str]]:
     """Yield the models without a rank, each with the reason."""
     for runner in filled.choice.left_out if filled.choice else ():
-        done = f"{len(runner.answers)} trials done; " if runner.answers else ""
+        done = f"{counted(len(runner.answers), 'trial')} done; " if runner.answers else ""
         yield runner.model, f"{done}{runner.trouble}"
 
 

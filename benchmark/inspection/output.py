@@ -13,6 +13,7 @@ from mocapbench.benchmark.inspection.explanation import Explanation, Step
 from mocapbench.benchmark.inspection.state import RunState, TaskState
 from mocapbench.benchmark.runs import progress
 from mocapbench.benchmark.runs.key_parts import DIGEST
+from mocapbench.reports.text import counted
 
 __all__ = ["explanation_table", "state_lines", "state_table"]
 
@@ -45,7 +46,7 @@ def explanation_table(explanations: Sequence[Explanation]) -> Table:
 def _summary(explanations: Sequence[Explanation]) -> str:
     counts = ((step, sum(item.step is step for item in explanations)) for step in Step)
     parts = ", ".join(f"{step.value} {count}" for step, count in counts if count)
-    return f"{len(explanations)} jobs: {parts}"
+    return f"{counted(len(explanations), 'job')}: {parts}"
 
 
 def _common(several: Sequence[Sequence[Change]]) -> Iterator[Change]:

@@ -40,6 +40,11 @@ def test_the_noun_follows_its_count(count, text):
     assert counted(count, "case") == text
 
 
+def test_an_irregular_plural_is_named():
+    texts = [counted(count, "entry", "entries") for count in (0, 1, 2)]
+    assert texts == ["0 entries", "1 entry", "2 entries"]
+
+
 def test_there_is_no_negative_zero():
     assert number(-1e-9, 3) == "0.000"
 

@@ -68,7 +68,7 @@ def test_status_ends_in_totals_by_folder_and_the_next_command(cli, database):
     assert f"next: `mocapbench run --data-dir {database}`" in cli.printed
     (database / "subjects" / "99" / "99_01.amc").write_text("other")
     assert cli("data", "verify", "99_01", "--data-dir", database) == 2
-    assert "1 recordings: 1 wrong" in cli.printed
+    assert "1 recording: 1 wrong" in cli.printed
     assert "next: remove what is wrong, then `mocapbench data fetch 99_01" in cli.printed
 
 

@@ -104,10 +104,10 @@ def test_status_of_what_no_run_has_planned_exits_with_2(cli, tmp_path, start):
 def test_the_reasons_are_shown_before_the_run_or_without_it(cli, tmp_path):
     models, out = ("--models", "trivial", "--folds", 1), ("--out", tmp_path / "run")
     assert cli(*TOY, *models, *out, "--explain", "--dry-run") == 0
-    assert "1 jobs: fit and score 1" in cli.printed
+    assert "1 job: fit and score 1" in cli.printed
     assert not (tmp_path / "run").exists()
     assert cli(*TOY, *models, *out, "--explain") == 0
-    assert cli.printed.index("no record yet") < cli.printed.index("1 jobs: 1 ok")
+    assert cli.printed.index("no record yet") < cli.printed.index("1 job: 1 ok")
     files = {p: p.stat().st_mtime_ns for p in (tmp_path / "run").rglob("*")}
     assert cli(*TOY, *models, *out, "--explain", "--dry-run", "--seed", 1) == 0
     assert "seed 0 → 1" in cli.printed

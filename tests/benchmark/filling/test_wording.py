@@ -63,6 +63,22 @@ def test_the_headline_counts(filled):
     assert headline(filled()) == "one filled 20 entries in 1 gap."
 
 
+def test_one_of_anything_is_singular(filled):
+    one = filled(left_open=(Gap(100, 150, (0,)),))
+    target = np.zeros_like(one.source.request.target)
+    target[50, 0] = True
+    given = one.source.request.given
+    given = replace(given, values=np.where(given.visible, given.values, 0.0))
+    hides_two = given.hide(target | np.roll(target, 1))
+    request = replace(one.source.request, given=hides_two, target=target)
+    source = replace(one.source, request=request)
+    one = replace(one, source=source, answer=Answer(np.zeros(1), np.ones(1)))
+    said = [*remarks(one)]
+    assert headline(one) == "one filled 1 entry in 1 gap."
+    assert "1 longer gap was left open." in said
+    assert "1 hidden entry stays hidden, since it was not to be filled." in said
+
+
 def test_that_nothing_could_be_compared_is_said_with_what_to_do(filled):
     assert verdict(filled()) == ""
     said = verdict(replace(filled(), uncompared=True))

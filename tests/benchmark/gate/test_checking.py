@@ -223,7 +223,7 @@ def test_half_a_run_is_no_reference(cli, run, tmp_path):
     assert "cut holds a damaged record" in cli.printed
     record.unlink()
     assert cli("check", cut, "--reference", tmp_path / "b.csv", "--update") == 2
-    assert "1 jobs of the run have no whole record" in cli.printed
+    assert "1 job of the run has no whole record" in cli.printed
     assert not (tmp_path / "b.csv").exists()
 
 

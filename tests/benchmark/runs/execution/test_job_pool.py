@@ -115,7 +115,7 @@ def test_no_reference_is_made_of_a_run_with_scores_that_are_not_finite(cli, argu
     assert cli(*arguments, "--models", "diverges,well-behaved", "--no-report") == 3
     reference = ("--reference", tmp_path / "reference.csv", "--update")
     assert cli("check", tmp_path / "run", *reference) == 2
-    assert "1 jobs failed (diverges" in cli.printed
+    assert "1 job failed (diverges" in cli.printed
     assert not (tmp_path / "reference.csv").exists()
 
 
