@@ -59,6 +59,8 @@ def _numbers(what: str, values: ArrayLike) -> Array:
     """Return ``values`` as floats, or say that they are text, complex or ragged."""
     try:
         array = np.asarray(values)
+        if array.dtype == object and any(isinstance(item, str) for item in array.flat):
+            raise TypeError("text among them")
         if array.dtype.kind in "biufO":
             return np.asarray(array, dtype=np.float64)
         got = f"an array of {array.dtype}"
@@ -88,7 +90,7 @@ class Imputation:
         model was given: the trivial Gaussian of the MSLL.
     scales : ndarray of shape (D,) or None
         What errors of joint angles in degrees are multiplied by to be comparable, NaN for outputs
-        that are no joint angles; None where a task has no such scales.
+        that are not joint angles; None where a task has no such scales.
     units : tuple of D str
         Unit of each output, such as ``"deg"`` or ``"cm"``; empty strings where outputs are scored
         in units of their own.
@@ -99,8 +101,8 @@ class Imputation:
     Raises
     ------
     ValueError
-        If ``hidden`` is not boolean, other fields are no real numbers, or ``units`` is no sequence
-        of strings; on access to `poses`, if the outcome has no ``place_joints``.
+        If ``hidden`` is not boolean, other fields are not real numbers, or ``units`` is not a
+        sequence of strings; on access to `poses`, if the outcome has no ``place_joints``.
     """
 
     truth: Array
@@ -158,7 +160,7 @@ class Synthesis:
     Raises
     ------
     ValueError
-        If samples or references are no real numbers; on access to `poses`, if the outcome has no
+        If samples or references are not real numbers; on access to `poses`, if the outcome has no
         ``place_joints``.
     """
 
@@ -207,7 +209,7 @@ class Clustering:
     Raises
     ------
     ValueError
-        If labels are no whole numbers.
+        If labels are not whole numbers.
     """
 
     truth: NDArray[Any]
@@ -241,7 +243,7 @@ class Recovery:
     Raises
     ------
     ValueError
-        If covariances are no mapping of layers to real numbers, or the noise is no number.
+        If covariances are not a mapping of layers to real numbers, or the noise is not a number.
     """
 
     truth: Mapping[str, Array]
