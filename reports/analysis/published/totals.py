@@ -12,7 +12,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.paper.published import PublishedValue, every_value
 from mocapbench.reports.paper.remarks import PublishedAddress
 
-__all__ = ["Tally", "published_totals", "tallies_by_source", "tally"]
+__all__ = ["Tally", "published_totals", "tallies_by_source"]
 
 
 @dataclass(frozen=True)
@@ -44,12 +44,7 @@ class Tally:
 
 def published_totals(tasks: Iterable[TaskResults]) -> Tally:
     """Count every value that the package has of the papers, those of other tasks included."""
-    return _tally(every_value(), tasks)
-
-
-def tally(results: TaskResults) -> Tally:
-    """Count the published values of one task."""
-    return _tally(results.published.values(), [results])
+    return _sum(every_value(), _counted(tasks))
 
 
 def tallies_by_source(results: TaskResults) -> Mapping[str, Tally]:
@@ -59,10 +54,6 @@ def tallies_by_source(results: TaskResults) -> Mapping[str, Tally]:
         by_source.setdefault(value.source, []).append(value)
     counted = _counted([results])
     return {source: _sum(values, counted) for source, values in by_source.items()}
-
-
-def _tally(values: Iterable[PublishedValue], tasks: Iterable[TaskResults]) -> Tally:
-    return _sum(values, _counted(tasks))
 
 
 Counted = Mapping[PublishedAddress, tuple[PublishedVerdict, bool]]
