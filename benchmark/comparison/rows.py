@@ -92,8 +92,13 @@ def _row(task: Task, metric: str, cell: tuple[str, str], folds: pd.DataFrame, ro
     """Return the row of an entrant in a case; with means alone, if some of its folds are lost."""
     first, second = map(int, folds.isna().sum())
     found = _contrast(task, metric, folds.dropna(), rope)
+    entrant, case = cell
     row = Row(
-        *(task.name, metric, *cell, found),
+        task=task.name,
+        metric=metric,
+        entrant=entrant,
+        case=case,
+        contrast=found,
         folds=len(folds),
         first_lost=first,
         second_lost=second,

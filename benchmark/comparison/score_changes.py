@@ -47,10 +47,16 @@ def _changes(task: Task, metric: str, common: Mapping[Address, Pair]) -> list[Sc
 def _change(row: Row) -> ScoreChange:
     found = row.contrast
     return ScoreChange(
-        *(row.task, row.case, row.entrant, row.metric),
-        *(found.n, found.first, found.second),
-        *(-found.high, -found.low),
-        _verdict(row),
+        task=row.task,
+        case=row.case,
+        label=row.entrant,
+        metric=row.metric,
+        n=found.n,
+        first=found.first,
+        second=found.second,
+        low=-found.high,
+        high=-found.low,
+        verdict=_verdict(row),
     )
 
 

@@ -145,17 +145,17 @@ def _standings(scored: Cells) -> tuple[Standing, ...]:
 def _standing(scored: Cells, row: int, interval: Sequence[float], place: Place) -> Standing:
     difference, low, high = interval
     return Standing(
-        scored.labels[row],
-        scored.mean(row),
-        scored.n_cases(row),
-        scored.n_units(row),
-        int((scored.scored[row] & scored.scored[scored.best]).sum()),
-        scored.unit,
-        bool(scored.complete[row]),
-        difference,
-        low,
-        high,
-        place,
+        label=scored.labels[row],
+        mean=scored.mean(row),
+        n_cases=scored.n_cases(row),
+        n_units=scored.n_units(row),
+        n_folds=int((scored.scored[row] & scored.scored[scored.best]).sum()),
+        unit=scored.unit,
+        complete=bool(scored.complete[row]),
+        difference=difference,
+        low=low,
+        high=high,
+        standing=place,
     )
 
 
