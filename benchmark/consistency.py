@@ -52,8 +52,8 @@ def _require_label(task: Task, entrant: Entrant) -> None:
         )
     if label != entrant.model and label in MODELS.names():
         raise UsageError(
-            f"task {task.name!r}: expected entrants under labels that are no other model's name, "
-            f"got {label!r} for {entrant.model!r}; rename it"
+            f"task {task.name!r}: expected entrants under labels that are not another model's "
+            f"name, got {label!r} for {entrant.model!r}; rename it"
         )
 
 

@@ -84,7 +84,7 @@ def check_definition(path: Path, attribute: str, values: object) -> None:
     Raises
     ------
     UsageError
-        If it is no mapping from free names to values of the kind.
+        If it is not a mapping from free names to values of the kind.
     """
     kind = PLUGIN_KINDS[attribute]
     if not (isinstance(values, dict) and values and all(map(kind.fits, values.values()))):

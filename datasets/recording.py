@@ -65,9 +65,9 @@ class Recording:
     Raises
     ------
     ValueError
-        If shapes disagree, times are not finite and strictly increasing, an entry is infinite or no
-        real number, channel names repeat, the name is no string, or channels or units are no
-        sequence of strings.
+        If shapes disagree, times are not finite and strictly increasing, an entry is infinite or
+        not a real number, channel names repeat, the name is not a string, or channels or units are
+        not a sequence of strings.
 
     See Also
     --------

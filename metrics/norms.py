@@ -32,8 +32,8 @@ def rms_error_per_frame(outcome: Imputation) -> Score:
     r"""Return the mean over hidden frames of ‖y_t − μ_t‖.
 
     The metric ``rms_per_frame``. The norm is Euclidean, over the hidden entries of frame t; a frame
-    counts if any of its entries is hidden. It is no root of a mean square: the name is that of the
-    paper's table. Lower is better; in the units of the outputs, which it adds up as they are:
+    counts if any of its entries is hidden. It is not the root of a mean square: the name is that of
+    the paper's table. Lower is better; in the units of the outputs, which it adds up as they are:
     degrees, and steps of the root in the skeleton's unit of length.
 
     Parameters
@@ -143,7 +143,7 @@ def angle_error(outcome: Imputation) -> Score:
 
 
 def root_error(outcome: Imputation) -> Score:
-    r"""Return the mean over frames of the error norm of the hidden outputs that are no angle.
+    r"""Return the mean over frames of the error norm of the hidden outputs that are not angles.
 
     The metric ``root_error_per_frame``: of motions on a skeleton these are the root's translation,
     or its steps from frame to frame. Otherwise as `rms_per_frame`, over the frames in which

@@ -61,7 +61,7 @@ def mean_similarity(outcome: Synthesis, correlation: Correlation) -> Score:
 
     Warnings
     --------
-    The MCC is no correlation: sequences are not centred, so that two without anything in common
+    The MCC is not a correlation: sequences are not centred, so that two without anything in common
     still score high, and it grows with the number of frames. The MLC knows no lag: a sample out of
     step scores low. Neither sees levels and sizes. Copies of the training recordings (``replay``)
     score well without being new.

@@ -17,7 +17,7 @@ __all__ = ["LiteralConsole"]
 class LiteralConsole(Console):
     """A console for names and messages of others.
 
-    Brackets are no markup, colons are no emoji, and what a terminal would obey is left out:
+    Brackets are not markup, colons are not emoji, and what a terminal would obey is left out:
     escape sequences, control characters, marks of direction, and links.
 
     Parameters

@@ -111,7 +111,7 @@ def open_archive(data_dir: Path | None, task_files: Sequence[TaskFile] = ()) -> 
     Raises
     ------
     UsageError
-        If one of ``data_dir`` is no folder, or none of them holds recordings.
+        If one of ``data_dir`` is not a folder, or none of them holds recordings.
     """
     bench.require_recordings(data_dir, bench.archive_at(data_dir))
     return bench.archive_at(bench.with_folders(data_dir, task_files))

@@ -87,7 +87,7 @@ def fill(
     budget : float
         Seconds for trials.
     watch : callable
-        Is told how many of how many trials there are.
+        Called with the number of trials done and the total.
 
     Raises
     ------

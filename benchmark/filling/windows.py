@@ -57,7 +57,7 @@ def windows_of(question: Question, max_frames: int | None) -> list[tuple[Window,
     ----------
     question : Question
     max_frames : int or None
-        The most frames that the model takes, all recordings together; None is no limit.
+        The most frames that the model takes, all recordings together; None means no limit.
 
     Raises
     ------

@@ -39,7 +39,7 @@ def problem_digest(problem: Problem[Any]) -> str:
 
 
 def _pieces(value: object) -> Iterator[bytes]:
-    """Yield the content of a value; of an object that is no dataclass, its class alone."""
+    """Yield the content of a value; of an object that is not a dataclass, its class alone."""
     yield type(value).__qualname__.encode()
     match value:
         case np.ndarray() if not value.dtype.hasobject:

@@ -108,7 +108,7 @@ class Record:
         document |= {"format": FORMAT, **document.pop("address")._asdict()}
         try:
             return orjson.dumps(document).decode()
-        except TypeError:  # integers of more than 64 bits, surrogates, keys that are no text
+        except TypeError:  # integers of more than 64 bits, surrogates, keys that are not text
             return json.dumps(_without_nan(document))
 
     @classmethod

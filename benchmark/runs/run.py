@@ -50,7 +50,7 @@ def run(
     console : rich.console.Console
         Shows the progress.
     log : EventLog, optional
-        Is told what happens.
+        Records what happens.
     """
     log = log or EventLog()
     store.keep_keys({job.key: KeyEntry(job.address, job.parts) for job in jobs})

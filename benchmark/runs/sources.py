@@ -2,8 +2,8 @@
 
 The digest of a module covers its syntax tree and that of everything it imports, directly or not,
 from its own package and from packages named. Code of a user brings in all the user's code that it
-imports (`own_code`), wherever that is. Comments, docstrings and layout are no part of a syntax tree
-without docstrings; and a module is not followed for a `TaskPage`, which changes no result.
+imports (`own_code`), wherever that is. Comments, docstrings and layout are not part of a syntax
+tree without docstrings; and a module is not followed for a `TaskPage`, which changes no result.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def source_digest(module: str, within: tuple[str, ...]) -> str:
         Full name of an imported module.
     within : tuple of str
         Packages of ours that count besides. Of another project, all modules of the same package
-        count, and with them every module that is no part of the standard library and of no
+        count, and with them every module that is not part of the standard library and of no
         installed distribution, unless it is installed as editable.
     """
     reached: set[_Reached] = set()

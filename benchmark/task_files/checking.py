@@ -75,7 +75,7 @@ def open_task_file(path: Path, folder: Path) -> TaskFile:
 
 
 def require_folder(folder: Path) -> None:
-    """Refuse recordings in what is no folder, or in one that no list of folders could name.
+    """Refuse recordings in what is not a folder, or in one that no list of folders could name.
 
     Raises
     ------

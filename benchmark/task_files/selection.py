@@ -40,7 +40,7 @@ class Span:
         """
         found = re.fullmatch(r"(\d*):(\d*)", text)
         if not found:
-            raise ValueError(f"{text!r} is no span of frames")
+            raise ValueError(f"{text!r} is not a span of frames")
         span = cls(int(found[1] or 0), int(found[2]) if found[2] else None)
         if span.stop is not None and span.stop <= span.start:
             raise ValueError(f"{text!r} has no frames")

@@ -66,7 +66,7 @@ def model_checks(model: type[Model]) -> tuple[Callable[..., None], ...]:
     Raises
     ------
     ConformanceError
-        If it is no class of models, or inherits no ability: there would be nothing to check.
+        If it is not a class of models, or inherits no ability: there would be nothing to check.
     """
     advice = "pass the class itself, which inherits the abilities that it has"
     kind = isinstance(model, type) and issubclass(model, Model)

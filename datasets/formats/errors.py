@@ -62,4 +62,4 @@ class MissingExtraError(FormatError):
 
 
 class TextColumnsWarning(UserWarning):
-    """Columns of a table are no channels, because they are not numbers."""
+    """Columns of a table are not channels, because they are not numbers."""

@@ -53,8 +53,8 @@ def dot(x: float, y: float, shape: int = 0, kind: str = "dot") -> str:
 def disc(x: float, y: float, radius: float, title: str = "") -> str:
     """Return a disc; the page shows ``title`` beside the pointer."""
     at = f'cx="{coordinate(x)}" cy="{coordinate(y)}" r="{coordinate(radius)}"'
-    told = f"<title>{escape(title)}</title>" if title else ""
-    return f'<circle class="disc" {at}>{told}</circle>'
+    tooltip = f"<title>{escape(title)}</title>" if title else ""
+    return f'<circle class="disc" {at}>{tooltip}</circle>'
 
 
 def horizontal(x: float, end: float, y: float, kind: str = "interval") -> str:
@@ -113,8 +113,8 @@ def text(x: float, y: float, content: str, kind: str = "") -> str:
 
 def group(style: Style, *marks: str, title: str = "") -> str:
     """Return the marks of one model, in its colour; the page shows ``title`` beside the pointer."""
-    told = f"<title>{escape(title)}</title>" if title else ""
-    return f'<g class="{style.classes}"{style.model}>{told}{"".join(marks)}</g>'
+    tooltip = f"<title>{escape(title)}</title>" if title else ""
+    return f'<g class="{style.classes}"{style.model}>{tooltip}{"".join(marks)}</g>'
 
 
 def svg(width: float, height: float, label: str, marks: Iterable[str]) -> Markup:

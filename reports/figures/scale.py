@@ -33,7 +33,7 @@ class Scale(ABC):
     """
 
     about_means: ClassVar[str]
-    """What a reader is told of the means on it."""
+    """What the caption says of the means on it."""
 
     low: float
     high: float

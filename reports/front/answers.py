@@ -88,6 +88,6 @@ def _doubt(model: str, group: Sequence[RankedTask]) -> str:
 def _sure(leads: Sequence[Place | None]) -> str:
     """Return how many leads are more than chance, how many may be chance, how many not tested."""
     counts = [(leads.count(place), place) for place in (*TESTED, Place.UNTESTED)]
-    told = "; ".join(f"{count} {place.value}" for count, place in counts if count)
+    parts = "; ".join(f"{count} {place.value}" for count, place in counts if count)
     alone = NO_RIVAL if leads else "no lead"
-    return f"{counted(len(leads), 'lead')}: {told}" if told else alone
+    return f"{counted(len(leads), 'lead')}: {parts}" if parts else alone

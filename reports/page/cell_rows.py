@@ -119,7 +119,7 @@ def _rounded(value: float | None, digits: int = 6) -> float | None:
 
 
 def _joined(keys: Sequence[str]) -> bytes:
-    """Return keys of hexadecimal digits as bytes; nothing where one is no key of a run."""
+    """Return keys of hexadecimal digits as bytes; nothing where one is not a key of a run."""
     try:
         return b"".join(map(bytes.fromhex, keys))
     except ValueError:

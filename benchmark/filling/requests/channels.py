@@ -20,7 +20,7 @@ def chosen(recording: Recording, pattern: str | None) -> NDArray[np.bool_]:
     Raises
     ------
     UsageError
-        If it is no regular expression, or matches no channel.
+        If it is not a regular expression, or matches no channel.
     """
     if pattern is None:
         return np.array([not is_unlabelled(name) for name in recording.channels], dtype=bool)

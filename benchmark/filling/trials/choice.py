@@ -63,7 +63,7 @@ def choose(
     budget : float
         Seconds.
     watch : callable
-        Is told how many of how many answers there are.
+        Called with the number of answers done and the total.
 
     Raises
     ------

@@ -79,7 +79,7 @@ def race(
     budget : float
         Seconds.
     watch : callable
-        Is told how many of how many answers there are.
+        Called with the number of answers done and the total.
     """
     questions = [workers.keep(trial.question) for trial in trials]
     deadline = time.monotonic() + budget

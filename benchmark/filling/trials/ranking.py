@@ -86,4 +86,4 @@ def _sharing(losses: pd.DataFrame, shares: NDArray[np.float64]) -> tuple[str, ..
     best, *others = losses.columns
     differences = losses[others].sub(losses[best], axis=0).to_numpy(float).T
     alike = holm_tests_of_means(unit_means(differences, shares)).p > ALPHA
-    return (best, *(model for model, shares in zip(others, alike, strict=True) if shares))
+    return (best, *(model for model, is_alike in zip(others, alike, strict=True) if is_alike))

@@ -57,4 +57,4 @@ def read_keys(path: Path) -> dict[str, KeyEntry]:
             for key, (*address, numbers) in document["keys"].items()
         }
     except (KeyError, TypeError, IndexError, AttributeError) as error:
-        raise ValueError(f"it is no list of keys ({type(error).__name__}: {error})") from error
+        raise ValueError(f"it is not a list of keys ({type(error).__name__}: {error})") from error

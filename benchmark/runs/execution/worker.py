@@ -112,6 +112,6 @@ def _import_code(model: str, task: str, metrics: tuple[str, ...]) -> None:
         TASKS.get(task)
         MODELS.get(model)
         list(map(METRICS.get, metrics))
-    # What lives as long as the worker is no garbage; to look for garbage there would copy that
+    # What lives as long as the worker is not garbage; to look for garbage there would copy that
     # memory into every child.
     gc.freeze()

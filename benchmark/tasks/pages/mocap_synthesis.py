@@ -28,7 +28,7 @@ _REMARKS = (
     "§A.4.2), which the table of best matches shows.",
     "Folds vary the start of the search and the samples, not the recordings.",
     "The variance ratio divides by how references differ among themselves, which no model is told: "
-    "1 is no goal here.",
+    "1 is not a goal here.",
     "For jerk and foot skate, samples and references are placed on the body of the first training "
     "recording.",
 )

@@ -28,7 +28,7 @@ LENGTH = 8
 def serve() -> None:
     """Answer requests until there are no more."""
     answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what libraries print is no answer
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what libraries print is not an answer
     for line in sys.stdin.buffer:
         data = BytesIO()
         np.savez(data, allow_pickle=False, **_called(*json.loads(line)))

@@ -31,7 +31,7 @@ class C3DFormat(Format):
 
     The channels are ``LKNE.x``, ``LKNE.y``, ``LKNE.z`` and so on, in the unit that the file states.
     A point is hidden if its residual is negative, a coordinate is NaN, or it is exactly at the
-    origin. Angles, forces and other results of a model of the body are no channels.
+    origin. Angles, forces and other results of a model of the body are not channels.
 
     Only the coordinates that are filled are changed, and the residuals of their points, which
     become 0: calculated, not measured. All other bytes stay: residuals, analogue samples, events.

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 __all__ = ["read_points"]
 
 _OUTPUTS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS")
-"""Parameters that name the points which are no positions, but results of a model of the body."""
+"""Parameters that name the points which are not positions, but results of a model of the body."""
 _POSITIONS = "MODELED_MARKERS"
 
 

@@ -26,7 +26,7 @@ def dialect_of(lines: Sequence[str]) -> Dialect:
     """Return the dialect of a file's lines.
 
     Between columns is what divides the first line into most cells, and of several such the one that
-    divides the second line likewise. Where that is no comma, the first number with a decimal mark
+    divides the second line likewise. Where it is not a comma, the first number with a decimal mark
     says which one the file has; without any, it is a comma between semicolons, where files with
     points have commas.
     """

@@ -16,7 +16,7 @@ _EXAMPLE = "write such as 'time,hip.x [cm],hip.y [cm]' in the first line"
 
 
 def check_lines(file: str, lines: Sequence[str]) -> None:
-    """Refuse what is no text, and what is one line to all but old programs.
+    """Refuse what is not text, and what is one line to all but old programs.
 
     Raises
     ------

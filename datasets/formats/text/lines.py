@@ -35,7 +35,7 @@ def write_lines(path: Path, lines: Sequence[str], like: Path) -> None:
 
 
 def _encoding(path: Path) -> tuple[str, str]:
-    """Return the encoding of a file, and how to treat what is no text in it."""
+    """Return the encoding of a file, and how to treat what is not text in it."""
     with path.open("rb") as file:
         start = file.read(4)
     for mark, encoding in _MARKS.items():

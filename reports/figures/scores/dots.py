@@ -82,5 +82,5 @@ def _row(style: Style, sample: FoldSample, place: int, scale: Scale) -> str:
         vertical(map(scale.place, values), y - 4.0, y + 4.0) if len(values) > 1 else "",
         dot(scale.place(middle), y, style.shape),
     )
-    told = f"{style.label}: {middle:.4g}, {counted(len(values), 'fold')}"
-    return row(style, place, *marks, title=told)
+    summary = f"{style.label}: {middle:.4g}, {counted(len(values), 'fold')}"
+    return row(style, place, *marks, title=summary)

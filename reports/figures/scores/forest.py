@@ -85,8 +85,8 @@ def _row(pair: Comparison, number: int, scale: Scale, style: Style) -> str:
         text(WIDTH - 4.0, y + 4.0, MARKS[pair.verdict], "end"),
     ]
     numbers = f"ours {ours:.4g}, published {paper:.4g}, {pair.verdict.value}"
-    told = f"{pair.label}, {pair.case.heading}: {numbers}"
-    return row(style, number, *marks, title=told, name=f"{pair.label}, {pair.case.name}")
+    summary = f"{pair.label}, {pair.case.heading}: {numbers}"
+    return row(style, number, *marks, title=summary, name=f"{pair.label}, {pair.case.name}")
 
 
 def _line(middle: float, half: float | None, scale: Scale, y: float) -> str:

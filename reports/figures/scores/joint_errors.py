@@ -78,14 +78,14 @@ def _body(pose: RestPose, errors: Array, largest: float, style: Style) -> Markup
         if np.isfinite(error)
     ]
     worst = int(np.nanargmax(errors))
-    told = f"{np.nanmean(errors):.2g} cm on average, {errors[worst]:.2g} at {pose.joints[worst]}"
+    summary = f"{np.nanmean(errors):.2g} cm on average, {errors[worst]:.2g} at {pose.joints[worst]}"
     marks = [
         text(0.0, 13.0, style.label, "title"),
-        text(0.0, 27.0, told),
+        text(0.0, 27.0, summary),
         polyline(line[:, 0], line[:, 1], "bone"),
         group(style, *discs),
     ]
-    return svg(WIDTH, HEIGHT, f"{style.label}: position error by joint, {told}", marks)
+    return svg(WIDTH, HEIGHT, f"{style.label}: position error by joint, {summary}", marks)
 
 
 def _placed(pose: RestPose) -> Array:

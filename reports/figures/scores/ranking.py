@@ -79,5 +79,5 @@ def _cases(results: TaskResults, metric: str) -> list[str]:
 def _row(line: _Line, place: int, scale: Scale, style: Style) -> str:
     y = place_of(place)
     ticks = vertical(map(scale.place, line.cases), y - 4.0, y + 4.0) if len(line.cases) > 1 else ""
-    told = f"{line.label}: {line.mean:.4g}, {counted(len(line.cases), 'case')}"
-    return row(style, place, ticks, dot(scale.place(line.mean), y, style.shape), title=told)
+    summary = f"{line.label}: {line.mean:.4g}, {counted(len(line.cases), 'case')}"
+    return row(style, place, ticks, dot(scale.place(line.mean), y, style.shape), title=summary)

@@ -38,7 +38,7 @@ def test_a_part_stands_once_however_many_keys_have_it(tmp_path):
 def test_foreign_json_is_refused(tmp_path_factory, document):
     path = tmp_path_factory.mktemp("folder") / "keys.json"
     path.write_text(json.dumps(document))
-    with pytest.raises(ValueError, match="it is no list of keys"):
+    with pytest.raises(ValueError, match="it is not a list of keys"):
         read_keys(path)
 
 
