@@ -35,12 +35,12 @@ class MarkerKriging(Imputer, Inductive, Spatial):
     of the shape of these markers and of time, learnt from the frames in which it is visible.
     Recordings given to `fit` are used besides, as far as they show the same markers.
 
-    What the process is told by, it learns by predicting gaps as long as the one to fill that are
-    left out of what is visible, in closed form. Intervals are as wide as errors were there.
+    Its parameters are those that best predict left-out gaps of the same length, in closed form.
+    Intervals are as wide as errors were there.
 
     The coordinates of a marker are channels such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z`` that are
-    no angles. Other channels, and markers where fewer than three others are visible, are filled
-    by their own course over time.
+    not angles. Other channels, and markers where fewer than three others are visible, are filled
+    by their own course over time. Where the others lie on a line, the body does not turn about it.
 
     Parameters
     ----------

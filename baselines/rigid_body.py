@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import ClassVar, Self
 
 import numpy as np
@@ -12,15 +12,26 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.markers import marker_places
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
-from mocapbench.baselines.common.rigid import FEWEST, rotations, steadiness
+from mocapbench.baselines.common.rigid import (
+    FEWEST,
+    least_rotations,
+    rotations,
+    spans_a_body,
+    steadiness,
+)
 from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.interpolation import PchipImputer
+from mocapbench.baselines.kriging.local_frames import LocalFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spatial
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["RigidBody"]
 
 Array = NDArray[np.float64]
+Rotations = Callable[[Array, Array, Array], Array]
+
+_BESIDE = 15
+"""Frames on both sides of a gap that show whether the others lie on a line."""
 
 
 class RigidBody(Imputer, Inductive, Spatial):
@@ -33,8 +44,9 @@ class RigidBody(Imputer, Inductive, Spatial):
     the inverse of the standard deviation to a ``power``: markers on the same segment hardly vary.
 
     The coordinates of a marker are channels such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z`` that are
-    no angles. Other channels, and markers beside which fewer than three are visible throughout a
-    gap, are filled as by ``pchip``. There is no predictive distribution.
+    not angles. Other channels, and markers beside which fewer than three are visible throughout a
+    gap, are filled as by ``pchip``. Markers on a line do not tell how the body turns about it: the
+    marker is then carried along without such a turn. There is no predictive distribution.
 
     Parameters
     ----------
@@ -149,17 +161,20 @@ def _through(
     others = np.flatnonzero(~np.isnan(beside).any(axis=(0, 2)) & (weights > 0.0))
     if len(others) < FEWEST or not edges:
         return None
+    shares = weights[others] / weights[others].sum()
+    near = places[max(gap[0] - _BESIDE, 0) : gap[-1] + _BESIDE + 1, others]
+    body = LocalFrames.of(near[~np.isnan(near).any(axis=(1, 2))], shares)
+    turns = rotations if spans_a_body(body.shapes, shares) else least_rotations
     carried = [
-        _moved(places[edge, others], places[gap][:, others], weights[others], places[edge, marker])
+        _moved(places[edge, others], places[gap][:, others], shares, places[edge, marker], turns)
         for edge in edges
     ]
     share = np.interp(times[gap], times[edges], np.arange(len(edges)))[:, None]
     return np.asarray((1.0 - share) * carried[0] + share * carried[-1])
 
 
-def _moved(before: Array, after: Array, weights: Array, marker: Array) -> Array:
+def _moved(before: Array, after: Array, shares: Array, marker: Array, turns: Rotations) -> Array:
     """Return where motions from ``before`` (K, 3) to ``after`` (T, K, 3) take a marker."""
-    shares = weights / weights.sum()
     start, ends = shares @ before, shares @ after
-    turns = rotations(before - start, after - ends[:, None], shares)
-    return np.asarray(np.einsum("tij,i->tj", turns, marker - start) + ends)
+    turned = turns(before - start, after - ends[:, None], shares)
+    return np.asarray(np.einsum("tij,i->tj", turned, marker - start) + ends)

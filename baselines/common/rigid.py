@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["FEWEST", "rotations", "steadiness"]
+__all__ = ["FEWEST", "least_rotations", "rotations", "spans_a_body", "steadiness"]
 
 Array = NDArray[np.float64]
 
@@ -15,27 +15,31 @@ FEWEST = 3
 """Markers that a rotation needs."""
 _ROUNDING = 1e-6
 """Relative changes of a distance below which it counts as constant."""
+_CLEARLY = 5.0
+"""How many times as far from a line as they scatter markers fix the turn about it."""
 _TINY = 1e-300
 
 
 def steadiness(recordings: Sequence[Array], marker: int) -> Array:
     """Return the inverse standard deviation of each marker's distance to ``marker``: (M,).
 
-    It is relative to the largest one; 0 for the marker itself and for those never seen beside it.
+    It is relative to the largest one; 0 for the marker itself and for those of which no recording
+    shows two distances.
 
     Parameters
     ----------
     recordings : sequence of ndarray of shape (N, M, 3)
-        Markers, NaN where hidden. Distances vary about their mean in each recording.
+        Markers, NaN where hidden. Distances vary about their mean in each recording, which takes one
+        degree of freedom.
     marker : int
     """
     counts, means, squares = (
         np.array(each) for each in zip(*_moments(recordings, marker), strict=True)
     )
-    seen = counts.sum(axis=0)
-    deviations = np.sqrt(squares.sum(axis=0) / np.maximum(seen, 1))
+    freedom = np.maximum(counts - 1, 0).sum(axis=0)
+    deviations = np.sqrt(squares.sum(axis=0) / np.maximum(freedom, 1))
     steady = 1.0 / np.maximum(deviations, _ROUNDING * means.max(initial=_TINY))
-    steady[seen < 2] = 0.0
+    steady[freedom == 0] = 0.0
     return np.asarray(steady / steady.max(initial=_TINY))
 
 
@@ -74,3 +78,52 @@ def rotations(before: Array, after: Array, weights: Array) -> Array:
     left, _, right = np.linalg.svd(np.einsum("k,ki,tkj->tij", weights, before, after))
     right[:, 2] *= np.linalg.det(left @ right)[:, None]
     return np.asarray(left @ right)
+
+
+def least_rotations(before: Array, after: Array, weights: Array) -> Array:
+    """Return the least rotations that take the line along which markers lie to others: (T, 3, 3).
+
+    Nothing turns about the line itself. Parameters are those of `rotations`.
+    """
+    line = _principal(before, weights)[1][0]
+    ahead = np.einsum("k,tki->ti", weights * (before @ line), after)
+    ahead /= np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), _TINY)
+    cosine = ahead @ line
+    cross = _cross(np.cross(line, ahead))
+    return np.eye(3) + cross + cross @ cross / np.maximum(1.0 + cosine, _TINY)[:, None, None]
+
+
+def spans_a_body(shapes: Array, weights: Array) -> bool:
+    """Return whether markers fix every turn of a body that moves with them.
+
+    Markers on a line leave the turn about it open. Those beside the line fix it if they lie clearly
+    farther from it than they scatter from frame to frame; a slow change of shape does no harm.
+
+    Parameters
+    ----------
+    shapes : ndarray of shape (T, K, 3)
+        The markers in successive frames, as seen from the body; weighted mean zero.
+    weights : ndarray of shape (K,)
+    """
+    shape = shapes.mean(axis=0)
+    lengths, axes = _principal(shape, weights)
+    distance = weights @ (_beside(shape, axes[0]) ** 2).sum(axis=1)
+    steps = _beside(np.diff(shapes, axis=0), axes[0])
+    scatter = 0.5 * float((weights @ (steps**2).sum(axis=2).T).sum()) / max(len(steps), 1)
+    return bool(lengths[1] > _ROUNDING * lengths[0] and distance > _CLEARLY**2 * scatter)
+
+
+def _principal(shape: Array, weights: Array) -> tuple[Array, Array]:
+    """Return how far markers (K, 3) around their centre reach along three axes, and these."""
+    _, lengths, axes = np.linalg.svd(np.sqrt(weights)[:, None] * shape, full_matrices=False)
+    return lengths, axes
+
+
+def _beside(points: Array, line: Array) -> Array:
+    """Return points (..., 3) less their parts along a line."""
+    return np.asarray(points - (points @ line)[..., None] * line)
+
+
+def _cross(axes: Array) -> Array:
+    """Return the matrices (..., 3, 3) by which row vectors become their products with axes."""
+    return np.cross(axes[..., None, :], np.eye(3))

@@ -2,7 +2,8 @@ r"""Markers as seen from a body that moves with some of them.
 
 A body is in every frame where the rotation :math:`R_t` (row vectors) and the centre :math:`c_t` fit
 its mean shape best to the markers :math:`p_k(t)` that hold it, with weights :math:`w_k`. What is at
-x in the room is at :math:`(x - c_t) R_t^\top` as seen from it.
+x in the room is at :math:`(x - c_t) R_t^\top` as seen from it. Markers on a line do not tell how the
+body turns about it; it then turns with the line, and not about it.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.rigid import rotations
+from mocapbench.baselines.common.rigid import least_rotations, rotations, spans_a_body
 
 __all__ = ["LocalFrames"]
 
@@ -60,6 +61,9 @@ class LocalFrames:
             turns = rotations(shape, around, shares)
             shapes = np.einsum("tkj,tij->tki", around, turns)
             shape = shapes.mean(axis=0)
+        if not spans_a_body(shapes, shares):
+            turns = least_rotations(shape, around, shares)
+            shapes = np.einsum("tkj,tij->tki", around, turns)
         return cls(turns, centres, shapes)
 
     def seen(self, places: Array) -> Array:

@@ -61,7 +61,7 @@ class MarkerGap:
     steady : ndarray of shape (K,)
         How steady the distance to each of them is; positive.
     power : float
-        Of it, by which markers are weighted that hold the body from which the marker is seen.
+        Exponent of the steadiness in the weight of a marker.
     """
 
     tracks: Sequence[Track]
@@ -107,7 +107,7 @@ class MarkerGap:
 
     @property
     def _seconds(self) -> float:
-        """How long gaps are that tell as much of this one: twice as long at an end."""
+        """Length of the gaps to leave out; doubled where the gap has one side only."""
         times = self.tracks[0].times
         before, after = max(self.frames[0] - 1, 0), min(self.frames[-1] + 1, len(times) - 1)
         n_sides = (self.frames[0] > 0) + (self.frames[-1] < len(times) - 1)

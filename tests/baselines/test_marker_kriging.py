@@ -150,3 +150,18 @@ def test_a_channel_that_is_visible_once_is_refused():
     given = recording(bending(0)).hide(gap(0, N_FRAMES - 1, 2))
     with pytest.raises(ValueError, match="at least two visible entries"):
         MarkerKriging().fit([given]).impute([given])
+
+
+@pytest.mark.parametrize("off", [0.0, 0.2, 2.0])
+def test_others_on_a_line_do_not_swing_the_marker_around_it(off):
+    body = np.array([[60.0, 0, 120], [0, 0, 0], [off, 0, 150], [0, 0, 300]])
+    rng = np.random.default_rng(2)
+    path = np.cumsum(rng.normal(0.0, 5.0, (N_FRAMES, 1, 3)), axis=0)
+    places = body + path + rng.normal(0.0, 0.5, (N_FRAMES, 4, 3))
+    hidden = np.zeros((N_FRAMES, 4, 3), dtype=bool)
+    hidden[80:150, 0] = True
+    hidden = hidden.reshape(N_FRAMES, -1)
+    prediction = filled(places, hidden)
+    errors = np.abs(prediction.mean - recording(places).values)[hidden]
+    assert errors.max() < 5.0
+    assert (errors < 1.96 * np.sqrt(prediction.variance[hidden])).mean() > 0.8

@@ -110,3 +110,16 @@ def test_channels_that_are_no_markers_are_interpolated():
 def test_a_power_that_is_not_positive_is_refused(power):
     with pytest.raises(ValueError, match="power"):
         RigidBody(power=power).fit([recording(loose(0))])
+
+
+@pytest.mark.parametrize("off", [0.0, 0.2, 2.0])
+@pytest.mark.parametrize("noise", [0.0, 0.5])
+def test_others_on_a_line_do_not_swing_the_marker_around_it(off, noise):
+    """They cannot tell how it turns about the line: it is carried as if it did not turn."""
+    body = np.array([[60.0, 0, 120], [0, 0, 0], [off, 0, 150], [0, 0, 300]])
+    path = np.cumsum(np.random.default_rng(2).normal(0.0, 20.0, (N_FRAMES, 1, 3)), axis=0)
+    places = body + path + noise * np.random.default_rng(3).normal(size=(N_FRAMES, 4, 3))
+    hidden = np.zeros((N_FRAMES, 4, 3), dtype=bool)
+    hidden[10:30, 0] = True
+    mean = filled(places, hidden.reshape(N_FRAMES, -1))
+    assert np.abs(mean - recording(places).values).max() < 10.0 * noise + 1e-6
