@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mocapbench.baselines.alignment.em import Run
 from mocapbench.baselines.alignment.estimator import CycleAligner
 from mocapbench.baselines.alignment.fitting import random_cycle
-from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.profile import fit_profile
 from mocapbench.baselines.alignment.start import prototypes
+from mocapbench.baselines.common.ascent import Ascent
 
 __all__ = ["CPM"]
 
@@ -119,7 +119,7 @@ class CPM(CycleAligner):
     def _hyperparameters(self) -> Hyperparameters:
         return Hyperparameters(self.regularisation, PRIORS["normalised"])
 
-    def _learn(self, rng: np.random.Generator) -> Run:
+    def _learn(self, rng: np.random.Generator) -> Ascent[State]:
         runs = [
             fit_profile(
                 random_cycle(self.sequences_, self.cycle_length_, rng),
@@ -131,10 +131,10 @@ class CPM(CycleAligner):
             )
             for _ in range(self.n_restarts)
         ]
-        return max(runs, key=lambda run: run.bounds[-1])
+        return max(runs, key=lambda run: run.objectives[-1])
 
-    def _describe(self, run: Run, order: Sequence[int]) -> None:
-        self.log_likelihood_ = np.array(run.bounds)
+    def _describe(self, run: Ascent[State], order: Sequence[int]) -> None:
+        self.log_likelihood_ = np.array(run.objectives)
         trace = run.state.cycles.mean[:, 0]
         given = self.sequences_.rows(np.array(order, dtype=np.intp))
         self.trace_ = self._unscaled(trace)

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.alignment.em import Run
 from mocapbench.baselines.alignment.estimator import CycleAligner
 from mocapbench.baselines.alignment.expectations import moments
 from mocapbench.baselines.alignment.fitting import EMSettings, restarts
@@ -21,6 +20,7 @@ from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Array
 from mocapbench.baselines.alignment.synthesis import blended, draw_cycles, draw_sequences
+from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.validation import (
     check_count,
     check_sampling,
@@ -107,7 +107,7 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         Probability of each style for each recording.
     bound_ : ndarray of shape (n_iterations + 1,)
         The variational bound at the start and after each iteration, for standardised channels.
-    runs_ : list of Run
+    runs_ : list of Ascent
         All runs of EM.
     restart_bounds_ : ndarray of shape (n_restarts,)
         The final bound of each run.
@@ -273,7 +273,7 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
     def _hyperparameters(self) -> Hyperparameters:
         return Hyperparameters(self.regularisation, PRIORS[self.prior])
 
-    def _learn(self, rng: np.random.Generator) -> Run:
+    def _learn(self, rng: np.random.Generator) -> Ascent[State]:
         self.settings_ = EMSettings(
             n_styles=self.n_styles,
             n_states=self.cycle_length_,
@@ -293,11 +293,11 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
             max_iter=self.max_iter,
             rng=rng,
         )
-        self.restart_bounds_ = np.array([run.bounds[-1] for run in self.runs_])
+        self.restart_bounds_ = np.array([run.objectives[-1] for run in self.runs_])
         return self.runs_[int(self.restart_bounds_.argmax())]
 
-    def _describe(self, run: Run, order: Sequence[int]) -> None:
-        self.bound_ = np.array(run.bounds)
+    def _describe(self, run: Ascent[State], order: Sequence[int]) -> None:
+        self.bound_ = np.array(run.objectives)
         self.cycles_ = self._unscaled(run.state.cycles.mean.swapaxes(0, 1))
         self.probabilities_ = run.state.labels[list(order)]
         self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)

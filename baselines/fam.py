@@ -225,13 +225,13 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
             max_iter=self.max_iter,
             tolerance=self.tolerance,
         )
-        self.log_likelihood_, self.converged_ = np.array(fit.likelihoods), fit.converged
-        self.n_iterations_ = len(fit.likelihoods) - 1
-        self.model_ = principal_axes(fit.components)
+        self.log_likelihood_, self.converged_ = np.array(fit.objectives), fit.converged
+        self.n_iterations_ = fit.n_iterations
+        self.model_ = principal_axes(fit.state.components)
         curves = sampled(self.model_.coefficients, self.cycle_length_)
         self.mean_cycle_ = self.scaling_.restore(curves[0])
         self.components_ = curves[1:] * self.scaling_.scale
-        cycle = prototypes(fit.components, fit.scores, cycles)[rank]
+        cycle = prototypes(fit.state.components, fit.state.scores, cycles)[rank]
         self.prototypes_ = self.scaling_.restore(sampled(cycle, self.cycle_length_))
 
     def _n_states(self, scaled: Sequence[Recording], periods: Array) -> int:

@@ -22,7 +22,7 @@ from mocapbench.baselines.rehearsal.checkable import Relearning
 from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.baselines.state_space.em import expectation_maximisation
 from mocapbench.baselines.state_space.model import PRIORS, Parameters
-from mocapbench.baselines.state_space.noise import with_noise_shown
+from mocapbench.baselines.state_space.noise import NoiseShown
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.prediction import drawn, moments
 from mocapbench.baselines.state_space.smoothing import smoothed
@@ -64,8 +64,9 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         The learnt parameters, for standardised channels.
     n_states_ : int
         The number of states.
-    objective_ : ndarray of shape (n_iterations,)
-        Log-likelihood plus log-prior before each iteration, for standardised channels.
+    objective_ : ndarray of shape (n_iterations + 1,)
+        Log-likelihood plus log-prior at the start and after each iteration, for standardised
+        channels.
     n_iterations_ : int
         Number of iterations.
     converged_ : bool
@@ -131,9 +132,10 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         run = expectation_maximisation(
             first, data, PRIORS, max_iter=self.max_iter, tolerance=self.tolerance
         )
-        self.parameters_, self.converged_ = run.parameters, run.converged
-        self.objective_ = np.array(run.objectives)
-        self.n_iterations_, self.n_states_ = len(run.objectives), run.parameters.n_states
+        self.parameters_, self.converged_ = run.state.parameters, run.converged
+        self.objective_, self.n_iterations_ = np.array(run.objectives), run.n_iterations
+        self.n_states_ = self.parameters_.n_states
+        self._noise = NoiseShown(self.parameters_, data)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -156,17 +158,14 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         self._check_given(recordings)
         return self._smoothed(recordings, self.parameters_)
 
-    def least_claimed(
-        self, recordings: Sequence[Recording], claimed: Sequence[Prediction]
-    ) -> list[Prediction]:
+    def least_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return what it claims with as much noise as the entries that it has learnt from show.
 
         The prior adds ten frames that are all noise. Where there is little of it, most of the
         claim is that prior.
         """
-        del claimed
-        shown = with_noise_shown(self.parameters_, self._observations(self.learnt_from_))
-        return self._smoothed(recordings, shown)
+        self._check_given(recordings)
+        return self._smoothed(recordings, self._noise.shown) if recordings else []
 
     def _smoothed(
         self, recordings: Sequence[Recording], parameters: Parameters

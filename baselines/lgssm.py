@@ -8,11 +8,12 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
 from mocapbench.baselines.protocols import Clusterer
-from mocapbench.baselines.state_space.mixture import MixtureRun, classification_em, seeded
+from mocapbench.baselines.state_space.mixture import Mixture, classification_em, seeded
 from mocapbench.baselines.state_space.model import PRIORS
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.regression import Array
@@ -67,9 +68,13 @@ class LGSSM(Clusterer):
     Notes
     -----
     With the parameters :math:`\theta_c` of component c, each a model as of `LDS`, their priors p,
-    and the component :math:`c(k)` of recording :math:`Y_k`:
+    the probabilities :math:`\pi_c` of components, and the component :math:`c(k)` of recording
+    :math:`Y_k`:
 
-    .. math:: \max_{c, \theta} \sum_k \log p(Y_k \mid \theta_{c(k)}) + \sum_c \log p(\theta_c)
+    .. math::
+
+        \max_{c, \theta, \pi} \sum_k \bigl[ \log p(Y_k \mid \theta_{c(k)}) + \log \pi_{c(k)} \bigr]
+        + \sum_c \bigl[ \log \pi_c + \log p(\theta_c) \bigr]
 
     References
     ----------
@@ -130,14 +135,14 @@ class LGSSM(Clusterer):
         data = Observations.of([self.scaling_.apply(recording).values for recording in ordered])
         states, rng = initial_states(data, self.n_states), np.random.default_rng(self.random_state)
         runs = [self._run(states, data, rng) for _ in range(self.n_restarts)]
-        self.restart_objectives_ = np.array([run.mixture.objective for run in runs])
+        self.restart_objectives_ = np.array([run.state.objective for run in runs])
         best = runs[int(self.restart_objectives_.argmax())]
-        self.mixture_, self.converged_ = best.mixture, best.converged
+        self.mixture_, self.converged_ = best.state, best.converged
         self.objective_ = np.array(best.objectives)
-        self.n_iterations_ = len(best.objectives) - 1
+        self.n_iterations_ = best.n_iterations
         names = [recording.name for recording in ordered]
         order = [names.index(recording.name) for recording in checked]
-        self.labels_: NDArray[np.intp] = best.mixture.labels[order]
+        self.labels_: NDArray[np.intp] = best.state.labels[order]
         return self
 
     def _check_parameters(self) -> None:
@@ -146,7 +151,7 @@ class LGSSM(Clusterer):
         check_positive("tolerance", self.tolerance)
         check_seed("random_state", self.random_state)
 
-    def _run(self, states: Array, data: Observations, rng: np.random.Generator) -> MixtureRun:
+    def _run(self, states: Array, data: Observations, rng: np.random.Generator) -> Ascent[Mixture]:
         n_sequences = len(data.lengths)
         seeds = rng.choice(n_sequences, min(self.n_styles, n_sequences), replace=False)
         return classification_em(

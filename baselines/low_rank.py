@@ -10,6 +10,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.ascent import ascend
 from mocapbench.baselines.common.own_means import OwnMeans
 from mocapbench.baselines.common.recordings import (
     check_recordings,
@@ -140,17 +141,16 @@ class LowRank(Relearning, Imputer, Inductive):
         return self
 
     def _learn(self, frames: _Frames, loadings: Array, noise: float) -> None:
-        posterior = _Posterior.of(frames, loadings, noise)
-        values = [posterior.log_likelihood + _log_prior(noise)]
-        least_gain = self.tolerance * max(float(frames.seen.sum()), 1.0)
-        self.converged_ = False
-        while not self.converged_ and len(values) <= self.max_iter:
-            loadings, noise = _maximised(frames, posterior)
-            posterior = _Posterior.of(frames, loadings, noise)
-            values.append(posterior.log_likelihood + _log_prior(noise))
-            self.converged_ = values[-1] - values[-2] < least_gain
-        self.loadings_, self.noise_variance_ = loadings, noise
-        self.objective_, self.n_iterations_ = np.array(values), len(values) - 1
+        run = ascend(
+            _Fit.of(frames, loadings, noise),
+            lambda now: _Fit.of(frames, *_maximised(frames, now.posterior)),
+            lambda now: now.posterior.log_likelihood + _log_prior(now.noise),
+            max_iter=self.max_iter,
+            threshold=self.tolerance * max(float(frames.seen.sum()), 1.0),
+        )
+        self.loadings_, self.noise_variance_ = run.state.loadings, run.state.noise
+        self.objective_, self.n_iterations_ = np.array(run.objectives), run.n_iterations
+        self.converged_ = run.converged
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the mean and variance of hidden entries given the visible ones of their frame.
@@ -223,6 +223,19 @@ class _Posterior:
         distances = ((frames.values**2).sum(axis=1) - (projected * latents).sum(axis=1)) / noise
         losses = counts * np.log(2 * np.pi) + log_determinants + distances
         return cls(latents, noise * inverses, -0.5 * float(losses.sum()))
+
+
+@dataclass(frozen=True, eq=False)
+class _Fit:
+    """Loadings and noise, and what they make of the frames."""
+
+    loadings: Array
+    noise: float
+    posterior: _Posterior
+
+    @classmethod
+    def of(cls, frames: _Frames, loadings: Array, noise: float) -> _Fit:
+        return cls(loadings, noise, _Posterior.of(frames, loadings, noise))
 
 
 def _maximised(frames: _Frames, posterior: _Posterior) -> tuple[Array, float]:

@@ -3,35 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from functools import reduce
 
 from mocapbench.baselines.alignment.bound import bound
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.common.ascent import Ascent, ascend
 
-__all__ = ["Objective", "Run", "Update", "expectation_maximisation"]
+__all__ = ["Objective", "Update", "expectation_maximisation"]
 
 Objective = Callable[[State, Sequences, Hyperparameters], float]
 Update = Callable[[State, Sequences, Hyperparameters], State]
-
-
-@dataclass(frozen=True)
-class Run:
-    """The result of EM.
-
-    Parameters
-    ----------
-    state : State
-        The final state.
-    bounds : tuple of float
-        The objective at the start and after each iteration.
-    converged : bool
-        Whether the last iteration raised the objective by less than the tolerance.
-    """
-
-    state: State
-    bounds: tuple[float, ...]
-    converged: bool
 
 
 def expectation_maximisation(
@@ -45,18 +27,17 @@ def expectation_maximisation(
     max_iter: int,
     tolerance: float,
     objective: Objective = bound,
-) -> Run:
+) -> Ascent[State]:
     """Alternate ``n_inner`` sweeps of the E-step with one of the M-step.
 
     Stops when the objective rises by less than ``tolerance`` per visible entry, and after
     ``max_iter`` iterations at the latest.
     """
-    bounds = [objective(state, sequences, hyper)]
-    threshold = tolerance * sequences.counts.sum()
-    for _ in range(max_iter):
-        for update in (*e_step,) * n_inner + (*m_step,):
-            state = update(state, sequences, hyper)
-        bounds.append(objective(state, sequences, hyper))
-        if bounds[-1] - bounds[-2] < threshold:
-            return Run(state, tuple(bounds), converged=True)
-    return Run(state, tuple(bounds), converged=False)
+    updates = (*e_step,) * n_inner + (*m_step,)
+    return ascend(
+        state,
+        lambda before: reduce(lambda now, update: update(now, sequences, hyper), updates, before),
+        lambda now: objective(now, sequences, hyper),
+        max_iter=max_iter,
+        threshold=tolerance * sequences.counts.sum(),
+    )

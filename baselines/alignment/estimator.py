@@ -9,13 +9,13 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.alignment.em import Run
 from mocapbench.baselines.alignment.inference import infer
-from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.period import default_states
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.alignment.start import best_paths
 from mocapbench.baselines.alignment.validation import check_settings
+from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.protocols import Aligner, StatePath
@@ -57,7 +57,7 @@ class CycleAligner(Aligner):
         self.hyper_ = self._hyperparameters()
         run = self._learn(np.random.default_rng(self.random_state))
         self.state_, self.converged_ = run.state, run.converged
-        self.n_iterations_ = len(run.bounds) - 1
+        self.n_iterations_ = run.n_iterations
         order = [self.names_.index(recording.name) for recording in checked]
         paths = best_paths(self.state_, self.sequences_)
         self.path_ = tuple(paths[k] for k in order)
@@ -84,11 +84,11 @@ class CycleAligner(Aligner):
         """Return the hyperparameters, which are not learnt."""
 
     @abstractmethod
-    def _learn(self, rng: np.random.Generator) -> Run:
+    def _learn(self, rng: np.random.Generator) -> Ascent[State]:
         """Run EM on ``sequences_`` from random starts and return the best run."""
 
     @abstractmethod
-    def _describe(self, run: Run, order: Sequence[int]) -> None:
+    def _describe(self, run: Ascent[State], order: Sequence[int]) -> None:
         """Set the attributes of the subclass from the best run.
 
         Values are in the channels' units, and in the ``order`` in which recordings were given.

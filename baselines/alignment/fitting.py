@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mocapbench.baselines.alignment.em import Run, Update, expectation_maximisation
+from mocapbench.baselines.alignment.em import Update, expectation_maximisation
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Array, Sequences
@@ -26,6 +26,7 @@ from mocapbench.baselines.alignment.updates import (
     update_smoothness,
     update_weights,
 )
+from mocapbench.baselines.common.ascent import Ascent
 
 __all__ = ["EMSettings", "random_cycle", "random_start", "restarts", "run", "split"]
 
@@ -65,7 +66,7 @@ def restarts(
     n_restarts: int,
     max_iter: int,
     rng: np.random.Generator,
-) -> list[Run]:
+) -> list[Ascent[State]]:
     """Return runs of EM from random starts."""
     return [
         run(random_start(sequences, settings, rng), sequences, settings, max_iter)
@@ -73,7 +74,7 @@ def restarts(
     ]
 
 
-def run(state: State, sequences: Sequences, settings: EMSettings, max_iter: int) -> Run:
+def run(state: State, sequences: Sequences, settings: EMSettings, max_iter: int) -> Ascent[State]:
     """Run EM from a state."""
     return expectation_maximisation(
         state,

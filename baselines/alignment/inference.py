@@ -75,7 +75,7 @@ def refine(
         run(update_paths(state, joined, settings.hyper), joined, settings, max_iter)
         for state in (first, *_in_empty_style(first, joined, settings.hyper))
     ]
-    return max(runs, key=lambda attempt: attempt.bounds[-1]).state
+    return max(runs, key=lambda attempt: attempt.objectives[-1]).state
 
 
 def error_correlation(errors: Array) -> Array:

@@ -15,12 +15,13 @@ import numpy as np
 
 from mocapbench.baselines.alignment import ring
 from mocapbench.baselines.alignment.bound import sequence_bounds
-from mocapbench.baselines.alignment.em import Run, expectation_maximisation
+from mocapbench.baselines.alignment.em import expectation_maximisation
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.alignment.start import start
 from mocapbench.baselines.alignment.updates import update_jumps, update_paths, update_precisions
+from mocapbench.baselines.common.ascent import Ascent
 
 __all__ = ["fit_profile", "penalised_likelihood", "update_trace"]
 
@@ -33,7 +34,7 @@ def fit_profile(
     max_jump: int,
     max_iter: int,
     tolerance: float,
-) -> Run:
+) -> Ascent[State]:
     """Run EM from a trace (M, F)."""
     state = start(trace, sequences, closeness=1.0, smoothness=1.0, max_jump=max_jump, hyper=hyper)
     pointed = replace(state, cycles=_point(trace[:, None]))

@@ -29,8 +29,8 @@ def steadiness(recordings: Sequence[Array], marker: int) -> Array:
     Parameters
     ----------
     recordings : sequence of ndarray of shape (N, M, 3)
-        Markers, NaN where hidden. Distances vary about their mean in each recording, which takes one
-        degree of freedom.
+        Markers, NaN where hidden. Distances vary about their mean in each recording, which takes
+        one degree of freedom.
     marker : int
     """
     counts, means, squares = (

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
+from mocapbench.baselines.common.ascent import Ascent, ascend
 from mocapbench.baselines.functional.basis import Array, norms, roughness
 from mocapbench.baselines.functional.components import (
     LEAST_NOISE,
@@ -22,23 +24,21 @@ __all__ = ["Fit", "fit_components", "start"]
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Components, the scores of the cycles, and the course of the fit.
+    """Components, and the scores of the cycles that they were fitted to.
 
     Parameters
     ----------
     components : Components
     scores : Scores
-        Of the cycles that the components were fitted to.
-    likelihoods : tuple of float
-        The penalised log-likelihood at the start and after each round.
-    converged : bool
-        Whether the last round raised it by less than the tolerance.
     """
 
     components: Components
     scores: Scores
-    likelihoods: tuple[float, ...]
-    converged: bool
+
+    @classmethod
+    def of(cls, statistics: CurveStatistics, components: Components) -> Self:
+        """Infer the scores."""
+        return cls(components, infer_scores(statistics, components))
 
 
 def start(
@@ -82,7 +82,7 @@ def fit_components(
     *,
     max_iter: int,
     tolerance: float,
-) -> Fit:
+) -> Ascent[Fit]:
     """Alternate scores and components until the likelihood rises by less than the tolerance.
 
     Parameters
@@ -98,13 +98,10 @@ def fit_components(
     tolerance : float
         Least rise in a round, per visible entry.
     """
-    components, scores = initial, infer_scores(statistics, initial)
-    likelihoods = [penalised_likelihood(scores, components, smoothness)]
-    least = tolerance * statistics.counts.sum()
-    for _ in range(max_iter):
-        components = update(statistics, scores, components, smoothness)
-        scores = infer_scores(statistics, components)
-        likelihoods.append(penalised_likelihood(scores, components, smoothness))
-        if likelihoods[-1] - likelihoods[-2] < least:
-            return Fit(components, scores, tuple(likelihoods), True)
-    return Fit(components, scores, tuple(likelihoods), False)
+    return ascend(
+        Fit.of(statistics, initial),
+        lambda now: Fit.of(statistics, update(statistics, now.scores, now.components, smoothness)),
+        lambda now: penalised_likelihood(now.scores, now.components, smoothness),
+        max_iter=max_iter,
+        threshold=tolerance * statistics.counts.sum(),
+    )

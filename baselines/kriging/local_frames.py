@@ -2,8 +2,8 @@ r"""Markers as seen from a body that moves with some of them.
 
 A body is in every frame where the rotation :math:`R_t` (row vectors) and the centre :math:`c_t` fit
 its mean shape best to the markers :math:`p_k(t)` that hold it, with weights :math:`w_k`. What is at
-x in the room is at :math:`(x - c_t) R_t^\top` as seen from it. Markers on a line do not tell how the
-body turns about it; it then turns with the line, and not about it.
+x in the room is at :math:`(x - c_t) R_t^\top` as seen from it. Markers on a line do not tell how
+the body turns about it; it then turns with the line, and not about it.
 """
 
 from __future__ import annotations

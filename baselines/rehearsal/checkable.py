@@ -31,16 +31,13 @@ class Widened(Model):
         """Return what it claims of recordings of which more is hidden."""
         return self.as_claimed(trials)
 
-    def least_claimed(
-        self, recordings: Sequence[Recording], claimed: Sequence[Prediction]
-    ) -> Sequence[Prediction]:
+    def least_claimed(self, recordings: Sequence[Recording]) -> Sequence[Prediction | None]:
         """Return predictions with the least variances that the visible entries bear out.
 
-        Where trials of a recording show what is ``claimed`` to be too large, variances are made
-        smaller, but no smaller than these. Without any of its own, a model returns what is claimed.
+        Where trials of a recording show what it claims to be too large, variances are made smaller,
+        but no smaller than these. A model that knows of none returns None for each recording.
         """
-        del recordings
-        return claimed
+        return [None] * len(recordings)
 
     def _check_given(self, recordings: Sequence[Recording]) -> None:
         """Check that the model is fitted, and to recordings of these channels and units."""

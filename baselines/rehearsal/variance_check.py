@@ -44,7 +44,8 @@ _SURE = 3
 _MARGIN = 4.0
 """How many times as large as the worst of these trials shows variances may be."""
 _LEAST = 1e-4
-"""The least factor of variances: where nothing varies, trials err nowhere."""
+"""The least factor of variances: where nothing varies, trials err nowhere. It is far below that of
+`ratios`, which bounds a mean of trials and training: here it bounds four times the worst trial."""
 STEEPEST = 0.6
 """Largest power of the distance by which ratios grow: what two short lengths say is noisy.
 ``docs/calibration.md`` has the choice."""
@@ -80,6 +81,11 @@ class VarianceCheck:
         """The number of trials."""
         return len(self.copies) + len(self.halves)
 
+    @property
+    def can_narrow(self) -> bool:
+        """Whether there are enough trials to show variances to be too large."""
+        return len(self.copies) >= _SURE
+
     def trials(self) -> list[Recording]:
         """Return the recording as each trial shows it, the copies first."""
         return [self.recording.hide(mask) for mask in (*self.copies, *self.halves)]
@@ -103,10 +109,11 @@ class VarianceCheck:
         """
         if not answers or claimed.variance is None:
             return claimed
-        factors = self.factors(answers)
-        variance = claimed.variance * np.maximum(factors, self._least(answers))
+        by_trial = self._ratios(self.copies, answers[: len(self.copies)])
+        factors = self._factors(by_trial, answers)
+        variance = claimed.variance * np.maximum(factors, self._least(by_trial))
         if least is not None and least.variance is not None:
-            shown = claimed.variance * np.maximum(factors, self._shown(answers))
+            shown = claimed.variance * np.maximum(factors, self._shown(by_trial))
             variance = np.minimum(variance, np.maximum(shown, least.variance))
         return Prediction(claimed.mean, variance)
 
@@ -118,11 +125,14 @@ class VarianceCheck:
         answers : sequence of Prediction
             Of the `trials`, in their order.
         """
-        n_copies = len(self.copies)
-        sums, counts = self._ratios(self.copies, answers[:n_copies]).sum(axis=0)
+        return self._factors(self._ratios(self.copies, answers[: len(self.copies)]), answers)
+
+    def _factors(self, by_trial: Array, answers: Sequence[Prediction]) -> Array:
+        """Return the `factors`, given the ratios in the copies by trial (T, 2, D)."""
+        sums, counts = by_trial.sum(axis=0)
         factors = mean_ratios(sums, counts)
         if self.halves:
-            factors = factors * self._growth(sums, counts, answers[n_copies:])
+            factors = factors * self._growth(sums, counts, answers[len(self.copies) :])
         return factors
 
     @property
@@ -132,25 +142,18 @@ class VarianceCheck:
         lengthened = np.divide(gap, copy, out=np.ones(len(gap)), where=(copy > 0) & (copy < gap))
         return np.asarray(lengthened**STEEPEST)
 
-    def _least(self, answers: Sequence[Prediction]) -> Array:
+    def _least(self, by_trial: Array) -> Array:
         """Return the least that variances may be multiplied by: (D,), at most 1."""
-        if len(self.copies) < _SURE:
+        if not self.can_narrow:
             return np.ones(len(self.recording.channels))
-        worst = self._worst(answers, geometric_ratios)
+        worst = _worst(by_trial, geometric_ratios)
         return np.asarray(np.clip(_MARGIN * worst * self.steepest, _LEAST, 1.0))
 
-    def _shown(self, answers: Sequence[Prediction]) -> Array:
+    def _shown(self, by_trial: Array) -> Array:
         """Return what the worst of three trials shows: (D,), 1 where copies are shorter."""
-        if len(self.copies) < _SURE:
+        if not self.can_narrow:
             return np.ones(len(self.recording.channels))
-        return np.where(self.steepest > 1.0, 1.0, self._worst(answers, mean_ratios))
-
-    def _worst(
-        self, answers: Sequence[Prediction], ratios: Callable[[Array, Array], Array]
-    ) -> Array:
-        """Return the ratio of the trial in which it is largest, for each channel: (D,)."""
-        by_trial = self._ratios(self.copies, answers[: len(self.copies)])
-        return np.asarray(np.max([ratios(*one) for one in by_trial], axis=0))
+        return np.where(self.steepest > 1.0, 1.0, _worst(by_trial, mean_ratios))
 
     def _growth(self, sums: Array, counts: Array, answers: Sequence[Prediction]) -> Array:
         """Return by what the ratio grows from the copies to the gaps: (D,)."""
@@ -188,3 +191,8 @@ class VarianceCheck:
                 for mask, answer in zip(masks, answers, strict=True)
             ]
         )
+
+
+def _worst(by_trial: Array, ratios: Callable[[Array, Array], Array]) -> Array:
+    """Return the ratio of the trial in which it is largest, for each channel: (D,)."""
+    return np.asarray(np.max([ratios(*one) for one in by_trial], axis=0))

@@ -37,10 +37,14 @@ def widened(
     trials = [trial for check in checks for trial in check.trials()]
     answers = iter(model.as_tried(trials) if trials else ())
     claims = model.as_claimed(recordings)
-    least = model.least_claimed(recordings, claims)
+    least = iter(model.least_claimed([check.recording for check in checks if check.can_narrow]))
     filled = [
-        check.applied(claimed, list(islice(answers, check.n_trials)), smallest)
-        for check, claimed, smallest in zip(checks, claims, least, strict=True)
+        check.applied(
+            claimed,
+            list(islice(answers, check.n_trials)),
+            next(least) if check.can_narrow else None,
+        )
+        for check, claimed in zip(checks, claims, strict=True)
     ]
     if not learnt_from:
         return filled

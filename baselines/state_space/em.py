@@ -3,32 +3,38 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
+from mocapbench.baselines.common.ascent import Ascent, ascend
 from mocapbench.baselines.state_space.maximisation import maximised
 from mocapbench.baselines.state_space.model import Parameters, Priors
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.smoothing import Smoothed, smoothed
 
-__all__ = ["Run", "expectation_maximisation"]
+__all__ = ["Expected", "expectation_maximisation"]
 
 
-@dataclass(frozen=True)
-class Run:
-    """The result of EM.
+@dataclass(frozen=True, eq=False)
+class Expected:
+    """Parameters, and the states that they make of the data.
 
     Parameters
     ----------
     parameters : Parameters
-        The final parameters.
-    objectives : tuple of float
-        Log-likelihood plus log-prior at the start and after each iteration but the last.
-    converged : bool
-        Whether the last iteration raised the objective by less than the tolerance.
+    states : Smoothed
     """
 
     parameters: Parameters
-    objectives: tuple[float, ...]
-    converged: bool
+    states: Smoothed
+
+    @classmethod
+    def of(cls, parameters: Parameters, data: Observations) -> Self:
+        """Take the E-step."""
+        return cls(parameters, smoothed(parameters, data))
+
+    def objective(self, priors: Priors) -> float:
+        """Return the log-likelihood plus the log-prior."""
+        return float(self.states.log_likelihood.sum()) + self.parameters.log_prior(priors)
 
 
 def expectation_maximisation(
@@ -38,17 +44,15 @@ def expectation_maximisation(
     *,
     max_iter: int,
     tolerance: float,
-) -> Run:
-    """Alternate E-step and M-step, ``max_iter`` times at most.
+) -> Ascent[Expected]:
+    """Alternate M-step and E-step, ``max_iter`` times at most.
 
     Stops when an iteration raises the objective by less than ``tolerance`` per visible entry.
     """
-    threshold = tolerance * data.counts.sum()
-    objectives: list[float] = []
-    for _ in range(max_iter):
-        posterior = smoothed(parameters, data)
-        objectives.append(float(posterior.log_likelihood.sum()) + parameters.log_prior(priors))
-        if len(objectives) > 1 and objectives[-1] - objectives[-2] < threshold:
-            return Run(parameters, tuple(objectives), converged=True)
-        parameters = maximised(posterior, data, priors)
-    return Run(parameters, tuple(objectives), converged=False)
+    return ascend(
+        Expected.of(parameters, data),
+        lambda now: Expected.of(maximised(now.states, data, priors), data),
+        lambda now: now.objective(priors),
+        max_iter=max_iter,
+        threshold=tolerance * data.counts.sum(),
+    )

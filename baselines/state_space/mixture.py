@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.ascent import Ascent, ascend
 from mocapbench.baselines.state_space.filtering import filtered
 from mocapbench.baselines.state_space.maximisation import maximised
 from mocapbench.baselines.state_space.model import Parameters, Priors
@@ -25,7 +26,7 @@ from mocapbench.baselines.state_space.regression import Array
 from mocapbench.baselines.state_space.smoothing import smoothed
 from mocapbench.baselines.state_space.start import start
 
-__all__ = ["Mixture", "MixtureRun", "classification_em", "seeded"]
+__all__ = ["Mixture", "classification_em", "seeded"]
 
 Labels = NDArray[np.intp]
 
@@ -76,25 +77,6 @@ class Mixture:
         return self.assigned(components, (sizes + 1.0) / (sizes + 1.0).sum(), data, priors)
 
 
-@dataclass(frozen=True)
-class MixtureRun:
-    """The result of classification EM.
-
-    Parameters
-    ----------
-    mixture : Mixture
-        The final mixture.
-    objectives : tuple of float
-        The objective at the start and after each iteration.
-    converged : bool
-        Whether the last iteration raised the objective by less than the tolerance.
-    """
-
-    mixture: Mixture
-    objectives: tuple[float, ...]
-    converged: bool
-
-
 def seeded(states: Array, data: Observations, seeds: Labels, priors: Priors) -> Mixture:
     """Return a mixture whose components each fit one sequence, of those at ``seeds`` (C,).
 
@@ -113,15 +95,15 @@ def seeded(states: Array, data: Observations, seeds: Labels, priors: Priors) -> 
 
 def classification_em(
     mixture: Mixture, data: Observations, priors: Priors, *, max_iter: int, tolerance: float
-) -> MixtureRun:
+) -> Ascent[Mixture]:
     """Improve a mixture, ``max_iter`` times at most.
 
     Stops when an iteration raises the objective by less than ``tolerance`` per visible entry.
     """
-    objectives, threshold = [mixture.objective], tolerance * data.counts.sum()
-    for _ in range(max_iter):
-        mixture = mixture.improved(data, priors)
-        objectives.append(mixture.objective)
-        if objectives[-1] - objectives[-2] < threshold:
-            return MixtureRun(mixture, tuple(objectives), converged=True)
-    return MixtureRun(mixture, tuple(objectives), converged=False)
+    return ascend(
+        mixture,
+        lambda now: now.improved(data, priors),
+        lambda now: now.objective,
+        max_iter=max_iter,
+        threshold=tolerance * data.counts.sum(),
+    )

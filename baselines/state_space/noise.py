@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from mocapbench.baselines.state_space.prediction import moments
 from mocapbench.baselines.state_space.regression import Prior, Regression
 from mocapbench.baselines.state_space.smoothing import smoothed
 
-__all__ = ["with_noise_shown"]
+__all__ = ["NoiseShown", "with_noise_shown"]
 
 _PRIOR = Prior(frames=1.0, variance=1e-2, ridge=0.0)
 """One frame: a channel of which little is visible keeps some noise."""
@@ -33,3 +34,22 @@ def with_noise_shown(parameters: Parameters, data: Observations) -> Parameters:
         emission = Regression(parameters.emission.coefficients, noise[:, None, None])
         parameters = replace(parameters, emission=emission)
     return parameters
+
+
+@dataclass(frozen=True, eq=False)
+class NoiseShown:
+    """The noise that the data show which parameters were learnt from, found when it is asked for.
+
+    Parameters
+    ----------
+    learnt : Parameters
+    data : Observations
+    """
+
+    learnt: Parameters
+    data: Observations
+
+    @cached_property
+    def shown(self) -> Parameters:
+        """The parameters with this noise."""
+        return with_noise_shown(self.learnt, self.data)

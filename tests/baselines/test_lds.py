@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.lds import LDS
+from mocapbench.baselines.state_space import noise
 from mocapbench.datasets import Recording
 
 CHANNELS, UNITS = ("knee.rx", "hip.rx", "hip.ry"), ("deg",) * 3
@@ -166,3 +167,22 @@ def test_bands_are_hardly_wider_than_the_noise_of_a_recording_that_repeats_itsel
     squares = (prediction.mean - values)[mask] ** 2 / prediction.variance[mask]
     assert 0.6 < squares.mean() < 1.5
     assert prediction.variance[mask].mean() < 0.5 * claimed.variance[mask].mean()
+
+
+@pytest.mark.parametrize("max_iter", [1, 3, 50])
+def test_the_objective_is_that_of_the_start_and_of_each_iteration(max_iter):
+    model = LDS(2, max_iter=max_iter, tolerance=0.1).fit(WALKS)
+    assert len(model.objective_) == model.n_iterations_ + 1
+    assert model.n_iterations_ <= max_iter
+    assert model.converged_ or model.n_iterations_ == max_iter
+
+
+def test_what_noise_is_shown_is_learnt_once_and_only_where_trials_can_narrow(monkeypatch):
+    calls, learn = [], noise.with_noise_shown
+    monkeypatch.setattr(noise, "with_noise_shown", lambda *given: calls.append(1) or learn(*given))
+    model = LDS(2).fit(WALKS)
+    model.impute([walk("complete")])
+    assert not calls
+    for _ in range(2):
+        model.impute([hidden(walk("new", 4.0), slice(10, 12))])
+    assert len(calls) == 1

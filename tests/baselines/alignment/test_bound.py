@@ -69,7 +69,7 @@ def test_em_never_lowers_the_bound(pose, n_inner, **problem):
         max_iter=12,
         tolerance=0.0,
     )
-    bounds = np.array([bound(posed.state, posed.sequences, posed.hyper), *run.bounds])
+    bounds = np.array([bound(posed.state, posed.sequences, posed.hyper), *run.objectives])
     assert (np.diff(bounds) >= -_slack(bounds[1:])).all()
 
 

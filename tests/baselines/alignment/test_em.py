@@ -37,12 +37,12 @@ def test_it_stops_when_the_objective_gains_too_little(pose):
     n_visible = posed.sequences.counts.sum()
     outcome, log = run(posed, [10 * n_visible, n_visible, 0.1 * n_visible, 9.0], tolerance=0.5)
     assert outcome.converged
-    assert len(outcome.bounds) == 4
+    assert len(outcome.objectives) == 4
     assert log == ["E", "E", "M"] * 3
 
 
 def test_it_stops_at_the_largest_number_of_iterations(pose):
     outcome, log = run(pose(0), [1.0] * 5, tolerance=0.0, max_iter=4)
     assert not outcome.converged
-    assert outcome.bounds == pytest.approx((0.0, 1.0, 2.0, 3.0, 4.0))
+    assert outcome.objectives == pytest.approx((0.0, 1.0, 2.0, 3.0, 4.0))
     assert log == ["E", "E", "M"] * 4

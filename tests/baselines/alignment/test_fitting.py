@@ -42,7 +42,7 @@ def test_no_run_ever_lowers_the_bound(sequences):
     runs = restarts(sequences, SETTINGS, n_restarts=3, max_iter=4, rng=rng)
     assert len(runs) == 3
     for run in runs:
-        assert (np.diff(run.bounds) >= -1e-9 * np.abs(run.bounds[1:])).all()
+        assert (np.diff(run.objectives) >= -1e-9 * np.abs(run.objectives[1:])).all()
 
 
 @pytest.mark.parametrize("grouping", GROUPINGS)

@@ -26,7 +26,7 @@ def _fitted():
     waves = [np.sin(np.arange(n)[:, None] + np.arange(3)) for n in (20, 25, 30)]
     sequences = Sequences.of([wave + 0.1 * rng.normal(size=wave.shape) for wave in waves])
     runs = restarts(sequences, SETTINGS, n_restarts=3, max_iter=10, rng=rng)
-    return sequences, max(runs, key=lambda run: run.bounds[-1]).state
+    return sequences, max(runs, key=lambda run: run.objectives[-1]).state
 
 
 def test_moments_are_those_of_the_mixture():

@@ -19,5 +19,5 @@ def test_em_never_lowers_the_penalised_likelihood():
         max_iter=30,
         tolerance=0.0,
     )
-    assert (np.diff(run.bounds) >= -1e-9 * np.abs(run.bounds[1:])).all()
-    assert run.bounds[-1] > run.bounds[0] + 1.0
+    assert (np.diff(run.objectives) >= -1e-9 * np.abs(run.objectives[1:])).all()
+    assert run.objectives[-1] > run.objectives[0] + 1.0

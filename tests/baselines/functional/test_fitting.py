@@ -21,10 +21,10 @@ def _fit(statistics, n_components, smoothness=0.1, max_iter=8):
 )
 def test_the_likelihood_never_falls(curves, seed, n_components, hidden):
     fit = _fit(curves(seed, hidden=hidden).statistics, n_components)
-    rises = np.diff(fit.likelihoods)
-    assert (rises >= -1e-8 * (1.0 + np.abs(fit.likelihoods[1:]))).all()
-    assert np.isfinite(fit.components.coefficients).all()
-    assert (fit.components.noise >= LEAST_NOISE).all()
+    rises = np.diff(fit.objectives)
+    assert (rises >= -1e-8 * (1.0 + np.abs(fit.objectives[1:]))).all()
+    assert np.isfinite(fit.state.components.coefficients).all()
+    assert (fit.state.components.noise >= LEAST_NOISE).all()
 
 
 def test_it_starts_with_the_singular_vectors_of_complete_cycles(curves):
@@ -42,5 +42,5 @@ def test_it_ends_when_a_round_gains_too_little(curves):
         statistics, start(statistics, curve, 2, 0.1), 0.1, max_iter=50, tolerance=0.1
     )
     assert fit.converged
-    assert fit.likelihoods[-1] - fit.likelihoods[-2] < 0.1 * statistics.counts.sum()
-    assert len(fit.likelihoods) == pytest.approx(3, abs=2)
+    assert fit.objectives[-1] - fit.objectives[-2] < 0.1 * statistics.counts.sum()
+    assert len(fit.objectives) == pytest.approx(3, abs=2)

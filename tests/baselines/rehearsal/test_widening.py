@@ -58,7 +58,8 @@ class Knowing(Claiming):
         super().__init__(variance)
         self.least = least
 
-    def least_claimed(self, recordings, claimed):
+    def least_claimed(self, recordings):
+        claimed = self.as_claimed(recordings)
         return [Prediction(each.mean, np.full(each.mean.shape, self.least)) for each in claimed]
 
 
