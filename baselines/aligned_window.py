@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.gaps import hidden_frames, runs
+from mocapbench.baselines.common.gaps import hidden_frames, runs, stretches
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import check_count
@@ -130,16 +130,14 @@ class AlignedWindow(FrameImputer, Inductive):
         Raises
         ------
         ValueError
-            If ``n_windows`` is no integer of at least 1, there is no recording, channels differ, or
-            a name repeats.
+            If ``n_windows`` is not an integer of at least 1, there is no recording, channels
+            differ, or a name repeats.
         """
         check_count("n_windows", self.n_windows, 1)
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.runs_ = [
-            recording.values[run]
-            for recording in map(in_pose_units, checked)
-            for run in runs(np.asarray(recording.visible.all(axis=1)))
+            stretch for recording in map(in_pose_units, checked) for stretch in stretches(recording)
         ]
         return self
 

@@ -7,11 +7,12 @@ from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.cluster import KMeans as ScikitLearnKMeans
 
 from mocapbench.baselines.alignment.period import cycle_length
 from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.validation import check_settings
+from mocapbench.baselines.common.gaps import interpolated
+from mocapbench.baselines.common.prototypes import grouped
 from mocapbench.baselines.common.recordings import check_recordings, check_visible, visible_moments
 from mocapbench.baselines.protocols import Clusterer
 from mocapbench.datasets import FrameByChannel, Recording
@@ -104,22 +105,15 @@ class KMeans(Clusterer):
         check_visible(checked)
         mean, _ = visible_moments(checked)
         self.cycles_ = np.stack([_cycle(recording, self.n_frames, mean) for recording in checked])
-        k_means = ScikitLearnKMeans(
-            min(self.n_styles, len(checked)),
-            n_init=self.n_restarts,
-            random_state=int(np.random.default_rng(self.random_state).integers(2**31)),
-        )
         points = self.cycles_.reshape(len(checked), -1)
-        self.labels_ = k_means.fit_predict(points).astype(np.intp)
+        rng = np.random.default_rng(self.random_state)
+        self.labels_ = grouped(points, self.n_styles, self.n_restarts, rng)
         return self
 
 
 def _cycle(recording: Recording, n_frames: int, mean: Array) -> FrameByChannel:
     """Return the first cycle at ``n_frames`` frames; a wholly hidden channel takes its mean."""
     period = cycle_length(Sequences.of([recording.values]))
-    frames, places = np.arange(len(recording.times)), period * np.arange(n_frames) / n_frames
-    curves = [
-        np.interp(places, frames[seen], values[seen]) if seen.any() else np.full(n_frames, centre)
-        for values, seen, centre in zip(recording.values.T, recording.visible.T, mean, strict=True)
-    ]
-    return np.column_stack(curves)
+    places = period * np.arange(n_frames) / n_frames
+    cycle = interpolated(recording.values, np.arange(len(recording.times)), places)
+    return np.where(np.isnan(cycle), mean, cycle)

@@ -110,8 +110,8 @@ class KNN(Imputer, Inductive):
         Raises
         ------
         ValueError
-            If ``n_neighbors`` is no integer of at least 1, there is no recording, channels differ,
-            or a name repeats.
+            If ``n_neighbors`` is not an integer of at least 1, there is no recording, channels
+            differ, or a name repeats.
         """
         check_count("n_neighbors", self.n_neighbors, 1)
         self.recordings_ = check_recordings(recordings)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from sklearn.metrics.pairwise import nan_euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.common.pose_units import pose_factors
 from mocapbench.baselines.common.recordings import check_channels, check_recordings, stack
 from mocapbench.baselines.common.validation import check_not_negative
@@ -165,8 +166,5 @@ def _poses(recording: Recording) -> FrameByChannel:
     """Return the values with wholly hidden frames interpolated linearly in time."""
     poses = recording.values.copy()
     blank = ~recording.visible.any(axis=1)
-    for d in np.flatnonzero(recording.visible.any(axis=0)):
-        seen = recording.visible[:, d]
-        known = recording.times[seen], recording.values[seen, d]
-        poses[blank, d] = np.interp(recording.times[blank], *known)
+    poses[blank] = interpolated(recording.values, recording.times, recording.times[blank])
     return poses

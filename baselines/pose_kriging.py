@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.gaps import runs, visible_frames
+from mocapbench.baselines.common.gaps import stretches, visible_frames
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import (
@@ -252,4 +252,4 @@ class PoseKriging(FrameImputer, Inductive):
 
 
 def _has_step(recording: Recording) -> bool:
-    return any(len(run) > 1 for run in runs(np.asarray(recording.visible.all(axis=1))))
+    return any(len(stretch) > 1 for stretch in stretches(recording))

@@ -8,10 +8,11 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.baselines.common.validation import check_sampling
 from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
-from mocapbench.datasets import FrameByChannel, Frames, Recording
+from mocapbench.datasets import Frames, Recording
 
 __all__ = ["Replay"]
 
@@ -81,7 +82,9 @@ class Replay(Synthesiser):
         check_is_fitted(self)
         times = check_sampling(times, n_samples, random_state)
         chosen = np.random.default_rng(random_state).choice(len(self.recordings_), n_samples)
-        replayed = np.stack([_at(times, recording) for recording in self.recordings_])
+        replayed = np.stack(
+            [interpolated(one.values, one.times, times) for one in self.recordings_]
+        )
         return np.asarray(replayed[chosen])
 
 
@@ -93,11 +96,3 @@ def _check_visible(recording: Recording) -> None:
             f"recording {recording.name!r}: expected a visible entry of every channel to replay, "
             f"got none of {hidden}; leave the recording or the channels out"
         )
-
-
-def _at(times: Frames, recording: Recording) -> FrameByChannel:
-    columns = [
-        np.interp(times, recording.times[seen], values[seen])
-        for values, seen in zip(recording.values.T, recording.visible.T, strict=True)
-    ]
-    return np.stack(columns, axis=1)

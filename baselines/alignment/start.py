@@ -19,6 +19,7 @@ from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hype
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.alignment.updates import update_paths
+from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.common.prototypes import grouped, of_unit_variance, tempi
 
 __all__ = [
@@ -82,12 +83,7 @@ def first_cycle(frames: Array, n_frames: int, n_states: int) -> Array:
     """
     given = frames[:n_frames]
     positions = np.linspace(0.0, len(given), n_states, endpoint=False)
-    cycle = np.zeros((n_states, frames.shape[1]))
-    for channel, column in zip(cycle.T, given.T, strict=True):
-        known = np.flatnonzero(~np.isnan(column))
-        if len(known):
-            channel[:] = np.interp(positions, known, column[known])
-    return cycle
+    return np.nan_to_num(interpolated(given, np.arange(len(given)), positions))
 
 
 def best_paths(state: State, sequences: Sequences) -> tuple[NDArray[np.intp], ...]:

@@ -1,4 +1,4 @@
-"""Frames that are hidden as a whole, channels hidden together, and runs of frames."""
+"""Frames that are hidden as a whole, channels hidden together, runs of frames, and lines across."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.datasets import FrameByChannel, Mask, Recording
+from mocapbench.datasets import FrameByChannel, Frames, Mask, Recording
 
 __all__ = [
     "complete_stretches",
@@ -15,7 +15,9 @@ __all__ = [
     "frames_alike",
     "hidden_frames",
     "hidden_together",
+    "interpolated",
     "runs",
+    "stretches",
     "visible_frames",
     "whole_gaps",
 ]
@@ -104,19 +106,45 @@ def whole_gaps(hidden: Mask) -> list[NDArray[np.intp]]:
     return [gap for gap in whole if np.mean(~(beside[gap[0]] | beside[gap[-1] + 2])) > 0.5]
 
 
+def stretches(recording: Recording) -> list[FrameByChannel]:
+    """Return each unbroken run of complete frames (N, D) of a recording."""
+    complete = np.asarray(recording.visible.all(axis=1))
+    return [recording.values[run] for run in runs(complete)]
+
+
 def complete_stretches(recordings: Sequence[Recording]) -> list[FrameByChannel]:
-    """Return each unbroken run of complete frames (N, D), recording by recording.
+    """Return the `stretches` of recordings, one after the other.
 
     Raises
     ------
     ValueError
         If no two consecutive frames are complete.
     """
-    stretches = [
-        recording.values[run]
-        for recording in recordings
-        for run in runs(np.asarray(recording.visible.all(axis=1)))
-    ]
-    if max(map(len, stretches), default=0) < 2:
+    every = [stretch for recording in recordings for stretch in stretches(recording)]
+    if max(map(len, every), default=0) < 2:
         raise ValueError("expected two consecutive complete frames in training, got none")
-    return stretches
+    return every
+
+
+def interpolated(
+    values: FrameByChannel, times: Frames, wanted: Frames | None = None
+) -> FrameByChannel:
+    """Return channels on lines between their visible entries, held at the ends: (M, D).
+
+    A channel without any is NaN.
+
+    Parameters
+    ----------
+    values : ndarray of shape (N, D)
+        NaN where hidden.
+    times : ndarray of shape (N,)
+    wanted : ndarray of shape (M,), optional
+        The times to return, those of ``values`` by default.
+    """
+    at = times if wanted is None else wanted
+    read = np.full((len(at), values.shape[1]), np.nan)
+    for column, given in zip(read.T, values.T, strict=True):
+        seen = ~np.isnan(given)
+        if seen.any():
+            column[:] = np.interp(at, times[seen], given[seen])
+    return read

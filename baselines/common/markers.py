@@ -19,7 +19,7 @@ def markers_of(channels: Sequence[str], units: Sequence[str]) -> Mapping[str, tu
     """Return the places of the coordinates x, y and z of each marker among D channels, by its name.
 
     They are named such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z``, as in C3D and TRC files and for
-    joints in `mocapbench.datasets.joint_trajectories`, or ``LKNE_X``, and are no angles.
+    joints in `mocapbench.datasets.joint_trajectories`, or ``LKNE_X``, and are not angles.
 
     Examples
     --------

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.recordings import visible_moments
-from mocapbench.baselines.common.scaling import CONSTANT
+from mocapbench.baselines.common.scaling import is_constant
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["OwnMeans"]
@@ -46,8 +46,7 @@ class OwnMeans:
         mean, _ = visible_moments(recordings)
         deviations = [recording.with_values(_deviations(recording)) for recording in recordings]
         _, variance = visible_moments(deviations)
-        constant = ~(np.sqrt(variance) > CONSTANT * np.maximum(np.abs(mean), 1.0))
-        return cls(mean, np.where(constant, 1.0, np.sqrt(variance)))
+        return cls(mean, np.where(is_constant(mean, variance), 1.0, np.sqrt(variance)))
 
     def apply(self, recording: Recording) -> FrameByChannel:
         """Return the deviations (N, D) of a recording in units of ``scale``; NaN where hidden."""

@@ -34,8 +34,8 @@ def check_recordings(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
     Raises
     ------
     ValueError
-        If it is no sequence of recordings, there is none, channels or units differ, a name repeats,
-        or one has no frame, no channel or values beyond 1e75.
+        If it is not a sequence of recordings, there is none, channels or units differ, a name
+        repeats, or one has no frame, no channel or values beyond 1e75.
     """
     checked = _listed(recordings)
     if not checked:
@@ -58,8 +58,8 @@ def check_channels(
     Raises
     ------
     ValueError
-        If it is no sequence of recordings, or one has other channels or units, no frame, no channel
-        or values beyond 1e75.
+        If it is not a sequence of recordings, or one has other channels or units, no frame, no
+        channel or values beyond 1e75.
     """
     for recording in _listed(recordings):
         if recording.channels != channels:
@@ -186,7 +186,7 @@ def pool(fitted: Sequence[Recording], given: Sequence[Recording]) -> tuple[Recor
     Raises
     ------
     ValueError
-        If ``given`` is no sequence of recordings, there is none, or channels or units differ.
+        If ``given`` is not a sequence of recordings, there is none, or channels or units differ.
     """
     by_name = {recording.name: recording for recording in (*fitted, *_listed(given))}
     return check_recordings(tuple(by_name.values()))

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from mocapbench.baselines.common.recordings import check_spread, visible_moments
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["Standardisation", "unit_scales"]
+__all__ = ["Standardisation", "is_constant", "unit_scales"]
 
 Array = NDArray[np.float64]
 
-CONSTANT = 1e-12
+_CONSTANT = 1e-12
 """Relative standard deviation below which an output counts as constant: it is rounding error."""
 
 
@@ -53,7 +53,7 @@ class Standardisation:
             )
         check_spread(recordings)
         counts = np.sum([recording.visible.sum(axis=0) for recording in recordings], axis=0)
-        return cls(mean, np.where(_constant(mean, variance), 1.0, np.sqrt(variance)), counts)
+        return cls(mean, np.where(is_constant(mean, variance), 1.0, np.sqrt(variance)), counts)
 
     def apply(self, recording: Recording) -> Recording:
         """Return the recording in standard units."""
@@ -79,11 +79,12 @@ def unit_scales(recordings: Sequence[Recording]) -> Array:
     one unit, errors are those in it up to a factor; with several, each counts alike.
     """
     mean, variance = visible_moments(recordings)
-    spread = np.where(_constant(mean, variance), 0.0, np.nan_to_num(variance))
+    spread = np.where(is_constant(mean, variance), 0.0, np.nan_to_num(variance))
     units = np.array(recordings[0].units)
     of_unit = np.array([spread[units == unit].mean() for unit in recordings[0].units])
     return np.sqrt(np.where(of_unit > 0.0, of_unit, 1.0))
 
 
-def _constant(mean: Array, variance: Array) -> NDArray[np.bool_]:
-    return np.asarray(np.sqrt(variance) <= CONSTANT * np.maximum(np.abs(mean), 1.0))
+def is_constant(mean: Array, variance: Array) -> NDArray[np.bool_]:
+    """Return which channels (D,) vary by no more than rounding, or have no visible entry."""
+    return np.asarray(~(np.sqrt(variance) > _CONSTANT * np.maximum(np.abs(mean), 1.0)))

@@ -35,19 +35,19 @@ def check_count(name: str, value: object, least: int) -> None:
 
 def check_positive(name: str, value: object) -> None:
     """Raise ValueError unless ``value`` is a finite positive number."""
-    if isinstance(value, bool) or not isinstance(value, Real) or not 0.0 < float(value) < np.inf:
+    if not _is_number(value) or not 0.0 < float(value) < np.inf:
         raise ValueError(f"expected {name} to be a finite positive number, got {value!r}")
 
 
 def check_not_negative(name: str, value: object) -> None:
     """Raise ValueError unless ``value`` is a finite number of at least 0."""
-    if isinstance(value, bool) or not isinstance(value, Real) or not 0.0 <= float(value) < np.inf:
+    if not _is_number(value) or not 0.0 <= float(value) < np.inf:
         raise ValueError(f"expected {name} to be a finite number of at least 0, got {value!r}")
 
 
 def check_share(name: str, value: object) -> None:
     """Raise ValueError unless ``value`` is a number from 0 to 1."""
-    if isinstance(value, bool) or not isinstance(value, Real) or not 0.0 <= float(value) <= 1.0:
+    if not _is_number(value) or not 0.0 <= float(value) <= 1.0:
         raise ValueError(f"expected {name} to be a number from 0 to 1, got {value!r}")
 
 
@@ -74,7 +74,7 @@ def check_times(times: ArrayLike, *, increasing: bool = False) -> Frames:
     Raises
     ------
     ValueError
-        If there is none, they are no finite numbers, or do not increase where they should.
+        If there is none, they are not finite numbers, or do not increase where they should.
     """
     checked = numbers("times", times)
     if checked.ndim != 1 or not checked.size:
@@ -144,3 +144,8 @@ def components_of(
 def _is_integer(value: object) -> TypeGuard[Integral]:
     """Return whether ``value`` is an integer other than True and False."""
     return isinstance(value, Integral) and not isinstance(value, bool)
+
+
+def _is_number(value: object) -> TypeGuard[Real]:
+    """Return whether ``value`` is a real number other than True and False."""
+    return isinstance(value, Real) and not isinstance(value, bool)

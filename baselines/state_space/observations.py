@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.state_space.regression import Array
 
 __all__ = ["Observations"]
@@ -61,13 +62,4 @@ class Observations(Sequences):
 
         A channel that a sequence never shows is 0, its mean over all sequences.
         """
-        return [_interpolated(array) for array in self.arrays()]
-
-
-def _interpolated(array: Array) -> Array:
-    filled, frames = np.zeros_like(array), np.arange(len(array))
-    for column, given in zip(filled.T, array.T, strict=True):
-        seen = np.flatnonzero(~np.isnan(given))
-        if len(seen):
-            column[:] = np.interp(frames, seen, given[seen])
-    return filled
+        return [np.nan_to_num(interpolated(y, np.arange(len(y)))) for y in self.arrays()]
