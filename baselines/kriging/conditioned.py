@@ -17,6 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
+from mocapbench.baselines.kriging.student import student_variance
+
 __all__ = ["ConditionedFrames"]
 
 Array = NDArray[np.float64]
@@ -75,6 +77,5 @@ class ConditionedFrames:
 
     @property
     def doubt_of_scale(self) -> float:
-        """By what the variance grows because the scale is inferred: n / (n − 2)."""
-        n_visible = int(self.visible.sum())
-        return n_visible / max(n_visible - 2, 1)
+        """By what the variance grows because the scale is inferred: n / (n − 2) if n > 2."""
+        return student_variance(int(self.visible.sum()))

@@ -46,7 +46,7 @@ def test_evidence_differs_as_the_density_of_a_student_t():
     np.testing.assert_allclose(found[1] - found[0], evidence(two) - evidence(one))
 
 
-@pytest.mark.parametrize(("n_visible", "factor"), [(1, 1.0), (2, 2.0), (3, 3.0), (12, 1.2)])
+@pytest.mark.parametrize(("n_visible", "factor"), [(1, 3.0), (2, 3.0), (3, 3.0), (12, 1.2)])
 def test_fewer_visible_frames_leave_more_doubt_of_the_scale(n_visible, factor):
     visible = np.arange(20) < n_visible
     assert ConditionedFrames(np.eye(20), 1.0, visible).doubt_of_scale == pytest.approx(factor)
