@@ -55,10 +55,10 @@ class BestOf(Imputer, Inductive):
     ``aligned-window``, ``pose-kriging``, ``channel-kriging``, and ``mohgp`` with three components
     and with one and five that registers recordings; where channels are coordinates of markers,
     ``rigid-body`` and ``marker-kriging`` besides. Those that cannot fill a mask, or not learn
-    from the recordings, are left out. ``mohgp`` takes part where a recording given to `fit` has
-    hidden entries, as where those to fill are among them, and all are few and small: three walks of
-    90 frames and 39 channels, which take a minute. It keeps its parameters in rehearsals. The seed
-    of ``fam`` is fixed, so that nothing is random.
+    from the recordings, are left out (``left_out_`` has why). ``mohgp`` takes
+    part where a recording given to `fit` has hidden entries, as where those to fill are among them,
+    and all are few and small: three walks of 90 frames and 39 channels, which take a minute. It
+    keeps its parameters in rehearsals. The seed of ``fam`` is fixed, so that nothing is random.
 
     Parameters
     ----------
@@ -74,6 +74,8 @@ class BestOf(Imputer, Inductive):
         The recordings given to `fit`, by which candidates are rehearsed.
     panel_ : Panel
         The candidates, fitted to them.
+    left_out_ : mapping of str to str
+        Why other candidates cannot learn from them, by name.
 
     References
     ----------
@@ -122,6 +124,7 @@ class BestOf(Imputer, Inductive):
         self.recordings_ = tuple(sorted(checked, key=lambda recording: recording.name))
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.panel_ = Panel.of(self.recordings_)
+        self.left_out_ = self.panel_.left_out
         return self
 
     def weights(self, recordings: Sequence[Recording]) -> list[pd.DataFrame]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from typing import ClassVar, Self
+from typing import Self
+
+from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.gp.estimator import GaussianProcess
@@ -24,8 +26,8 @@ class Jointly(Widened, Imputer, Inductive):
     """A Gaussian process that fills recordings together with those that it has learnt from.
 
     It is worth its time where the recordings to fill are among them, so that what is visible there
-    counts. Its parameters are learnt once. Whatever it is given afterwards, it goes on from them by
-    one iteration of its search: rehearsals cost little, and parameters, of which there are few
+    counts. Its parameters are those of `fit`. Whatever it is given afterwards, it goes on from them
+    by one iteration of its search: rehearsals cost little, and parameters, of which there are few
     beside entries, tell little of what a rehearsal hides (as in leave-one-out cross-validation with
     the parameters kept; C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for
     Machine Learning, §5.4.2).
@@ -37,35 +39,48 @@ class Jointly(Widened, Imputer, Inductive):
     Attributes
     ----------
     recordings_ : tuple of Recording
-        Those of the last `fit`, with which recordings are filled.
+        Those with which recordings are filled.
     process_ : GaussianProcess
-        Fitted to those of the first `fit`.
+        Fitted to those given to `fit`.
     """
-
-    family: ClassVar[str] = "Several models"
 
     def __init__(self, process: GaussianProcess) -> None:
         self.process = process
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
-        """Learn the parameters, unless they are known, and keep the recordings.
+        """Learn the parameters and keep the recordings.
 
         Raises
         ------
         ValueError
-            If the recordings of the first `fit` are all complete; if they, and another one as
-            large, are too large or too long; or if the process cannot learn from them.
+            If the recordings are all complete; if they, and another one as large, are too large or
+            too long; or if the process cannot learn from them.
         """
+        self._keep(recordings)
+        self.process_ = copy(self.process).fit(_some_incomplete(recordings))
+        return self
+
+    def with_recordings(self, recordings: Sequence[Recording]) -> Self:
+        """Return the model with its parameters, and with other recordings to fill beside.
+
+        Raises
+        ------
+        ValueError
+            If they, and another one as large, are too large or too long.
+        """
+        check_is_fitted(self)
+        other = copy(self)
+        other._keep(recordings)
+        return other
+
+    def _keep(self, recordings: Sequence[Recording]) -> None:
         largest = max(recordings, key=lambda recording: recording.values.size)
         _check_work([*recordings, largest])
         self.recordings_ = tuple(recordings)
         self.channels_, self.units_ = largest.channels, largest.units
-        if not hasattr(self, "process_"):
-            self.process_ = copy(self.process).fit(_some_incomplete(recordings))
-        return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return what the process predicts of each recording beside those of the last `fit`.
+        """Return what the process predicts of each recording beside its own.
 
         Raises
         ------

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from functools import partial
-from typing import Self
+from typing import Self, TypeVar
 
 from mocapbench.baselines.aligned_window import AlignedWindow
 from mocapbench.baselines.channel_kriging import ChannelKriging
@@ -36,6 +35,8 @@ from mocapbench.datasets import FrameByChannel, Recording
 __all__ = ["CANDIDATES", "LAST_RESORT", "OF_MARKERS", "Panel"]
 
 Impute = Callable[[Sequence[Recording]], list[Prediction]]
+Asked = TypeVar("Asked")
+Answer = TypeVar("Answer")
 
 LAST_RESORT = "pchip"
 """What fills where no rehearsal has room: it never overshoots."""
@@ -67,7 +68,8 @@ CANDIDATES: Mapping[str, Callable[[], FrameImputer]] = {
     "mohgp": partial(_mohgp, 3),
     "mohgp-registered": partial(_mohgp, {"parent": 1, "child": 5}, "affine"),
 }
-"""All are inductive, and take a few seconds at most."""
+"""All are inductive, and take a few seconds at most, but for those that are `Jointly`: these take
+part where recordings are so small that they take about a minute."""
 OF_MARKERS: Mapping[str, Callable[[], FrameImputer]] = {
     "rigid-body": RigidBody,
     "marker-kriging": MarkerKriging,
@@ -77,58 +79,59 @@ OF_MARKERS: Mapping[str, Callable[[], FrameImputer]] = {
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """Fitted models by name; those that cannot learn from the recordings are left out."""
+    """Fitted models by name, and why others are not among them.
+
+    Parameters
+    ----------
+    models : mapping of str to FrameImputer
+    left_out : mapping of str to str, optional
+        What those said, by name, that cannot learn from the recordings.
+    """
 
     models: Mapping[str, FrameImputer]
+    left_out: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
     def of(cls, recordings: Sequence[Recording]) -> Self:
         """Fit every candidate that can be fitted."""
         has_markers = markers_of(recordings[0].channels, recordings[0].units)
         candidates = {**CANDIDATES, **OF_MARKERS} if has_markers else CANDIDATES
-        return cls(_fitted({name: new() for name, new in candidates.items()}, recordings))
+        return cls(*_asked(candidates, lambda new: new().fit(recordings)))
 
     def anew(self, recordings: Sequence[Recording]) -> Self:
         """Return the models fitted to other recordings; `Jointly` keeps its parameters."""
-        models = {name: copy(model) for name, model in self.models.items()}
-        return replace(self, models=_fitted(models, recordings))
+        models, left_out = _asked(self.models, partial(_anew, recordings=recordings))
+        return type(self)(models, {**self.left_out, **left_out})
 
     def impute(self, recording: Recording, names: Iterable[str]) -> dict[str, Prediction]:
         """Return the predictions of some of the models, those that can fill the recording."""
-        chosen = replace(self, models={name: self.models[name] for name in names})
-        return chosen._filled(recording, lambda model: model.impute)
+        chosen = {name: self.models[name] for name in names}
+        return _asked(chosen, lambda model: model.impute([recording])[0])[0]
 
     def means(self, recording: Recording) -> dict[str, FrameByChannel]:
         """Return the means of `impute`, without the trials that variances need."""
-        filled = self._filled(recording, _without_trials)
-        return {name: prediction.mean for name, prediction in filled.items()}
-
-    def _filled(
-        self, recording: Recording, how: Callable[[FrameImputer], Impute]
-    ) -> dict[str, Prediction]:
-        predictions = {}
-        for name, model in self.models.items():
-            with _if_it_can():
-                (predictions[name],) = how(model)([recording])
-        return predictions
+        return _asked(self.models, lambda model: _without_trials(model)([recording])[0].mean)[0]
 
 
-def _fitted(
-    models: Mapping[str, FrameImputer], recordings: Sequence[Recording]
-) -> Mapping[str, FrameImputer]:
-    fitted = {}
+def _asked(
+    models: Mapping[str, Asked], question: Callable[[Asked], Answer]
+) -> tuple[dict[str, Answer], dict[str, str]]:
+    """Return what models answer, and what those said that cannot: they raise a ValueError."""
+    answers, refusals = {}, {}
     for name, model in models.items():
-        with _if_it_can():
-            fitted[name] = model.fit(recordings)
-    return fitted
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                answers[name] = question(model)
+        except ValueError as error:
+            refusals[name] = f"{type(error).__name__}: {error}"
+    return answers, refusals
 
 
-@contextmanager
-def _if_it_can() -> Iterator[None]:
-    """Leave a model out that expects other data: it refuses them with a ValueError."""
-    with warnings.catch_warnings(), suppress(ValueError):
-        warnings.simplefilter("ignore")
-        yield
+def _anew(model: FrameImputer, recordings: Sequence[Recording]) -> FrameImputer:
+    if isinstance(model, Jointly):
+        return model.with_recordings(recordings)
+    return copy(model).fit(recordings)
 
 
 def _without_trials(model: FrameImputer) -> Impute:

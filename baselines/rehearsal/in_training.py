@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,10 +39,12 @@ def ratios_in_training(
     """
     totals = np.zeros((len(masks), 2, len(given.channels)))
     for held_out, left in turns(learnt_from, given):
-        with suppress(ValueError):  # What is left may be too little to learn from.
+        try:
             rest = clone(model).fit(left)
-            for number, ratios in _ratios(rest, held_out, ~given.visible, masks):
-                totals[number] += ratios
+        except ValueError:  # What is left may be too little to learn from.
+            continue
+        for number, ratios in _ratios(rest, held_out, ~given.visible, masks):
+            totals[number] += ratios
     return totals
 
 
@@ -51,9 +52,11 @@ def _ratios(
     rest: Widened, held_out: Sequence[Recording], hidden: Mask, masks: Sequence[Mask]
 ) -> Iterator[tuple[int, Array]]:
     for number, (cut, gap, mask) in _in_place(held_out, hidden, masks):
-        with suppress(ValueError):  # A channel may be visible nowhere else.
+        try:
             (answer,) = rest.as_claimed([cut.hide(gap | mask)])
-            yield number, squared_ratios(cut, mask, answer)
+        except ValueError:  # A channel may be visible nowhere else.
+            continue
+        yield number, squared_ratios(cut, mask, answer)
 
 
 def _in_place(

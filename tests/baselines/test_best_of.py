@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines import MOHGP, BestOf, MakimaImputer, PchipImputer
+from mocapbench.baselines import MOHGP, BestOf, LinearImputer, MakimaImputer, PchipImputer
+from mocapbench.baselines.choosing import panel
 from mocapbench.baselines.choosing.panel import CANDIDATES
 from mocapbench.datasets import Recording, ToyProcess
 
@@ -122,3 +123,15 @@ def test_what_cannot_be_filled_is_refused():
     unseen = [gap(recording, 0, 60, [0]) for recording in TRAINING]
     with pytest.raises(ValueError, match=r"none of \['a'\]"):
         BestOf().fit(unseen).impute(unseen[:1])
+
+
+def test_candidates_that_cannot_learn_are_left_out_with_their_reason(recording, monkeypatch):
+    class Broken(LinearImputer):
+        def fit(self, recordings):
+            raise np.linalg.LinAlgError("singular matrix")
+
+    monkeypatch.setattr(panel, "CANDIDATES", {**panel.CANDIDATES, "broken": Broken})
+    model = BestOf().fit([recording])
+    assert model.left_out_["broken"] == "LinAlgError: singular matrix"
+    assert not set(model.left_out_) & set(model.panel_.models)
+    assert {*model.left_out_, *model.panel_.models} == set(panel.CANDIDATES)

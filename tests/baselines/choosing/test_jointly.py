@@ -42,15 +42,23 @@ def test_it_is_the_process_given_all_recordings_together(model):
     assert (filled.variance[hidden] > 0).all()
 
 
-def test_parameters_are_learnt_once(model):
-    """Even if complete recordings follow."""
+def test_with_other_recordings_parameters_stay(model):
+    """Even if they are complete."""
     before = model.process_.parameters_.flat.copy()
     others = [walk("three", 0.3), walk("four", 0.4)]
-    again = Jointly(MOHGP(n_restarts=1, max_iter=15)).fit(TRAINING).fit(others)
+    again = model.with_recordings(others)
+    assert [recording.name for recording in model.recordings_] == ["one", "two"]
     np.testing.assert_array_equal(again.process_.parameters_.flat, before)
     assert [recording.name for recording in again.recordings_] == ["three", "four"]
     model.impute([gap(walk("new"))])
     np.testing.assert_array_equal(model.process_.parameters_.flat, before)
+
+
+def test_fit_forgets_what_was_learnt_before(model):
+    others = [gap(walk("three", 0.9)).with_values(5.0 * gap(walk("three", 0.9)).values ** 3)]
+    fresh = Jointly(MOHGP(n_restarts=1, max_iter=15)).fit(others)
+    again = Jointly(MOHGP(n_restarts=1, max_iter=15)).fit(TRAINING).fit(others)
+    np.testing.assert_array_equal(again.process_.parameters_.flat, fresh.process_.parameters_.flat)
 
 
 def test_company_does_not_matter(model):
