@@ -92,7 +92,7 @@ class Prediction:
     Raises
     ------
     ValueError
-        If they are no real numbers of one shape (N, D), or a variance is negative.
+        If they are not real numbers of one shape (N, D), or a variance is negative.
 
     Examples
     --------

@@ -19,8 +19,21 @@ from mocapbench.datasets import Mask, Recording
 
 __all__ = ["EVERYTHING", "GAPS", "Part", "parts_of"]
 
-Kind = Callable[[Mask], Mask]
-"""From what is hidden (N, D) to the entries that a kind of gaps may have, visible ones included."""
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of gaps.
+
+    Parameters
+    ----------
+    label : str
+        What names of parts of this kind end in.
+    entries : callable
+        From what is hidden (N, D) to the entries that such gaps may have, visible ones included.
+    """
+
+    label: str
+    entries: Callable[[Mask], Mask]
 
 
 def _any(hidden: Mask) -> Mask:
@@ -42,6 +55,12 @@ def _not_whole_channels(hidden: Mask) -> Mask:
     return ~_whole_channels(hidden)
 
 
+_ANY = Kind("", _any)
+_FRAMES = Kind(", whole frames", _whole_frames)
+_LOST = Kind(", whole channels", _whole_channels)
+_NOT_LOST = Kind("", _not_whole_channels)
+
+
 @dataclass(frozen=True, eq=False)
 class Part:
     """Channels, and gaps of all kinds or of one.
@@ -49,27 +68,26 @@ class Part:
     Parameters
     ----------
     channels : ndarray of bool, shape (D,), or slice
-    kind : callable
-        From what is hidden (N, D) to the entries that such gaps may have.
+    kind : Kind
     """
 
     channels: NDArray[np.bool_] | slice
-    kind: Kind = _any
+    kind: Kind = _ANY
 
     @property
     def widely(self) -> Part:
         """Gaps of all kinds in its channels, for a part that no trial has room for."""
-        return replace(self, kind=_any)
+        return replace(self, kind=_ANY)
 
     def entries(self, hidden: Mask) -> Mask:
         """Return the entries (N, D) of the part, if ``hidden`` is what is hidden."""
         entries = np.zeros_like(hidden)
-        entries[:, self.channels] = self.kind(hidden)[:, self.channels]
+        entries[:, self.channels] = self.kind.entries(hidden)[:, self.channels]
         return entries
 
 
 EVERYTHING = Part(slice(None))
-GAPS = Part(slice(None), _not_whole_channels)
+GAPS = Part(slice(None), _NOT_LOST)
 """All but the channels that are hidden throughout."""
 
 
@@ -85,14 +103,14 @@ def parts_of(recording: Recording) -> Mapping[str, Part]:
     lost = _whole_channels(hidden)
     whole, gaps = _whole_frames(hidden), hidden & ~lost
     both = bool(lost.any() and gaps.any())
-    kinds: dict[str, Kind] = {"": _not_whole_channels if both else _any}
+    kinds = [_NOT_LOST if both else _ANY]
     if whole.any() and (gaps & ~whole).any():
-        kinds[", whole frames"] = _whole_frames
+        kinds.append(_FRAMES)
     if both:
-        kinds[", whole channels"] = _whole_channels
+        kinds.append(_LOST)
     return {
-        f"{unit}{kind}": Part(units == unit, kinds[kind])
+        f"{unit}{kind.label}": Part(units == unit, kind)
         for unit in np.unique(units)
         for kind in kinds
-        if kinds[kind] is not _whole_channels or lost[:, units == unit].any()
+        if kind != _LOST or lost[:, units == unit].any()
     }

@@ -86,8 +86,8 @@ class Rehearsals:
     def are_short(self, part: Part = EVERYTHING) -> bool:
         """Return whether copies of the longest gap of a part's kind had to be shortened."""
         hidden = ~self.given.visible
-        copies = [trial & part.kind(hidden | trial) for trial in self.trials]
-        return _longest(copies) < _longest([hidden & part.kind(hidden)])
+        copies = [trial & part.kind.entries(hidden | trial) for trial in self.trials]
+        return _longest(copies) < _longest([hidden & part.kind.entries(hidden)])
 
     def own(self, part: Part = EVERYTHING) -> list[Products]:
         """Return the products of errors in the recording itself, for each trial."""

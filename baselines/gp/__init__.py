@@ -11,7 +11,8 @@ Data pass through its folders and modules in this order:
 * `posterior`: predictions, joint covariances and draws with these parameters;
 * `estimator`: the base class of the models, on `covariances` (what is learnt), `imputation` (what
   is predicted) and `synthesis` (what is drawn). `trended` adds a trend to it; `channelwise` and
-  `channel_posteriors` make one model for each channel.
+  `channel_posteriors` make one model for each channel. `registration` moves recordings in time
+  before; `conditioned` is what is known after.
 
 ``docs/inference.md`` has the mathematics in the names used here.
 """

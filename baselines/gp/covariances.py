@@ -77,7 +77,7 @@ class LearntCovariances(Coregionalised):
         sklearn.exceptions.NotFittedError
             If `fit` has not been called.
         ValueError
-            If the model has no such layer, or times are no finite numbers.
+            If the model has no such layer, or times are not finite numbers.
         """
         check_is_fitted(self)
         check_choice("layer", layer, self.layers)

@@ -34,7 +34,7 @@ class TrendedProcess(GaussianProcess, Trended):
         sklearn.exceptions.NotFittedError
             If `fit` has not been called.
         ValueError
-            If times are no finite numbers.
+            If times are not finite numbers.
         """
         check_is_fitted(self)
         return self._infer(self.reduction_.trend, times)

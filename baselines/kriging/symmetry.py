@@ -69,19 +69,21 @@ def symmetries(recordings: Sequence[Recording]) -> tuple[Image, ...]:
     channels = recordings[0].channels
     itself = (Image.itself(len(channels)),)
     mirrored = _mirror_image(channels)
+    if mirrored is None:
+        return itself
     shared = [_shared(mirrored, recording) for recording in recordings]
     return (*itself, mirrored) if np.mean(shared) >= _LEAST_SHARED else itself
 
 
-def _mirror_image(channels: Sequence[str]) -> Image:
-    """Return the mirror image; all signs are 0 where names do not tell what it is."""
+def _mirror_image(channels: Sequence[str]) -> Image | None:
+    """Return the mirror image; None where names do not tell what it is."""
     parts = [name.rpartition(".") for name in channels]
     segments = {segment for segment, _, _ in parts}
     opposite = [f"{_opposite(segment, segments)}{dot}{axis}" for segment, dot, axis in parts]
     signs = np.array([_SIGNS.get(axis, 0.0) for _, _, axis in parts])
     known = signs.all() and opposite != list(channels) and set(opposite) == set(channels)
     if not known:
-        return Image(np.arange(len(channels)), np.zeros(len(channels)))
+        return None
     return Image(np.array([list(channels).index(name) for name in opposite]), signs)
 
 

@@ -168,13 +168,13 @@ def _whole(hidden: Mask, places: Places, place: float) -> Iterator[tuple[tuple[i
     Channels that are hidden throughout do not count. There is no copy unless one as long as the gap
     fits in all the others at once; then the gap is one of their channels, as any other.
     """
-    shown = hidden[:, ~hidden.all(axis=0)]
+    gappy = hidden[:, ~hidden.all(axis=0)]
     gaps = whole_gaps(hidden)
-    if not shown[np.setdiff1d(np.arange(len(hidden)), np.concatenate([[], *gaps]))].any():
+    if not gappy[np.setdiff1d(np.arange(len(hidden)), np.concatenate([[], *gaps]))].any():
         return
-    for gap, frames in _tried(np.asarray(shown.any(axis=1)), 0, gaps, places, place):
-        at_an_end = shown[: frames[0]].all() or shown[frames[-1] + 1 :].all()
-        if len(frames) == len(gap) and at_an_end >= _at_an_end(shown[:, 0], gap):
+    for gap, frames in _tried(np.asarray(gappy.any(axis=1)), 0, gaps, places, place):
+        at_an_end = gappy[: frames[0]].all() or gappy[frames[-1] + 1 :].all()
+        if len(frames) == len(gap) and at_an_end >= _at_an_end(gappy[:, 0], gap):
             yield (gap[0], gap[-1]), frames
 
 

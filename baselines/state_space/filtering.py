@@ -53,13 +53,14 @@ def filtered(parameters: Parameters, data: Observations) -> Filtered:
     mean, before = _means(parameters, data, information, covariance, score)
     # With e = y − d − C x and g = Cᵀ R⁻¹ e = h − J x, the residual's covariance S obeys
     # log|S| = log|R| + log|I + P J| and eᵀ S⁻¹ e = eᵀ R⁻¹ e − gᵀ P' g.
-    told = (information[data.groups] @ before[..., None])[..., 0]
-    surprise = score - told
-    explained = (surprise[..., None, :] @ covariance[data.groups] @ surprise[..., None])[..., 0, 0]
-    squares = (weights * centred**2).sum(axis=2) + (before * (told - 2.0 * score)).sum(axis=2)
-    entropy = np.linalg.slogdet(np.eye(q) + predicted @ information)[1][data.groups]
-    entropy = entropy + data.visible @ np.log(2.0 * np.pi * parameters.noise)
-    terms = -0.5 * (squares - explained + entropy)
+    expected = (information[data.groups] @ before[..., None])[..., 0]
+    innovation = score - expected
+    row, column = innovation[..., None, :], innovation[..., None]
+    explained = (row @ covariance[data.groups] @ column)[..., 0, 0]
+    squares = (weights * centred**2).sum(axis=2) + (before * (expected - 2.0 * score)).sum(axis=2)
+    log_determinant = np.linalg.slogdet(np.eye(q) + predicted @ information)[1][data.groups]
+    log_determinant = log_determinant + data.visible @ np.log(2.0 * np.pi * parameters.noise)
+    terms = -0.5 * (squares - explained + log_determinant)
     return Filtered(mean, covariance, predicted, np.where(data.frames, terms, 0.0).sum(axis=1))
 
 
