@@ -19,12 +19,10 @@ from mocapbench.baselines.alignment.inference import corrected, refine
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.sequences import Array
-from mocapbench.baselines.alignment.synthesis import blended, draw_cycles, draw_sequences
+from mocapbench.baselines.alignment.synthesis import blended, draw_sequences
 from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.validation import (
-    check_count,
     check_sampling,
-    check_seed,
 )
 from mocapbench.baselines.protocols import (
     Blender,
@@ -244,18 +242,6 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         times = check_sampling(times, n_samples, random_state)
         rng = np.random.default_rng(random_state)
         return self._unscaled(draw_sequences(self.state_, n_samples, len(times), rng))
-
-    def sample_cycles(
-        self, style: int, n_samples: int, random_state: int | np.random.Generator
-    ) -> SampleByFrameByChannel:
-        """Draw cycles (n, M, D) of a style, without noise."""
-        check_is_fitted(self)
-        if style not in range(self.n_styles):
-            raise ValueError(f"expected style to be from 0 to {self.n_styles - 1}, got {style!r}")
-        check_count("n_samples", n_samples, 1)
-        check_seed("random_state", random_state)
-        rng = np.random.default_rng(random_state)
-        return self._unscaled(draw_cycles(self.state_, style, n_samples, rng))
 
     def blend(self, weights: ArrayLike) -> FrameByChannel:
         """Return the styles' mean cycles mixed by weights (N, C) that vary from frame to frame.

@@ -152,12 +152,6 @@ def test_samples_look_like_a_walk_of_any_length(fitted):
     assert fitted.sample(np.zeros(1), 2, 0).shape == (2, 1, 4)
 
 
-def test_new_cycles_scatter_about_the_styles_mean(fitted):
-    cycles = fitted.sample_cycles(0, 200, 0)
-    np.testing.assert_allclose(cycles.mean(axis=0), fitted.cycles_[0], atol=1.5)
-    assert (cycles.std(axis=0) > 0).all()
-
-
 def test_a_blend_lies_between_the_styles_that_it_mixes(fitted):
     pure = [fitted.blend(np.tile(row, (30, 1))) for row in np.eye(2)]
     share = np.linspace(0.0, 1.0, 30)[:, None]
