@@ -68,3 +68,10 @@ def test_no_package_exports_a_name_that_a_module_of_its_own_has(stub):
 def test_every_path_that_the_page_names_exists():
     for path in re.findall(r"`((?:[a-z_]+/)+[a-z_.]*)`", PAGE):
         assert (ROOT / path).exists(), path
+
+
+@pytest.mark.parametrize("package", sorted((ROOT / "baselines").glob("*/__init__.py")), ids=str)
+def test_a_package_of_baselines_names_its_modules(package):
+    about = ast.get_docstring(ast.parse(package.read_text(encoding="utf-8"))) or ""
+    modules = {path.stem for path in package.parent.glob("[!_]*.py")}
+    assert modules <= set(re.findall(r"`(\w+)`", about))

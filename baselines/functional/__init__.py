@@ -4,7 +4,8 @@
 
 * `basis`: Fourier series; `statistics`: sums over visible entries;
 * `period`: the length of a cycle; `shifts`: recordings shifted to a common curve;
-* `components`: the model of cycles, its posterior and its update; `fitting`: the rounds;
+* `cycles`: recordings cut into cycles; `components`: the model of cycles, its posterior and its
+  update; `fitting`: the rounds;
 * `placement`: new recordings on the cycle; `prediction`: entries that the model predicts;
 * `validation`: checks of the estimators' parameters.
 """
