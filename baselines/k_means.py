@@ -114,6 +114,7 @@ class KMeans(Clusterer):
 def _cycle(recording: Recording, n_frames: int, mean: Array) -> FrameByChannel:
     """Return the first cycle at ``n_frames`` frames; a wholly hidden channel takes its mean."""
     period = cycle_length(Sequences.of([recording.values]))
+    frames = np.arange(len(recording.times), dtype=np.float64)
     places = period * np.arange(n_frames) / n_frames
-    cycle = interpolated(recording.values, np.arange(len(recording.times)), places)
+    cycle = interpolated(recording.values, frames, places)
     return np.where(np.isnan(cycle), mean, cycle)

@@ -83,7 +83,8 @@ def first_cycle(frames: Array, n_frames: int, n_states: int) -> Array:
     """
     given = frames[:n_frames]
     positions = np.linspace(0.0, len(given), n_states, endpoint=False)
-    return np.nan_to_num(interpolated(given, np.arange(len(given)), positions))
+    numbers = np.arange(len(given), dtype=np.float64)
+    return np.nan_to_num(interpolated(given, numbers, positions))
 
 
 def best_paths(state: State, sequences: Sequences) -> tuple[NDArray[np.intp], ...]:

@@ -90,7 +90,8 @@ def least_rotations(before: Array, after: Array, weights: Array) -> Array:
     ahead /= np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), _TINY)
     cosine = ahead @ line
     cross = _cross(np.cross(line, ahead))
-    return np.eye(3) + cross + cross @ cross / np.maximum(1.0 + cosine, _TINY)[:, None, None]
+    twice = cross @ cross / np.maximum(1.0 + cosine, _TINY)[:, None, None]
+    return np.asarray(np.eye(3) + cross + twice)
 
 
 def spans_a_body(shapes: Array, weights: Array) -> bool:
@@ -126,4 +127,4 @@ def _beside(points: Array, line: Array) -> Array:
 
 def _cross(axes: Array) -> Array:
     """Return the matrices (..., 3, 3) by which row vectors become their products with axes."""
-    return np.cross(axes[..., None, :], np.eye(3))
+    return np.asarray(np.cross(axes[..., None, :], np.eye(3)))

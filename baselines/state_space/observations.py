@@ -62,4 +62,5 @@ class Observations(Sequences):
 
         A channel that a sequence never shows is 0, its mean over all sequences.
         """
-        return [np.nan_to_num(interpolated(y, np.arange(len(y)))) for y in self.arrays()]
+        frames = np.arange(self.values.shape[1], dtype=np.float64)
+        return [np.nan_to_num(interpolated(y, frames[: len(y)])) for y in self.arrays()]
