@@ -6,12 +6,11 @@ Whole frames:
   that is inferred makes it; `own_course`: one over time alone; `beside_gaps`: gaps filled by it;
 * `paths`: training recordings matched with a new one; `symmetry`: the mirror image of a motion.
 
-Channels of a frame:
+Processes whose parameters predict best what is left out:
 
-* `stacked`: the frames of several recordings; `left_out`: errors in recordings left out.
-
-Markers:
-
+* `left_out_gaps`: errors in gaps that are left out; `learning`: the search for the parameters;
+* `stacked`: the frames of several recordings, and which channels say most of others;
+  `channel_pairs`, `channel_process`: the process of channels that others show;
 * `local_frames`: bodies that move with markers; `marker_gap`: a gap of a marker seen from one;
-* `marker_process`: the process of where it is; `left_out_gaps`: errors in gaps left out.
+  `marker_process`: the process of where it is.
 """

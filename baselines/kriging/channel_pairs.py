@@ -99,7 +99,7 @@ class ChannelPairs:
         for place, lags in self.together:
             course = drift**2 * Matern32().value(lags, lasting)
             covariance[place] = (1.0 + own**2) * covariance[place] + course
-        return covariance
+        return np.asarray(covariance)
 
     def derivatives(self, parameters: Array) -> Sequence[Array]:
         """Return those of the covariance by the logarithms of ℓ, √β, √α, √γ and τ."""

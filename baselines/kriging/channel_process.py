@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from mocapbench.baselines.kriging.channel_pairs import TYPICAL, ChannelPairs, DescribedFrames
-from mocapbench.baselines.kriging.learning import best_predicting, evenly, noisy, stretches
+from mocapbench.baselines.kriging.learning import best_predicting, evenly, noisy, stretch_numbers
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 
 __all__ = ["ChannelProcess"]
@@ -18,7 +18,7 @@ __all__ = ["ChannelProcess"]
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
-_LEARNT = 100
+_LEARNT = 150
 """Frames of the recording to fill, and of all others, from which parameters are learnt."""
 _SUPPOSED = 2.0
 """Gaps that count as erring as the prior has it, beside those that are left out."""
@@ -71,7 +71,7 @@ class ChannelProcess:
         frames, values = frames.at(some), values[some]
         squares = np.maximum((values**2).mean(axis=0), _LEAST)
         values = values / np.sqrt(squares)
-        stretch = stretches(frames.place, frames.recording, duration)
+        stretch = stretch_numbers(frames.place, frames.recording, duration)
         n_gaps, pairs = int(stretch.max()) + 1, ChannelPairs.of(frames, frames)
         weight = n_gaps / len(stretch) / np.sqrt(values.shape[1])
         found = best_predicting(pairs, values, stretch, TYPICAL, weight)

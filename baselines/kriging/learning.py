@@ -11,7 +11,7 @@ from scipy.optimize import Bounds, minimize
 
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 
-__all__ = ["Pairs", "best_predicting", "evenly", "noisy", "stretches"]
+__all__ = ["Pairs", "best_predicting", "evenly", "noisy", "stretch_numbers"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -88,7 +88,9 @@ def noisy(pairs: Pairs, parameters: Array) -> Array:
     return covariance
 
 
-def stretches(times: Array, recording: Index, duration: float) -> Index:
+def stretch_numbers(
+    times: NDArray[np.float64 | np.intp], recording: Index, duration: float
+) -> Index:
     """Return the numbers (n,) of stretches that last so long, or less if they would be few.
 
     Parameters

@@ -26,8 +26,9 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.spatial.distance import cdist
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
-from mocapbench.baselines.kriging.learning import best_predicting, noisy, stretches
+from mocapbench.baselines.kriging.learning import best_predicting, noisy, stretch_numbers
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
+from mocapbench.baselines.kriging.student import student_variance
 
 __all__ = ["FramePairs", "MarkerFrames", "MarkerProcess"]
 
@@ -139,11 +140,11 @@ class MarkerProcess:
             How long the gaps are.
         """
         pairs = FramePairs.of(frames, frames)
-        stretch = stretches(frames.times, frames.recording, seconds)
+        stretch = stretch_numbers(frames.times, frames.recording, seconds)
         n_gaps = int(stretch.max()) + 1
         found = best_predicting(pairs, values, stretch, _TYPICAL, n_gaps / len(stretch))
         scale = max(LeftOutGaps(noisy(pairs, found), values, stretch).scale, _LEAST_SCALE)
-        return cls(found, scale * n_gaps / max(n_gaps - 2, 1))
+        return cls(found, scale * student_variance(n_gaps))
 
     def predict(
         self, frames: MarkerFrames, values: Array, wanted: MarkerFrames

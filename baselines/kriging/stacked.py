@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.linear_model import Ridge
 
+from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.common.recordings import stack
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -52,7 +53,7 @@ class StackedFrames:
         lengths = [len(recording.times) for recording in recordings]
         return cls(
             stack(recordings),
-            np.concatenate([_windows(_interpolated(recording)) for recording in recordings]),
+            np.concatenate([_windows(recording) for recording in recordings]),
             np.repeat(np.arange(len(recordings)), lengths),
             np.concatenate([np.arange(length) for length in lengths]),
         )
@@ -85,17 +86,8 @@ class StackedFrames:
         return np.asarray(relevance / np.sqrt((relevance**2).mean()))
 
 
-def _interpolated(recording: Recording) -> FrameByChannel:
-    """Return the values with hidden entries interpolated linearly, or held at the ends."""
-    times, values = recording.times, np.zeros_like(recording.values)
-    for d, channel in enumerate(recording.values.T):
-        seen = ~np.isnan(channel)
-        if seen.any():
-            values[:, d] = np.interp(times, times[seen], channel[seen])
-    return values
-
-
-def _windows(values: FrameByChannel) -> Array:
+def _windows(recording: Recording) -> Array:
     """Return each frame with others beside it (N, W, D); the ends are held."""
+    values = np.nan_to_num(interpolated(recording.values, recording.times))
     places = np.arange(len(values))[:, None] + _BESIDE
     return np.asarray(values[np.clip(places, 0, len(values) - 1)])

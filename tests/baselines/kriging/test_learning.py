@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.kriging.channel_pairs import TYPICAL, ChannelPairs, DescribedFrames
-from mocapbench.baselines.kriging.learning import best_predicting, evenly, noisy, stretches
+from mocapbench.baselines.kriging.learning import best_predicting, evenly, noisy, stretch_numbers
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 
 TIMES = np.concatenate([np.arange(60), np.arange(30)]) / 30
@@ -10,13 +10,13 @@ RECORDING = np.repeat([0, 4], [60, 30])
 
 
 def test_stretches_last_as_long_as_asked_and_are_of_one_recording():
-    stretch = stretches(TIMES, RECORDING, 0.5)
+    stretch = stretch_numbers(TIMES, RECORDING, 0.5)
     assert [int((stretch == number).sum()) for number in np.unique(stretch)] == [15] * 6
     assert set(stretch[RECORDING == 0]).isdisjoint(stretch[RECORDING == 4])
 
 
 def test_stretches_are_shorter_where_there_would_be_fewer_than_four():
-    assert stretches(TIMES, RECORDING, 100.0).max() + 1 >= 4
+    assert stretch_numbers(TIMES, RECORDING, 100.0).max() + 1 >= 4
 
 
 def test_rows_are_spread_evenly():
@@ -34,7 +34,7 @@ def test_nothing_beside_what_is_learnt_predicts_better():
     frames = DescribedFrames(description, np.r_[np.arange(60), np.arange(30)], RECORDING)
     values = description[:, [0]] ** 2 + 0.1 * rng.normal(size=(90, 1))
     values = (values - values.mean()) / values.std()
-    stretch = stretches(TIMES, RECORDING, 0.3)
+    stretch = stretch_numbers(TIMES, RECORDING, 0.3)
     pairs = ChannelPairs.of(frames, frames)
     weight = (stretch.max() + 1) / 90
 
@@ -57,5 +57,8 @@ def test_noise_is_on_the_diagonal():
 @pytest.mark.parametrize("seed", range(3))
 def test_a_copy_of_frames_changes_no_stretch(seed):
     order = np.random.default_rng(seed).permutation(90)
-    one, other = stretches(TIMES, RECORDING, 0.4), stretches(TIMES[order], RECORDING[order], 0.4)
+    one, other = (
+        stretch_numbers(TIMES, RECORDING, 0.4),
+        stretch_numbers(TIMES[order], RECORDING[order], 0.4),
+    )
     np.testing.assert_array_equal(one[order], other)
