@@ -3,7 +3,6 @@
 ::
 
     python docs/evidence/imputation.py walkers # pose-kriging, each training walker left out in turn
-    python docs/evidence/imputation.py halves  # channel-kriging, halves of training recordings
     python docs/evidence/imputation.py tasks   # both on the tasks themselves, with seconds
 
 Only `tasks` uses the tests of `missing-frames` and `subject-35-missing`, which choose nothing.
@@ -21,8 +20,6 @@ from numpy.typing import NDArray
 
 from mocapbench import benchmark as bench
 from mocapbench.baselines import ChannelKriging, FrameImputer, PoseKriging
-from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.benchmark import METRICS, TASKS, Address, ImputeProblem, Seeds
 from mocapbench.benchmark.problems.impute import FilledRecordings
 from mocapbench.benchmark.tasks.missing_frames import (
@@ -108,57 +105,6 @@ def _outcome(problem: ImputeProblem, model: FrameImputer) -> Imputation:
     return problem.outcome(FilledRecordings(tuple(model.impute(problem.given))))
 
 
-HALVES: Sequence[dict[str, float]] = (
-    {},
-    *({"noise": noise} for noise in (0.02, 0.1, 0.2)),
-    *({"lengthscale": length} for length in (0.5, 1.4, 2.0)),
-    *({"time_lengthscale": lasting} for lasting in (4.0, 16.0)),
-    *({"own": own} for own in (0.0, 0.03, 0.3)),
-    *({"drift": drift} for drift in (0.05, 0.2)),
-    {"drift": 0.0, "noise": 0.15},
-)
-"""Changes of the defaults."""
-
-
-def halves() -> None:
-    """Print errors where the second half of a part is left out in each recording in turn.
-
-    They follow from the inverse of one covariance of all frames (Rasmussen and Williams 2006, eq.
-    5.12, for blocks). Columns: RMS of angles in degrees and cumulative scaled error, as if 62
-    frames were hidden, of the leg and of the upper body; their geometric mean.
-    """
-    problems = [_posed("subject-35-missing", part, 0) for part in ("right leg", "upper body")]
-    for parameters in HALVES:
-        errors = np.ravel([_halves(problem, ChannelKriging(**parameters)) for problem in problems])
-        print(
-            np.round(errors, 2),
-            round(float(np.exp(np.log(errors).mean())), 3),
-            parameters,
-            flush=True,
-        )
-
-
-def _halves(problem: ImputeProblem, model: ChannelKriging) -> tuple[float, float]:
-    channels = np.flatnonzero(np.isnan(problem.given[0].values[-1]))
-    scaling = Standardisation.of(problem.train)
-    frames = StackedFrames.of([scaling.apply(recording) for recording in problem.train])
-    every = np.arange(len(frames.values))
-    others = np.setdiff1d(np.arange(frames.values.shape[1]), channels)
-    prior = model._covariance(frames, every, every, others)
-    precision = np.linalg.inv(prior + model.noise * np.eye(len(every)))
-    dual = precision @ frames.values[:, channels]
-    assert problem.scales is not None
-    squares, scaled = [], []
-    for number in range(len(problem.train)):
-        rows = np.flatnonzero(frames.recording == number)
-        rows = rows[len(rows) // 2 :]
-        errors = np.linalg.solve(precision[np.ix_(rows, rows)], dual[rows])
-        degrees = errors * (scaling.scale / problem.unit.scale)[channels]
-        squares.append(np.mean(degrees**2))
-        scaled.append(62 * np.mean((degrees * problem.scales[channels]) ** 2))
-    return float(np.sqrt(np.mean(squares))), float(np.mean(scaled))
-
-
 def tasks() -> None:
     """Print the scores of both models on the tasks, and seconds of this process."""
     for task, model, names, n_folds in (
@@ -193,4 +139,4 @@ def _posed(task: str, case: str, fold: int) -> ImputeProblem:
 
 
 if __name__ == "__main__":
-    {"walkers": walkers, "halves": halves, "tasks": tasks}[sys.argv[1]]()
+    {"walkers": walkers, "tasks": tasks}[sys.argv[1]]()
