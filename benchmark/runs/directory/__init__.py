@@ -1,1 +1,1 @@
-"""What a run directory holds besides records and predictions: the plan, parts of keys, the lock."""
+"""The files of a run directory: records, predictions, the plan, parts of keys, check and lock."""

@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from mocapbench.benchmark.files import target_of
+from mocapbench.benchmark.runs.directory.fit_files import PREDICTIONS
 from mocapbench.benchmark.runs.directory.key_file import KEYS
 from mocapbench.benchmark.runs.directory.plan_file import PLAN
+from mocapbench.benchmark.runs.directory.record_files import RECORDS
 
 __all__ = ["sweep"]
 
@@ -19,7 +21,7 @@ def sweep(folder: Path) -> None:
     top = [path for path in folder.glob(".*") if target_of(path) in _WRITTEN_UNDER_LOCK]
     below = [
         path
-        for name in ("records", "predictions")
+        for name in (RECORDS, PREDICTIONS)
         for path in (folder / name).rglob(".*")
         if target_of(path)
     ]
