@@ -3,7 +3,20 @@ import time
 import psutil
 import pytest
 
+from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.source_code import reading
+from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.tasks.address import Address
+
+
+@pytest.fixture
+def store(tmp_path):
+    return Store.create(tmp_path / "run")
+
+
+@pytest.fixture
+def record():
+    return Record("k" * 64, "f", Address("t", 1, "c", 0, "label"), 0, "model", {}, Status.OK)
 
 
 @pytest.fixture

@@ -198,6 +198,7 @@ def test_every_module_that_models_have_in_common_is_among_those():
         "benchmark.problems.cluster",
         "benchmark.registry",
         "benchmark.runs.evaluate",
+        "benchmark.runs.directory.record_files",
         "benchmark.runs.store",
         "benchmark.tasks.missing_frames",
         "benchmark.tasks.pages.toy_interpolation",

@@ -48,3 +48,15 @@ def test_what_is_no_plan_is_refused(tmp_path, changes):
     (tmp_path / "plan.json").write_text(json.dumps({**WHOLE, **changes}))
     with pytest.raises(UsageError, match="is not a plan; run `mocapbench run` again"):
         load_plan(tmp_path)
+
+
+def test_a_damaged_plan_says_what_to_do(store):
+    with pytest.raises(UsageError, match="run `mocapbench run` again"):
+        store.load_plan()
+    for foreign in ("{}", "5", "[]", '{"keys": 3, "provenance": {}}'):
+        (store.path / "plan.json").write_text(foreign)
+        with pytest.raises(UsageError, match="is not a plan"):
+            store.load_plan()
+    (store.path / "plan.json").write_text("{")
+    with pytest.raises(UsageError, match="run `mocapbench run` again"):
+        store.load_plan()
