@@ -17,10 +17,11 @@ import numpy as np
 
 from mocapbench.benchmark.filling.gaps import gaps_of
 from mocapbench.benchmark.filling.question import Answer, Question
-from mocapbench.benchmark.filling.trials.making import Trial, make_trials
+from mocapbench.benchmark.filling.trials.making import make_trials
 from mocapbench.benchmark.filling.trials.places import places_of
 from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
 from mocapbench.benchmark.filling.trials.scores import held_errors, scores_of, weights_of
+from mocapbench.benchmark.filling.trials.trial import Trial
 from mocapbench.datasets import Mask, Recording
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "speed"))

@@ -10,11 +10,12 @@ import numpy as np
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.question import Question
-from mocapbench.benchmark.filling.trials.making import Trial, make_trials
+from mocapbench.benchmark.filling.trials.making import make_trials
 from mocapbench.benchmark.filling.trials.places import places_of
 from mocapbench.benchmark.filling.trials.race import Runner, race
 from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
 from mocapbench.benchmark.filling.trials.scores import held_errors, scores_of, weights_of
+from mocapbench.benchmark.filling.trials.trial import Trial
 from mocapbench.benchmark.filling.workers import Workers
 
 __all__ = ["Choice", "NoneInTimeError", "choose"]

@@ -7,60 +7,23 @@ gap has frames on one side only, the trial begins or ends with the copy.
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Sequence
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.benchmark.filling.gaps import Episode, Gap, episodes_of, gaps_of
 from mocapbench.benchmark.filling.question import Question
-from mocapbench.benchmark.filling.trials.placement import free_places, occupy
+from mocapbench.benchmark.filling.trials.layout import Layout
+from mocapbench.benchmark.filling.trials.trial import Trial
+from mocapbench.benchmark.filling.trials.turns import Turns
 from mocapbench.datasets import Mask
 
-__all__ = ["Trial", "make_trials"]
+__all__ = ["make_trials"]
 
 MOST_TRIALS, ENOUGH_GAPS = 24, 48
 """Trials are made until there are so many of them, or so many trial gaps."""
 FEWEST_TRIALS, MOST_ENTRIES = 3, 40_000_000
 """Of long recordings there are fewer: no more than have so many entries (320 MB) in all."""
-_HIDDEN_SHARE = 0.15
-"""Of the frames, that a trial may hide besides the real gaps, unless one gap alone is longer."""
-_COPIES = 10
-"""Episodes in a trial, where the recording has fewer and room for more."""
 _REPEATS = 10
 """Trials that may repeat others before no more are made."""
-_SHARES = (1.0, 0.5, 0.25, 0.125)
-"""By which episodes are shortened that fit nowhere."""
-
-
-@dataclass(frozen=True, eq=False)
-class Trial:
-    """A question whose answer is known.
-
-    Parameters
-    ----------
-    question : Question
-        The recording, or a part of it that begins or ends with a gap, with more hidden.
-    truth : ndarray of shape (M,)
-        The values of the wanted entries, in the order of ``np.nonzero(question.target)``.
-    units : tuple of ndarray of int
-        The places among them (M,) of the entries of each trial gap, which are scored together.
-    copies : tuple of Episode
-        The trial gaps, at their frames in the whole recording.
-    originals : tuple of Episode
-        The real gaps of which these are copies.
-    share : float
-        The length of the shortest trial gap relative to the real one; 1 if none was shortened.
-    """
-
-    question: Question
-    truth: NDArray[np.float64]
-    units: tuple[NDArray[np.intp], ...]
-    copies: tuple[Episode, ...]
-    originals: tuple[Episode, ...]
-    share: float
 
 
 def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
@@ -72,7 +35,7 @@ def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
     made: set[tuple[float, bytes]] = set()
     repeats = 0
     used = np.zeros(len(question.given.times), dtype=bool)
-    turns = _Turns(_interior(question), rng)
+    turns = Turns(_interior(question), rng)
     most = min(MOST_TRIALS, max(FEWEST_TRIALS, MOST_ENTRIES // question.target.size))
     while len(trials) < most and sum(len(trial.units) for trial in trials) < ENOUGH_GAPS:
         trial = _trial(question, used, turns, rng)
@@ -86,17 +49,17 @@ def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
     return trials
 
 
-def _trial(question: Question, used: Mask, turns: _Turns, rng: np.random.Generator) -> Trial | None:
+def _trial(question: Question, used: Mask, turns: Turns, rng: np.random.Generator) -> Trial | None:
     """Return one trial, and mark the frames that it hides as used."""
     recording = question.given
-    placed = _Placement(~recording.visible, used, rng)
+    layout = Layout(~recording.visible, used, rng)
     first, last = _ends(question)
-    placed.begin(first)
-    placed.end(last)
-    placed.within(turns)
-    if not placed.episodes:
+    layout.begin(first)
+    layout.end(last)
+    layout.within(turns)
+    if not layout.episodes:
         return None
-    return _made(question, placed)
+    return _made(question, layout)
 
 
 def _hidden_where(trial: Trial) -> tuple[float, bytes]:
@@ -117,130 +80,21 @@ def _interior(question: Question) -> tuple[Episode, ...]:
     return episodes_of([gap for gap in gaps_of(question.target) if gap not in ends])
 
 
-class _Turns:
-    """Whose turn it is: every episode gets as many copies, over all trials, as every other.
-
-    Parameters
-    ----------
-    episodes : sequence of Episode
-    rng : numpy.random.Generator
-        Of the order in which they take turns.
-    """
-
-    def __init__(self, episodes: Sequence[Episode], rng: np.random.Generator) -> None:
-        self.per_trial = max(_COPIES, len(episodes)) if episodes else 0
-        self._episodes, self._rng = episodes, rng
-        self._waiting: deque[int] = deque()
-
-    def next(self) -> Episode:
-        """Return the episode whose turn it is; the turn stays its own until it is `done`."""
-        if not self._waiting:
-            self._waiting.extend(self._rng.permutation(len(self._episodes)).tolist())
-        return self._episodes[self._waiting[0]]
-
-    def done(self) -> None:
-        """Pass the turn on."""
-        self._waiting.popleft()
-
-
-class _Placement:
-    """The episodes of one trial, as they are placed one by one.
-
-    Parameters
-    ----------
-    hidden : ndarray of bool of shape (N, D)
-        What is hidden already.
-    used : ndarray of bool of shape (N,)
-        Frames that earlier trials hid; they are avoided, and added to.
-    rng : numpy.random.Generator
-    """
-
-    def __init__(self, hidden: Mask, used: Mask, rng: np.random.Generator) -> None:
-        self.blocked, self.used, self.rng = hidden.copy(), used, rng
-        self.start, self.stop = 0, len(hidden)
-        self.episodes: list[Episode] = []
-        self.originals: list[Episode] = []
-        self.share = 1.0
-
-    def begin(self, gaps: Sequence[Gap]) -> None:
-        """Have the trial begin with copies of ``gaps``, within the first third."""
-        placed = self._put(Episode(tuple(gaps)), 0, self.stop // 3) if gaps else None
-        if placed:
-            self.start = placed.start
-            self.blocked[: placed.start] = True
-
-    def end(self, gaps: Sequence[Gap]) -> None:
-        """Have the trial end with copies of ``gaps``, within the last third."""
-        length = max((len(gap) for gap in gaps), default=0)
-        first = 2 * self.stop // 3 - length
-        placed = self._put(Episode(tuple(gaps)), max(first, 0), self.stop) if gaps else None
-        if placed:
-            self.stop = placed.stop
-            self.blocked[placed.stop :] = True
-
-    def within(self, turns: _Turns) -> None:
-        """Place copies of the episodes whose turn it is, as many as a trial may hide, or one.
-
-        One that does not fit beside those as it is waits for the next trial, where it is the first;
-        there it is shortened if need be.
-        """
-        room = _HIDDEN_SHARE * (self.stop - self.start)
-        hidden, at_the_ends = 0, len(self.episodes)
-        for _ in range(turns.per_trial):
-            episode = turns.next()
-            if hidden and hidden + len(episode) > room:
-                return
-            beside = len(self.episodes) > at_the_ends
-            shares = _SHARES[:1] if beside else _SHARES
-            placed = self._put(episode, self.start, self.stop, shares)
-            if placed is None and beside:
-                return
-            hidden += len(episode)
-            turns.done()
-            if placed is None:
-                for gap in episode.gaps if len(episode.gaps) > 1 else ():
-                    self._put(Episode((gap,)), self.start, self.stop)
-
-    def _put(
-        self, episode: Episode, first: int, stop: int, shares: Sequence[float] = _SHARES
-    ) -> Episode | None:
-        """Place an episode within [first, stop), with one of the shares; None if it fits not."""
-        for share in shares:
-            shorter = episode.shortened(share)
-            places = free_places(shorter, self.blocked)
-            places = places[(places >= first) & (places + len(shorter) <= stop)]
-            if len(places):
-                placed = shorter.moved(self._chosen(places, len(shorter)) - shorter.start)
-                occupy(self.blocked, placed)
-                self.used[placed.start : placed.stop] = True
-                self.episodes.append(placed)
-                self.originals.append(episode)
-                self.share = min(self.share, share)
-                return placed
-        return None
-
-    def _chosen(self, places: np.ndarray, length: int) -> int:
-        """Return a random one of the places, where earlier trials hid nothing if there is one."""
-        counts = np.concatenate([[0], np.cumsum(self.used)])
-        fresh = places[counts[places + length] == counts[places]]
-        return int(self.rng.choice(fresh if len(fresh) else places))
-
-
-def _made(question: Question, placed: _Placement) -> Trial:
-    frames = np.arange(placed.start, placed.stop)
+def _made(question: Question, layout: Layout) -> Trial:
+    frames = np.arange(layout.start, layout.stop)
     recording = question.given.frames(frames)
     owners = np.full(question.target.shape, -1, dtype=np.int32)
-    for number, episode in enumerate(placed.episodes):
+    for number, episode in enumerate(layout.episodes):
         for gap in episode.gaps:
             owners[gap.start : gap.stop, list(gap.channels)] = number
     owners = owners[frames]
     target = owners >= 0
-    units = (np.flatnonzero(owners[target] == number) for number in range(len(placed.episodes)))
+    units = (np.flatnonzero(owners[target] == number) for number in range(len(layout.episodes)))
     return Trial(
         question=Question(recording.hide(target), target, question.train),
         truth=recording.values[target],
         units=tuple(units),
-        copies=tuple(placed.episodes),
-        originals=tuple(placed.originals),
-        share=placed.share,
+        copies=tuple(layout.episodes),
+        originals=tuple(layout.originals),
+        share=layout.share,
     )

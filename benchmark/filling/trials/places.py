@@ -16,7 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.benchmark.filling.trials.making import Trial
+from mocapbench.benchmark.filling.trials.trial import Trial
 
 __all__ = ["places_of"]
 

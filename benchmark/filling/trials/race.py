@@ -17,7 +17,7 @@ from pathlib import Path
 
 from mocapbench.benchmark.filling.attempt import Attempt
 from mocapbench.benchmark.filling.question import Answer
-from mocapbench.benchmark.filling.trials.making import Trial
+from mocapbench.benchmark.filling.trials.trial import Trial
 from mocapbench.benchmark.filling.workers import Workers
 
 __all__ = ["Runner", "race"]

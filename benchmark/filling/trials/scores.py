@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from mocapbench.benchmark.filling.question import Answer
-from mocapbench.benchmark.filling.trials.making import Trial
+from mocapbench.benchmark.filling.trials.trial import Trial
 
 __all__ = ["Scores", "held_errors", "scores_of", "weights_of"]
 
