@@ -10,7 +10,8 @@ from mocapbench.benchmark.figures.stick_figures import strip
 from mocapbench.benchmark.filling.edges import Jump, jumps
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of
-from mocapbench.benchmark.filling.wording import headline, left_out, ranked, remarks, units, verdict
+from mocapbench.benchmark.filling.ranking_table import left_out, ranked, units
+from mocapbench.benchmark.filling.wording import headline, remarks, verdict
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.datasets import Mask, Recording
 from mocapbench.reports import FilledCurve, FilledPage, Panel

@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import takewhile
 
-import numpy as np
-
 from mocapbench.benchmark.filling.cautions import cautions
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.remaining import remaining
-from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.benchmark.filling.trials.ranking import Ranking
-from mocapbench.reports import RankedModel, counted, listed
+from mocapbench.reports import counted, listed
 
-__all__ = ["headline", "left_out", "ranked", "remarks", "units", "verdict"]
+__all__ = ["headline", "remarks", "verdict"]
 
 _NAMED = 4
 """Models that a remark names at most."""
@@ -98,45 +95,6 @@ def _with_bands(filled: Filled) -> str:
     leading = takewhile(lambda model: model in ranking.sharing, ranking.order)
     alike = [model for model in leading if ranking.scores[model].coverage is not None]
     return f"Trials cannot tell it apart from {alike[0]}, which has bands." if alike else ""
-
-
-def ranked(filled: Filled) -> Iterator[RankedModel]:
-    """Yield the ranking, the chosen model first."""
-    if filled.choice is None:
-        return
-    ranking = filled.choice.ranking
-    for model in ranking.order:
-        scores = ranking.scores[model]
-        yield RankedModel(
-            model,
-            ranking.means[model],
-            tuple(scores.rmse[unit] for unit in units(filled)),
-            scores.coverage,
-            filled.choice.seconds[model],
-            _note(filled.choice, model, chosen=filled.model),
-        )
-
-
-def left_out(filled: Filled) -> Iterator[tuple[str, str]]:
-    """Yield the models without a rank, each with the reason."""
-    for runner in filled.choice.left_out if filled.choice else ():
-        done = f"{counted(len(runner.answers), 'trial')} done; " if runner.answers else ""
-        yield runner.model, f"{done}{runner.trouble}"
-
-
-def units(filled: Filled) -> tuple[str, ...]:
-    """Return the units of the filled channels, in order of appearance."""
-    given, target = filled.source.request.given, filled.source.request.target
-    channels = np.flatnonzero(target.any(axis=0))
-    return tuple(dict.fromkeys(given.units[channel] for channel in channels))
-
-
-def _note(choice: Choice, model: str, *, chosen: str) -> str:
-    sharing = choice.ranking.sharing
-    alike = f"not separable from {sharing[0]}" if model in sharing[1:] else ""
-    notes = ("chosen" if model == chosen else "", alike)
-    windows = "fitted to windows" if choice.windows[model] else ""
-    return ", ".join(filter(None, (*notes, windows)))
 
 
 def _windows(count: int) -> str:

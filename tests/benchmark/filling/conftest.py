@@ -1,7 +1,16 @@
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from mocapbench.datasets import Recording
+from mocapbench.benchmark.filling.filler import Filled
+from mocapbench.benchmark.filling.question import Answer
+from mocapbench.benchmark.filling.requests.request import Request
+from mocapbench.benchmark.filling.sources import Source
+from mocapbench.benchmark.filling.trials.choice import Choice
+from mocapbench.benchmark.filling.trials.ranking import rank
+from mocapbench.benchmark.filling.trials.scores import Scores
+from mocapbench.datasets import CSVFormat, Recording
 
 CHANNELS = ("hip.rx", "hip.ry", "knee.rx", "root.ty")
 UNITS = ("deg", "deg", "deg", "cm")
@@ -29,5 +38,36 @@ def hidden():
         for first, stop, channels in blocks:
             mask[first:stop, channels] = True
         return mask
+
+    return make
+
+
+@pytest.fixture
+def filled(waves, hidden):
+    """Return a function from what is special to a filled file."""
+
+    def make(choice=None, *, left_open=(), windows=0, failed=()):
+        target = hidden((50, 60, [0, 1]))
+        request = Request(waves().hide(target), target, left_open)
+        answer = Answer(waves().values[target], np.ones(20))
+        source = Source(Path("waves.csv"), CSVFormat(), request, ())
+        return Filled(source, "one", answer, windows, choice, failed)
+
+    return make
+
+
+@pytest.fixture
+def choice_of():
+    """Return a function from the errors of models in trial gaps to the choice among them."""
+
+    def make(errors, share=1.0, places=None):
+        scores = {
+            model: Scores(np.array(of_model, dtype=float), {"deg": 1.0}, None)
+            for model, of_model in errors.items()
+        }
+        n = len(next(iter(errors.values())))
+        ranking = rank(scores, np.ones(n), np.arange(n) if places is None else np.array(places))
+        seconds = dict.fromkeys(errors, 0.1)
+        return Choice(ranking, (), share, seconds, dict.fromkeys(errors, 2))
 
     return make
