@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-import shlex
-import signal
 import sys
-import time
-from collections import Counter
 from collections.abc import Sequence
-from contextlib import suppress
 from datetime import UTC, datetime
-from functools import partial
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench import datasets, reports
+from mocapbench import datasets
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.data import fetch_missing
 from mocapbench.benchmark.cli.options import (
@@ -30,16 +23,17 @@ from mocapbench.benchmark.cli.options import (
     cases_named,
     load_plugins,
     open_archive,
-    show_left_out,
     split,
 )
-from mocapbench.benchmark.cli.report import write_report
-from mocapbench.benchmark.cli.run_log import require_log, run_log
-from mocapbench.benchmark.errors import ExitCode, UsageError
+from mocapbench.benchmark.cli.running.log import require_log, run_log
+from mocapbench.benchmark.cli.running.session import Session
+from mocapbench.benchmark.cli.running.signals import interrupt_at_the_end_of_the_session
+from mocapbench.benchmark.cli.running.wording import fetching
+from mocapbench.benchmark.errors import UsageError
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark import Job, Record, Request, Site, Store, WorkerConfig
-    from mocapbench.benchmark.events import EventLog
+    from mocapbench.benchmark import Job, Request
+    from mocapbench.datasets import Archive
 
 __all__ = ["app"]
 
@@ -122,19 +116,14 @@ def run(
     archive = open_archive(data_dir, task_files)
     if not (offline or dry_run):
         fetch_missing(archive, bench.required_sources(request, archive), console)
-    planned = bench.plan(request, archive)
-    if not planned:
-        raise UsageError(
-            "nothing to run: no chosen model has the abilities that the chosen tasks require; "
-            "`mocapbench list models` shows what each can do"
-        )
+    planned = _planned(request, archive)
     if explain:
         console.print(bench.explanation_table(bench.explain(planned, out)))
     elif dry_run:
         console.print(bench.plan_table(planned))
     if dry_run:
         n_workers = None if scheduler or cluster else jobs or bench.n_cores()
-        remedy = _fetching(planned, plugins) if offline else _downloading(planned)
+        remedy = fetching(planned, plugins) if offline else _downloading(planned)
         for line in bench.forecast_text(planned, profile, out, n_workers, remedy):
             console.print(line, soft_wrap=True, highlight=False)
         return
@@ -148,12 +137,22 @@ def run(
         _about(planned, request, threads),
         task_files,
     )
-    _interrupt_at_the_end_of_the_session()
+    interrupt_at_the_end_of_the_session()
     with run_log(log_json) as log, site, store.locked():
         store.sweep()
-        raise typer.Exit(
-            _run(planned, store, config, site, console, log, with_report=not no_report)
+        session = Session(planned, store, config, site, console, log)
+        raise typer.Exit(session.run(with_report=not no_report))
+
+
+def _planned(request: Request, archive: Archive) -> list[Job]:
+    """Return the jobs of a request, of which there must be one at least."""
+    planned = bench.plan(request, archive)
+    if not planned:
+        raise UsageError(
+            "nothing to run: no chosen model has the abilities that the chosen tasks require; "
+            "`mocapbench list models` shows what each can do"
         )
+    return planned
 
 
 def _about(planned: Sequence[Job], request: Request, threads: int) -> dict[str, str]:
@@ -167,100 +166,9 @@ def _about(planned: Sequence[Job], request: Request, threads: int) -> dict[str, 
     }
 
 
-def _interrupt_at_the_end_of_the_session() -> None:
-    """Have the signals that end processes interrupt the run, which then winds up."""
-    for ending in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(ending) is not signal.SIG_IGN:  # as under nohup
-            signal.signal(ending, _interrupt)
-
-
-def _interrupt(_signal: int, _frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
-
-
-def _run(
-    planned: Sequence[Job],
-    store: Store,
-    config: WorkerConfig,
-    site: Site,
-    console: LiteralConsole,
-    log: EventLog,
-    *,
-    with_report: bool,
-) -> ExitCode:
-    about, started = dict(config.provenance), time.monotonic()
-    document = partial(
-        bench.plan_document,
-        planned,
-        workers=site.n_workers,
-        task_files=[file.to_plain() for file in config.task_files],
-    )
-    drawn = bench.last_drawn(store, [job.key for job in planned])
-    for line in bench.left_out_lines(store, planned):
-        console.print(line, soft_wrap=True, highlight=False)
-    if not drawn:
-        store.save_plan(document(provenance=about))
-    try:
-        records = bench.run(planned, store, config, site=site, console=console, log=log)
-    except KeyboardInterrupt:
-        with suppress(OSError):  # the terminal may have been closed
-            console.print("interrupted; everything finished is kept, and the same command resumes")
-        return ExitCode.INTERRUPTED
-    code, report = _ending(planned, records, config, console), store.path / "report.html"
-    found = bench.stamp(records, [*config.plugins], config.task_files)
-    if found == drawn:
-        console.print(f"nothing new; report: {report.resolve()}", soft_wrap=True)
-        show_left_out(store.damaged, console)
-        return code
-    about["wall time"] = _wall_time(time.monotonic() - started, records, about["started"])
-    store.save_plan(document(provenance=about))
-    if not with_report:
-        console.print(_without_report(store.path, report), soft_wrap=True, highlight=False)
-        return code
-    write_report(records, about, store, bench.archive_at(config.data_dir), report, console)
-    store.save_plan(document(provenance=about, drawn=found))
-    return code
-
-
-def _without_report(run: Path, report: Path) -> str:
-    """Return how to write a report, and that the one there shows other results."""
-    command = f"`mocapbench report --out {shlex.quote(str(run))}`"
-    if report.exists():
-        return f"{report.resolve()} shows an earlier run; {command} renews it"
-    return f"no report was written; {command} writes one"
-
-
-def _wall_time(seconds: float, records: Sequence[Record], started: str) -> str:
-    """Return the seconds of a run, and how many results are of earlier ones."""
-    done = (record for record in records if record.status is bench.Status.OK)
-    earlier = sum(record.provenance.get("started") != started for record in done)
-    are = "is" if earlier == 1 else "are"
-    others = f"; {reports.counted(earlier, 'result')} {are} of an earlier run" if earlier else ""
-    return f"{seconds:.0f} s{others}"
-
-
-def _fetching(planned: Sequence[Job], plugins: Sequence[Path]) -> str:
-    return f"`{bench.fetch_command(bench.lacking(planned), plugins)}` gets them"
-
-
 def _downloading(planned: Sequence[Job]) -> str:
     trials = " ".join(uri.removeprefix("cmu:") for uri in bench.lacking(planned))
     return f"the run downloads them first: {trials}"
-
-
-def _ending(
-    planned: Sequence[Job], records: Sequence[Record], config: WorkerConfig, console: LiteralConsole
-) -> ExitCode:
-    """Say in one line how the run ended, and return the exit code for it."""
-    counts = Counter(record.status for record in records)
-    summary = ", ".join(f"{counts[status]} {status}" for status in bench.Status if counts[status])
-    if bench.lacking(planned):
-        line = bench.lacking_line(planned, _fetching(planned, config.plugins))
-        console.print(line, soft_wrap=True, highlight=False)
-    console.print(f"{reports.counted(len(records), 'job')}: {summary}")
-    if any(record.status.broken for record in records):
-        return ExitCode.JOBS_FAILED
-    return ExitCode.OK if counts[bench.Status.OK] else ExitCode.NOTHING_RAN
 
 
 def _acknowledgement(planned: Sequence[Job]) -> dict[str, str]:
