@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import groupby
+from typing import Any
 
 from mocapbench.metrics.statistics import FEWEST_UNITS
 from mocapbench.reports.analysis.published.verdicts import RELATIVE_TOLERANCE
@@ -29,34 +30,26 @@ from mocapbench.reports.tables.papers import papers_table
 
 __all__ = ["render"]
 
+Families = Mapping[str, Sequence[str]]
+Part = dict[str, Any]
+"""What the template reads for one part of the page, by name."""
+
 
 def render(bundle: Bundle) -> str:
     """Return the report as one self-contained HTML page; the same bundle gives the same bytes."""
     results = sorted((task_results(bundle, layout) for layout in bundle.layouts), key=_place)
-    looks = model_styles(bundle.layouts)
-    shared = shared_notes([of_task.layout for of_task in results])
-    elsewhere = {remark for notes in shared for remark in notes.remarks}
-    views = [task_view(of_task, bundle, looks, elsewhere) for of_task in results]
-    no_score = troubles(bundle)
     families = in_families(_models(results))
     return template("parts/page.html.j2").render(
         bundle=bundle,
         metrics=bundle.metrics,
-        facts=facts(bundle),
         provenance=bundle.provenance,
-        trust=trust(bundle, results),
-        answers=answers(results),
-        board=scoreboard(results, families),
-        shades=[name for _, name in SHADES],
-        tasks=views,
-        by_question=_by_question(views),
-        shared_notes=shared,
+        **_front(bundle, results, families),
+        **_tasks(bundle, results),
+        **_families(families),
+        **_without_score(bundle),
+        facts=facts(bundle),
         fewest_units=FEWEST_UNITS,
         tolerance=f"{100 * RELATIVE_TOLERANCE:g} %",
-        families=list(families),
-        labels=[label for labels in families.values() for label in labels],
-        failures=[trouble for trouble in no_score if trouble.status != DATA_MISSING],
-        missing=missing_data(trouble for trouble in no_score if trouble.status == DATA_MISSING),
         check_table=check_table(bundle.check) if bundle.check else None,
         papers_table=papers_table(results),
         citations=citations_of(layout.page.reference for layout in bundle.layouts),
@@ -64,6 +57,37 @@ def render(bundle: Bundle) -> str:
         css=styles(),
         js=scripts(),
     )
+
+
+def _front(bundle: Bundle, results: Sequence[TaskResults], families: Families) -> Part:
+    return {
+        "trust": trust(bundle, results),
+        "answers": answers(results),
+        "board": scoreboard(results, families),
+        "shades": [name for _, name in SHADES],
+    }
+
+
+def _tasks(bundle: Bundle, results: Sequence[TaskResults]) -> Part:
+    looks = model_styles(bundle.layouts)
+    shared = shared_notes([of_task.layout for of_task in results])
+    elsewhere = {remark for notes in shared for remark in notes.remarks}
+    views = [task_view(of_task, bundle, looks, elsewhere) for of_task in results]
+    return {"tasks": views, "by_question": _by_question(views), "shared_notes": shared}
+
+
+def _families(families: Families) -> Part:
+    labels = [label for labels in families.values() for label in labels]
+    return {"families": list(families), "labels": labels}
+
+
+def _without_score(bundle: Bundle) -> Part:
+    """Return the jobs that failed, and those that lacked recordings."""
+    no_score = troubles(bundle)
+    return {
+        "failures": [trouble for trouble in no_score if trouble.status != DATA_MISSING],
+        "missing": missing_data(trouble for trouble in no_score if trouble.status == DATA_MISSING),
+    }
 
 
 def _place(results: TaskResults) -> int:
