@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
+from string import Template
 from textwrap import wrap
 
 from mocapbench.benchmark.registry import MODELS
@@ -38,6 +39,60 @@ _HIDE = (
     "fraction = 0.2",
 )
 """What to hide; the first that the recordings have room for."""
+
+
+_FILE = Template("""\
+# A benchmark of recordings of your own. Lines that begin with # do nothing: remove
+# the sign from those that you want. docs/own-recordings.md explains every key.
+
+title = "Gaps in our recordings"
+description = "Gaps at random places of each recording, which models fill."
+
+# The recordings to fill, one after the other: names or patterns, * for any text.
+files = $files
+
+# What models learn from besides what is visible of it: the "others" of these files,
+# "none", or patterns such as ["training/*.csv"].
+training = $training
+
+${rate}\
+# The part that counts, of every recording; all of it if these are left out.
+# frames = "0:1200"                   # counted from 0, the last one not included
+# channels = ["lknee.*", "rknee.*"]   # regular expressions of whole names
+
+# How often gaps are drawn anew for every recording.
+folds = $folds
+
+${models}\
+# Tables of the report, the first for its headlines; see `mocapbench list metrics`.
+metrics = ["mse", "smse", "crps", "coverage_95"]
+
+[hide]
+# One of these ways. First, gaps of given lengths, `count` of each at random places;
+# together = "all" channels, those of one "joint" or marker, or one "channel".
+$hide
+# fraction = 0.2                      # of the entries, each by itself
+# frames = ["120:180"]                # the same in every fold, so folds = 1
+# pattern-of = "with-gaps.csv"        # the gaps of another file of the folder
+
+# Only in these channels; alone, without any of the ways above, from end to end.
+# channels = ["lknee.*"]
+""")
+
+_RATE = Template("""\
+# Frames per second, in place of what files say.
+rate = $rate
+
+""")
+
+_MODELS = Template("""\
+# Leave this out for every model that can fill such gaps. Besides these:
+${slower}\
+models = [
+${named}\
+]
+
+""")
 
 
 @dataclass(frozen=True)
@@ -109,64 +164,25 @@ class _Content:
 
     def text(self, hide: str, able: Sequence[str]) -> str:
         """Return a draft that hides so, for these models, or for all if none is named."""
-        return "\n".join(self._lines(hide, able)) + "\n"
-
-    def _lines(self, hide: str, able: Sequence[str]) -> Iterator[str]:
-        training = "others" if len(self.tests) > 1 else "none"
-        yield from (
-            "# A benchmark of recordings of your own. Lines that begin with # do nothing: remove",
-            "# the sign from those that you want. docs/own-recordings.md explains every key.",
-            "",
-            'title = "Gaps in our recordings"',
-            'description = "Gaps at random places of each recording, which models fill."',
-            "",
-            "# The recordings to fill, one after the other: names or patterns, * for any text.",
-            f"files = {_quoted(self.patterns)}",
-            "",
-            '# What models learn from besides what is visible of it: the "others" of these files,',
-            '# "none", or patterns such as ["training/*.csv"].',
-            f"training = {_quoted(training)}",
-            "",
-            *self._rate(),
-            "# The part that counts, of every recording; all of it if these are left out.",
-            '# frames = "0:1200"                   # counted from 0, the last one not included',
-            '# channels = ["lknee.*", "rknee.*"]   # regular expressions of whole names',
-            "",
-            "# How often gaps are drawn anew for every recording.",
-            f"folds = {max(1, min(5, 20 // len(self.tests)))}",
-            "",
-            *self._models(able),
-            "# Tables of the report, the first for its headlines; see `mocapbench list metrics`.",
-            'metrics = ["mse", "smse", "crps", "coverage_95"]',
-            "",
-            "[hide]",
-            "# One of these ways. First, gaps of given lengths, `count` of each at random places;",
-            '# together = "all" channels, those of one "joint" or marker, or one "channel".',
-            hide,
-            "# fraction = 0.2                      # of the entries, each by itself",
-            '# frames = ["120:180"]                # the same in every fold, so folds = 1',
-            '# pattern-of = "with-gaps.csv"        # the gaps of another file of the folder',
-            "",
-            "# Only in these channels; alone, without any of the ways above, from end to end.",
-            '# channels = ["lknee.*"]',
+        return _FILE.substitute(
+            files=_quoted(self.patterns),
+            training=_quoted("others" if len(self.tests) > 1 else "none"),
+            rate="" if self.rate is None else _RATE.substitute(rate=repr(self.rate)),
+            folds=max(1, min(5, 20 // len(self.tests))),
+            models=_models(able) if able else "",
+            hide=hide,
         )
 
-    def _rate(self) -> Iterator[str]:
-        if self.rate is not None:
-            yield from ("# Frames per second, in place of what files say.", f"rate = {self.rate!r}")
-            yield ""
 
-    @staticmethod
-    def _models(able: Sequence[str]) -> Iterator[str]:
-        if not able:
-            return
-        own = [name for name in able if not MODELS.is_installed(name)]
-        named = [name for name in _QUICK if name in able] + own
-        slower = [name for name in able if name not in named]
-        yield "# Leave this out for every model that can fill such gaps. Besides these:"
-        yield from (f"# {line}" for line in wrap(", ".join(slower), 96))
-        lines = wrap(", ".join(map(_quoted, named)), 96)
-        yield from ("models = [", *(f"    {line}" for line in lines), "]", "")
+def _models(able: Sequence[str]) -> str:
+    """Return the models that are quick or a user's own, and the others in a remark."""
+    own = [name for name in able if not MODELS.is_installed(name)]
+    named = [name for name in _QUICK if name in able] + own
+    slower = [name for name in able if name not in named]
+    return _MODELS.substitute(
+        slower="".join(f"# {line}\n" for line in wrap(", ".join(slower), 96)),
+        named="".join(f"    {line}\n" for line in wrap(", ".join(map(_quoted, named)), 96)),
+    )
 
 
 def _quoted(value: str | Sequence[str]) -> str:
