@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench import reports
 from mocapbench.benchmark import gate
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
@@ -31,6 +30,7 @@ __all__ = ["app"]
 
 app = typer.Typer(add_completion=False)
 
+NO_REFERENCE = "no reference values at {reference}: write some with --update"
 NOTHING_COMPARED = (
     "nothing was compared: expected values that both {run} and {reference} hold; "
     "run what the reference holds, or record this run with --update"
@@ -79,8 +79,7 @@ def check(
     if (reference is None) != controls:
         raise UsageError("expected something to check against: choose --reference or --controls")
     if reference is None:
-        of_reference = (tolerances, environment, strict, junit, markdown, update, allow_failures)
-        if any(of_reference):
+        if any((tolerances, environment, strict, junit, markdown, update, allow_failures)):
             raise UsageError("--controls: expected no other option: they all go with --reference")
         raise typer.Exit(_check_controls(run, LiteralConsole()))
     require_writable(junit, markdown)
@@ -89,17 +88,15 @@ def check(
     known, values = gate.read_reference(reference), gate.of_records(records, plan)
     show_left_out(store.damaged, console)
     if update:
-        _refuse_to_update(reference, values, records, len(plan["keys"]), allow_failures)
+        gate.require_updatable(reference, values, records, len(plan["keys"]), allow_failures)
         known = known or gate.Reference({}, values.about)
         environment = environment or Environment.SAME  # whatever moves is worth a review
     if known is None:
-        advice = f"no reference values at {reference}: write some with --update"
-        console.print(advice, soft_wrap=True)
+        console.print(NO_REFERENCE.format(reference=reference), soft_wrap=True)
         raise typer.Exit(ExitCode.NOTHING_RAN)
-    differing = gate.differences(known, values)
-    level = environment or (Environment.CROSS if differing else Environment.SAME)
-    findings = gate.check(known, values, records, gate.read_tolerances(level, tolerances))
-    result = gate.Check(findings, level, differing, strict)
+    result = _compared(
+        known, values, records, environment=environment, tolerances=tolerances, strict=strict
+    )
     _show(result, console)
     _write(markdown, gate.markdown(result).encode())
     _write(junit, gate.junit(result))
@@ -120,28 +117,20 @@ def _check_controls(run: Path, console: LiteralConsole) -> ExitCode:
     return gate.check_controls(records, console)
 
 
-def _refuse_to_update(
-    reference: Path, run: Reference, records: Sequence[Record], n_planned: int, allow_failures: bool
-) -> None:
-    if reference.is_dir() and bench.Store.is_run(reference):
-        raise UsageError(f"--update: {reference} is a run directory; name a .csv file or a folder")
-    if reference.is_file() and reference.suffix != ".csv":
-        raise UsageError(f"--update: expected a .csv file or a folder, got the file {reference}")
-    n_lacking = n_planned - len(records)
-    if n_lacking:
-        lacking = reports.counted(n_lacking, "job of the run has", "jobs of the run have")
-        raise UsageError(
-            f"--update: {lacking} no whole record, so the reference would be incomplete; resume "
-            "it with `mocapbench run`"
-        )
-    failed = [record for record in records if record.status.broken]
-    if failed and not allow_failures:
-        raise UsageError(
-            f"--update: {reports.counted(len(failed), 'job')} failed ({failed[0].address.label}: "
-            f"{failed[0].message}); mend them, or keep their old values with --allow-failures"
-        )
-    if not run.values:
-        raise UsageError("--update: the run holds no value; run it first")
+def _compared(
+    known: Reference,
+    values: Reference,
+    records: Sequence[Record],
+    *,
+    environment: Environment | None,
+    tolerances: Path | None,
+    strict: bool,
+) -> Check:
+    """Return what comes of a run beside the reference, as tight as the environment allows."""
+    differing = gate.differences(known, values)
+    level = environment or (Environment.CROSS if differing else Environment.SAME)
+    findings = gate.check(known, values, records, gate.read_tolerances(level, tolerances))
+    return gate.Check(findings, level, differing, strict)
 
 
 def _show(result: Check, console: LiteralConsole) -> None:

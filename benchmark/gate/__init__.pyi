@@ -6,6 +6,7 @@ from .reference import Reference, of_records
 from .reference_files import read_reference, write_reference
 from .rule import Judgement, Tolerance, Verdict, judge
 from .tolerances import read_tolerances
+from .updating import require_updatable
 
 __all__ = [
     "Check",
@@ -24,6 +25,7 @@ __all__ = [
     "plain",
     "read_reference",
     "read_tolerances",
+    "require_updatable",
     "summary",
     "terminal",
     "updated",
