@@ -1,14 +1,5 @@
 from .angles import cumulative_scaled_error, rms_angle
-from .base import (
-    Clustering,
-    Direction,
-    Imputation,
-    Metric,
-    Recovery,
-    Score,
-    Synthesis,
-    has_poses,
-)
+from .base import Direction, Metric, Score, has_poses
 from .calibration import coverage_50, coverage_80, coverage_90, coverage_95, crps, pit, sharpness
 from .clustering import adjusted_rand, purity
 from .contact import foot_skate, sample_foot_skate
@@ -16,7 +7,11 @@ from .errors import mse, smse, smse_pooled
 from .jerk import jerk_ratio, sample_jerk_ratio
 from .likelihood import msll
 from .norms import angle_error_per_frame, rms_per_frame, root_error_per_frame
-from .poses import ImputedPoses, SampledPoses
+from .outcomes.clustering import Clustering
+from .outcomes.imputation import Imputation
+from .outcomes.poses import ImputedPoses, SampledPoses
+from .outcomes.recovery import Recovery
+from .outcomes.synthesis import Synthesis
 from .positions import bone_length_error, mpjpe, mpjpe_global
 from .recovery import frobenius_child, frobenius_parent, logdet_child, logdet_parent
 from .similarity import mcc, mcc_best, mlc, mlc_best, variance_ratio

@@ -11,8 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Imputation, Metric, Score
+from mocapbench.metrics.base import Direction, Metric, Score
 from mocapbench.metrics.entries import hidden_entries, mean_over
+from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
     "cumulative_error_of_scaled_angles",

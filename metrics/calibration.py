@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
-from mocapbench.metrics.base import Direction, Imputation, Metric, Score
+from mocapbench.metrics.base import Direction, Metric, Score
 from mocapbench.metrics.entries import average, deviations, hidden_entries
+from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
     "coverage_50",

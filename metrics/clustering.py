@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 from sklearn.metrics import adjusted_rand_score
 from sklearn.metrics.cluster import contingency_matrix
 
-from mocapbench.metrics.base import Clustering, Direction, Metric, Score
+from mocapbench.metrics.base import Direction, Metric, Score
+from mocapbench.metrics.outcomes.clustering import Clustering
 
 __all__ = ["adjusted_rand", "adjusted_rand_index", "average_purity", "purity"]
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Imputation, Metric, Score, Synthesis, has_poses
+from mocapbench.metrics.base import Direction, Metric, Score, has_poses
 from mocapbench.metrics.entries import hidden_entries, mean_over
-from mocapbench.metrics.poses import feet, runs_of_frames
+from mocapbench.metrics.frames import runs_of_frames
+from mocapbench.metrics.outcomes.imputation import Imputation
+from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = ["foot_skate", "imputed_foot_skate", "sample_foot_skate", "sampled_foot_skate"]
 
@@ -20,6 +22,7 @@ CONTACT_SPEED = 30.0
 SKATE_HEIGHT = 2.5
 """Centimetres below which the speed of a sampled foot counts."""
 
+_FOOT = "foot"
 _HORIZONTAL = [0, 2]
 
 
@@ -88,7 +91,7 @@ def imputed_foot_skate(outcome: Imputation) -> Score:
     """
     hidden_entries(outcome)
     poses = outcome.poses
-    of_feet = feet(poses.joints)
+    of_feet = _feet(poses.joints)
     first = runs_of_frames(len(poses.times), poses.starts, 2)
     truth, mean = poses.truth[:, of_feet], poses.mean[:, of_feet]
     seconds = np.diff(poses.times, append=np.inf)[first, None]
@@ -155,7 +158,7 @@ def sampled_foot_skate(outcome: Synthesis) -> Score:
     30.0
     """
     poses = outcome.poses
-    of_feet = feet(poses.joints)
+    of_feet = _feet(poses.joints)
     by_sample = np.array([_skate(sample[:, of_feet], poses.times) for sample in poses.samples])
     return Score(
         float(np.nanmean(by_sample)) if len(poses.times) > 1 else np.nan, {"sample": by_sample}
@@ -181,6 +184,23 @@ def _heights(positions: Array, starts: tuple[int, ...]) -> Array:
 def _steps(positions: Array, first: NDArray[np.intp], axes: list[int]) -> Array:
     """Return the distances (n, F) from each of the frames ``first`` to the next along ``axes``."""
     return np.asarray(np.linalg.norm((positions[first + 1] - positions[first])[..., axes], axis=2))
+
+
+def _feet(joints: tuple[str, ...]) -> list[int]:
+    """Return the indices of the joints whose name ends in ``foot``.
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+    """
+    found = [index for index, name in enumerate(joints) if name.lower().endswith(_FOOT)]
+    if not found:
+        raise ValueError(
+            f"expected joints whose names end in {_FOOT!r}, got {', '.join(joints)}: rename them, "
+            "or leave metrics of feet out"
+        )
+    return found
 
 
 foot_skate = Metric(

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft
 
-from mocapbench.metrics.base import Synthesis
+from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = [
     "SampleByReferenceByOutput",

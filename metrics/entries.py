@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Imputation, Score
+from mocapbench.metrics.base import Score
+from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
     "DEGENERATE",

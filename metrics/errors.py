@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Imputation, Metric, Score
+from mocapbench.metrics.base import Direction, Metric, Score
 from mocapbench.metrics.entries import (
     DEGENERATE,
     average,
@@ -13,6 +13,7 @@ from mocapbench.metrics.entries import (
     mean_over,
     variance_over,
 )
+from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
     "mean_squared_error",

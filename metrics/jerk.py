@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Imputation, Metric, Score, Synthesis, has_poses
+from mocapbench.metrics.base import Direction, Metric, Score, has_poses
 from mocapbench.metrics.entries import hidden_entries
-from mocapbench.metrics.poses import runs_of_frames
+from mocapbench.metrics.frames import runs_of_frames
+from mocapbench.metrics.outcomes.imputation import Imputation
+from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = ["imputed_jerk", "jerk_ratio", "sample_jerk_ratio", "sampled_jerk"]
 

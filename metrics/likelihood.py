@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Imputation, Metric, Score
+from mocapbench.metrics.base import Direction, Metric, Score
 from mocapbench.metrics.entries import DEGENERATE, average, deviations, hidden_entries
+from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = ["mean_standardised_log_loss", "msll"]
 

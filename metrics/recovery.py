@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
-from mocapbench.metrics.base import Direction, Metric, Recovery, Score
+from mocapbench.metrics.base import Direction, Metric, Score
+from mocapbench.metrics.outcomes.recovery import Recovery
 
 __all__ = [
     "frobenius_child",

@@ -8,13 +8,14 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Metric, Score, Synthesis
+from mocapbench.metrics.base import Direction, Metric, Score
 from mocapbench.metrics.correlation import (
     SampleByReferenceByOutput,
     check_synthesis,
     cross_correlation,
     linear_correlation,
 )
+from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = [
     "Correlation",

@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import fft
 
-from mocapbench.metrics.base import Direction, Imputation, Metric, Score, Synthesis, has_poses
+from mocapbench.metrics.base import Direction, Metric, Score, has_poses
 from mocapbench.metrics.correlation import check_synthesis
 from mocapbench.metrics.entries import hidden_entries
+from mocapbench.metrics.outcomes.imputation import Imputation
+from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = ["imputed_spectrum", "npss", "sample_npss", "sampled_spectrum"]
 

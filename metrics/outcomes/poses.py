@@ -2,34 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["ImputedPoses", "SampledPoses", "feet", "lock_fields", "read_only", "runs_of_frames"]
+from mocapbench.metrics.outcomes.arrays import lock_fields
+
+__all__ = ["ImputedPoses", "SampledPoses", "place"]
 
 Positions = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-
-_FOOT = "foot"
-
-
-def read_only(array: NDArray[Any]) -> NDArray[Any]:
-    """Return a view that cannot be written to; whoever made the array still may."""
-    view = np.asarray(array).view()
-    view.setflags(write=False)
-    return view
-
-
-def lock_fields(outcome: object, **arrays: NDArray[Any]) -> None:
-    """Set fields of a frozen ``outcome`` to arrays, read-only.
-
-    All metrics share an outcome: one that works in place would change what the next one scores.
-    """
-    for name, array in arrays.items():
-        object.__setattr__(outcome, name, read_only(array))
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,25 +103,19 @@ class SampledPoses:
         lock_fields(self, samples=self.samples, references=self.references, times=self.times)
 
 
-def feet(joints: tuple[str, ...]) -> list[int]:
-    """Return the indices of the joints whose name ends in ``foot``.
+PosesT = TypeVar("PosesT", ImputedPoses, SampledPoses)
+
+
+def place(place_joints: Callable[[], PosesT] | None) -> PosesT:
+    """Return the joints of an outcome in space.
 
     Raises
     ------
     ValueError
-        If there is none.
+        If it has no function that places them.
     """
-    found = [index for index, name in enumerate(joints) if name.lower().endswith(_FOOT)]
-    if not found:
+    if place_joints is None:
         raise ValueError(
-            f"expected joints whose names end in {_FOOT!r}, got {', '.join(joints)}: rename them, "
-            "or leave metrics of feet out"
+            "expected an outcome with poses, got one without a skeleton: give place_joints"
         )
-    return found
-
-
-def runs_of_frames(n_frames: int, starts: tuple[int, ...], width: int) -> NDArray[np.intp]:
-    """Return the first frame of every run of ``width`` frames within one recording."""
-    first = np.arange(max(n_frames - width + 1, 0))
-    recording = np.searchsorted(starts, np.arange(n_frames), side="right")
-    return np.asarray(first[recording[first] == recording[first + width - 1]])
+    return place_joints()
