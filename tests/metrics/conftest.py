@@ -7,7 +7,14 @@ from functools import partial
 import numpy as np
 import pytest
 
-from mocapbench.metrics import Imputation, ImputedPoses, SampledPoses, Synthesis
+from mocapbench.metrics import (
+    Clustering,
+    Imputation,
+    ImputedPoses,
+    Recovery,
+    SampledPoses,
+    Synthesis,
+)
 
 CHAIN = ("root", "knee", "lfoot")
 PARENTS = (-1, 0, 1)
@@ -108,3 +115,14 @@ def draw(make) -> Callable[..., Imputation]:
         )
 
     return draw
+
+
+@pytest.fixture
+def outcomes(draw, place):
+    """Return an outcome of each kind."""
+    rng = np.random.default_rng(0)
+    synthesis = place(rng.normal(size=(3, 8, 3, 3)), rng.normal(size=(4, 8, 3, 3)))
+    clustering = Clustering(rng.integers(3, size=9), rng.integers(4, size=9))
+    recovery = Recovery(*(dict.fromkeys(("parent", "child"), c * np.eye(3)) for c in (1, 2)), 0.1)
+    kinds = (Imputation, Synthesis, Clustering, Recovery)
+    return dict(zip(kinds, (draw(0), synthesis, clustering, recovery), strict=True))
