@@ -7,13 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mocapbench.benchmark.task_files.document import Document
-from mocapbench.benchmark.task_files.hiding import (
-    Hiding,
-    RandomEntries,
-    RandomGaps,
-    SameGaps,
-    Spans,
-)
+from mocapbench.benchmark.task_files.hiding.base import Hiding
+from mocapbench.benchmark.task_files.hiding.random_entries import RandomEntries
+from mocapbench.benchmark.task_files.hiding.random_gaps import RandomGaps
+from mocapbench.benchmark.task_files.hiding.same_gaps import SameGaps
+from mocapbench.benchmark.task_files.hiding.spans import Spans
 from mocapbench.benchmark.task_files.selection import Span
 from mocapbench.benchmark.task_files.values import (
     is_count,

@@ -11,7 +11,7 @@ from mocapbench.baselines import Prediction
 from mocapbench.benchmark.problems.body import Body, JointAngles
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.benchmark.registry import METRICS
-from mocapbench.benchmark.task_files.hiding import Hiding, Place
+from mocapbench.benchmark.task_files.hiding.base import Hiding, Place
 from mocapbench.benchmark.task_files.selection import Selection
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive, Recording, SkeletonUnavailable

@@ -16,7 +16,8 @@ from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
 from mocapbench.benchmark.task_files.grouping import check_alike_in_any_order
 from mocapbench.benchmark.task_files.hidden_settings import Hidden
-from mocapbench.benchmark.task_files.hiding import HidingError, Place, RandomGaps
+from mocapbench.benchmark.task_files.hiding.base import HidingError, Place
+from mocapbench.benchmark.task_files.hiding.random_gaps import RandomGaps
 from mocapbench.benchmark.task_files.library import address_of
 from mocapbench.benchmark.task_files.problem import defined_metrics, own_body
 from mocapbench.benchmark.task_files.settings import Settings

@@ -3,14 +3,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.task_files.hiding import (
-    HidingError,
-    Place,
-    RandomEntries,
-    RandomGaps,
-    SameGaps,
-    Spans,
-)
+from mocapbench.benchmark.task_files.hiding.base import HidingError, Place
+from mocapbench.benchmark.task_files.hiding.random_entries import RandomEntries
+from mocapbench.benchmark.task_files.hiding.random_gaps import RandomGaps
+from mocapbench.benchmark.task_files.hiding.same_gaps import SameGaps
+from mocapbench.benchmark.task_files.hiding.spans import Spans
 from mocapbench.benchmark.task_files.selection import Selection, Span
 from mocapbench.datasets import Archive, Library, Recording
 
