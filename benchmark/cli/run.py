@@ -144,7 +144,7 @@ def run(
         raise typer.Exit(session.run(with_report=not no_report))
 
 
-def _planned(request: Request, archive: Archive) -> list[Job]:
+def _planned(request: Request, archive: Archive) -> Sequence[Job]:
     """Return the jobs of a request, of which there must be one at least."""
     planned = bench.plan(request, archive)
     if not planned:
