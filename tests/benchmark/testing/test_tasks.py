@@ -84,7 +84,7 @@ def _case(name):
     [
         ("cases", (_case("a"), _case("a")), "every case under a name of its own, got 'a' twice"),
         ("entrants", (Entrant("x", "knn"), Entrant("x", "moa")), "every entrant under a name"),
-        ("entrants", (Entrant("linear", "knn"),), "no other model's name, got 'linear' for 'knn'"),
+        ("entrants", (Entrant("linear", "knn"),), "not another model's name, got 'linear' for"),
         ("entrants", (Entrant("a/b", "knn"),), "without slashes, got 'a/b'"),
         ("entrants", (Entrant(" ", "knn"),), "entrants with labels"),
         (
