@@ -7,10 +7,15 @@ from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
 
 from mocapbench.baselines.kriging.channel_pairs import TYPICAL, ChannelPairs, DescribedFrames
-from mocapbench.baselines.kriging.learning import best_predicting, evenly, noisy, stretch_numbers
+from mocapbench.baselines.kriging.learning import (
+    best_predicting,
+    evenly,
+    noisy,
+    predicted,
+    stretch_numbers,
+)
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 
 __all__ = ["ChannelProcess"]
@@ -83,9 +88,8 @@ class ChannelProcess:
         self, frames: DescribedFrames, values: Array, wanted: DescribedFrames
     ) -> tuple[Array, Array]:
         """Return the mean and the variance (m, C) of observations in the frames wanted."""
-        factor = cho_factor(noisy(ChannelPairs.of(frames, frames), self.parameters), lower=True)
-        cross = ChannelPairs.of(wanted, frames).covariance(self.parameters)
-        explained = (cross * cho_solve(factor, cross.T).T).sum(axis=1)
+        known, across = ChannelPairs.of(frames, frames), ChannelPairs.of(wanted, frames)
+        mean, explained = predicted(known, across, self.parameters, values)
         noise = np.exp(2.0 * self.parameters[-1])
         variance = np.maximum(wanted.variances(self.parameters) - explained, 0.0) + noise
-        return cross @ cho_solve(factor, values), np.outer(variance, self.scales)
+        return mean, np.outer(variance, self.scales)

@@ -1,4 +1,4 @@
-"""The parameters of a process over frames that predict best what is left out."""
+"""A process over frames: the parameters that predict best what is left out, and predictions."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import Bounds, minimize
 
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 
-__all__ = ["Pairs", "best_predicting", "evenly", "noisy", "stretch_numbers"]
+__all__ = ["Pairs", "best_predicting", "evenly", "noisy", "predicted", "stretch_numbers"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -79,6 +80,31 @@ def best_predicting(
         options={"maxiter": _STEPS},
     )
     return np.asarray(found.x)
+
+
+def predicted(known: Pairs, across: Pairs, parameters: Array, values: Array) -> tuple[Array, Array]:
+    """Return the mean in m frames given n others, and by how much that lessens their variances.
+
+    C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for Machine Learning, MIT
+    Press, eq. (2.25) and (2.26).
+
+    Parameters
+    ----------
+    known : Pairs
+        Of the n frames with themselves.
+    across : Pairs
+        Of the m frames with the n.
+    parameters : ndarray of shape (P,)
+    values : ndarray of shape (n, O)
+
+    Returns
+    -------
+    mean : ndarray of shape (m, O)
+    explained : ndarray of shape (m,)
+    """
+    factor, cross = cho_factor(noisy(known, parameters), lower=True), across.covariance(parameters)
+    explained = (cross * cho_solve(factor, cross.T).T).sum(axis=1)
+    return cross @ cho_solve(factor, values), explained
 
 
 def noisy(pairs: Pairs, parameters: Array) -> Array:

@@ -22,11 +22,10 @@ from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
 from scipy.spatial.distance import cdist
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
-from mocapbench.baselines.kriging.learning import best_predicting, noisy, stretch_numbers
+from mocapbench.baselines.kriging.learning import best_predicting, noisy, predicted, stretch_numbers
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 from mocapbench.baselines.kriging.student import student_variance
 
@@ -150,10 +149,9 @@ class MarkerProcess:
         self, frames: MarkerFrames, values: Array, wanted: MarkerFrames
     ) -> tuple[Array, Array]:
         """Return the mean (m, 3) and the variance (m,) of an observation in the frames wanted."""
-        factor = cho_factor(noisy(FramePairs.of(frames, frames), self.parameters), lower=True)
-        cross = FramePairs.of(wanted, frames).covariance(self.parameters)
-        explained = (cross * cho_solve(factor, cross.T).T).sum(axis=1)
+        known, across = FramePairs.of(frames, frames), FramePairs.of(wanted, frames)
+        mean, explained = predicted(known, across, self.parameters, values)
         _, drift, _, noise = np.exp(2.0 * self.parameters)
         total = _CONSTANTS + 1.0 + drift + noise
         variance = np.maximum(total - explained, noise)
-        return cross @ cho_solve(factor, values), self.scale * variance
+        return mean, self.scale * variance
