@@ -122,18 +122,18 @@ def _em(n_sequences, n_frames, max_iter):
 def test_em_of_the_papers_size(benchmark):
     benchmark.group = "EM, 15 iterations of 3 sweeps, after 5 with one style"
     best = benchmark.pedantic(_em, (N_SEQUENCES, N_FRAMES, 15), rounds=3)
-    assert len(best.bounds) == 16
+    assert len(best.objectives) == 16
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("n_frames", [100, 200, 400, 800])
 def test_em_by_frames(benchmark, n_frames):
     benchmark.group = "EM, 3 iterations, 10 sequences, by frames"
-    assert len(benchmark.pedantic(_em, (10, n_frames, 3), rounds=3).bounds) == 4
+    assert len(benchmark.pedantic(_em, (10, n_frames, 3), rounds=3).objectives) == 4
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("n_sequences", [10, 20, 40, 80])
 def test_em_by_sequences(benchmark, n_sequences):
     benchmark.group = "EM, 3 iterations, 100 frames, by sequences"
-    assert len(benchmark.pedantic(_em, (n_sequences, 100, 3), rounds=3).bounds) == 4
+    assert len(benchmark.pedantic(_em, (n_sequences, 100, 3), rounds=3).objectives) == 4
