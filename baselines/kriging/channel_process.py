@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from mocapbench.baselines.kriging.channel_pairs import TYPICAL, ChannelPairs, DescribedFrames
 from mocapbench.baselines.kriging.learning import (
     best_predicting,
-    evenly,
     noisy,
     predicted,
+    some_of_both,
     stretch_numbers,
 )
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
@@ -71,8 +71,7 @@ class ChannelProcess:
         duration : float
             How many frames its gaps last.
         """
-        parts = [np.flatnonzero((frames.recording == own) == mine) for mine in (True, False)]
-        some = np.concatenate([evenly(part, _LEARNT) for part in parts])
+        some = some_of_both(frames.recording == own, _LEARNT)
         frames, values = frames.at(some), values[some]
         squares = np.maximum((values**2).mean(axis=0), _LEAST)
         values = values / np.sqrt(squares)

@@ -12,7 +12,15 @@ from scipy.optimize import Bounds, minimize
 
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 
-__all__ = ["Pairs", "best_predicting", "evenly", "noisy", "predicted", "stretch_numbers"]
+__all__ = [
+    "Pairs",
+    "best_predicting",
+    "evenly",
+    "noisy",
+    "predicted",
+    "some_of_both",
+    "stretch_numbers",
+]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -54,7 +62,7 @@ def best_predicting(
     pairs : Pairs
         Of n frames with themselves.
     values : ndarray of shape (n, O)
-        With mean zero and variance 1.
+        With a mean square of 1.
     stretch : ndarray of int, shape (n,)
         The number of each frame's stretch.
     typical : ndarray of shape (P,)
@@ -140,3 +148,15 @@ def evenly(rows: Index, most: int) -> Index:
     """Return at most so many of the rows, spread evenly."""
     places = np.linspace(0, len(rows) - 1, min(most, len(rows)))
     return np.asarray(rows[places.round().astype(int)])
+
+
+def some_of_both(own: NDArray[np.bool_], most: int) -> Index:
+    """Return at most so many frames of a recording, and as many of all others, spread evenly.
+
+    Parameters
+    ----------
+    own : ndarray of bool, shape (n,)
+        Which frames are of the recording.
+    most : int
+    """
+    return np.concatenate([evenly(np.flatnonzero(own == mine), most) for mine in (True, False)])

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.rigid import FEWEST
-from mocapbench.baselines.kriging.learning import evenly
+from mocapbench.baselines.kriging.learning import evenly, some_of_both
 from mocapbench.baselines.kriging.local_frames import LocalFrames
 from mocapbench.baselines.kriging.marker_process import MarkerFrames, MarkerProcess
 
@@ -91,11 +91,8 @@ class MarkerGap:
     def _predicted(self, frames: MarkerFrames, values: Array) -> tuple[Array, Array]:
         """Return the moments in the gap, with which ``frames`` begin, given ``values`` after it."""
         wanted, known = np.split(np.arange(len(self._rows)), [len(self.frames)])
-        learnt = np.concatenate(
-            [evenly(known[(self._given[:, 0] == 0) == own], _LEARNT) for own in (True, False)]
-        )
-        first = learnt - len(self.frames)
-        process = MarkerProcess.learnt(frames.at(learnt), values[first], self._seconds)
+        some = some_of_both(self._given[:, 0] == 0, _LEARNT)
+        process = MarkerProcess.learnt(frames.at(known[some]), values[some], self._seconds)
         return process.predict(frames.at(known), values, frames.at(wanted))
 
     def _described(self, body: LocalFrames) -> MarkerFrames:

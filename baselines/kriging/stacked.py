@@ -77,7 +77,7 @@ class StackedFrames:
         """
         if not len(others):
             return np.ones(0)
-        middle = self.windows[known][:, len(_BESIDE) // 2]
+        middle = self.windows[known, len(_BESIDE) // 2]
         ridge = Ridge(alpha=_RIDGE * len(known)).fit(
             middle[:, others], self.values[known][:, channels]
         )

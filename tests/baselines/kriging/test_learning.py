@@ -2,7 +2,13 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.kriging.channel_pairs import TYPICAL, ChannelPairs, DescribedFrames
-from mocapbench.baselines.kriging.learning import best_predicting, evenly, noisy, stretch_numbers
+from mocapbench.baselines.kriging.learning import (
+    best_predicting,
+    evenly,
+    noisy,
+    some_of_both,
+    stretch_numbers,
+)
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 
 TIMES = np.concatenate([np.arange(60), np.arange(30)]) / 30
@@ -24,6 +30,11 @@ def test_rows_are_spread_evenly():
     np.testing.assert_array_equal(evenly(rows, 3), [5, 10, 15])
     np.testing.assert_array_equal(evenly(rows, 20), rows)
     assert not evenly(rows[:0], 3).size
+
+
+def test_frames_are_taken_of_the_recording_and_of_all_others():
+    np.testing.assert_array_equal(some_of_both(RECORDING == 4, 2), [60, 89, 0, 59])
+    np.testing.assert_array_equal(some_of_both(RECORDING == 9, 3), evenly(np.arange(90), 3))
 
 
 def test_nothing_beside_what_is_learnt_predicts_better():
