@@ -240,6 +240,13 @@ class FrameImputer(Model):
             If a recording cannot be filled.
         """
 
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute`, with the variances that the model itself claims.
+
+        Means are the same. It is quicker where `impute` tries the model to check its variances.
+        """
+        return self.impute(recordings)
+
 
 class Imputer(FrameImputer):
     """A model that fills any set of hidden entries.

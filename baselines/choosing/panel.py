@@ -28,13 +28,11 @@ from mocapbench.baselines.nn import NN
 from mocapbench.baselines.pca_regression import PCARegression
 from mocapbench.baselines.pose_kriging import PoseKriging
 from mocapbench.baselines.protocols import FrameImputer, Prediction
-from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.baselines.rigid_body import RigidBody
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["CANDIDATES", "LAST_RESORT", "OF_MARKERS", "Panel"]
 
-Impute = Callable[[Sequence[Recording]], list[Prediction]]
 Asked = TypeVar("Asked")
 Answer = TypeVar("Answer")
 
@@ -105,12 +103,19 @@ class Panel:
 
     def impute(self, recording: Recording, names: Iterable[str]) -> dict[str, Prediction]:
         """Return the predictions of some of the models, those that can fill the recording."""
-        chosen = {name: self.models[name] for name in names}
-        return _asked(chosen, lambda model: model.impute([recording])[0])[0]
+        return _asked(self._named(names), lambda model: model.impute([recording])[0])[0]
+
+    def as_claimed(self, recording: Recording, names: Iterable[str]) -> dict[str, Prediction]:
+        """Return those of `impute` without the trials that variances need."""
+        return _asked(self._named(names), lambda model: model.as_claimed([recording])[0])[0]
 
     def means(self, recording: Recording) -> dict[str, FrameByChannel]:
-        """Return the means of `impute`, without the trials that variances need."""
-        return _asked(self.models, lambda model: _without_trials(model)([recording])[0].mean)[0]
+        """Return the means of all models that can fill the recording."""
+        claimed = self.as_claimed(recording, self.models)
+        return {name: prediction.mean for name, prediction in claimed.items()}
+
+    def _named(self, names: Iterable[str]) -> dict[str, FrameImputer]:
+        return {name: self.models[name] for name in names}
 
 
 def _asked(
@@ -132,7 +137,3 @@ def _anew(model: FrameImputer, recordings: Sequence[Recording]) -> FrameImputer:
     if isinstance(model, Jointly):
         return model.with_recordings(recordings)
     return copy(model).fit(recordings)
-
-
-def _without_trials(model: FrameImputer) -> Impute:
-    return model.as_claimed if isinstance(model, Widened) else model.impute

@@ -36,7 +36,7 @@ TYPICAL: Array = np.log([1.0, 0.25, 0.3, 0.3, 8.0, 0.2])
 
 @dataclass(frozen=True, eq=False)
 class DescribedFrames:
-    """The frames of several recordings.
+    """The frames of several recordings, those of one recording next to each other.
 
     Parameters
     ----------
@@ -73,14 +73,14 @@ class ChannelPairs:
         Squared, between their descriptions.
     products : ndarray of shape (n, m)
         Of their descriptions.
-    together : sequence of (places, lags)
+    together : sequence of ((rows, columns), lags)
         For each recording that both have frames of, where these are in an array (n, m), and how
         many frames apart.
     """
 
     distances: Array
     products: Array
-    together: Sequence[tuple[tuple[Index, ...], Array]]
+    together: Sequence[tuple[tuple[slice, slice], Array]]
 
     @classmethod
     def of(cls, one: DescribedFrames, other: DescribedFrames) -> Self:
@@ -105,8 +105,9 @@ class ChannelPairs:
         """Return those of the covariance by the logarithms of ℓ, √β, √α, √γ and τ."""
         length, linear, own, drift, lasting, _ = np.exp(parameters)
         squares, kernel = self.distances / length**2, Matern32()
-        shared = 1.0 + linear**2 * self.products + 1.0 / np.sqrt(1.0 + squares)
-        by_length = squares * (1.0 + squares) ** -1.5
+        curved = 1.0 / np.sqrt(1.0 + squares)
+        shared = 1.0 + linear**2 * self.products + curved
+        by_length = squares * curved**3
         by_linear = 2.0 * linear**2 * self.products
         by_own, by_drift, by_lasting = (np.zeros_like(shared) for _ in range(3))
         for place, lags in self.together:
@@ -120,8 +121,13 @@ class ChannelPairs:
 
 def _together(
     one: DescribedFrames, other: DescribedFrames
-) -> Iterator[tuple[tuple[Index, ...], Array]]:
+) -> Iterator[tuple[tuple[slice, slice], Array]]:
     for number in np.intersect1d(one.recording, other.recording):
-        rows, columns = (np.flatnonzero(of.recording == number) for of in (one, other))
+        rows, columns = (_frames_of(number, frames) for frames in (one, other))
         lags = np.abs(np.subtract.outer(one.place[rows], other.place[columns]))
-        yield np.ix_(rows, columns), lags.astype(np.float64)
+        yield (rows, columns), lags.astype(np.float64)
+
+
+def _frames_of(number: int, frames: DescribedFrames) -> slice:
+    first, last = np.flatnonzero(frames.recording == number)[[0, -1]]
+    return slice(first, last + 1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import resource
 import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -17,11 +18,24 @@ from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.unit import Unit
 from mocapbench.benchmark.runs.fitting.solve import build_model
-from mocapbench.datasets import FrameByChannel
+from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["Attempt", "attempt"]
+__all__ = ["Ask", "Attempt", "as_claimed", "attempt", "impute"]
+
+Ask = Callable[[FrameImputer, Sequence[Recording]], object]
+"""How a fitted model is asked for its predictions."""
 
 _SEED = 0
+
+
+def impute(model: FrameImputer, recordings: Sequence[Recording]) -> object:
+    """Ask for predictions as the user gets them, with variances that the model has checked."""
+    return model.impute(recordings)
+
+
+def as_claimed(model: FrameImputer, recordings: Sequence[Recording]) -> object:
+    """Ask for the same means, without the time that checks of variances take."""
+    return model.as_claimed(recordings)
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +67,9 @@ class Attempt:
         return replace(self, seconds=seconds)
 
 
-def attempt(model: type[FrameImputer], question: Question, memory: int) -> Attempt:
+def attempt(
+    model: type[FrameImputer], question: Question, memory: int, ask: Ask = impute
+) -> Attempt:
     """Return what a model answers; whatever it raises becomes its trouble.
 
     Parameters
@@ -63,12 +79,14 @@ def attempt(model: type[FrameImputer], question: Question, memory: int) -> Attem
     question : Question
     memory : int
         Bytes of address space to which this process is limited from now on.
+    ask : callable, default=impute
+        Or `as_claimed`.
     """
     resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
     try:
         with warnings.catch_warnings(action="ignore"):
             windows = windows_of(question, model.max_frames)
-            answer = _merged(question, [(w, _filled(model, part)) for w, part in windows])
+            answer = _merged(question, [(w, _filled(model, part, ask)) for w, part in windows])
     except MemoryError:
         return Attempt(None, f"needed more than {memory / 2**30:.1f} GiB of memory")
     except BaseException as error:  # a model that calls sys.exit has failed like any other
@@ -77,7 +95,7 @@ def attempt(model: type[FrameImputer], question: Question, memory: int) -> Attem
     return Attempt(answer, windows=0 if whole else len(windows))
 
 
-def _filled(model: type[FrameImputer], question: Question) -> Prediction:
+def _filled(model: type[FrameImputer], question: Question, ask: Ask) -> Prediction:
     """Return what the model puts where the question's entries are wanted (N, D)."""
     asked = without_unseen(question)
     problem = ImputeProblem(
@@ -88,7 +106,7 @@ def _filled(model: type[FrameImputer], question: Question) -> Prediction:
     )
     fitted = build_model(model, {}, _SEED)
     problem.fit(fitted)
-    (prediction,) = problem.solve(fitted, _SEED).predictions
+    (prediction,) = problem.answered(ask(fitted, problem.given)).predictions
     spread = partial(_over_channels, question, asked)
     variance = None if prediction.variance is None else spread(prediction.variance)
     return Prediction(spread(prediction.mean), variance)

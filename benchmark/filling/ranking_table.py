@@ -24,7 +24,6 @@ def ranked(filled: Filled) -> Iterator[RankedModel]:
             model,
             ranking.means[model],
             tuple(scores.rmse[unit] for unit in units(filled)),
-            scores.coverage,
             filled.choice.seconds[model],
             _note(filled.choice, model, chosen=filled.model),
         )

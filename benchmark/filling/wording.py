@@ -8,6 +8,7 @@ from itertools import takewhile
 from mocapbench.benchmark.filling.cautions import cautions
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.remaining import remaining
+from mocapbench.benchmark.filling.trials.choice import Choice
 from mocapbench.benchmark.filling.trials.ranking import Ranking
 from mocapbench.reports import counted, listed
 
@@ -25,7 +26,7 @@ def headline(filled: Filled) -> str:
 
 
 def verdict(filled: Filled) -> str:
-    """Return by how much the model leads in trials, and whether by more than chance."""
+    """Return by how much the model leads in trials, and how good its bands are there."""
     if filled.uncompared:
         return (
             "Nothing could be compared, since no model filled a trial gap within its part of the "
@@ -33,8 +34,13 @@ def verdict(filled: Filled) -> str:
         )
     if filled.choice is None:
         return ""
-    ranking = filled.choice.ranking
-    trials = _trials(ranking)
+    held = None if filled.failed else filled.choice.held
+    bands = "" if held is None else f" In trials, its 95 % bands hold {100 * held:.0f} %."
+    return _lead(filled.choice) + bands
+
+
+def _lead(choice: Choice) -> str:
+    ranking, trials = choice.ranking, _trials(choice.ranking)
     if len(ranking.order) == 1:
         return f"No other model has a rank, over {trials}."
     if not ranking.tested:
@@ -93,7 +99,7 @@ def _with_bands(filled: Filled) -> str:
         return ""
     ranking = filled.choice.ranking
     leading = takewhile(lambda model: model in ranking.sharing, ranking.order)
-    alike = [model for model in leading if ranking.scores[model].coverage is not None]
+    alike = [model for model in leading if ranking.scores[model].has_bands]
     return f"Trials cannot tell it apart from {alike[0]}, which has bands." if alike else ""
 
 

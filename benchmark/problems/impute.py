@@ -126,7 +126,16 @@ class ImputeProblem(Problem[FilledRecordings]):
     def solve(self, model: FrameImputer, random_state: int) -> FilledRecordings:
         """Return the model's predictions of the recordings given."""
         del random_state  # imputation draws nothing
-        predictions = model.impute(self.given)
+        return self.answered(model.impute(self.given))
+
+    def answered(self, predictions: object) -> FilledRecordings:
+        """Return what a model returned, checked.
+
+        Raises
+        ------
+        InvalidPredictionError
+            If it is no list of predictions that fit the recordings given.
+        """
         wanted = [Prediction] * len(self.given)
         if not isinstance(predictions, list) or list(map(type, predictions)) != wanted:
             raise InvalidPredictionError(

@@ -37,7 +37,6 @@ def _rows(page: FilledPage) -> list[tuple[str, ...]]:
             model.name,
             number(model.error, errors),
             *(number(value, n) for value, n in zip(model.rmse, places, strict=True)),
-            "–" if model.coverage is None else f"{100 * model.coverage:.0f} %",
             number(model.seconds, 1),
             model.note,
         )

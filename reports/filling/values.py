@@ -54,8 +54,6 @@ class RankedModel:
         Weighted mean error over the trial gaps, relative to that of holding the last visible pose.
     rmse : tuple of float
         By unit, in the order of ``FilledPage.units``.
-    coverage : float or None
-        The share of trial entries inside the model's 95 % bands, if it has any.
     seconds : float
     note : str
         Such as that it shares the first rank.
@@ -64,7 +62,6 @@ class RankedModel:
     name: str
     error: float
     rmse: tuple[float, ...]
-    coverage: float | None
     seconds: float
     note: str
 

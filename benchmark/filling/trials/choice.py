@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.trials.bands import held
 from mocapbench.benchmark.filling.trials.making import make_trials
 from mocapbench.benchmark.filling.trials.places import places_of
 from mocapbench.benchmark.filling.trials.race import Runner, race
@@ -21,6 +22,8 @@ from mocapbench.benchmark.filling.workers import Workers
 __all__ = ["Choice", "NoneInTimeError", "choose"]
 
 _SEED = 0
+_FOR_BANDS = 0.5
+"""Of the budget, what bands may take besides."""
 
 
 class NoneInTimeError(UsageError):
@@ -43,6 +46,9 @@ class Choice:
         What a trial took each ranked model on average.
     windows : mapping of str to int
         Into how many windows each ranked model had a trial cut; 0 if into none.
+    held : float or None
+        The share of hidden entries that the 95 % bands of the first model hold in trials; None if
+        it has no bands, or was not done in time.
     """
 
     ranking: Ranking
@@ -50,6 +56,7 @@ class Choice:
     share: float
     seconds: Mapping[str, float]
     windows: Mapping[str, int]
+    held: float | None = None
 
 
 def choose(
@@ -62,7 +69,7 @@ def choose(
     question : Question
     workers : Workers
     budget : float
-        Seconds.
+        Seconds to compare models; half as many more may go to the bands of the best.
     watch : callable
         Called with the number of answers done and the total.
 
@@ -88,7 +95,11 @@ def choose(
             f"budget of {budget:g} s, got none ({runners[0].model}: {runners[0].trouble}); raise "
             "--budget"
         )
-    return _ranked(trials[:count], runners)
+    choice = _ranked(trials[:count], runners)
+    best = choice.ranking.order[0]
+    if not choice.ranking.scores[best].has_bands:
+        return choice
+    return replace(choice, held=held(best, trials[:count], workers, _FOR_BANDS * budget))
 
 
 def _advice(question: Question, models: Sequence[str]) -> str:

@@ -15,7 +15,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mocapbench.benchmark.filling.attempt import Attempt
+from mocapbench.benchmark.filling.attempt import Attempt, as_claimed
 from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.trials.trial import Trial
 from mocapbench.benchmark.filling.workers import Workers
@@ -131,7 +131,8 @@ class _Lap:
                 continue
             question = self._questions[len(runner.answers)]
             seconds = min(self._limit, left)
-            self._running[self._workers.submit(runner.model, question, seconds)] = runner
+            future = self._workers.submit(runner.model, question, seconds, as_claimed)
+            self._running[future] = runner
 
     def _end(self, runner: Runner, attempt: Attempt) -> None:
         runner.take(attempt)

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from scipy.special import ndtri
 
 from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.trials.trial import Trial
@@ -18,7 +17,6 @@ __all__ = ["Scores", "held_errors", "scores_of", "weights_of"]
 
 Array = NDArray[np.float64]
 
-_WITHIN_95 = float(ndtri(0.975))
 _LEAST = 1e-9
 """Errors, relative to those of holding, below which models are equally good but for rounding."""
 
@@ -35,13 +33,13 @@ class Scores:
         angles, however far the person travels.
     rmse : mapping of str to float
         By unit, the root mean squared error over all entries, in that unit.
-    coverage : float or None
-        The share of entries inside their 95 % bands; None if the model has none.
+    has_bands : bool
+        Whether the model has a predictive distribution.
     """
 
     errors: Array
     rmse: Mapping[str, float]
-    coverage: float | None
+    has_bands: bool
 
 
 def weights_of(trials: Sequence[Trial]) -> Array:
@@ -84,7 +82,7 @@ def scores_of(
     return Scores(
         np.array([error for pair in pairs for error in _errors(*pair, scales)]),
         _by_unit(pairs),
-        _coverage(pairs),
+        all(answer.variance is not None for answer in answers),
     )
 
 
@@ -113,12 +111,3 @@ def _by_unit(pairs: Sequence[tuple[Trial, Answer]]) -> Mapping[str, float]:
             chosen = units == unit
             squares.setdefault(unit, []).append((answer.mean - trial.truth)[chosen] ** 2)
     return {unit: float(np.sqrt(np.concatenate(parts).mean())) for unit, parts in squares.items()}
-
-
-def _coverage(pairs: Sequence[tuple[Trial, Answer]]) -> float | None:
-    inside = [
-        np.abs(answer.mean - trial.truth) <= _WITHIN_95 * np.sqrt(answer.variance)
-        for trial, answer in pairs
-        if answer.variance is not None
-    ]
-    return float(np.concatenate(inside).mean()) if inside else None

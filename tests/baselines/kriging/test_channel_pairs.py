@@ -8,11 +8,10 @@ seeds = st.integers(0, 2**16)
 
 
 def frames(seed):
-    """Return 30 frames of three recordings, in any order."""
+    """Return 30 frames of three recordings, one below the other."""
     rng = np.random.default_rng(seed)
-    return DescribedFrames(
-        rng.normal(size=(30, 4)), rng.integers(20, size=30), rng.integers(3, size=30)
-    )
+    place, recording = rng.integers(20, size=30), np.sort(rng.integers(3, size=30))
+    return DescribedFrames(rng.normal(size=(30, 4)), place, recording)
 
 
 def dense(one, other, parameters):

@@ -62,7 +62,7 @@ def choice_of():
 
     def make(errors, share=1.0, places=None):
         scores = {
-            model: Scores(np.array(of_model, dtype=float), {"deg": 1.0}, None)
+            model: Scores(np.array(of_model, dtype=float), {"deg": 1.0}, has_bands=False)
             for model, of_model in errors.items()
         }
         n = len(next(iter(errors.values())))

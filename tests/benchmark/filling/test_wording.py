@@ -82,14 +82,21 @@ def test_what_was_done_is_said(filled, choice_of):
         assert words in said
 
 
+def test_the_verdict_says_what_bands_hold_unless_another_model_filled(filled, choice_of):
+    choice = replace(choice_of({"one": [1, 2], "two": [2, 1]}), held=0.936)
+    assert "In trials, its 95 % bands hold 94 %." in verdict(filled(choice))
+    assert "bands" not in verdict(filled(choice, failed=(("two", "it broke"),)))
+    assert "bands" not in verdict(filled(replace(choice, held=None)))
+
+
 @pytest.fixture
 def said_without_bands(filled, choice_of):
     """Return a function to the remarks on a choice without bands, beside which another has some."""
 
-    def said(coverage=0.9, n=5, failed=()):
+    def said(has_bands=True, n=5, failed=()):
         choice = choice_of({"one": [1, 2, 1, 2, 1][:n], "two": [2, 1, 2, 1, 2][:n]})
         scores = {**choice.ranking.scores}
-        scores["two"] = replace(scores["two"], coverage=coverage)
+        scores["two"] = replace(scores["two"], has_bands=has_bands)
         choice = replace(choice, ranking=replace(choice.ranking, scores=scores))
         bare = filled(choice, failed=failed)
         return " ".join(remarks(replace(bare, answer=replace(bare.answer, variance=None))))
@@ -106,7 +113,7 @@ def test_a_model_with_bands_that_trials_cannot_tell_apart_is_named(said_without_
 @pytest.mark.parametrize(
     "case",
     [
-        {"coverage": None},
+        {"has_bands": False},
         {"n": 4},  # too few to tell anything
         {"failed": (("two", "it broke"),)},
     ],
@@ -124,7 +131,7 @@ def test_a_model_with_bands_that_is_behind_a_worse_one_is_not_named(filled, choi
     choice = choice_of(erratic)
     assert choice.ranking.sharing == ("one", "three")
     scores = {**choice.ranking.scores}
-    scores["three"] = replace(scores["three"], coverage=0.9)
+    scores["three"] = replace(scores["three"], has_bands=True)
     bare = filled(replace(choice, ranking=replace(choice.ranking, scores=scores)))
     bare = replace(bare, answer=replace(bare.answer, variance=None))
     assert "cannot tell it apart" not in " ".join(remarks(bare))

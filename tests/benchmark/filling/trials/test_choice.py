@@ -6,7 +6,7 @@ import pytest
 
 from mocapbench.baselines import Imputer, Prediction
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.attempt import Attempt, attempt
+from mocapbench.benchmark.filling.attempt import Attempt, as_claimed, attempt, impute
 from mocapbench.benchmark.filling.question import Answer, Question
 from mocapbench.benchmark.filling.trials import choice
 from mocapbench.benchmark.filling.trials.choice import choose
@@ -25,25 +25,39 @@ class Remembers(Imputer):
         return [Prediction.around(r, self.first_.values[: len(r.times)]) for r in recordings]
 
 
+class Bands(Imputer):
+    """Fills with zeros; its bands hold nothing until they are checked, and everything then."""
+
+    def fit(self, recordings):
+        return self
+
+    def impute(self, recordings):
+        return [Prediction.around(recording, 0.0, 1e4) for recording in recordings]
+
+    def as_claimed(self, recordings):
+        return [Prediction.around(recording, 0.0, 1e-12) for recording in recordings]
+
+
 class Here:
     """Workers of this process, which need no time; slow models take longer than any limit."""
 
     count = 2
 
     def __init__(self, slow=()):
-        self.slow, self.kept, self.limits = slow, [], []
+        self.slow, self.kept, self.limits, self.asked = slow, [], [], []
 
     def keep(self, question):
         self.kept.append(question)
         return len(self.kept) - 1
 
-    def submit(self, model, question, seconds):
+    def submit(self, model, question, seconds, ask):
         self.limits.append((model, seconds))
+        self.asked.append(ask)
         ended = Future()
         if model in self.slow:
             ended.set_result(Attempt(None, "took longer", slow=True))
         else:
-            ended.set_result(attempt(MODELS.get(model), self.kept[question], 2**45))
+            ended.set_result(attempt(MODELS.get(model), self.kept[question], 2**45, ask))
         return ended
 
     def ended(self, futures):
@@ -165,9 +179,9 @@ class Slow(Here):
 
     count = 1
 
-    def submit(self, model, question, seconds):
+    def submit(self, model, question, seconds, ask):
         self.slow = (model,) if seconds < 4.0 else ()
-        return super().submit(model, question, seconds)
+        return super().submit(model, question, seconds, ask)
 
 
 def test_slow_models_have_their_trials_one_after_another(waves, hidden):
@@ -177,6 +191,46 @@ def test_slow_models_have_their_trials_one_after_another(waves, hidden):
     race(["linear", "hold"], trials, workers, 64.0, lambda *_: None)
     models = [model for model, _ in workers.limits]
     assert models == ["linear", "hold", *["linear"] * 3, *["hold"] * 3]
+
+
+@pytest.fixture
+def only(monkeypatch):
+    """Return a function that leaves a single model to choose from."""
+    MODELS.add("bands", Bands)
+    return lambda name: monkeypatch.setattr(choice, "able_models", lambda question: (name,))
+
+
+def test_models_are_compared_without_checks_and_the_bands_of_the_best_are_checked(
+    waves, hidden, only
+):
+    only("bands")
+    mask, workers = hidden((50, 58, [0])), Here()
+    chosen = choose(Question(waves().hide(mask), mask), workers, 64.0, lambda *_: None)
+    assert chosen.held == 1.0
+    assert workers.asked == [as_claimed] * (len(workers.asked) - 3) + [impute] * 3
+    for_bands = [seconds for _, seconds in workers.limits[-3:]]
+    assert sum(for_bands) / workers.count <= 32.0
+
+
+def test_bands_that_there_are_not_or_not_in_time_hold_nothing(waves, hidden, only):
+    mask = hidden((50, 58, [0]))
+    question = Question(waves().hide(mask), mask)
+    only("linear")
+    workers = Here()
+    assert choose(question, workers, 64.0, lambda *_: None).held is None
+    assert set(workers.asked) == {as_claimed}
+    only("bands")
+    workers = SlowToCheck()
+    assert choose(question, workers, 64.0, lambda *_: None).held is None
+    assert impute in workers.asked
+
+
+class SlowToCheck(Here):
+    """Workers that check no bands in time."""
+
+    def submit(self, model, question, seconds, ask):
+        self.slow = (model,) if ask is impute else ()
+        return super().submit(model, question, seconds, ask)
 
 
 def test_scores_are_closed_forms(waves, hidden):
@@ -190,7 +244,7 @@ def test_scores_are_closed_forms(waves, hidden):
     scores = choice.scores_of([trial], [answer], {"deg": 1.0, "cm": 2.0})
     np.testing.assert_allclose(scores.errors, 1.0)
     assert scores.rmse == pytest.approx({"deg": 1.0, "cm": 2.0})
-    assert scores.coverage == 0.5
+    assert scores.has_bands
 
 
 def test_each_unit_counts_alike_however_many_channels_have_it(waves, hidden):
