@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from mocapbench.baselines import (
     BestOf,
     FrameImputer,
@@ -27,8 +29,9 @@ def able_models(question: Question) -> tuple[str, ...]:
     """Return the models that have the abilities to answer, in the order in which they are tried.
 
     Those that interpolate take no time and come first, then those made for markers, where there are
-    markers. `BestOf`, which tries most of the others itself, is last. All models learn from the
-    recording that they fill, so that none needs to be `Inductive`.
+    markers. Of the others, those that take more frames in some seconds come before slower ones.
+    `BestOf`, which tries most of the others itself, is last. All models learn from the recording
+    that they fill, so that none needs to be `Inductive`.
     """
     needed, barred = _needed(question), _barred(question)
     names = [
@@ -39,8 +42,9 @@ def able_models(question: Question) -> tuple[str, ...]:
     return tuple(sorted(names, key=lambda name: _turn(MODELS.get(name))))
 
 
-def _turn(model: type[Model]) -> int:
-    return min((turn for kind, turn in _TURNS.items() if issubclass(model, kind)), default=2)
+def _turn(model: type[FrameImputer]) -> tuple[int, float]:
+    turn = min((turn for kind, turn in _TURNS.items() if issubclass(model, kind)), default=2)
+    return turn, -(model.max_frames or np.inf)
 
 
 def require_able(name: str, question: Question) -> None:

@@ -12,6 +12,7 @@ from mocapbench.benchmark.testing.subject import COMPLETE, GAP, SCATTERED, Subje
 from mocapbench.datasets import Recording
 
 __all__ = [
+    "claims_the_same_means",
     "fills_any_mask",
     "fills_channels_apart",
     "fills_new_recordings",
@@ -54,6 +55,16 @@ def repeats_itself(subject: Subject) -> None:
     one, two = (_filled(subject.fitted(recordings), [recordings[-1]])[0].mean for _ in range(2))
     advice = "take all randomness from random_state"
     require_equal(one, two, "the same answer from the same seed", advice)
+
+
+def claims_the_same_means(subject: Subject) -> None:
+    """Check that what is compared in trials, without checks of variances, is what is filled."""
+    recordings = problem(GAP)
+    model = subject.fitted(recordings)
+    (filled,) = _filled(model, [recordings[-1]])
+    (claimed,) = model.as_claimed([recordings[-1]])
+    advice = "let as_claimed change variances alone, or do not define it"
+    require_equal(claimed.mean, filled.mean, "as_claimed to have the means of impute", advice)
 
 
 def ignores_the_order_of_recordings(subject: Subject) -> None:

@@ -147,6 +147,7 @@ _CHECKS: Mapping[type, tuple[ModelCheck, ...]] = {
     FrameImputer: (
         imputers.fills_whole_frames,
         imputers.repeats_itself,
+        imputers.claims_the_same_means,
         imputers.ignores_the_order_of_recordings,
     ),
     Imputer: (imputers.fills_any_mask,),

@@ -255,6 +255,13 @@ class Unseeded(_Mean):
         return [Prediction.around(r, rng.standard_normal(r.values.shape)) for r in recordings]
 
 
+class Pretends(_Mean):
+    """Does something else in trials than what it fills."""
+
+    def as_claimed(self, recordings):
+        return [Prediction.around(recording, -99.0) for recording in recordings]
+
+
 class FirstOnly(_Mean):
     """Learns from the first recording alone."""
 
@@ -392,6 +399,7 @@ NONCONFORMING = {
     Restless: "expected the parameters {'size': 3}, got {'size': 4}",
     Global: "expected NumPy's global random state untouched",
     Unseeded: "the same answer from the same seed",
+    Pretends: "expected as_claimed to have the means of impute, got differences in",
     FirstOnly: "recordings in another order, got a difference of",
     Overwrites: "visible entries copied into the mean",
     VariesVisible: "expected no variance at visible entries",

@@ -95,11 +95,11 @@ def choose(
             f"budget of {budget:g} s, got none ({runners[0].model}: {runners[0].trouble}); raise "
             "--budget"
         )
-    choice = _ranked(trials[:count], runners)
+    choice = _led_by_more_than_chance(trials, runners, _ranked(trials[:count], runners))
     best = choice.ranking.order[0]
     if not choice.ranking.scores[best].has_bands:
         return choice
-    return replace(choice, held=held(best, trials[:count], workers, _FOR_BANDS * budget))
+    return replace(choice, held=held(best, trials, workers, _FOR_BANDS * budget))
 
 
 def _advice(question: Question, models: Sequence[str]) -> str:
@@ -115,6 +115,19 @@ def _common(runners: Sequence[Runner]) -> int:
     counts = sorted((len(runner.answers) for runner in runners), reverse=True)
     totals = [count * place for place, count in enumerate(counts, start=1)]
     return counts[int(np.argmax(totals))]
+
+
+def _led_by_more_than_chance(
+    trials: Sequence[Trial], runners: Sequence[Runner], most: Choice
+) -> Choice:
+    """Return the choice by fewer trials, if a model that had no more leads by more than chance."""
+    for count in sorted({len(runner.answers) for runner in runners} - {0}, reverse=True):
+        fewer = _ranked(trials[:count], runners)
+        ranking, leader = fewer.ranking, most.ranking.order[0]
+        had_fewer = ranking.order[0] not in most.ranking.scores
+        if had_fewer and ranking.tested and leader not in ranking.sharing:
+            return fewer
+    return most
 
 
 def _ranked(trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:

@@ -10,7 +10,7 @@ from mocapbench.benchmark.filling.attempt import Attempt, as_claimed, attempt, i
 from mocapbench.benchmark.filling.question import Answer, Question
 from mocapbench.benchmark.filling.trials import choice
 from mocapbench.benchmark.filling.trials.choice import choose
-from mocapbench.benchmark.filling.trials.race import race
+from mocapbench.benchmark.filling.trials.race import Runner, race
 from mocapbench.benchmark.registry import MODELS
 
 
@@ -313,3 +313,44 @@ def test_a_gap_counts_by_its_entries_however_many_copies_it_has(waves, hidden):
     assert weights.mean() == pytest.approx(1.0)
     shares = {entries: total / len(weights) for entries, total in totals.items()}
     assert shares == pytest.approx({10: 10 / 75, 60: 60 / 75, 5: 5 / 75})
+
+
+@pytest.fixture
+def chosen_of(waves, hidden, monkeypatch):
+    """Return a function from the errors of models, trial by trial, to the choice among them."""
+    mask = hidden((50, 58, [0, 1]))
+    question = Question(waves().hide(mask), mask)
+    trials = choice.make_trials(question, np.random.default_rng(0))
+
+    def chosen(errors):
+        found = [Runner(model) for model in errors]
+        for runner, off in zip(found, errors.values(), strict=True):
+            pairs = zip(trials, off, strict=False)
+            runner.answers = [Answer(trial.truth + error, None) for trial, error in pairs]
+        monkeypatch.setattr(choice, "race", lambda *_: found)
+        return choose(question, Here(), 60.0, lambda *_: None).ranking
+
+    chosen.n = len(trials)
+    assert chosen.n >= 8
+    return chosen
+
+
+def test_a_model_that_had_fewer_trials_is_chosen_if_it_leads_by_more_than_chance(chosen_of):
+    n = chosen_of.n
+    errors = {"linear": [2.0, 2.1] * n, "pchip": [2.1, 2.2] * n, "slow": [0.4, 0.5] * (n // 4)}
+    ranking = chosen_of({name: off[:n] for name, off in errors.items()})
+    assert ranking.order[0] == "slow"
+    assert set(ranking.scores) == set(errors)
+
+
+@pytest.mark.parametrize(
+    "slow",
+    [[1.9, 2.2, 2.0, 2.1, 1.8], [0.1], [3.0, 3.0, 3.0, 3.0, 3.0]],
+    ids=["by chance", "in too few trials", "behind"],
+)
+def test_a_model_that_had_fewer_trials_is_not_chosen_otherwise(chosen_of, slow):
+    n = chosen_of.n
+    errors = {"linear": [2.0, 2.1] * n, "pchip": [2.1, 2.2] * n}
+    ranking = chosen_of({**{name: off[:n] for name, off in errors.items()}, "slow": slow})
+    assert ranking.order == ("linear", "pchip")
+    assert ranking.n >= n
