@@ -11,9 +11,10 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.trials.bands import held
+from mocapbench.benchmark.filling.trials.laps import Runner
 from mocapbench.benchmark.filling.trials.making import make_trials
 from mocapbench.benchmark.filling.trials.places import places_of
-from mocapbench.benchmark.filling.trials.race import Runner, race
+from mocapbench.benchmark.filling.trials.race import race
 from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
 from mocapbench.benchmark.filling.trials.scores import held_errors, scores_of, weights_of
 from mocapbench.benchmark.filling.trials.trial import Trial

@@ -10,7 +10,7 @@ from mocapbench.benchmark.filling.gaps import Gap
 from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.requests.request import Request
 from mocapbench.benchmark.filling.sources import Source
-from mocapbench.benchmark.filling.trials.race import Runner
+from mocapbench.benchmark.filling.trials.laps import Runner
 from mocapbench.benchmark.filling.wording import headline, remarks, verdict
 from mocapbench.datasets import CSVFormat, Recording
 

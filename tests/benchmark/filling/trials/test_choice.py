@@ -10,7 +10,8 @@ from mocapbench.benchmark.filling.attempt import Attempt, as_claimed, attempt, i
 from mocapbench.benchmark.filling.question import Answer, Question
 from mocapbench.benchmark.filling.trials import choice
 from mocapbench.benchmark.filling.trials.choice import choose
-from mocapbench.benchmark.filling.trials.race import Runner, race
+from mocapbench.benchmark.filling.trials.laps import Runner
+from mocapbench.benchmark.filling.trials.race import race
 from mocapbench.benchmark.registry import MODELS
 
 
@@ -193,6 +194,42 @@ def test_slow_models_have_their_trials_one_after_another(waves, hidden):
     assert models == ["linear", "hold", *["linear"] * 3, *["hold"] * 3]
 
 
+class TwoSlow(Slow):
+    """Two workers, of which the one that began first ends first."""
+
+    count = 2
+
+
+def test_from_its_first_answer_on_all_workers_try_a_slow_model(waves, hidden):
+    mask = hidden((50, 58, [0]))
+    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[:4]
+    workers = TwoSlow()
+    linear, hold = race(["linear", "hold"], trials, workers, 64.0, lambda *_: None)
+    models = [model for model, _ in workers.limits][2:]
+    assert models == ["linear", "hold", *["linear"] * 3, *["hold"] * 3]
+    assert len(linear.answers) == len(hold.answers) == 4
+
+
+class Fails(TwoSlow):
+    """Two workers; the second trial cannot be answered, while the third is being tried."""
+
+    def submit(self, model, question, seconds, ask):
+        ended = super().submit(model, question, seconds, ask)
+        if question == 1:
+            ended = Future()
+            ended.set_result(Attempt(None, "cannot do it"))
+        return ended
+
+
+def test_a_model_that_fails_in_a_trial_tries_no_other(waves, hidden):
+    mask = hidden((50, 58, [0]))
+    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[:4]
+    workers = Fails()
+    (runner,) = race(["linear"], trials, workers, 64.0, lambda *_: None)
+    assert len(workers.limits) == 1 + 3
+    assert (len(runner.answers), runner.trouble, runner.late) == (1, "cannot do it", False)
+
+
 @pytest.fixture
 def only(monkeypatch):
     """Return a function that leaves a single model to choose from."""
@@ -326,7 +363,8 @@ def chosen_of(waves, hidden, monkeypatch):
         found = [Runner(model) for model in errors]
         for runner, off in zip(found, errors.values(), strict=True):
             pairs = zip(trials, off, strict=False)
-            runner.answers = [Answer(trial.truth + error, None) for trial, error in pairs]
+            answers = [Answer(trial.truth + error, None) for trial, error in pairs]
+            runner.found = dict(enumerate(answers))
         monkeypatch.setattr(choice, "race", lambda *_: found)
         return choose(question, Here(), 60.0, lambda *_: None).ranking
 
