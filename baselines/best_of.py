@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from typing import ClassVar, Self
 
 import numpy as np
@@ -24,9 +24,6 @@ from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["BestOf"]
-
-Ask = Callable[[Recording, Iterable[str]], Mapping[str, Prediction]]
-"""What gives the predictions of candidates."""
 
 
 class BestOf(Imputer, Inductive):
@@ -170,11 +167,7 @@ class BestOf(Imputer, Inductive):
             If channels differ, or a channel is visible neither in a recording nor in those given to
             `fit`.
         """
-        return [self._mixture(each, self.panel_.impute) for each in self._checked(recordings)]
-
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictions of `impute`, with the variances that candidates claim."""
-        return [self._mixture(each, self.panel_.as_claimed) for each in self._checked(recordings)]
+        return [self._mixture(recording) for recording in self._checked(recordings)]
 
     def _checked(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
         check_is_fitted(self)
@@ -184,7 +177,7 @@ class BestOf(Imputer, Inductive):
     def _rehearsals(self, recording: Recording) -> Rehearsals:
         return Rehearsals(self.recordings_, self.panel_, recording)
 
-    def _mixture(self, recording: Recording, ask: Ask) -> Prediction:
+    def _mixture(self, recording: Recording) -> Prediction:
         filled = self.panel_.means(recording)
         if LAST_RESORT not in filled:  # it says what nothing can fill
             return self.panel_.models[LAST_RESORT].impute([recording])[0]
@@ -194,7 +187,7 @@ class BestOf(Imputer, Inductive):
         weights = weights[(weights > 0.0).any(axis=1)]
         errors = pd.DataFrame({part: expected_errors(each) for part, each in sources.items()})
         errors = errors.reindex(weights.index).fillna(1.0)
-        filled_by = ask(recording, weights.index)
+        filled_by = self.panel_.impute(recording, weights.index)
         answers = [filled_by[name] for name in weights.index]
         shares, expected = (_spread(table, recording) for table in (weights, errors))
         means = np.stack([answer.mean for answer in answers])

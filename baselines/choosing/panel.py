@@ -103,19 +103,12 @@ class Panel:
 
     def impute(self, recording: Recording, names: Iterable[str]) -> dict[str, Prediction]:
         """Return the predictions of some of the models, those that can fill the recording."""
-        return _asked(self._named(names), lambda model: model.impute([recording])[0])[0]
-
-    def as_claimed(self, recording: Recording, names: Iterable[str]) -> dict[str, Prediction]:
-        """Return those of `impute` without the trials that variances need."""
-        return _asked(self._named(names), lambda model: model.as_claimed([recording])[0])[0]
+        chosen = {name: self.models[name] for name in names}
+        return _asked(chosen, lambda model: model.impute([recording])[0])[0]
 
     def means(self, recording: Recording) -> dict[str, FrameByChannel]:
-        """Return the means of all models that can fill the recording."""
-        claimed = self.as_claimed(recording, self.models)
-        return {name: prediction.mean for name, prediction in claimed.items()}
-
-    def _named(self, names: Iterable[str]) -> dict[str, FrameImputer]:
-        return {name: self.models[name] for name in names}
+        """Return the means of `impute`, without the trials that variances need."""
+        return _asked(self.models, lambda model: model.as_claimed([recording])[0].mean)[0]
 
 
 def _asked(

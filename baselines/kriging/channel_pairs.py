@@ -129,5 +129,7 @@ def _together(
 
 
 def _frames_of(number: int, frames: DescribedFrames) -> slice:
-    first, last = np.flatnonzero(frames.recording == number)[[0, -1]]
-    return slice(first, last + 1)
+    places = np.flatnonzero(frames.recording == number)
+    if len(places) != places[-1] + 1 - places[0]:
+        raise ValueError("expected frames of a recording next to each other, got some apart")
+    return slice(places[0], places[-1] + 1)

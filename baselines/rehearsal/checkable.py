@@ -9,13 +9,13 @@ from sklearn.base import clone
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import check_channels, pool
-from mocapbench.baselines.protocols import Model, Prediction
+from mocapbench.baselines.protocols import FrameImputer, Prediction
 from mocapbench.datasets import Recording
 
 __all__ = ["Relearning", "Widened"]
 
 
-class Widened(Model):
+class Widened(FrameImputer):
     """A model whose variances are checked by trials when it fills recordings."""
 
     channels_: tuple[str, ...]

@@ -29,9 +29,9 @@ def able_models(question: Question) -> tuple[str, ...]:
     """Return the models that have the abilities to answer, in the order in which they are tried.
 
     Those that interpolate take no time and come first, then those made for markers, where there are
-    markers. Of the others, those that take more frames in some seconds come before slower ones.
-    `BestOf`, which tries most of the others itself, is last. All models learn from the recording
-    that they fill, so that none needs to be `Inductive`.
+    markers. The others come in the order of `max_frames`, no limit first. `BestOf`, which tries
+    most of the others itself, is last. All models learn from the recording that they fill, so that
+    none needs to be `Inductive`.
     """
     needed, barred = _needed(question), _barred(question)
     names = [

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import resource
 import warnings
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -18,24 +17,11 @@ from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.unit import Unit
 from mocapbench.benchmark.runs.fitting.solve import build_model
-from mocapbench.datasets import FrameByChannel, Recording
+from mocapbench.datasets import FrameByChannel
 
-__all__ = ["Ask", "Attempt", "as_claimed", "attempt", "impute"]
-
-Ask = Callable[[FrameImputer, Sequence[Recording]], object]
-"""How a fitted model is asked for its predictions."""
+__all__ = ["Attempt", "attempt"]
 
 _SEED = 0
-
-
-def impute(model: FrameImputer, recordings: Sequence[Recording]) -> object:
-    """Ask for predictions as the user gets them, with variances that the model has checked."""
-    return model.impute(recordings)
-
-
-def as_claimed(model: FrameImputer, recordings: Sequence[Recording]) -> object:
-    """Ask for the same means, without the time that checks of variances take."""
-    return model.as_claimed(recordings)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +54,7 @@ class Attempt:
 
 
 def attempt(
-    model: type[FrameImputer], question: Question, memory: int, ask: Ask = impute
+    model: type[FrameImputer], question: Question, memory: int, method: str = "impute"
 ) -> Attempt:
     """Return what a model answers; whatever it raises becomes its trouble.
 
@@ -79,14 +65,15 @@ def attempt(
     question : Question
     memory : int
         Bytes of address space to which this process is limited from now on.
-    ask : callable, default=impute
-        Or `as_claimed`.
+    method : str, default="impute"
+        What the model is asked for: ``"as_claimed"`` are the same means, without the time that
+        checks of variances take.
     """
     resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
     try:
         with warnings.catch_warnings(action="ignore"):
             windows = windows_of(question, model.max_frames)
-            answer = _merged(question, [(w, _filled(model, part, ask)) for w, part in windows])
+            answer = _merged(question, [(w, _filled(model, part, method)) for w, part in windows])
     except MemoryError:
         return Attempt(None, f"needed more than {memory / 2**30:.1f} GiB of memory")
     except BaseException as error:  # a model that calls sys.exit has failed like any other
@@ -95,7 +82,7 @@ def attempt(
     return Attempt(answer, windows=0 if whole else len(windows))
 
 
-def _filled(model: type[FrameImputer], question: Question, ask: Ask) -> Prediction:
+def _filled(model: type[FrameImputer], question: Question, method: str) -> Prediction:
     """Return what the model puts where the question's entries are wanted (N, D)."""
     asked = without_unseen(question)
     problem = ImputeProblem(
@@ -106,7 +93,7 @@ def _filled(model: type[FrameImputer], question: Question, ask: Ask) -> Predicti
     )
     fitted = build_model(model, {}, _SEED)
     problem.fit(fitted)
-    (prediction,) = problem.answered(ask(fitted, problem.given)).predictions
+    (prediction,) = problem.answered(getattr(fitted, method)(problem.given), method).predictions
     spread = partial(_over_channels, question, asked)
     variance = None if prediction.variance is None else spread(prediction.variance)
     return Prediction(spread(prediction.mean), variance)

@@ -34,9 +34,19 @@ def verdict(filled: Filled) -> str:
         )
     if filled.choice is None:
         return ""
-    held = None if filled.failed else filled.choice.held
-    bands = "" if held is None else f" In trials, its 95 % bands hold {100 * held:.0f} %."
-    return _lead(filled.choice) + bands
+    return f"{_lead(filled.choice)} {_bands(filled)}".strip()
+
+
+def _bands(filled: Filled) -> str:
+    """Return what the bands of the choice hold in trials, if it has any and has filled the file."""
+    choice = filled.choice
+    if choice is None or filled.failed or not choice.ranking.scores[filled.model].has_bands:
+        return ""
+    if choice.coverage is None:
+        return "There was no time to try its bands: a larger --budget may tell what they hold."
+    share, n_entries, n_gaps = choice.coverage
+    hidden = counted(n_entries, "hidden entry", "hidden entries")
+    return f"Its 95 % bands hold {100 * share:.0f} % of {hidden} in {counted(n_gaps, 'trial gap')}."
 
 
 def _lead(choice: Choice) -> str:
@@ -72,6 +82,11 @@ def remarks(filled: Filled) -> Iterator[str]:
         yield (
             "No visible stretch is long enough for gaps of the real lengths: trial gaps are down "
             f"to {100 * choice.share:.3g} % as long, and errors in the real ones larger."
+        )
+    if choice and choice.unused and not filled.failed:
+        yield (
+            f"{filled.model} had no time for {counted(choice.unused, 'more trial')} that others "
+            "had: all are compared without them."
         )
     yield from _late(filled)
     if filled.answer.variance is None:

@@ -15,7 +15,7 @@ from typing import Self
 
 from pebble import ProcessExpired
 
-from mocapbench.benchmark.filling.attempt import Ask, Attempt, attempt, impute
+from mocapbench.benchmark.filling.attempt import Attempt, attempt
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.runs.execution.child import (
@@ -71,11 +71,14 @@ class Workers:
         return path
 
     def submit(
-        self, model: str, question: Path, seconds: float, ask: Ask = impute
+        self, model: str, question: Path, seconds: float, method: str = "impute"
     ) -> Future[Attempt]:
-        """Have a model answer a question as soon as a worker is free, within so many seconds."""
+        """Have a model answer a question as soon as a worker is free, within so many seconds.
+
+        See `attempt` for the method.
+        """
         limits = seconds, self._memory
-        return self._pool.submit(_answered, model, question, ask, limits, self._plugins)
+        return self._pool.submit(_answered, model, question, method, limits, self._plugins)
 
     def ended(self, futures: Collection[Future[Attempt]]) -> Collection[Future[Attempt]]:
         """Wait until one or more of ``futures`` have ended, and return them."""
@@ -90,14 +93,14 @@ class Workers:
 
 
 def _answered(
-    name: str, question: Path, ask: Ask, limits: tuple[float, int], plugins: tuple[Path, ...]
+    name: str, question: Path, method: str, limits: tuple[float, int], plugins: tuple[Path, ...]
 ) -> Attempt:
     """Return one attempt, made in a child of this process."""
     started, (seconds, memory) = time.perf_counter(), limits
     load_plugins_once(plugins)
     model, asked = MODELS.get(name), _question(question)
     try:
-        made: Attempt = call_in_child(attempt, model, asked, memory, ask, timeout=seconds)
+        made: Attempt = call_in_child(attempt, model, asked, memory, method, timeout=seconds)
     except TimeoutError:
         made = Attempt(
             None, f"was stopped after {round(seconds, 2):g} s, when its time was up", slow=True

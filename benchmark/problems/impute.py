@@ -126,10 +126,10 @@ class ImputeProblem(Problem[FilledRecordings]):
     def solve(self, model: FrameImputer, random_state: int) -> FilledRecordings:
         """Return the model's predictions of the recordings given."""
         del random_state  # imputation draws nothing
-        return self.answered(model.impute(self.given))
+        return self.answered(model.impute(self.given), "impute")
 
-    def answered(self, predictions: object) -> FilledRecordings:
-        """Return what a model returned, checked.
+    def answered(self, predictions: object, method: str) -> FilledRecordings:
+        """Return what a method of a model returned, checked.
 
         Raises
         ------
@@ -139,12 +139,12 @@ class ImputeProblem(Problem[FilledRecordings]):
         wanted = [Prediction] * len(self.given)
         if not isinstance(predictions, list) or list(map(type, predictions)) != wanted:
             raise InvalidPredictionError(
-                f"impute: expected a list of {len(wanted)} Prediction, got {predictions!r:.200}"
+                f"{method}: expected a list of {len(wanted)} Prediction, got {predictions!r:.200}"
             )
         answer = FilledRecordings(tuple(map(_checked, self.given, predictions)))
         if len({prediction.variance is None for prediction in predictions}) > 1:
             raise InvalidPredictionError(
-                "impute: expected a variance with every Prediction or with none, got both"
+                f"{method}: expected a variance with every Prediction or with none, got both"
             )
         return answer
 

@@ -399,7 +399,7 @@ NONCONFORMING = {
     Restless: "expected the parameters {'size': 3}, got {'size': 4}",
     Global: "expected NumPy's global random state untouched",
     Unseeded: "the same answer from the same seed",
-    Pretends: "expected as_claimed to have the means of impute, got differences in",
+    Pretends: "expected as_claimed to have the means of impute, got a difference of",
     FirstOnly: "recordings in another order, got a difference of",
     Overwrites: "visible entries copied into the mean",
     VariesVisible: "expected no variance at visible entries",

@@ -6,16 +6,17 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.question import Question
-from mocapbench.benchmark.filling.trials.bands import held
-from mocapbench.benchmark.filling.trials.laps import Runner
+from mocapbench.benchmark.filling.trials.bands import Coverage, coverage
 from mocapbench.benchmark.filling.trials.making import make_trials
 from mocapbench.benchmark.filling.trials.places import places_of
 from mocapbench.benchmark.filling.trials.race import race
 from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
+from mocapbench.benchmark.filling.trials.runner import Runner
 from mocapbench.benchmark.filling.trials.scores import held_errors, scores_of, weights_of
 from mocapbench.benchmark.filling.trials.trial import Trial
 from mocapbench.benchmark.filling.workers import Workers
@@ -47,9 +48,10 @@ class Choice:
         What a trial took each ranked model on average.
     windows : mapping of str to int
         Into how many windows each ranked model had a trial cut; 0 if into none.
-    held : float or None
-        The share of hidden entries that the 95 % bands of the first model hold in trials; None if
-        it has no bands, or was not done in time.
+    unused : int
+        How many more trials others had than the first model had time for.
+    coverage : Coverage or None
+        What the bands of the first model hold in trials; None if it has none, or no time was left.
     """
 
     ranking: Ranking
@@ -57,7 +59,8 @@ class Choice:
     share: float
     seconds: Mapping[str, float]
     windows: Mapping[str, int]
-    held: float | None = None
+    unused: int = 0
+    coverage: Coverage | None = None
 
 
 def choose(
@@ -100,7 +103,7 @@ def choose(
     best = choice.ranking.order[0]
     if not choice.ranking.scores[best].has_bands:
         return choice
-    return replace(choice, held=held(best, trials, workers, _FOR_BANDS * budget))
+    return replace(choice, coverage=coverage(best, trials, workers, _FOR_BANDS * budget))
 
 
 def _advice(question: Question, models: Sequence[str]) -> str:
@@ -122,16 +125,38 @@ def _led_by_more_than_chance(
     trials: Sequence[Trial], runners: Sequence[Runner], most: Choice
 ) -> Choice:
     """Return the choice by fewer trials, if a model that had no more leads by more than chance."""
+    n_most = max(len(runner.answers) for runner in runners if runner.model in most.seconds)
     for count in sorted({len(runner.answers) for runner in runners} - {0}, reverse=True):
         fewer = _ranked(trials[:count], runners)
-        ranking, leader = fewer.ranking, most.ranking.order[0]
-        had_fewer = ranking.order[0] not in most.ranking.scores
-        if had_fewer and ranking.tested and leader not in ranking.sharing:
-            return fewer
+        if _of_all_gaps(trials[:count], trials[:n_most]) and _leads(fewer, most):
+            by_trial = _ranked(trials[:count], runners, _trial_of)
+            if _leads(by_trial, most):
+                return replace(fewer, unused=n_most - count)
     return most
 
 
-def _ranked(trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:
+def _of_all_gaps(fewer: Sequence[Trial], more: Sequence[Trial]) -> bool:
+    """Return whether fewer trials have copies of all gaps of which more trials have some."""
+    of_fewer, of_more = ({gap for t in trials for gap in t.originals} for trials in (fewer, more))
+    return of_fewer == of_more
+
+
+def _leads(fewer: Choice, most: Choice) -> bool:
+    """Return whether a model that most leaves out is better than all others by more than chance."""
+    ranking, others = fewer.ranking, most.ranking.scores.keys()
+    return ranking.tested and not others & set(ranking.sharing)
+
+
+def _trial_of(trials: Sequence[Trial]) -> NDArray[np.intp]:
+    """Return the number of each trial gap's trial (n,): a fit makes its errors large or small."""
+    return np.repeat(np.arange(len(trials)), [len(trial.units) for trial in trials])
+
+
+def _ranked(
+    trials: Sequence[Trial],
+    runners: Sequence[Runner],
+    units_of: Callable[[Sequence[Trial]], NDArray[np.intp]] = places_of,
+) -> Choice:
     scales = held_errors(trials)
     scores = {
         runner.model: scores_of(trials, runner.answers[: len(trials)], scales)
@@ -139,7 +164,7 @@ def _ranked(trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:
         if len(runner.answers) >= len(trials)
     }
     return Choice(
-        ranking=rank(scores, weights_of(trials), places_of(trials)),
+        ranking=rank(scores, weights_of(trials), units_of(trials)),
         left_out=tuple(runner for runner in runners if runner.model not in scores),
         share=min(trial.share for trial in trials),
         seconds={r.model: r.seconds / len(r.answers) for r in runners if r.model in scores},

@@ -7,7 +7,7 @@ import pytest
 
 from mocapbench.baselines import LinearImputer
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.attempt import Attempt, attempt, impute
+from mocapbench.benchmark.filling.attempt import Attempt, attempt
 from mocapbench.benchmark.filling.filler import BEST, fill
 from mocapbench.benchmark.filling.requests.request import Entries, select
 from mocapbench.benchmark.filling.sources import Source
@@ -23,10 +23,10 @@ class Slow:
     def keep(self, question):
         return question
 
-    def submit(self, model, question, seconds, ask=impute):
+    def submit(self, model, question, seconds, method="impute"):
         if seconds < 60.0:
             return Attempt(None, "was stopped", slow=True)
-        return attempt(MODELS.get(model), question, 2**40, ask)
+        return attempt(MODELS.get(model), question, 2**40, method)
 
     def ended(self, futures):
         return [*futures]

@@ -10,7 +10,8 @@ from mocapbench.benchmark.filling.gaps import Gap
 from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.requests.request import Request
 from mocapbench.benchmark.filling.sources import Source
-from mocapbench.benchmark.filling.trials.laps import Runner
+from mocapbench.benchmark.filling.trials.bands import Coverage
+from mocapbench.benchmark.filling.trials.runner import Runner
 from mocapbench.benchmark.filling.wording import headline, remarks, verdict
 from mocapbench.datasets import CSVFormat, Recording
 
@@ -82,11 +83,34 @@ def test_what_was_done_is_said(filled, choice_of):
         assert words in said
 
 
-def test_the_verdict_says_what_bands_hold_unless_another_model_filled(filled, choice_of):
-    choice = replace(choice_of({"one": [1, 2], "two": [2, 1]}), held=0.936)
-    assert "In trials, its 95 % bands hold 94 %." in verdict(filled(choice))
+@pytest.fixture
+def with_bands(choice_of):
+    """Return a function from the coverage of bands in trials to a choice that has bands."""
+
+    def choice(coverage):
+        bare = choice_of({"one": [1, 2], "two": [2, 1]})
+        scores = {name: replace(of, has_bands=True) for name, of in bare.ranking.scores.items()}
+        return replace(bare, ranking=replace(bare.ranking, scores=scores), coverage=coverage)
+
+    return choice
+
+
+def test_the_verdict_says_what_bands_hold_unless_another_model_filled(filled, with_bands):
+    choice = with_bands(Coverage(0.936, 1204, 3))
+    said = verdict(filled(choice))
+    assert said.endswith("Its 95 % bands hold 94 % of 1204 hidden entries in 3 trial gaps.")
     assert "bands" not in verdict(filled(choice, failed=(("two", "it broke"),)))
-    assert "bands" not in verdict(filled(replace(choice, held=None)))
+    assert "no time to try its bands" in verdict(filled(with_bands(None)))
+
+
+def test_the_verdict_says_nothing_of_bands_that_there_are_not(filled, choice_of):
+    assert "bands" not in verdict(filled(choice_of({"one": [1, 2], "two": [2, 1]})))
+
+
+def test_a_remark_says_that_the_choice_had_fewer_trials(filled, choice_of):
+    choice = replace(choice_of({"one": [1, 2], "two": [2, 1]}), unused=7)
+    said = " ".join(remarks(filled(choice)))
+    assert "one had no time for 7 more trials that others had" in said
 
 
 @pytest.fixture

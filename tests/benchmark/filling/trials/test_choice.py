@@ -1,3 +1,4 @@
+import time
 from concurrent.futures import Future
 from dataclasses import replace
 
@@ -6,12 +7,12 @@ import pytest
 
 from mocapbench.baselines import Imputer, Prediction
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.attempt import Attempt, as_claimed, attempt, impute
+from mocapbench.benchmark.filling.attempt import Attempt, attempt
 from mocapbench.benchmark.filling.question import Answer, Question
 from mocapbench.benchmark.filling.trials import choice
 from mocapbench.benchmark.filling.trials.choice import choose
-from mocapbench.benchmark.filling.trials.laps import Runner
 from mocapbench.benchmark.filling.trials.race import race
+from mocapbench.benchmark.filling.trials.runner import Runner
 from mocapbench.benchmark.registry import MODELS
 
 
@@ -51,14 +52,14 @@ class Here:
         self.kept.append(question)
         return len(self.kept) - 1
 
-    def submit(self, model, question, seconds, ask):
+    def submit(self, model, question, seconds, method):
         self.limits.append((model, seconds))
-        self.asked.append(ask)
+        self.asked.append(method)
         ended = Future()
         if model in self.slow:
             ended.set_result(Attempt(None, "took longer", slow=True))
         else:
-            ended.set_result(attempt(MODELS.get(model), self.kept[question], 2**45, ask))
+            ended.set_result(attempt(MODELS.get(model), self.kept[question], 2**45, method))
         return ended
 
     def ended(self, futures):
@@ -180,9 +181,9 @@ class Slow(Here):
 
     count = 1
 
-    def submit(self, model, question, seconds, ask):
+    def submit(self, model, question, seconds, method):
         self.slow = (model,) if seconds < 4.0 else ()
-        return super().submit(model, question, seconds, ask)
+        return super().submit(model, question, seconds, method)
 
 
 def test_slow_models_have_their_trials_one_after_another(waves, hidden):
@@ -210,24 +211,85 @@ def test_from_its_first_answer_on_all_workers_try_a_slow_model(waves, hidden):
     assert len(linear.answers) == len(hold.answers) == 4
 
 
-class Fails(TwoSlow):
-    """Two workers; the second trial cannot be answered, while the third is being tried."""
+class Scripted:
+    """Two workers on a clock of their own, for which attempts take as long as a script says."""
 
-    def submit(self, model, question, seconds, ask):
-        ended = super().submit(model, question, seconds, ask)
-        if question == 1:
-            ended = Future()
-            ended.set_result(Attempt(None, "cannot do it"))
-        return ended
+    count = 2
+
+    def __init__(self, seconds, failing=()):
+        self.seconds, self.failing = seconds, failing
+        self.now, self.tried, self.ends = 0.0, [], {}
+
+    def keep(self, question):
+        self.tried.append([])
+        return len(self.tried) - 1
+
+    def submit(self, model, question, seconds, method):
+        self.tried[question].append(model)
+        took = self.seconds[model][question]
+        attempt = Attempt(Answer(np.zeros(1), None), seconds=took)
+        if took > seconds:
+            attempt = Attempt(None, "was stopped", seconds=seconds, slow=True)
+        elif (model, question) in self.failing:
+            attempt = Attempt(None, "cannot do it", seconds=took)
+        future = Future()
+        future.set_result(attempt)
+        self.ends[future] = self.now + min(took, seconds)
+        return future
+
+    def ended(self, futures):
+        first = min(futures, key=self.ends.__getitem__)
+        self.now = self.ends[first]
+        return [first]
+
+    def result(self, future):
+        return future.result()
 
 
-def test_a_model_that_fails_in_a_trial_tries_no_other(waves, hidden):
+@pytest.fixture
+def raced(waves, hidden, monkeypatch):
+    """Return a function from what models take in six trials to the runners and the workers."""
     mask = hidden((50, 58, [0]))
-    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[:4]
-    workers = Fails()
-    (runner,) = race(["linear"], trials, workers, 64.0, lambda *_: None)
-    assert len(workers.limits) == 1 + 3
+    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[:6]
+
+    def run(seconds, failing=(), budget=32.0):
+        workers = Scripted(seconds, failing)
+        monkeypatch.setattr(time, "monotonic", lambda: workers.now)
+        return race([*seconds], trials, workers, budget, lambda *_: None), workers
+
+    return run
+
+
+def test_a_model_that_fails_in_a_trial_tries_no_other(raced):
+    (runner,), workers = raced({"one": [2.0] * 6}, failing={("one", 1)})
     assert (len(runner.answers), runner.trouble, runner.late) == (1, "cannot do it", False)
+    assert [len(models) for models in workers.tried] == [2, 1, 1, 0, 0, 0]
+
+
+def test_an_answer_that_comes_after_a_failure_in_a_later_trial_counts(raced):
+    (runner,), _ = raced({"one": [2.0, 2.0, 3.0, 2.9, 2.0, 2.0]}, failing={("one", 3)})
+    assert (len(runner.answers), runner.trouble) == (3, "cannot do it")
+
+
+def test_models_that_were_stopped_later_keep_their_turn(raced):
+    """One answers three trials before it is stopped; the others are stopped at once."""
+    slow = {name: [1.9] * 6 for name in ("two", "three", "four", "five", "six")}
+    (one, *others), _ = raced({"one": [0.4] * 3 + [0.8] * 3, **slow}, budget=16.0)
+    assert len(one.answers) == 6
+    assert len(others[-1].answers) < 6
+
+
+def test_no_trial_is_done_again_that_was_answered(raced):
+    (runner,), workers = raced({"one": [2.0, 2.0, 2.0, 5.0, 2.0, 2.0]})
+    assert len(runner.answers) == 6
+    assert [len(models) for models in workers.tried] == [2, 1, 1, 2, 1, 1]
+
+
+@pytest.mark.parametrize("budget", [8.0, 16.0, 32.0])
+def test_the_race_ends_with_its_budget(raced, budget):
+    seconds = {name: [number / 2.0] * 6 for number, name in enumerate("abcdefgh", start=1)}
+    _, workers = raced(seconds, budget=budget)
+    assert workers.now <= budget
 
 
 @pytest.fixture
@@ -243,10 +305,13 @@ def test_models_are_compared_without_checks_and_the_bands_of_the_best_are_checke
     only("bands")
     mask, workers = hidden((50, 58, [0])), Here()
     chosen = choose(Question(waves().hide(mask), mask), workers, 64.0, lambda *_: None)
-    assert chosen.held == 1.0
-    assert workers.asked == [as_claimed] * (len(workers.asked) - 3) + [impute] * 3
-    for_bands = [seconds for _, seconds in workers.limits[-3:]]
-    assert sum(for_bands) / workers.count <= 32.0
+    assert chosen.coverage.share == 1.0
+    first = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[:3]
+    assert chosen.coverage.n_entries == sum(len(trial.truth) for trial in first)
+    assert chosen.coverage.n_gaps == sum(len(trial.units) for trial in first)
+    assert workers.asked == ["as_claimed"] * (len(workers.asked) - 3) + ["impute"] * 3
+    in_two_waves = [seconds for _, seconds in workers.limits[-3:]]
+    assert 2 * max(in_two_waves) <= 0.5 * 64.0
 
 
 def test_bands_that_there_are_not_or_not_in_time_hold_nothing(waves, hidden, only):
@@ -254,20 +319,20 @@ def test_bands_that_there_are_not_or_not_in_time_hold_nothing(waves, hidden, onl
     question = Question(waves().hide(mask), mask)
     only("linear")
     workers = Here()
-    assert choose(question, workers, 64.0, lambda *_: None).held is None
-    assert set(workers.asked) == {as_claimed}
+    assert choose(question, workers, 64.0, lambda *_: None).coverage is None
+    assert set(workers.asked) == {"as_claimed"}
     only("bands")
     workers = SlowToCheck()
-    assert choose(question, workers, 64.0, lambda *_: None).held is None
-    assert impute in workers.asked
+    assert choose(question, workers, 64.0, lambda *_: None).coverage is None
+    assert "impute" in workers.asked
 
 
 class SlowToCheck(Here):
     """Workers that check no bands in time."""
 
-    def submit(self, model, question, seconds, ask):
-        self.slow = (model,) if ask is impute else ()
-        return super().submit(model, question, seconds, ask)
+    def submit(self, model, question, seconds, method):
+        self.slow = (model,) if method == "impute" else ()
+        return super().submit(model, question, seconds, method)
 
 
 def test_scores_are_closed_forms(waves, hidden):
@@ -371,6 +436,14 @@ def chosen_of(waves, hidden, monkeypatch):
     chosen.n = len(trials)
     assert chosen.n >= 8
     return chosen
+
+
+def test_fewer_trials_count_only_if_they_have_copies_of_all_gaps(waves, hidden):
+    mask = hidden((20, 24, [0]), (60, 64, [1]), (100, 104, [2]))
+    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))
+    assert choice._of_all_gaps(trials[:1] * 2, trials[:1])
+    one, other = (replace(trials[0], originals=trials[0].originals[n : n + 1]) for n in (0, 1))
+    assert not choice._of_all_gaps([one], [one, other])
 
 
 def test_a_model_that_had_fewer_trials_is_chosen_if_it_leads_by_more_than_chance(chosen_of):
