@@ -13,7 +13,8 @@ from mocapbench.benchmark.filling.able import able_models, require_able
 from mocapbench.benchmark.filling.attempt import Attempt
 from mocapbench.benchmark.filling.question import Answer, Question
 from mocapbench.benchmark.filling.sources import Source
-from mocapbench.benchmark.filling.trials.choice import Choice, NoneInTimeError, choose
+from mocapbench.benchmark.filling.trials.choice import NoneInTimeError, choose
+from mocapbench.benchmark.filling.trials.comparison import Choice
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.datasets import Recording

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mocapbench.benchmark.filling.filler import Filled
-from mocapbench.benchmark.filling.trials.choice import Choice
+from mocapbench.benchmark.filling.trials.comparison import Choice
 from mocapbench.reports import RankedModel, counted
 
 __all__ = ["left_out", "ranked", "units"]

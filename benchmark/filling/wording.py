@@ -8,7 +8,7 @@ from itertools import takewhile
 from mocapbench.benchmark.filling.cautions import cautions
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.remaining import remaining
-from mocapbench.benchmark.filling.trials.choice import Choice
+from mocapbench.benchmark.filling.trials.comparison import Choice
 from mocapbench.benchmark.filling.trials.ranking import Ranking
 from mocapbench.reports import counted, listed
 

@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.gaps import gaps_of
 from mocapbench.benchmark.filling.question import Question
-from mocapbench.benchmark.filling.trials.choice import Choice, choose
+from mocapbench.benchmark.filling.trials.choice import choose
+from mocapbench.benchmark.filling.trials.comparison import Choice
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.datasets import AcclaimFormat, Mask, Recording, unwrapped
 

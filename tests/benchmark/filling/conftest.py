@@ -7,7 +7,7 @@ from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.question import Answer
 from mocapbench.benchmark.filling.requests.request import Request
 from mocapbench.benchmark.filling.sources import Source
-from mocapbench.benchmark.filling.trials.choice import Choice
+from mocapbench.benchmark.filling.trials.comparison import Choice
 from mocapbench.benchmark.filling.trials.ranking import rank
 from mocapbench.benchmark.filling.trials.scores import Scores
 from mocapbench.datasets import CSVFormat, Recording
