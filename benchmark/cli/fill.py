@@ -70,7 +70,9 @@ def fill(
     entries = filling.Entries(_range(frames), channels, max_gap)
     sources, left_out = filling.read_sources(files, train or (), rate, entries)
     for source in sources:
-        if model != filling.BEST:
+        if model == filling.BEST:
+            filling.require_room(source.question)
+        else:
             filling.require_able(model, source.question)
     for reason in left_out:
         console.print(f"left out: {reason}", soft_wrap=True, highlight=False)

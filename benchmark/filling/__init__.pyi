@@ -3,6 +3,7 @@ from .filler import BEST, Filled, fill
 from .page import page_of
 from .requests.request import Entries
 from .sources import Source, read_sources
+from .trials.choice import require_room
 from .wording import headline, remarks, verdict
 from .workers import Workers
 from .writing import Outputs, outputs_of, write
@@ -21,6 +22,7 @@ __all__ = [
     "read_sources",
     "remarks",
     "require_able",
+    "require_room",
     "verdict",
     "write",
 ]

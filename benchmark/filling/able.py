@@ -59,7 +59,11 @@ def require_able(name: str, question: Question) -> None:
     able = able_models(question)
     if name in able:
         return
-    reason = "hidden frames that are hidden in part" if _needed(question) is Imputer else "gaps"
+    reason = "frames of which some channels are visible"
+    if issubclass(MODELS.get(name), Spatial):
+        reason = "channels that are not the x, y and z of markers"
+    elif _needed(question) is FrameImputer:
+        reason = "gaps"
     raise UsageError(
         f"--model: expected a model that fills {reason}, got {name!r}; choose {', '.join(able)}"
     )

@@ -28,6 +28,7 @@ def cautions(filled: Filled) -> Iterator[str]:
     yield from _few_visible(filled)
     yield from _visible_nowhere(filled)
     yield from _at_the_ends(filled.source.request)
+    yield from _replaced(filled.source.request)
     yield from _jumps(filled)
     yield from _slow(filled)
     yield from filter(None, [zeros_caution(filled.source.request.given)])
@@ -64,6 +65,12 @@ def _visible_nowhere(filled: Filled) -> Iterator[str]:
     yield caution
 
 
+def _replaced(request: Request) -> Iterator[str]:
+    if request.replaced:
+        have = "entry that was filled has" if request.replaced == 1 else "filled entries have"
+        yield f"{request.replaced} {have} a value in the file, which the filled one replaces."
+
+
 def _at_the_ends(request: Request) -> Iterator[str]:
     """Yield how many gaps have frames on one side only, and of which channels they are."""
     n_frames = len(request.given.times)
@@ -75,8 +82,7 @@ def _at_the_ends(request: Request) -> Iterator[str]:
     are = "is" if len(ends) == 1 else "are"
     yield (
         f"{counted(len(ends), 'gap')} {are} at the beginning or the end of the recording, where "
-        f"frames are visible on one side only ({names}): interpolations hold the nearest value "
-        "there."
+        f"frames are visible on one side only ({names}): errors are larger there."
     )
 
 

@@ -16,6 +16,8 @@ __all__ = ["headline", "remarks", "verdict"]
 
 _NAMED = 4
 """Models that a remark names at most."""
+_NEAR = 1.5
+"""Errors, relative to the least, up to which a model is named beside the choice."""
 
 
 def headline(filled: Filled) -> str:
@@ -33,7 +35,8 @@ def verdict(filled: Filled) -> str:
             "budget: raise --budget to choose among models."
         )
     if filled.choice is None:
-        return ""
+        named = "The model was named: no trial on this file tells what its bands hold."
+        return "" if filled.answer.variance is None else named
     return f"{_lead(filled.choice)} {_bands(filled)}".strip()
 
 
@@ -58,7 +61,15 @@ def _lead(choice: Choice) -> str:
     others = [model for model in ranking.sharing if model != ranking.order[0]]
     if not others:
         return f"Its lead over {ranking.order[1]} is more than chance, over {trials}."
-    return f"Its lead over {listed(others, len(others))} could be chance, over {trials}."
+    near = [model for model in others if _is_near(model, ranking)]
+    if not near:
+        return f"It leads by far, but gaps differ too much for a test, over {trials}."
+    return f"Its lead over {listed(near, len(near))} could be chance, over {trials}."
+
+
+def _is_near(model: str, ranking: Ranking) -> bool:
+    """Return whether a model errs little more than the choice."""
+    return ranking.means[model] <= _NEAR * ranking.means[ranking.order[0]]
 
 
 def _trials(ranking: Ranking) -> str:
@@ -114,7 +125,8 @@ def _with_bands(filled: Filled) -> str:
         return ""
     ranking = filled.choice.ranking
     leading = takewhile(lambda model: model in ranking.sharing, ranking.order)
-    alike = [model for model in leading if ranking.scores[model].has_bands]
+    near = [model for model in leading if _is_near(model, ranking)]
+    alike = [model for model in near if ranking.scores[model].has_bands]
     return f"Trials cannot tell it apart from {alike[0]}, which has bands." if alike else ""
 
 

@@ -69,7 +69,7 @@ def _check_channels(first: Recording, other: Recording) -> None:
     differences = (_some("no", missing), _some("besides", added))
     raise FormatError(
         other.name,
-        f"the {len(first.channels)} channels of {first.name} in the same order",
+        f"the {len(first.channels)} channels of {first.name}",
         ", ".join(filter(None, differences)) or "another order",
         "use files of one marker set or skeleton together",
     )

@@ -58,6 +58,8 @@ class Request:
         Channels of unlabelled markers that have hidden entries, and that nobody named.
     unknown : tuple of str
         Channels that were asked for, and of which there is nothing to fill them from.
+    replaced : int
+        How many of the entries to fill had a value.
     """
 
     given: Recording
@@ -65,6 +67,7 @@ class Request:
     left_open: tuple[Gap, ...]
     unlabelled: tuple[str, ...] = ()
     unknown: tuple[str, ...] = ()
+    replaced: int = 0
 
     @property
     def gaps(self) -> tuple[Gap, ...]:
@@ -101,7 +104,9 @@ def select(recording: Recording, entries: Entries, train: Sequence[Recording] = 
         raise UsageError(nothing_known(recording, unknown))
     left_open = _longer(recording, named, entries.max_gap)
     target = named & ~mask_of(left_open, named.shape)
-    return Request(unwrapped(recording.hide(named)), target, left_open, unlabelled, unknown)
+    replaced = int((target & recording.visible).sum())
+    open_too = recording.hide(named)
+    return Request(unwrapped(open_too), target, left_open, unlabelled, unknown, replaced)
 
 
 def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[Gap, ...]:

@@ -12,11 +12,11 @@ from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.benchmark.filling.trials.bands import coverage
 from mocapbench.benchmark.filling.trials.comparison import Choice, compared
-from mocapbench.benchmark.filling.trials.making import make_trials
+from mocapbench.benchmark.filling.trials.making import has_room, make_trials
 from mocapbench.benchmark.filling.trials.race import race
 from mocapbench.benchmark.filling.workers import Workers
 
-__all__ = ["NoneInTimeError", "choose"]
+__all__ = ["NoneInTimeError", "choose", "require_room"]
 
 _SEED = 0
 _FOR_BANDS = 0.5
@@ -51,10 +51,7 @@ def choose(
     models = able_models(question)
     trials = make_trials(question, np.random.default_rng(_SEED))
     if not trials:
-        raise UsageError(
-            f"{question.given.name}: expected a visible stretch to try models on, got none that is "
-            f"free of gaps; {_advice(question, models)}"
-        )
+        raise _no_room(question)
     runners = race(models, trials, workers, budget, watch)
     if not any(runner.answers for runner in runners):
         raise NoneInTimeError(
@@ -67,6 +64,25 @@ def choose(
     if not choice.ranking.scores[best].has_bands:
         return choice
     return replace(choice, coverage=coverage(best, trials, workers, _FOR_BANDS * budget))
+
+
+def require_room(question: Question) -> None:
+    """Refuse a recording on which no model can be tried.
+
+    Raises
+    ------
+    UsageError
+        The message says what to do.
+    """
+    if not has_room(question, np.random.default_rng(_SEED)):
+        raise _no_room(question)
+
+
+def _no_room(question: Question) -> UsageError:
+    return UsageError(
+        f"{question.given.name}: expected a visible stretch to try models on, got none that is "
+        f"free of gaps; {_advice(question, able_models(question))}"
+    )
 
 
 def _advice(question: Question, models: Sequence[str]) -> str:

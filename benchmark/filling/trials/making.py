@@ -16,7 +16,7 @@ from mocapbench.benchmark.filling.trials.trial import Trial
 from mocapbench.benchmark.filling.trials.turns import Turns
 from mocapbench.datasets import Mask
 
-__all__ = ["make_trials"]
+__all__ = ["has_room", "make_trials"]
 
 MOST_TRIALS, ENOUGH_GAPS = 24, 48
 """Trials are made until there are so many of them, or so many trial gaps."""
@@ -47,6 +47,12 @@ def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
         made.add(like)
         trials.append(trial)
     return trials
+
+
+def has_room(question: Question, rng: np.random.Generator) -> bool:
+    """Return whether there is room for a trial of the gaps that a question asks for."""
+    used = np.zeros(len(question.given.times), dtype=bool)
+    return _trial(question, used, Turns(_interior(question), rng), rng) is not None
 
 
 def _trial(question: Question, used: Mask, turns: Turns, rng: np.random.Generator) -> Trial | None:

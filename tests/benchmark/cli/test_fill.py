@@ -117,6 +117,15 @@ def test_a_folder_that_cannot_be_written_to_is_refused_before_anything_is_tried(
     assert not (tmp_path / "new").exists()
 
 
+def test_no_file_is_filled_where_one_has_no_room_for_trials(cli, walk, tmp_path, out):
+    lost = save(tmp_path / "lost.csv", rows(gap=range(N_FRAMES)))
+    whole = save(tmp_path / "whole.csv", rows(gap=()))
+    assert cli("fill", walk, lost, "--train", whole, "--out", out) == 2
+    assert "lost" in cli.printed
+    assert "expected a visible stretch to try models on" in cli.printed
+    assert not out.exists() or not list(out.iterdir())
+
+
 def test_files_of_one_name_are_refused(cli, walk, tmp_path, out):
     (tmp_path / "other").mkdir()
     other = shutil.copy(walk, tmp_path / "other")
@@ -126,7 +135,7 @@ def test_files_of_one_name_are_refused(cli, walk, tmp_path, out):
 
 def test_a_model_that_cannot_fill_the_mask_is_refused_with_those_that_can(cli, walk, out):
     assert cli("fill", walk, "--model", "aligned-window", "--out", out) == 2
-    assert "hidden in part, got 'aligned-window'; choose" in cli.printed
+    assert "some channels are visible, got 'aligned-window'; choose" in cli.printed
     assert "cubic-spline" in cli.printed
 
 

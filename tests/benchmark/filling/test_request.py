@@ -21,6 +21,9 @@ def test_named_frames_are_filled_though_they_are_visible_and_other_gaps_are_not(
     np.testing.assert_array_equal(request.target, hidden((50, 60, [0, 1])))
     assert not request.given.visible[50:60, :2].any()
     assert not request.given.visible[20:30, 0].any()
+    assert request.replaced == 20
+    assert select(recording, Entries(frames=(25, 35), channels="hip.rx")).replaced == 5
+    assert select(recording, Entries()).replaced == 0
 
 
 def test_a_pattern_matches_whole_names(waves, hidden):

@@ -56,7 +56,9 @@ def test_one_of_anything_is_singular(filled):
 
 
 def test_that_nothing_could_be_compared_is_said_with_what_to_do(filled):
-    assert verdict(filled()) == ""
+    assert verdict(filled()).startswith("The model was named: no trial")
+    bare = filled()
+    assert verdict(replace(bare, answer=replace(bare.answer, variance=None))) == ""
     said = verdict(replace(filled(), uncompared=True))
     assert said.startswith("Nothing could be compared, since no model filled a trial gap")
     assert "raise --budget" in said
@@ -81,6 +83,22 @@ def test_what_was_done_is_said(filled, choice_of):
     said = " ".join(remarks(filled(choice_of({"one": [1, 2]}, share=0.25), **kind)))
     for words in ("1 longer gap was left open", "3 windows", "25 % as long", "two did better"):
         assert words in said
+
+
+def test_models_that_err_much_more_are_not_named_beside_the_choice(filled, choice_of):
+    """One gap decides, so that no test separates even a model that errs ten times as much."""
+    errors = {"one": [1, 1, 1, 1, 1], "two": [1, 2, 1, 2, 1], "three": [1, 1, 1, 1, 99]}
+    said = verdict(filled(choice_of(errors)))
+    assert "Its lead over two could be chance" in said
+    said = verdict(filled(choice_of({name: errors[name] for name in ("one", "three")})))
+    assert said.startswith("It leads by far, but gaps differ too much for a test")
+
+
+def test_values_of_the_file_that_are_replaced_are_counted(filled):
+    one = filled()
+    request = replace(one.source.request, replaced=3)
+    said = " ".join(remarks(replace(one, source=replace(one.source, request=request))))
+    assert "3 filled entries have a value in the file, which the filled one replaces." in said
 
 
 @pytest.fixture
