@@ -44,8 +44,8 @@ def units(filled: Filled) -> tuple[str, ...]:
 
 
 def _note(choice: Choice, model: str, *, chosen: str) -> str:
-    sharing = choice.ranking.sharing
-    alike = f"not separable from {sharing[0]}" if model in sharing[1:] else ""
+    ranking = choice.ranking
+    alike = f"not separable from {ranking.order[0]}" if model in ranking.rivals else ""
     notes = ("chosen" if model == chosen else "", alike)
     windows = "fitted to windows" if choice.windows[model] else ""
     return ", ".join(filter(None, (*notes, windows)))

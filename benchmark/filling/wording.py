@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import takewhile
 
 from mocapbench.benchmark.filling.cautions import cautions
 from mocapbench.benchmark.filling.filler import Filled
@@ -16,8 +15,6 @@ __all__ = ["headline", "remarks", "verdict"]
 
 _NAMED = 4
 """Models that a remark names at most."""
-_NEAR = 1.5
-"""Errors, relative to the least, up to which a model is named beside the choice."""
 
 
 def headline(filled: Filled) -> str:
@@ -58,18 +55,12 @@ def _lead(choice: Choice) -> str:
         return f"No other model has a rank, over {trials}."
     if not ranking.tested:
         return f"It did best in {trials}, too few to tell whether that is chance."
-    others = [model for model in ranking.sharing if model != ranking.order[0]]
-    if not others:
+    if len(ranking.sharing) == 1:
         return f"Its lead over {ranking.order[1]} is more than chance, over {trials}."
-    near = [model for model in others if _is_near(model, ranking)]
-    if not near:
+    if not ranking.rivals:
         return f"It leads by far, but gaps differ too much for a test, over {trials}."
-    return f"Its lead over {listed(near, len(near))} could be chance, over {trials}."
-
-
-def _is_near(model: str, ranking: Ranking) -> bool:
-    """Return whether a model errs little more than the choice."""
-    return ranking.means[model] <= _NEAR * ranking.means[ranking.order[0]]
+    rivals = listed(ranking.rivals, len(ranking.rivals))
+    return f"Its lead over {rivals} could be chance, over {trials}."
 
 
 def _trials(ranking: Ranking) -> str:
@@ -116,17 +107,11 @@ def _late(filled: Filled) -> Iterator[str]:
 
 
 def _with_bands(filled: Filled) -> str:
-    """Return the best model with bands that trials cannot tell apart from the choice.
-
-    Models that are behind one that trials do tell apart are not meant: they err so differently from
-    gap to gap that trials tell nothing of them.
-    """
+    """Return the best model with bands that trials cannot tell apart from the choice."""
     if filled.choice is None or filled.failed:
         return ""
     ranking = filled.choice.ranking
-    leading = takewhile(lambda model: model in ranking.sharing, ranking.order)
-    near = [model for model in leading if _is_near(model, ranking)]
-    alike = [model for model in near if ranking.scores[model].has_bands]
+    alike = [model for model in ranking.rivals if ranking.scores[model].has_bands]
     return f"Trials cannot tell it apart from {alike[0]}, which has bands." if alike else ""
 
 

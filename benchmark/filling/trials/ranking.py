@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import takewhile
 
 import numpy as np
 import pandas as pd
@@ -13,6 +14,9 @@ from mocapbench.benchmark.filling.trials.scores import Scores
 from mocapbench.metrics.statistics import ALPHA, holm_tests_of_means, too_few, unit_means
 
 __all__ = ["Ranking", "rank"]
+
+_NEAR = 1.5
+"""Errors, relative to the least, up to which a model is a rival of the first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +47,17 @@ class Ranking:
     n_places: int
     tested: bool
     sharing: tuple[str, ...]
+
+    @property
+    def rivals(self) -> tuple[str, ...]:
+        """The models next to the first that no test separates from it, and that err little more.
+
+        Where errors differ much from gap to gap, no test separates some that err ten times as much,
+        or that are behind others which are separated.
+        """
+        most = _NEAR * self.means[self.order[0]]
+        alike = takewhile(lambda model: model in self.sharing, self.order[1:])
+        return tuple(model for model in alike if self.means[model] <= most)
 
 
 def rank(

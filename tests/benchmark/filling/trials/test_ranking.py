@@ -23,6 +23,17 @@ def test_models_that_the_test_does_not_separate_from_the_first_share_its_place()
     assert found.sharing == ("good", "as good")
 
 
+def test_rivals_are_next_to_the_first_and_err_little_more():
+    """One gap in which all but two fail leaves models of any error unseparated."""
+    errors = {"one": [1, 1, 1, 1, 1], "near": [1, 2, 1, 2, 1], "far": [1, 1, 1, 1, 99]}
+    found = ranking_of(errors)
+    assert found.sharing == ("one", "near", "far")
+    assert found.rivals == ("near",)
+    behind = ranking_of({**errors, "near": [1.2, 1.3, 1.2, 1.3, 1.2], "last": [1, 1, 1, 1, 3]})
+    assert "near" not in behind.sharing
+    assert behind.rivals == ()
+
+
 def test_a_constant_lead_separates_and_a_tie_does_not():
     errors = [1.0, 2.0, 3.0, 1.0, 2.0]
     found = ranking_of({"a": errors, "b": [error + 0.5 for error in errors], "c": errors})
