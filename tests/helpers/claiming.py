@@ -17,6 +17,9 @@ class Claiming(Widened):
     def fit(self, recordings):
         return self
 
+    def impute(self, recordings):
+        return self.as_claimed(recordings)
+
     def as_claimed(self, recordings):
         return [Prediction.around(recording, 0.0, self.variance) for recording in recordings]
 
@@ -29,6 +32,9 @@ class Drifting(Widened):
 
     def fit(self, recordings):
         return self
+
+    def impute(self, recordings):
+        return self.as_claimed(recordings)
 
     def as_claimed(self, recordings):
         return [self.held(recording) for recording in recordings]

@@ -225,7 +225,10 @@ def test_metrics_of_joints_are_accepted_for_whole_motions_with_a_skeleton(tmp_pa
 
 
 UNLIKE = {
-    "channels": ({"channels": ("hip.x", "hip.y", "toe.x")}, "the 3 channels of a.csv .* no knee.x"),
+    "channels": (
+        {"channels": ("hip.x", "hip.y", "toe.x")},
+        "the 3 channels of a.csv, got no knee.x",
+    ),
     "rate": ({"rate": 100.0}, "50 frames per second, as in a.csv, got 100"),
 }
 
