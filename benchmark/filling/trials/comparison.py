@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.benchmark.filling.trials.bands import Coverage
 from mocapbench.benchmark.filling.trials.places import places_of
@@ -52,8 +51,7 @@ class Choice:
 def compared(trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:
     """Return the ranking by as many trials as most of the answers allow.
 
-    A model that had no more than fewer of them is chosen by these, if it leads there by more than
-    chance.
+    A model that had fewer of them is chosen by these, if it leads there by more than chance.
 
     Parameters
     ----------
@@ -61,7 +59,16 @@ def compared(trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:
     runners : sequence of Runner
         At least one has an answer.
     """
-    return _led_by_more_than_chance(trials, runners, _ranked(trials[: _common(runners)], runners))
+    common = _common(runners)
+    most = _ranked(trials[:common], runners)
+    n_most = max(len(runner.answers) for runner in runners)
+    counts = {len(runner.answers) for runner in runners}
+    for count in sorted((n for n in counts if 0 < n < common), reverse=True):
+        if _of_all_gaps(trials[:count], trials[:n_most]):
+            fewer = _ranked(trials[:count], runners)
+            if _leads(fewer.ranking, most) and _leads(_by_trial(trials[:count], fewer), most):
+                return replace(fewer, unused=n_most - count)
+    return most
 
 
 def _common(runners: Sequence[Runner]) -> int:
@@ -71,42 +78,24 @@ def _common(runners: Sequence[Runner]) -> int:
     return counts[int(np.argmax(totals))]
 
 
-def _led_by_more_than_chance(
-    trials: Sequence[Trial], runners: Sequence[Runner], most: Choice
-) -> Choice:
-    """Return the choice by fewer trials, if a model that had no more leads by more than chance."""
-    n_most = max(len(runner.answers) for runner in runners if runner.model in most.seconds)
-    for count in sorted({len(runner.answers) for runner in runners} - {0}, reverse=True):
-        fewer = _ranked(trials[:count], runners)
-        if _of_all_gaps(trials[:count], trials[:n_most]) and _leads(fewer, most):
-            by_trial = _ranked(trials[:count], runners, _trial_of)
-            if _leads(by_trial, most):
-                return replace(fewer, unused=n_most - count)
-    return most
-
-
 def _of_all_gaps(fewer: Sequence[Trial], more: Sequence[Trial]) -> bool:
     """Return whether fewer trials have copies of all gaps of which more trials have some."""
     of_fewer, of_more = ({gap for t in trials for gap in t.originals} for trials in (fewer, more))
     return of_fewer == of_more
 
 
-def _leads(fewer: Choice, most: Choice) -> bool:
+def _leads(ranking: Ranking, most: Choice) -> bool:
     """Return whether a model that most leaves out is better than all others by more than chance."""
-    ranking, others = fewer.ranking, most.ranking.scores.keys()
-    return ranking.tested and not others & set(ranking.sharing)
+    return ranking.tested and not most.ranking.scores.keys() & set(ranking.sharing)
 
 
-def _trial_of(trials: Sequence[Trial]) -> NDArray[np.intp]:
-    """Return the number of each trial gap's trial (n,): a fit makes its errors large or small."""
-    return np.repeat(np.arange(len(trials)), [len(trial.units) for trial in trials])
+def _by_trial(trials: Sequence[Trial], choice: Choice) -> Ranking:
+    """Return the ranking with trials as units: a fit makes all errors of one large or small."""
+    number = np.repeat(np.arange(len(trials)), [len(trial.units) for trial in trials])
+    return rank(choice.ranking.scores, weights_of(trials), number)
 
 
-def _ranked(
-    trials: Sequence[Trial],
-    runners: Sequence[Runner],
-    units_of: Callable[[Sequence[Trial]], NDArray[np.intp]] = places_of,
-) -> Choice:
+def _ranked(trials: Sequence[Trial], runners: Sequence[Runner]) -> Choice:
     scales = held_errors(trials)
     scores = {
         runner.model: scores_of(trials, runner.answers[: len(trials)], scales)
@@ -114,7 +103,7 @@ def _ranked(
         if len(runner.answers) >= len(trials)
     }
     return Choice(
-        ranking=rank(scores, weights_of(trials), units_of(trials)),
+        ranking=rank(scores, weights_of(trials), places_of(trials)),
         left_out=tuple(runner for runner in runners if runner.model not in scores),
         share=min(trial.share for trial in trials),
         seconds={r.model: r.seconds / len(r.answers) for r in runners if r.model in scores},
