@@ -64,6 +64,10 @@ class Registry(Generic[T]):
         """Register ``value`` under ``name``, in place of what had that name."""
         self._added[name] = value
 
+    def names_of_others(self) -> tuple[str, ...]:
+        """Return the names that other packages or files of the user's register, sorted."""
+        return tuple(name for name in self.names() if not self._is_ours(name))
+
     def is_installed(self, name: str) -> bool:
         """Return whether an installed package registers ``name``, or did so formerly."""
         return name in self._points or any(map(partial(self._was_called, name), self._points))
@@ -103,6 +107,10 @@ class Registry(Generic[T]):
             return self.current_name(name)
         except UnregisteredNameError:
             return name
+
+    def _is_ours(self, name: str) -> bool:
+        point = self._points.get(name)
+        return point is not None and point.dist is not None and point.dist.name == "mocapbench"
 
     def _was_called(self, name: str, current: str) -> bool:
         return name in getattr(self.get(current), "former_names", ())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from mocapbench.benchmark.comparison.fact_changes import (
     changed_parameters,
@@ -17,6 +17,7 @@ from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.results.bundle import metric_info
+from mocapbench.benchmark.results.shown_metrics import shown_metrics
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.reports import ComparedTask, Ending, RunChanges, Unpaired, counted
@@ -50,7 +51,7 @@ def run_changes(first: Side, second: Side, names: tuple[str, str]) -> RunChanges
         require_same_problems(scored)
     return RunChanges(
         names=names,
-        tasks=[_task(name) for name in dict.fromkeys(a.address.task for a, _ in pairs)],
+        tasks=_tasks([record for record, _ in pairs]),
         scores=score_changes(_comparable(first, second)),
         newly_failing=_endings(common, without_score=1),
         newly_passing=_endings(common, without_score=0),
@@ -67,9 +68,13 @@ def _by_address(side: Side) -> dict[Address, Record]:
     return {record.address._replace(version=0): record for record in side}
 
 
-def _task(name: str) -> ComparedTask:
-    page = TASKS.get(name).page
-    return ComparedTask(name, page.title, {metric: metric_info(metric) for metric in page.metrics})
+def _tasks(records: Sequence[Record]) -> list[ComparedTask]:
+    return [
+        ComparedTask(
+            task.name, task.page.title, {m: metric_info(m) for m in shown_metrics(task, records)}
+        )
+        for task in map(TASKS.get, dict.fromkeys(record.address.task for record in records))
+    ]
 
 
 def _comparable(first: Side, second: Side) -> dict[Address, Pair]:

@@ -15,6 +15,7 @@ from mocapbench.benchmark.comparison.rows import Row, case_rows, corrected, pool
 from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import METRICS, TASKS
+from mocapbench.benchmark.results.shown_metrics import shown_metrics
 
 __all__ = ["compare"]
 
@@ -52,7 +53,7 @@ def compare(
     rows = [
         row
         for task in map(TASKS.get, names)
-        for metric in chosen or task.page.metrics
+        for metric in chosen or shown_metrics(task, one.values())
         for folds in [paired_folds(task.name, metric, common)]
         for found in (case_rows, pooled_rows)
         for row in corrected(found(task, metric, folds, rope))

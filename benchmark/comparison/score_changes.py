@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from mocapbench.benchmark.comparison.folds import Pair, paired_folds
 from mocapbench.benchmark.comparison.rows import Row, case_rows, corrected
 from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark.results.shown_metrics import shown_metrics
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.metrics.statistics import ALPHA
@@ -32,7 +33,7 @@ def score_changes(common: Mapping[Address, Pair]) -> list[ScoreChange]:
     return [
         change
         for task in map(TASKS.get, names)
-        for metric in task.page.metrics
+        for metric in shown_metrics(task, (one for one, _ in common.values()))
         for change in _changes(task, metric, common)
     ]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from mocapbench.benchmark.registry import METRICS, TASKS
@@ -10,6 +11,7 @@ from mocapbench.benchmark.results.frames import job_table, score_table
 from mocapbench.benchmark.results.interpolations import interpolates
 from mocapbench.benchmark.results.model_infos import model_infos
 from mocapbench.benchmark.results.origins import origins
+from mocapbench.benchmark.results.shown_metrics import shown_metrics
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import (
@@ -79,7 +81,7 @@ def _layout(task: Task, records: Sequence[Record], budget: str) -> TaskLayout:
         task.case(name)  # says so if another version of the task had it
     return TaskLayout(
         name=task.name,
-        page=task.page,
+        page=replace(task.page, metrics=shown_metrics(task, of_task)),
         cases=tuple(
             CaseLayout(
                 case.name,

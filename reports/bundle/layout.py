@@ -105,6 +105,11 @@ class TaskLayout:
         unranked = {self.oracle, self.control, self.replay}
         return tuple(label for label in self.labels if label not in unranked)
 
+    @property
+    def yours(self) -> tuple[str, ...]:
+        """The labels of models of others than us."""
+        return tuple(label for label, model in self.models.items() if not model.is_ours)
+
     def model(self, label: str) -> ModelInfo:
         """Return the model behind ``label``; nothing but the label where nothing is known."""
         return self.models.get(label, ModelInfo(label))

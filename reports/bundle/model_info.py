@@ -49,6 +49,11 @@ class ModelInfo:
     family: str = FAMILIES[_YOURS]
     parameters: str = ""
 
+    @property
+    def is_ours(self) -> bool:
+        """Whether its family is one of ours: a model of others has none, or one of its own."""
+        return self.family in FAMILIES and self.family != FAMILIES[_YOURS]
+
 
 def in_families(models: Mapping[str, ModelInfo]) -> dict[str, list[str]]:
     """Return the labels of each family, families in the order of the report's rows.

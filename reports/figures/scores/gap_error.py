@@ -14,7 +14,7 @@ from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
 from mocapbench.reports.figures.fitting import linear
 from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, group, polyline
-from mocapbench.reports.figures.scores.best import best_labels
+from mocapbench.reports.figures.scores.best import CHOICE, best_labels
 from mocapbench.reports.figures.styles import Style
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.text import counted
@@ -40,8 +40,8 @@ def gap_error(
     banded = {labels[0], labels[-1]}
     caption = (
         f"mean over {n} of all windows and cases with recordings, each stretched to one length, of "
-        "the models with the least mean and of the best interpolation. Bands hold the middle half "
-        f"of the gaps, of {' and '.join(sorted(banded, key=labels.index))}."
+        f"{CHOICE}. Bands hold the middle half of the gaps, of "
+        f"{' and '.join(sorted(banded, key=labels.index))}."
     )
     drawn = _axes({label: windows[label] for label in labels}, title, banded, styles)
     legend = line_keys({label: styles[label] for label in labels})

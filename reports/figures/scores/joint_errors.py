@@ -13,7 +13,7 @@ from mocapbench.reports.bundle.error_parts import ErrorParts, RestPose
 from mocapbench.reports.figures.axes import panels
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import disc, group, polyline, svg, text
-from mocapbench.reports.figures.scores.best import best_labels
+from mocapbench.reports.figures.scores.best import CHOICE, best_labels
 from mocapbench.reports.figures.styles import TRUTH, Style
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
 
@@ -41,8 +41,7 @@ def joint_errors(
     caption = (
         "the area of a disc is the mean position error of the joint relative to the root, over "
         "folds and cases with recordings; joints that are never hidden have none. The body is "
-        "seen from the front, at rest; the models are those of the least mean, and the best "
-        "interpolation."
+        f"seen from the front, at rest; shown are {CHOICE}."
     )
     return SvgFigure("Error by joint", panels(drawn), _legend(largest), caption)
 

@@ -6,7 +6,7 @@ from mocapbench.benchmark.filling.able import able_models, require_able
 from mocapbench.benchmark.filling.question import Question
 from mocapbench.datasets import Recording
 
-FIRST_TO_LAST = ("pchip", "rigid-body", "lds", "channel-kriging", "mohgp", "best-of")
+FIRST_TO_LAST = ("pchip", "rigid-body", "channel-kriging", "lds", "mohgp", "best-of")
 
 
 def question(channels):

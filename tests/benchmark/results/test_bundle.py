@@ -2,8 +2,10 @@ from dataclasses import replace
 
 import pytest
 
-from mocapbench.benchmark import TASKS, Address, Record, Status, bundle
+from mocapbench.benchmark import METRICS, TASKS, Address, Record, Status, bundle
+from mocapbench.benchmark.comparison import compare, run_changes
 from mocapbench.benchmark.errors import UnknownNameError
+from mocapbench.benchmark.results.shown_metrics import shown_metrics
 
 NAME = "upper-body-missing"
 TASK = TASKS.get(NAME)
@@ -29,6 +31,21 @@ def test_a_layout_has_the_page_of_its_task_and_a_row_per_case(made):
     ]
     assert [case.subjects for case in layout.cases] == [("07",), ()]
     assert [case.notes.published for case in layout.cases] == ["subject 07 walk", None]
+
+
+def test_metrics_of_others_follow_those_of_the_page_where_they_were_scored(monkeypatch):
+    theirs = replace(METRICS.get("mse"), name="theirs", title="Theirs")
+    monkeypatch.setitem(METRICS._added, "theirs", theirs)
+    scored = [_record("nn", {"mse": 2.0, "theirs": 3.0, "pit": 0.1}), _record("knn", {"mse": 1.0})]
+    (layout,) = bundle(scored, {"profile": "smoke"}).layouts
+    assert layout.page.metrics == (*TASK.page.metrics, "theirs")
+    assert shown_metrics(TASK, scored[1:]) == TASK.page.metrics
+    assert "theirs" in METRICS.names_of_others()
+    assert "mse" not in METRICS.names_of_others()
+    (compared,) = run_changes(scored, scored, ("a", "b")).tasks
+    assert list(compared.metrics) == [*TASK.page.metrics, "theirs"]
+    rows = compare(scored[:1], [_record("nn", {"theirs": 4.0})], rope=0.0)
+    assert {row.metric for row in rows if row.contrast.n} == {"theirs"}
 
 
 def test_entrants_are_in_the_order_of_the_records(made):

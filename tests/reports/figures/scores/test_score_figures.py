@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from mocapbench.reports.analysis.published.comparisons import comparisons
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.error_parts import ErrorParts, RestPose
+from mocapbench.reports.bundle.model_info import ModelInfo
 from mocapbench.reports.figures.scores.along import curves_along
 from mocapbench.reports.figures.scores.best import best_labels, mean_values
 from mocapbench.reports.figures.scores.cost import cost_against_error, front
@@ -147,6 +148,14 @@ def test_the_best_are_ranked_and_have_an_interpolation_among_them(drawn):
     results, _ = drawn(_values("x"), interpolations=("nn",))
     assert best_labels(results, "mse", LABELS, 1) == ["knn", "nn"]
     assert "oracle" not in best_labels(results, "mse", LABELS, 9)
+
+
+def test_the_best_of_others_is_among_the_best(drawn):
+    families = {"knn": "Neighbours", "linear": "Interpolation", "nn": "Your models", "oracle": "X"}
+    models = {label: ModelInfo(label, family=family) for label, family in families.items()}
+    results, _ = drawn(_values("x"), interpolations=("linear",), models=models)
+    assert best_labels(results, "mse", LABELS, 1) == ["knn", "nn", "linear"]
+    assert best_labels(results, "mse", {"knn", "linear"}, 1) == ["knn", "linear"]
 
 
 def test_means_cover_labels_that_have_every_case(drawn):
