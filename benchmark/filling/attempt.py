@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import resource
+import sys
 import warnings
 from dataclasses import dataclass, replace
 from functools import partial
+from pathlib import Path
+from traceback import extract_tb
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,9 +80,18 @@ def attempt(
     except MemoryError:
         return Attempt(None, f"needed more than {memory / 2**30:.1f} GiB of memory")
     except BaseException as error:  # a model that calls sys.exit has failed like any other
-        return Attempt(None, reason(error))
+        return Attempt(None, reason(error) + _place(error, model))
     whole = windows[0][0].stop - windows[0][0].first == len(question.given.times)
     return Attempt(answer, windows=0 if whole else len(windows))
+
+
+def _place(error: BaseException, model: type[FrameImputer]) -> str:
+    """Return the line of the model's own file where something went wrong; of ours, nothing."""
+    if model.__module__.startswith("mocapbench."):
+        return ""
+    path = Path(getattr(sys.modules.get(model.__module__), "__file__", None) or "")
+    lines = [f.lineno for f in extract_tb(error.__traceback__) if Path(f.filename) == path]
+    return f" ({path.name}, line {lines[-1]})" if lines else ""
 
 
 def _filled(model: type[FrameImputer], question: Question, method: str) -> Prediction:

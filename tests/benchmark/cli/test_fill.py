@@ -156,7 +156,7 @@ def test_a_model_that_fails_says_why_and_leaves_nothing(cli, walk, out, tmp_path
         "MODELS = {'bad': Bad}\n"
     )
     assert cli("fill", walk, "--model", "bad", "--plugin", plugin, "--out", out) == 2
-    assert "bad did not fill it: ValueError: out of ideas" in cli.printed
+    assert "bad did not fill it: ValueError: out of ideas (bad.py, line 6); choose" in cli.printed
     assert not out.exists()
 
 
