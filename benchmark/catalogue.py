@@ -30,7 +30,13 @@ _ABILITIES = {
     "Clusterer": "clusters",
     "Aligner": "aligns",
     "Blender": "blends",
+    "Layered": "gives the covariance of each layer",
+    "Coregionalised": "gives coregionalisation matrices of each layer",
+    "Trended": "gives a common trend",
+    "Embedded": "gives latent positions",
+    "Dynamical": "gives latent positions with dynamics",
     "Spatial": "takes markers",
+    "Replay": "replays training recordings",
     "Informed": "is given the generating process",
     "Misinformed": "is given an unrelated process",
 }

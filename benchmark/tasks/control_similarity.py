@@ -69,4 +69,4 @@ control_similarity = Task(
         "paper": Profile(on_recordings(_CASES), folds=1),
     },
 )
-"""MCC and MLC between recordings of people; no model takes part."""
+"""MCC and MLC between recordings of people; no model takes part but `replay`."""

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from mocapbench.metrics.base import Direction
+from mocapbench.reports.analysis.case_means import case_means
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.front.board import INCOMPLETE, SHADES, BoardCell
@@ -53,22 +54,15 @@ def reference_of(results: TaskResults) -> str | None:
     return next((name for name in names if _mean(results, metric, name) is not None), None)
 
 
-def _means(results: TaskResults, metric: str, label: str) -> list[float]:
-    """Return the means of the cases that count in which the label has a score."""
-    cases = results.representative_cases(metric)
-    found = [results.estimate(case.name, label, metric) for case in cases]
-    return [estimate.mean for estimate in found if estimate is not None]
-
-
 def _mean(results: TaskResults, metric: str, label: str) -> float | None:
     """Return the mean over the cases that count; None where the label has no score."""
-    means = _means(results, metric, label)
+    means = case_means(results, metric, label)
     return float(np.mean(means)) if means else None
 
 
 def _mean_loss(results: TaskResults, metric: str, label: str) -> float:
     """Return the mean loss over the cases that count, where the label has a score."""
-    return float(np.mean([*map(results.metrics[metric].loss, _means(results, metric, label))]))
+    return float(np.mean([*map(results.metrics[metric].loss, case_means(results, metric, label))]))
 
 
 def _cell(

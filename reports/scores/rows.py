@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mocapbench.reports.analysis.case_means import case_means
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.bundle.layout import CaseLayout
@@ -83,11 +84,11 @@ class Rows:
         """Return the mean over the cases that count; with one case, what is behind it."""
         if len(self.results.cases) == 1:
             return self._cell(self.results.cases[0], label)
-        found = [self.results.estimate(case.name, label, self.metric) for case in self.counting]
-        means = [estimate.mean for estimate in found if estimate is not None]
+        means = case_means(self.results, self.metric, label)
         if not means:
             return NO_SCORE
         mean = float(np.mean(means)) if standing is None else standing.mean
         link = cell_anchor(self.results.layout.name, "", label)
-        lacking = "" if len(means) == len(found) else f"{len(means)} of {len(found)} cases"
+        n_cases = len(self.counting)
+        lacking = "" if len(means) == n_cases else f"{len(means)} of {n_cases} cases"
         return mean_cell(mean, standing, self.places, lacking, link)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mocapbench.metrics.base import Direction
+from mocapbench.reports.analysis.case_means import case_means
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
 from mocapbench.reports.text import number, slug
@@ -17,7 +18,7 @@ __all__ = ["calibration_table"]
 def calibration_table(results: TaskResults) -> Table | None:
     """Return the means of metrics of a distribution that have a target: coverage of intervals.
 
-    Means run over folds and then over cases. Metrics that the task shows in a separate table are
+    Means run over folds and then over the cases that count. Metrics that the task shows in a separate table are
     left out.
 
     Returns
@@ -61,8 +62,7 @@ def _targets(results: TaskResults) -> Sequence[str]:
 
 
 def _mean_over_cases(results: TaskResults, label: str, metric: str) -> float | None:
-    estimates = [results.estimate(case.name, label, metric) for case in results.cases]
-    means = [estimate.mean for estimate in estimates if estimate is not None]
+    means = case_means(results, metric, label)
     return float(np.mean(means)) if means else None
 
 

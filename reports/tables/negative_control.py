@@ -88,7 +88,7 @@ def _notes(checked: Sequence[NegativeControlResult]) -> tuple[str, ...]:
         f"undecided: fewer than {ENOUGH_CELLS} cells leave both possible, or no single cell "
         "offends.",
         "Samples with too little variance score higher MLC and MCC, hence the lower limit of "
-        "spread. Samples with too much variance score lower.",
+        "the variance ratio. Samples with too much variance score lower.",
         *(
             f"{result.label} need not pass: it {result.exempt}."
             for result in checked

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from mocapbench.reports.analysis.case_means import case_means
 from mocapbench.reports.analysis.results import TaskResults
 
 __all__ = ["CHOICE", "best_labels", "mean_values"]
@@ -19,16 +20,10 @@ CHOICE = (
 
 def mean_values(results: TaskResults, metric: str) -> dict[str, float]:
     """Return the mean over representative cases of each label that has a score in all of them."""
-    cases = [case.name for case in results.representative_cases(metric)]
-    found = {
-        label: [results.estimate(case, label, metric) for case in cases]
-        for label in results.layout.labels
-    }
-    return {
-        label: float(np.mean([estimate.mean for estimate in estimates if estimate]))
-        for label, estimates in found.items()
-        if all(estimates) and estimates
-    }
+    n_cases = len(results.representative_cases(metric))
+    found = {label: case_means(results, metric, label) for label in results.layout.labels}
+    complete = {label: means for label, means in found.items() if means and len(means) == n_cases}
+    return {label: float(np.mean(means)) for label, means in complete.items()}
 
 
 def best_labels(results: TaskResults, metric: str, among: Iterable[str], most: int) -> list[str]:

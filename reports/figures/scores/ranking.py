@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mocapbench.reports.analysis.case_means import case_means
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis
@@ -52,9 +53,8 @@ def ranking(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> S
     ]
     info = results.metrics[metric]
     name = f"{info.title} of {counted(len(lines), 'model')}"
-    ticks = (
-        "A dot is a mean over cases, a tick one case." if len(_cases(results, metric)) > 1 else ""
-    )
+    several = len(results.representative_cases(metric)) > 1
+    ticks = "A dot is a mean over cases, a tick one case." if several else ""
     caption = " ".join(filter(None, (f"{info.better} is better.", ticks, remark(scale))))
     return SvgFigure(info.title, svg(WIDTH, bottom + BOTTOM, name, marks), (), caption)
 
@@ -63,17 +63,8 @@ def _lines(results: TaskResults, metric: str) -> list[_Line]:
     """Return a line for each label with a score: those that compete best first, then the others."""
     ranked = [standing.label for standing in standings(results, metric)]
     others = [label for label in results.layout.labels if label not in ranked]
-    found = {label: _values(results, metric, label) for label in (*ranked, *others)}
+    found = {label: case_means(results, metric, label) for label in (*ranked, *others)}
     return [_Line(label, float(np.mean(v)), v) for label, v in found.items() if v]
-
-
-def _values(results: TaskResults, metric: str, label: str) -> list[float]:
-    found = (results.estimate(case, label, metric) for case in _cases(results, metric))
-    return [estimate.mean for estimate in found if estimate is not None]
-
-
-def _cases(results: TaskResults, metric: str) -> list[str]:
-    return [case.name for case in results.representative_cases(metric)]
 
 
 def _row(line: _Line, place: int, scale: Scale, style: Style) -> str:

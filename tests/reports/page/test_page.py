@@ -4,6 +4,7 @@ from dataclasses import replace
 from html.parser import HTMLParser
 from itertools import pairwise
 
+import numpy as np
 import pytest
 
 from mocapbench.reports import CaseLayout, RowNotes, render
@@ -120,6 +121,11 @@ def test_each_failure_is_shown_with_its_traceback(bundle, outline, page):
     classes = [each.get("class") for each in outline.of("details")]
     assert classes.count("failure") == failed
     assert "leading minor is not positive definite" in page
+
+
+def test_folds_of_failures_count_from_one(small):
+    page = render(small({"row": {"a": [1.0, np.nan]}}))
+    assert "a · small · row · fold 2</summary>" in page
 
 
 def test_missing_data_come_with_their_command(page):

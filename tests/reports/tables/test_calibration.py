@@ -1,6 +1,7 @@
 from dataclasses import replace
 
 from mocapbench.reports.analysis.results import task_results
+from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.tables.calibration import calibration_table
 
 
@@ -14,6 +15,15 @@ def test_coverage_stands_beside_its_nominal_value(bundle):
     assert {row[0].text for row in table.rows[1:]} == {
         *("mohgp-3", "moa-3", "lmc-independent", "gp-independent", "trivial", "oracle")
     }
+
+
+def test_generated_cases_do_not_count_beside_recordings(small):
+    cases = (CaseLayout("made", {}, synthetic=True), CaseLayout("real", {}))
+    values = {"made": {"a": [0.1], "b": [0.2]}, "real": {"a": [0.9], "b": [0.8]}}
+    table = calibration_table(
+        results_of(small(values, metric="coverage_95", cases=cases, metrics=("mse",)))
+    )
+    assert [[cell.text for cell in row] for row in table.rows[1:]] == [["a", "0.90"], ["b", "0.80"]]
 
 
 def test_a_target_metric_with_its_own_table_is_not_repeated(small):
