@@ -18,8 +18,8 @@ __all__ = ["calibration_table"]
 def calibration_table(results: TaskResults) -> Table | None:
     """Return the means of metrics of a distribution that have a target: coverage of intervals.
 
-    Means run over folds and then over the cases that count. Metrics that the task shows in a separate table are
-    left out.
+    Means run over folds and then over the cases that count. Metrics that the task shows in a
+    separate table are left out.
 
     Returns
     -------
