@@ -12,6 +12,7 @@ from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.datasets import Archive, FormatError, Recording, RecordingUnavailable
 from mocapbench.datasets.kinematics import joint_positions
+from mocapbench.metrics.entries import mean_over
 from mocapbench.reports import ErrorParts, RestPose
 
 __all__ = ["N_PLACES", "along_gap", "error_parts"]
@@ -89,10 +90,7 @@ def _metrics(records: Sequence[Record]) -> dict[str, str]:
 def _mean(folds: Sequence[Array]) -> Array:
     """Return the mean over folds of what each has; NaN where none has anything."""
     stacked = np.stack(folds)
-    known = np.isfinite(stacked)
-    counts = known.sum(axis=0)
-    total = np.where(known, stacked, 0.0).sum(axis=0)
-    return np.where(counts > 0, total / np.maximum(counts, 1), np.nan).astype(np.float32)
+    return mean_over(stacked, np.isfinite(stacked), axis=0).astype(np.float32)
 
 
 def _rest_poses(records: Sequence[Record], archive: Archive) -> dict[str, RestPose]:

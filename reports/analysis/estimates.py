@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 from scipy.sparse import csr_array
 
+from mocapbench.metrics.entries import mean_over
 from mocapbench.metrics.statistics import ALPHA, UnitMeans, unit_means
 from mocapbench.reports.analysis.fold_mean import FoldMean
 from mocapbench.reports.analysis.grid import Array, Grid
@@ -78,9 +79,7 @@ def _over_units(folds: Array, units: list[str]) -> UnitMeans:
 
 def _mean(values: Array) -> Array:
     """Return the means over the last axis of what is finite, NaN where nothing is."""
-    finite = np.isfinite(values)
-    n = finite.sum(axis=-1)
-    return np.where(n > 0, np.where(finite, values, 0.0).sum(axis=-1) / np.maximum(n, 1), np.nan)
+    return mean_over(values, np.isfinite(values), axis=-1)
 
 
 def _deviation(values: Array) -> Array:

@@ -8,6 +8,7 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from mocapbench.metrics.entries import mean_over
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.error_parts import ErrorParts, RestPose
 from mocapbench.reports.figures.axes import panels
@@ -55,14 +56,8 @@ def _errors(results: TaskResults, parts: ErrorParts) -> dict[str, Array]:
     for (task, case, label), errors in parts.by_joint.items():
         if task == results.layout.name and case in cases:
             found.setdefault(label, []).append(errors.astype(np.float64))
-    return {label: _mean(np.stack(of_cases)) for label, of_cases in found.items()}
-
-
-def _mean(errors: Array) -> Array:
-    known = np.isfinite(errors)
-    counts = known.sum(axis=0)
-    total = np.where(known, errors, 0.0).sum(axis=0)
-    return np.where(counts > 0, total / np.maximum(counts, 1), np.nan)
+    stacked = {label: np.stack(of_cases) for label, of_cases in found.items()}
+    return {label: mean_over(them, np.isfinite(them), axis=0) for label, them in stacked.items()}
 
 
 def _body(pose: RestPose, errors: Array, largest: float, style: Style) -> Markup:
