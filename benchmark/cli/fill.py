@@ -67,7 +67,7 @@ def fill(
     """
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.outputs_of(files, out), strict=True))
-    entries = filling.Entries(_range(frames), channels, max_gap)
+    entries = filling.NamedEntries(_range(frames), channels, max_gap)
     sources, left_out = filling.read_sources(files, train or (), rate, entries)
     for source in sources:
         if model == filling.BEST:

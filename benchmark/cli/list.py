@@ -25,7 +25,7 @@ app = typer.Typer(add_completion=False)
 Entry = Mapping[str, Any]
 
 
-class Kind(StrEnum):
+class ListedKind(StrEnum):
     """What can be listed."""
 
     TASKS = "tasks"
@@ -48,7 +48,7 @@ class _Listing(NamedTuple):
 
 @app.command("list")
 def list_registered(
-    kind: Annotated[Kind, typer.Argument(help="What to list.")],
+    kind: Annotated[ListedKind, typer.Argument(help="What to list.")],
     names: Annotated[
         list[str] | None, typer.Argument(help="Show all there is to say of these.")
     ] = None,
@@ -77,21 +77,21 @@ def list_registered(
     console.print(f"`mocapbench list {kind} NAME` shows all there is to say of one; --json, of all")
 
 
-def _listing(kind: Kind) -> _Listing:
+def _listing(kind: ListedKind) -> _Listing:
     match kind:
-        case Kind.TASKS:
+        case ListedKind.TASKS:
             columns = {"title": "title", "cases": "cases", "reference": "from"}
             return _Listing(bench.TASKS, bench.task_entry, bench.task_entry, columns)
-        case Kind.MODELS:
+        case ListedKind.MODELS:
             columns = {"summary": "what it is", "abilities": "abilities"}
             return _Listing(bench.MODELS, bench.model_entry, bench.entrant_entry, columns)
-        case Kind.METRICS:
+        case ListedKind.METRICS:
             columns = {"title": "title", "better": "better", "of": "of"}
             return _Listing(bench.METRICS, bench.metric_entry, bench.metric_entry, columns)
-        case Kind.LIBRARIES:
+        case ListedKind.LIBRARIES:
             columns = {"summary": "what it is", "layout": "reads"}
             return _Listing(bench.LIBRARIES, bench.library_entry, bench.library_entry, columns)
-        case Kind.FORMATS:
+        case ListedKind.FORMATS:
             columns = {"summary": "what it is", "suffixes": "files", "needs": "needs"}
             return _Listing(bench.FORMATS, bench.format_entry, bench.format_entry, columns)
 

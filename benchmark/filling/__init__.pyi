@@ -1,7 +1,7 @@
 from .able import require_able
 from .filler import BEST, Filled, fill
 from .page import page_of
-from .requests.request import Entries
+from .requests.request import NamedEntries
 from .sources import Source, read_sources
 from .trials.choice import require_room
 from .wording import headline, remarks, verdict
@@ -10,8 +10,8 @@ from .writing import Outputs, outputs_of, write
 
 __all__ = [
     "BEST",
-    "Entries",
     "Filled",
+    "NamedEntries",
     "Outputs",
     "Source",
     "Workers",

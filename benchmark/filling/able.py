@@ -17,7 +17,7 @@ from mocapbench.baselines import (
 )
 from mocapbench.baselines.common.markers import markers_of
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.question import Question, without_unseen
+from mocapbench.benchmark.filling.question import GapQuestion, without_unseen
 from mocapbench.benchmark.registry import MODELS
 
 __all__ = ["able_models", "require_able"]
@@ -26,7 +26,7 @@ _TURNS = {Interpolator: 0, Spatial: 1, ChannelKriging: 2, BestOf: 4}
 """When models are tried; 3 for all others."""
 
 
-def able_models(question: Question) -> tuple[str, ...]:
+def able_models(question: GapQuestion) -> tuple[str, ...]:
     """Return the models that have the abilities to answer, in the order in which they are tried.
 
     Those that interpolate take no time and come first, then those made for markers, where there are
@@ -49,7 +49,7 @@ def _turn(model: type[FrameImputer]) -> tuple[int, float]:
     return turn, -(model.max_frames or np.inf)
 
 
-def require_able(name: str, question: Question) -> None:
+def require_able(name: str, question: GapQuestion) -> None:
     """Refuse a model that cannot answer.
 
     Raises
@@ -71,14 +71,14 @@ def require_able(name: str, question: Question) -> None:
     )
 
 
-def _needed(question: Question) -> type[FrameImputer]:
+def _needed(question: GapQuestion) -> type[FrameImputer]:
     """Return the ability that it takes: the lesser one where every frame is whole or hidden."""
     visible = without_unseen(question).given.visible
     whole = bool((visible.all(axis=1) == visible.any(axis=1)).all())
     return FrameImputer if whole else Imputer
 
 
-def _barred(question: Question) -> tuple[type[Model], ...]:
+def _barred(question: GapQuestion) -> tuple[type[Model], ...]:
     """Return the marks of models that take what there is not: a process, or markers."""
     has_markers = markers_of(question.given.channels, question.given.units)
     return (Informed, Misinformed) if has_markers else (Informed, Misinformed, Spatial)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines import FrameImputer, Prediction
-from mocapbench.benchmark.filling.question import Answer, Question, without_unseen
+from mocapbench.benchmark.filling.question import FilledEntries, GapQuestion, without_unseen
 from mocapbench.benchmark.filling.windows import Window, windows_of
 from mocapbench.benchmark.messages import reason
 from mocapbench.benchmark.problems.impute import ImputeProblem
@@ -33,7 +33,7 @@ class Attempt:
 
     Parameters
     ----------
-    answer : Answer or None
+    answer : FilledEntries or None
         None if there is none.
     trouble : str
         Why not.
@@ -45,7 +45,7 @@ class Attempt:
         Whether it was stopped because it took longer than allowed.
     """
 
-    answer: Answer | None
+    answer: FilledEntries | None
     trouble: str = ""
     windows: int = 0
     seconds: float = 0.0
@@ -57,7 +57,7 @@ class Attempt:
 
 
 def attempt(
-    model: type[FrameImputer], question: Question, memory: int, method: str = "impute"
+    model: type[FrameImputer], question: GapQuestion, memory: int, method: str = "impute"
 ) -> Attempt:
     """Return what a model answers; whatever it raises becomes its trouble.
 
@@ -65,7 +65,7 @@ def attempt(
     ----------
     model : type
         Built with its default parameters.
-    question : Question
+    question : GapQuestion
     memory : int
         Bytes of address space to which this process is limited from now on.
     method : str, default="impute"
@@ -94,7 +94,7 @@ def _place(error: BaseException, model: type[FrameImputer]) -> str:
     return f" ({path.name}, line {lines[-1]})" if lines else ""
 
 
-def _filled(model: type[FrameImputer], question: Question, method: str) -> Prediction:
+def _filled(model: type[FrameImputer], question: GapQuestion, method: str) -> Prediction:
     """Return what the model puts where the question's entries are wanted (N, D)."""
     asked = without_unseen(question)
     problem = ImputeProblem(
@@ -111,27 +111,29 @@ def _filled(model: type[FrameImputer], question: Question, method: str) -> Predi
     return Prediction(spread(prediction.mean), variance)
 
 
-def _over_channels(question: Question, asked: Question, values: FrameByChannel) -> FrameByChannel:
+def _over_channels(
+    question: GapQuestion, asked: GapQuestion, values: FrameByChannel
+) -> FrameByChannel:
     """Return values (N, d) of the channels asked for as (N, D), NaN in the others."""
     full = np.full(question.target.shape, np.nan)
     full[:, np.isin(question.given.channels, asked.given.channels)] = values
     return full
 
 
-def _merged(question: Question, parts: list[tuple[Window, Prediction]]) -> Answer:
+def _merged(question: GapQuestion, parts: list[tuple[Window, Prediction]]) -> FilledEntries:
     """Return the wanted entries of all windows in the order of the question's."""
     means = [prediction.mean for _, prediction in parts]
     variances = [prediction.variance for _, prediction in parts if prediction.variance is not None]
     windows = [window for window, _ in parts]
     complete = len(variances) == len(means)
-    return Answer(
+    return FilledEntries(
         _wanted(question, windows, means),
         _wanted(question, windows, variances) if complete else None,
     )
 
 
 def _wanted(
-    question: Question, windows: list[Window], values: list[FrameByChannel]
+    question: GapQuestion, windows: list[Window], values: list[FrameByChannel]
 ) -> NDArray[np.float64]:
     full = np.full(question.target.shape, np.nan)
     for window, part in zip(windows, values, strict=True):

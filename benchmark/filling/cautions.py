@@ -9,7 +9,7 @@ import numpy as np
 from mocapbench.benchmark.filling.edges import jumps
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.requests.names import marker_names
-from mocapbench.benchmark.filling.requests.request import Request
+from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.benchmark.filling.requests.zeros import zeros_caution
 from mocapbench.reports import counted, listed
 
@@ -65,13 +65,13 @@ def _visible_nowhere(filled: Filled) -> Iterator[str]:
     yield caution
 
 
-def _replaced(request: Request) -> Iterator[str]:
+def _replaced(request: FillRequest) -> Iterator[str]:
     if request.replaced:
         have = "entry that was filled has" if request.replaced == 1 else "filled entries have"
         yield f"{request.replaced} {have} a value in the file, which the filled one replaces."
 
 
-def _at_the_ends(request: Request) -> Iterator[str]:
+def _at_the_ends(request: FillRequest) -> Iterator[str]:
     """Yield how many gaps have frames on one side only, and of which channels they are."""
     n_frames = len(request.given.times)
     ends = [gap for gap in request.gaps if (gap.start == 0) != (gap.stop == n_frames)]

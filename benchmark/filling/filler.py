@@ -11,7 +11,7 @@ from mocapbench.baselines import Interpolator
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.able import able_models, require_able
 from mocapbench.benchmark.filling.attempt import Attempt
-from mocapbench.benchmark.filling.question import Answer, Question
+from mocapbench.benchmark.filling.question import FilledEntries, GapQuestion
 from mocapbench.benchmark.filling.sources import Source
 from mocapbench.benchmark.filling.trials.choice import NoneInTimeError, choose
 from mocapbench.benchmark.filling.trials.comparison import Choice
@@ -37,7 +37,7 @@ class Filled:
     source : Source
     model : str
         What filled it.
-    answer : Answer
+    answer : FilledEntries
     windows : int
         How many windows it was cut into; 0 if it was not.
     choice : Choice or None
@@ -50,7 +50,7 @@ class Filled:
 
     source: Source
     model: str
-    answer: Answer
+    answer: FilledEntries
     windows: int
     choice: Choice | None
     failed: tuple[tuple[str, str], ...]
@@ -107,7 +107,7 @@ def fill(
     return _filled(source, choice.ranking.order, choice, workers)
 
 
-def _interpolations(question: Question) -> tuple[str, ...]:
+def _interpolations(question: GapQuestion) -> tuple[str, ...]:
     """Return the models that interpolate, of which linear interpolation cannot overshoot."""
     able = [n for n in able_models(question) if issubclass(MODELS.get(n), Interpolator)]
     return tuple(sorted(able, key=lambda name: name != "linear"))
@@ -128,7 +128,7 @@ def _filled(
     raise UsageError(f"{source.path}: {name} did not fill it: {trouble}; choose another --model")
 
 
-def _attempt(model: str, question: Question, workers: Workers) -> Attempt:
+def _attempt(model: str, question: GapQuestion, workers: Workers) -> Attempt:
     future = workers.submit(model, workers.keep(question), _LONGEST)
     workers.ended([future])
     return workers.result(future)

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["Answer", "Question", "with_channels", "without_unseen"]
+__all__ = ["FilledEntries", "GapQuestion", "with_channels", "without_unseen"]
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Question:
+class GapQuestion:
     """A recording to fill, and what to learn from.
 
     Parameters
@@ -40,7 +40,7 @@ class Question:
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class FilledEntries:
     """What a model puts at M wanted entries, in the order of ``np.nonzero(question.target)``.
 
     Parameters
@@ -54,18 +54,18 @@ class Answer:
     variance: Array | None
 
 
-def without_unseen(question: Question) -> Question:
+def without_unseen(question: GapQuestion) -> GapQuestion:
     """Return the question without channels of which nothing is visible, unless they are wanted."""
     recordings = (question.given, *question.train)
     seen = np.any([recording.visible.any(axis=0) for recording in recordings], axis=0)
     return with_channels(question, seen | question.target.any(axis=0))
 
 
-def with_channels(question: Question, kept: NDArray[np.bool_]) -> Question:
+def with_channels(question: GapQuestion, kept: NDArray[np.bool_]) -> GapQuestion:
     """Return the question without channels (D,) that are not kept."""
     names = [question.given.channels[channel] for channel in np.flatnonzero(kept)]
     given, *train = _selected((question.given, *question.train), names)
-    return Question(given, question.target[:, kept], tuple(train))
+    return GapQuestion(given, question.target[:, kept], tuple(train))
 
 
 def _selected(recordings: Sequence[Recording], names: Sequence[str]) -> list[Recording]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from mocapbench.benchmark.errors import first_of
 from mocapbench.benchmark.filling.requests.names import marker_names
-from mocapbench.benchmark.filling.requests.request import Request
+from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.reports import counted, listed
 
 __all__ = ["remaining"]
@@ -17,7 +17,7 @@ _NAMED = 4
 """Markers or channels that a remark names at most."""
 
 
-def remaining(request: Request) -> Iterator[str]:
+def remaining(request: FillRequest) -> Iterator[str]:
     """Yield how many gaps were left open, and how many entries stay hidden for other reasons."""
     if request.left_open:
         were = counted(len(request.left_open), "longer gap was", "longer gaps were")

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mocapbench.benchmark.filling.question import Question, with_channels
+from mocapbench.benchmark.filling.question import GapQuestion, with_channels
 from mocapbench.benchmark.filling.requests.channels import chosen
 from mocapbench.benchmark.filling.requests.names import is_unlabelled
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
-from mocapbench.benchmark.filling.requests.request import Entries, Request, select
+from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
 from mocapbench.benchmark.formats import format_for
 from mocapbench.datasets import Format, Recording, check_alike
 
@@ -28,7 +28,7 @@ class Source:
     path : Path
     format : Format
         In which it is read and written.
-    request : Request
+    request : FillRequest
         What of it is to be filled.
     train : tuple of Recording
         Other files that models learn from, with the channels of the file, in its order; unlabelled
@@ -37,19 +37,19 @@ class Source:
 
     path: Path
     format: Format
-    request: Request
+    request: FillRequest
     train: tuple[Recording, ...]
 
     @property
-    def question(self) -> Question:
+    def question(self) -> GapQuestion:
         """What is asked of a model, without unlabelled markers of which nothing is to be filled."""
         request = self.request
         wanted = chosen(request.given, None) | request.target.any(axis=0)
-        return with_channels(Question(request.given, request.target, self.train), wanted)
+        return with_channels(GapQuestion(request.given, request.target, self.train), wanted)
 
 
 def read_sources(
-    files: Sequence[Path], train: Sequence[Path], rate: float | None, entries: Entries
+    files: Sequence[Path], train: Sequence[Path], rate: float | None, entries: NamedEntries
 ) -> tuple[list[Source], list[str]]:
     """Return the files to fill, and why others are left out: there is nothing to fill in them.
 
@@ -61,7 +61,7 @@ def read_sources(
         Files to fill, and files to learn from; each file to fill is left out of the latter.
     rate : float or None
         Frames per second, in place of what the files say.
-    entries : Entries
+    entries : NamedEntries
         What to fill in each file.
 
     Raises
@@ -86,7 +86,7 @@ def read_sources(
 
 
 def _source(
-    path: Path, others: dict[Path, Recording], rate: float | None, entries: Entries
+    path: Path, others: dict[Path, Recording], rate: float | None, entries: NamedEntries
 ) -> Source:
     recording = _read(path, rate)
     train = tuple(

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mocapbench.benchmark.filling.gaps import gaps_of
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import GapQuestion
 from mocapbench.datasets import Recording
 
 __all__ = ["Window", "windows_of"]
@@ -38,24 +38,24 @@ class Window:
     wanted_first: int
     wanted_stop: int
 
-    def of(self, question: Question, train: tuple[Recording, ...]) -> Question:
+    def of(self, question: GapQuestion, train: tuple[Recording, ...]) -> GapQuestion:
         """Return the question of filling this window's gaps."""
         whole = question.given
         given = whole.frames(np.arange(self.first, self.stop))
         target = question.target[self.first : self.stop].copy()
         rows = np.arange(self.first, self.stop)
         target[(rows < self.wanted_first) | (rows >= self.wanted_stop)] = False
-        return Question(
+        return GapQuestion(
             replace(given, name=f"{whole.name} [{self.first}:{self.stop}]"), target, train
         )
 
 
-def windows_of(question: Question, max_frames: int | None) -> list[tuple[Window, Question]]:
+def windows_of(question: GapQuestion, max_frames: int | None) -> list[tuple[Window, GapQuestion]]:
     """Return the windows that a model fills one by one, and the question of each.
 
     Parameters
     ----------
-    question : Question
+    question : GapQuestion
     max_frames : int or None
         The most frames that the model takes, all recordings together; None means no limit.
 
@@ -75,7 +75,7 @@ def windows_of(question: Question, max_frames: int | None) -> list[tuple[Window,
     ]
 
 
-def _groups(question: Question, room: int) -> list[tuple[int, int]]:
+def _groups(question: GapQuestion, room: int) -> list[tuple[int, int]]:
     """Return frames [first, stop) of gaps that fit in one window of ``room`` frames together."""
     groups: list[tuple[int, int]] = []
     frames = np.asarray(question.target.any(axis=1))

@@ -16,7 +16,7 @@ from typing import Self
 from pebble import ProcessExpired
 
 from mocapbench.benchmark.filling.attempt import Attempt, attempt
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import GapQuestion
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.runs.execution.child import (
     ProcessDiedError,
@@ -64,7 +64,7 @@ class Workers:
         self._pool.stop()
         self._resources.close()
 
-    def keep(self, question: Question) -> Path:
+    def keep(self, question: GapQuestion) -> Path:
         """Write a question where the workers read it, and return the file."""
         path = self._folder / f"question-{next(self._numbers)}"
         path.write_bytes(pickle.dumps(question, protocol=pickle.HIGHEST_PROTOCOL))
@@ -113,6 +113,6 @@ def _answered(
 
 
 @lru_cache(maxsize=2)
-def _question(path: Path) -> Question:
-    question: Question = pickle.loads(path.read_bytes())
+def _question(path: Path) -> GapQuestion:
+    question: GapQuestion = pickle.loads(path.read_bytes())
     return question

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mocapbench.benchmark.inspection.explanation import Explanation, Step
-from mocapbench.benchmark.inspection.work import Work, work_of
+from mocapbench.benchmark.inspection.work import ExpectedWork, work_of
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.store import Store
 
@@ -24,16 +24,16 @@ class Forecast:
     profile : str
     steps : mapping of Step to int
         How many jobs are skipped, fitted, only scored, or cannot run.
-    now : Work
+    now : ExpectedWork
         With the recordings that are here.
-    with_all : Work
+    with_all : ExpectedWork
         With all recordings that the jobs need.
     """
 
     profile: str
     steps: Mapping[Step, int]
-    now: Work
-    with_all: Work
+    now: ExpectedWork
+    with_all: ExpectedWork
 
 
 def forecast(

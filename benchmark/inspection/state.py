@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from mocapbench.benchmark.inspection.fit_seconds import MEASURED
-from mocapbench.benchmark.inspection.work import Work, work_of
+from mocapbench.benchmark.inspection.work import ExpectedWork, work_of
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, planned_jobs
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.store import Store
@@ -50,7 +50,7 @@ class RunState:
         Whether a run is writing to the folder now.
     about : mapping of str to str
         The run's provenance.
-    work_left : Work
+    work_left : ExpectedWork
         The fits of jobs that are left.
     workers : int
         How many jobs run at once.
@@ -61,7 +61,7 @@ class RunState:
     tasks: Mapping[str, TaskState]
     writing: bool
     about: Mapping[str, str]
-    work_left: Work
+    work_left: ExpectedWork
     workers: int
     damaged: tuple[str, ...]
 
@@ -110,7 +110,7 @@ def _counted(records: Iterable[Record | None]) -> TaskState:
     return TaskState(counts[Status.OK], failed, counts[Status.DATA_MISSING], counts[None])
 
 
-def _work_left(left: Sequence[PlannedJob], store: Store, profile: str) -> Work:
+def _work_left(left: Sequence[PlannedJob], store: Store, profile: str) -> ExpectedWork:
     """Return the fits of jobs, as a forecast of the same run tells them.
 
     To score predictions that are there, or that another row asks for too, takes no time beside it.

@@ -14,7 +14,7 @@ from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.reports.text import counted
 
-__all__ = ["Basis", "Work", "work_of"]
+__all__ = ["Basis", "ExpectedWork", "work_of"]
 
 
 class Basis(StrEnum):
@@ -25,7 +25,7 @@ class Basis(StrEnum):
     MEAN = "the mean of all entrants there"
 
 
-class Work(NamedTuple):
+class ExpectedWork(NamedTuple):
     """Fits to do; to predict by a fit that is shared, and to score, takes little time beside it.
 
     Parameters
@@ -57,7 +57,7 @@ class Work(NamedTuple):
         return f"about {wall} with {counted(n_workers, 'job')} at once ({fits})"
 
 
-def work_of(fits: Iterable[Address], records: Iterable[Record], profile: str) -> Work:
+def work_of(fits: Iterable[Address], records: Iterable[Record], profile: str) -> ExpectedWork:
     """Return the work of some fits.
 
     Parameters
@@ -71,7 +71,7 @@ def work_of(fits: Iterable[Address], records: Iterable[Record], profile: str) ->
     ways = _ways(records, profile)
     estimates = [_estimate(address, ways) for address in fits]
     seconds = tuple(seconds for _, seconds in estimates)
-    return Work(seconds, Counter(basis for basis, _ in estimates))
+    return ExpectedWork(seconds, Counter(basis for basis, _ in estimates))
 
 
 class _Way(NamedTuple):

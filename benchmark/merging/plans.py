@@ -9,7 +9,7 @@ from typing import Any
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.inspection.changes import changes, in_words
 from mocapbench.benchmark.merging.records import Found
-from mocapbench.benchmark.merging.sources import DIRECTORY, Source
+from mocapbench.benchmark.merging.sources import DIRECTORY, MergeSource
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, plan_document
 from mocapbench.benchmark.runs.record import Status
@@ -19,7 +19,7 @@ __all__ = ["unite_plans"]
 
 
 def unite_plans(
-    sources: Sequence[Source], records: Mapping[str, Found], keys: Mapping[str, KeyEntry]
+    sources: Sequence[MergeSource], records: Mapping[str, Found], keys: Mapping[str, KeyEntry]
 ) -> dict[str, Any]:
     """Return the plan of all jobs of ``sources``.
 
@@ -27,7 +27,7 @@ def unite_plans(
 
     Parameters
     ----------
-    sources : sequence of Source
+    sources : sequence of MergeSource
         The first one's order goes before that of what others add.
     records : mapping of str to Found
         The records that are kept, by key.

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.merging.sources import Source
+from mocapbench.benchmark.merging.sources import MergeSource
 from mocapbench.benchmark.runs.record import Record, Status
 
 __all__ = ["Found", "unite_fits", "unite_records"]
@@ -26,7 +26,7 @@ class Found(NamedTuple):
     path: Path
 
 
-def unite_records(sources: Sequence[Source]) -> dict[str, Found]:
+def unite_records(sources: Sequence[MergeSource]) -> dict[str, Found]:
     """Return one record for each key.
 
     A job that went well counts rather than one that broke. Which of several equal ones is taken
@@ -77,7 +77,7 @@ def _differences(one: Found, other: Found) -> list[str]:
     ]
 
 
-def unite_fits(sources: Sequence[Source]) -> dict[str, Path]:
+def unite_fits(sources: Sequence[MergeSource]) -> dict[str, Path]:
     """Return one file of predictions for each key, whatever the order of the sources."""
     found: dict[str, list[Path]] = defaultdict(list)
     for source in sources:

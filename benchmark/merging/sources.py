@@ -18,14 +18,14 @@ from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.task_files.task_file import TaskFile
 
-__all__ = ["DIRECTORY", "Source", "read_source"]
+__all__ = ["DIRECTORY", "MergeSource", "read_source"]
 
 DIRECTORY = "run directory"
 """Under this name, the provenance of a run that was merged has its place."""
 
 
 @dataclass(frozen=True)
-class Source:
+class MergeSource:
     """A run directory and what is whole in it.
 
     Parameters
@@ -55,7 +55,7 @@ class Source:
     task_files: tuple[TaskFile, ...]
 
 
-def read_source(path: Path) -> Source:
+def read_source(path: Path) -> MergeSource:
     """Return what is whole in the run directory ``path``.
 
     Raises
@@ -71,7 +71,7 @@ def read_source(path: Path) -> Source:
     about = tuple({name: str(value) for name, value in run.items()} for run in runs)
     jobs = tuple(_known_jobs(plan, records))
     task_files = planned_task_files(plan)
-    return Source(store, records, fits, store.load_keys(), jobs, about, task_files)
+    return MergeSource(store, records, fits, store.load_keys(), jobs, about, task_files)
 
 
 def _plan(store: Store, records: Iterable[Record]) -> Mapping[str, Any]:

@@ -15,7 +15,7 @@ from mocapbench.benchmark.task_files.hidden_settings import Hidden, read_hidden
 from mocapbench.benchmark.task_files.library import address_of
 from mocapbench.benchmark.task_files.settings import read_settings
 from mocapbench.benchmark.task_files.task_file import TaskFile
-from mocapbench.benchmark.task_files.trial import Trial
+from mocapbench.benchmark.task_files.trial import TrialRun
 
 __all__ = ["checked", "open_task_file", "open_task_files", "require_folder"]
 
@@ -96,7 +96,7 @@ def checked(document: Document, folder: Path) -> TaskFile:
     training = find_training(document, settings, tests, folder)
     hidden = read_hidden(document, partial(address_of, rate=settings.rate))
     _check_training(document, hidden, tests, training)
-    trial = Trial(document, settings, hidden, archive_at(folder.resolve()))
+    trial = TrialRun(document, settings, hidden, archive_at(folder.resolve()))
     facts = trial.run(tests, training)
     file = TaskFile(
         document.file,

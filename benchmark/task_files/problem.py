@@ -11,7 +11,7 @@ from mocapbench.baselines import Prediction
 from mocapbench.benchmark.problems.body import Body, JointAngles
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.benchmark.registry import METRICS
-from mocapbench.benchmark.task_files.hiding.base import Hiding, Place
+from mocapbench.benchmark.task_files.hiding.base import Hiding, HidingPlace
 from mocapbench.benchmark.task_files.selection import Selection
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive, Recording, SkeletonUnavailable
@@ -56,7 +56,7 @@ def own_problem(
         If the recordings do not have what the protocol asks for.
     """
     recording = protocol.selection.of(archive.recording(test))
-    place = Place(seeds.fold, seeds.generator("mask"), archive)
+    place = HidingPlace(seeds.fold, seeds.generator("mask"), archive)
     return ImputeProblem.of_one(
         recording,
         protocol.hiding.mask(recording, place),

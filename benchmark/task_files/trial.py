@@ -16,7 +16,7 @@ from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
 from mocapbench.benchmark.task_files.grouping import check_alike_in_any_order
 from mocapbench.benchmark.task_files.hidden_settings import Hidden
-from mocapbench.benchmark.task_files.hiding.base import HidingError, Place
+from mocapbench.benchmark.task_files.hiding.base import HidingError, HidingPlace
 from mocapbench.benchmark.task_files.hiding.random_gaps import RandomGaps
 from mocapbench.benchmark.task_files.library import address_of
 from mocapbench.benchmark.task_files.problem import defined_metrics, own_body
@@ -30,12 +30,12 @@ from mocapbench.datasets import (
 )
 from mocapbench.reports import counted
 
-__all__ = ["Facts", "Trial"]
+__all__ = ["RecordingFacts", "TrialRun"]
 
 _SHOWN = 6
 
 
-class Facts(NamedTuple):
+class RecordingFacts(NamedTuple):
     """What recordings have in common that decides which models can fill them."""
 
     complete: bool
@@ -45,7 +45,7 @@ class Facts(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Trial:
+class TrialRun:
     """Does with recordings what the task will do, and says which key asked for what fails.
 
     Parameters
@@ -61,7 +61,7 @@ class Trial:
     hidden: Hidden
     archive: Archive
 
-    def run(self, tests: tuple[str, ...], training: tuple[str, ...]) -> Facts:
+    def run(self, tests: tuple[str, ...], training: tuple[str, ...]) -> RecordingFacts:
         """Return what models need to know of the recordings.
 
         Parameters
@@ -89,7 +89,7 @@ class Trial:
                 undefined.difference_update(defined_metrics(undefined, problem))
         if undefined:
             raise self._undefined(min(undefined), tests, problem)
-        return Facts(complete, bool(markers_of(first.channels, first.units)))
+        return RecordingFacts(complete, bool(markers_of(first.channels, first.units)))
 
     def _read(self, key: str, path: str) -> Recording:
         with self._blaming(key, path):
@@ -116,7 +116,7 @@ class Trial:
         self._check_lengths(recording, path)
         for variant in self.hidden.variants:
             for fold in range(self.settings.folds):
-                place = Place(fold, np.random.default_rng(fold), self.archive)
+                place = HidingPlace(fold, np.random.default_rng(fold), self.archive)
                 with self._blaming("hide", path):
                     hidden = variant.hiding.mask(recording, place)
                 self._check_mask(hidden, recording, path)

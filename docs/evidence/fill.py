@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from mocapbench.benchmark.filling.able import able_models
 from mocapbench.benchmark.filling.gaps import gaps_of
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import GapQuestion
 from mocapbench.benchmark.filling.trials.choice import choose
 from mocapbench.benchmark.filling.trials.comparison import Choice
 from mocapbench.benchmark.filling.workers import Workers
@@ -132,7 +132,7 @@ def problems(
 
 def evaluate(recording: Recording, hidden: Mask, workers: Workers, budget: float) -> Result:
     """Return how the choice and every other able model fill the gaps."""
-    question = Question(unwrapped(recording.hide(hidden)), hidden)
+    question = GapQuestion(unwrapped(recording.hide(hidden)), hidden)
     choice = choose(question, workers, budget, lambda *_: None)
     kept = workers.keep(question)
     able = [model for model in able_models(question) if model in choice.ranking.order]

@@ -13,7 +13,7 @@ from markupsafe import Markup, escape
 from numpy.typing import NDArray
 
 from mocapbench.reports.figures.paths import coordinate, outline, segments
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 
 __all__ = [
     "SHAPES",
@@ -111,7 +111,7 @@ def text(x: float, y: float, content: str, kind: str = "") -> str:
     return f'<text{of_kind} x="{coordinate(x)}" y="{coordinate(y)}">{escape(content)}</text>'
 
 
-def group(style: Style, *marks: str, title: str = "") -> str:
+def group(style: DrawingStyle, *marks: str, title: str = "") -> str:
     """Return the marks of one model, in its colour; the page shows ``title`` beside the pointer."""
     tooltip = f"<title>{escape(title)}</title>" if title else ""
     return f'<g class="{style.classes}"{style.model}>{tooltip}{"".join(marks)}</g>'

@@ -16,7 +16,7 @@ from mocapbench.reports.figures.fitting import fitted
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.marks import dot, horizontal, text, vertical
 from mocapbench.reports.figures.scale import Scale
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 
 __all__ = ["STRIP_HEIGHT", "STRIP_WIDTH", "strip", "strip_axis", "strip_scale"]
 
@@ -32,7 +32,7 @@ def strip_scale(values: Iterable[float]) -> Scale:
     return fitted(values, _EDGE, STRIP_WIDTH - _EDGE)
 
 
-def strip(sample: FoldSample, scale: Scale, label: str, style: Style) -> Markup:
+def strip(sample: FoldSample, scale: Scale, label: str, style: DrawingStyle) -> Markup:
     """Return the strip of one row, with the interval of the mean where there are several units.
 
     Parameters
@@ -43,7 +43,7 @@ def strip(sample: FoldSample, scale: Scale, label: str, style: Style) -> Markup:
         The interval is cut where it ends.
     label : str
         Accessible name, such as "knn, 5 folds".
-    style : Style
+    style : DrawingStyle
     """
     places = scale.places(np.array(sample.values, dtype=float))
     middle, ends = scale.place(centre(sample, scale)), interval(sample, scale)

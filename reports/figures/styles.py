@@ -10,7 +10,7 @@ from markupsafe import escape
 
 from mocapbench.reports.bundle.layout import TaskLayout
 
-__all__ = ["N_HUES", "N_SHAPES", "TRUTH", "Style", "group_styles", "model_styles"]
+__all__ = ["N_HUES", "N_SHAPES", "TRUTH", "DrawingStyle", "group_styles", "model_styles"]
 
 N_HUES, N_SHAPES = 10, 6
 REFERENCES = ("trivial",)
@@ -18,7 +18,7 @@ REFERENCES = ("trivial",)
 
 
 @dataclass(frozen=True)
-class Style:
+class DrawingStyle:
     """How a model is drawn.
 
     Parameters
@@ -46,30 +46,33 @@ class Style:
         return f' data-model="{escape(self.label)}"' if self.label else ""
 
 
-TRUTH = Style("ht")
+TRUTH = DrawingStyle("ht")
 _TRUTHS = ("truth", "true parent", "in the file")
 
 
-def group_styles(groups: Sequence[str], models: Mapping[str, Style]) -> Mapping[str, Style]:
+def group_styles(
+    groups: Sequence[str], models: Mapping[str, DrawingStyle]
+) -> Mapping[str, DrawingStyle]:
     """Return the style of each group of curves: that of its model, ink for the truth, else any.
 
     Parameters
     ----------
     groups : sequence of str
         In order of appearance.
-    models : mapping of str to Style
+    models : mapping of str to DrawingStyle
         As `model_styles` returns them.
     """
     others = [group for group in groups if group not in models and group not in _TRUTHS]
     places = {group: place for place, group in enumerate(others)}
     truths = dict.fromkeys(_TRUTHS, TRUTH)
     anonymous = {
-        group: Style(f"h{place % N_HUES}", place % N_SHAPES) for group, place in places.items()
+        group: DrawingStyle(f"h{place % N_HUES}", place % N_SHAPES)
+        for group, place in places.items()
     }
     return {group: {**models, **truths, **anonymous}[group] for group in groups}
 
 
-def model_styles(layouts: Sequence[TaskLayout]) -> Mapping[str, Style]:
+def model_styles(layouts: Sequence[TaskLayout]) -> Mapping[str, DrawingStyle]:
     """Return the style of every label of the page.
 
     A label takes the hue that fewest labels beside it in a table have, then fewest of the page; of
@@ -81,19 +84,22 @@ def model_styles(layouts: Sequence[TaskLayout]) -> Mapping[str, Style]:
 
     Returns
     -------
-    mapping of str to Style
+    mapping of str to DrawingStyle
         The first sixty models have styles of their own.
     """
     labels = dict.fromkeys(label for layout in layouts for label in layout.labels)
     references = {label for layout in layouts for label in _references(layout)}
     greys = [label for label in labels if label in references]
-    styles = {label: Style("hr", i % N_SHAPES, label) for i, label in enumerate(greys)}
+    styles = {label: DrawingStyle("hr", i % N_SHAPES, label) for i, label in enumerate(greys)}
     hues: dict[str, int] = {}
     for label in labels:
         if label not in references:
             hue = _hue(hues, _beside(layouts, label))
             shape = Counter(hues.values())[hue] % N_SHAPES
-            hues[label], styles[label] = hue, Style(f"h{hue}", (hue + shape) % N_SHAPES, label)
+            hues[label], styles[label] = (
+                hue,
+                DrawingStyle(f"h{hue}", (hue + shape) % N_SHAPES, label),
+            )
     return {label: styles[label] for label in labels}
 
 

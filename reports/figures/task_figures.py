@@ -16,12 +16,12 @@ from mocapbench.reports.figures.scores.gap_error import gap_error
 from mocapbench.reports.figures.scores.joint_errors import joint_errors
 from mocapbench.reports.figures.scores.ranks import rank_figure
 from mocapbench.reports.figures.scores.reliability import reliability
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 
 __all__ = ["folded_figures", "open_figures"]
 
-Styles = Mapping[str, Style]
+Styles = Mapping[str, DrawingStyle]
 
 
 def open_figures(results: TaskResults, parts: ErrorParts, styles: Styles) -> list[SvgFigure]:
@@ -31,7 +31,7 @@ def open_figures(results: TaskResults, parts: ErrorParts, styles: Styles) -> lis
     ----------
     results : TaskResults
     parts : ErrorParts
-    styles : mapping of str to Style
+    styles : mapping of str to DrawingStyle
         Of all labels of the page, as `mocapbench.reports.figures.styles.model_styles` returns them.
     """
     page = results.layout.page

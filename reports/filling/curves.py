@@ -11,7 +11,7 @@ from mocapbench.reports.figures.fitting import linear
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import band, group, horizontal, polyline, rectangle
 from mocapbench.reports.figures.pictures.thinning import thinned
-from mocapbench.reports.figures.styles import TRUTH, Style
+from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
 from mocapbench.reports.figures.svg_figure import Key
 from mocapbench.reports.filling.values import FILLED_FRAMES, FilledCurve
 from mocapbench.reports.printable import printable
@@ -20,7 +20,7 @@ from mocapbench.reports.text import counted
 __all__ = ["MOTION_STYLES", "draw_curve", "legend"]
 
 HEIGHT = 120.0
-FILLED = Style("h0", 1)
+FILLED = DrawingStyle("h0", 1)
 MOTION_STYLES = {FILLED_FRAMES: FILLED}
 """Of the figures of a motion; those in the file are drawn as the truth is everywhere."""
 _WITHIN_95 = 1.96

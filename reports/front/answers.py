@@ -10,10 +10,10 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Place, standings
 from mocapbench.reports.bundle.questions import QUESTIONS, Question
 from mocapbench.reports.front.board_cells import first_metric
-from mocapbench.reports.front.findings import Finding, RankedTask
+from mocapbench.reports.front.findings import RankedTask, TaskFinding
 from mocapbench.reports.text import counted
 
-__all__ = ["TESTED", "Answer", "answers"]
+__all__ = ["TESTED", "QuestionAnswer", "answers"]
 
 TESTED = (Place.BEHIND, Place.INSEPARABLE)
 OF_TOYS = "recover"
@@ -22,7 +22,7 @@ NO_RIVAL = "no rival"
 
 
 @dataclass(frozen=True)
-class Answer:
+class QuestionAnswer:
     """What the run says to one question.
 
     Parameters
@@ -35,7 +35,7 @@ class Answer:
     doubt : str
         What the tests say of its leads; empty where more than half of its tasks show a lead that is
         more than chance.
-    findings : tuple of Finding
+    findings : tuple of TaskFinding
         One for each task, those that ``model`` leads first.
     sure : str
         What the tests say of the leads.
@@ -45,11 +45,11 @@ class Answer:
     ask: str
     model: str
     doubt: str
-    findings: tuple[Finding, ...]
+    findings: tuple[TaskFinding, ...]
     sure: str
 
 
-def answers(tasks: Sequence[TaskResults]) -> list[Answer]:
+def answers(tasks: Sequence[TaskResults]) -> list[QuestionAnswer]:
     """Return an answer for each question that a task with a ranked score puts."""
     standing = [(task, standings(task, first_metric(task))) for task in tasks]
     ranked = [RankedTask(task, found) for task, found in standing if found]
@@ -61,12 +61,12 @@ def answers(tasks: Sequence[TaskResults]) -> list[Answer]:
     ]
 
 
-def _answer(question: Question, group: Sequence[RankedTask]) -> Answer:
+def _answer(question: Question, group: Sequence[RankedTask]) -> QuestionAnswer:
     leaders = Counter(one.best.label for one in group if not one.level and not one.beaten)
     model, most = leaders.most_common(1)[0] if leaders else ("", 0)
     named = model if 2 * most > len(group) else ""
     first = sorted(group, key=lambda one: one.best.label != named)
-    return Answer(
+    return QuestionAnswer(
         question.title,
         question.ask,
         named,

@@ -17,11 +17,11 @@ from mocapbench.reports.front.board_cells import (
 )
 from mocapbench.reports.text import apart, listed, number, slug
 
-__all__ = ["Finding", "RankedTask"]
+__all__ = ["RankedTask", "TaskFinding"]
 
 
 @dataclass(frozen=True)
-class Finding:
+class TaskFinding:
     """What one task says.
 
     Parameters
@@ -72,12 +72,12 @@ class RankedTask:
         return board_cells(self.results)[self.best.label].beaten
 
     @property
-    def finding(self) -> Finding:
+    def finding(self) -> TaskFinding:
         """What the task says."""
         title = self.results.layout.page.short
         title += " (synthetic)" if is_generated(self.results) else ""
         reference = f"; no better than {reference_of(self.results)}" if self.beaten else ""
-        return Finding(slug("task", self.results.layout.name), title, self._means + reference)
+        return TaskFinding(slug("task", self.results.layout.name), title, self._means + reference)
 
     @property
     def _means(self) -> str:

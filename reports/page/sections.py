@@ -9,7 +9,7 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import TaskLayout
 from mocapbench.reports.figures.pictures.draw import draw
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.figures.task_figures import folded_figures, open_figures
 from mocapbench.reports.motions.player import PlayerFigure
@@ -32,7 +32,7 @@ from mocapbench.reports.text import slug
 
 __all__ = ["MetricView", "TaskView", "task_view"]
 
-Styles = Mapping[str, Style]
+Styles = Mapping[str, DrawingStyle]
 
 SUMMARIES = (
     best_reference_table,
@@ -111,7 +111,7 @@ def task_view(
     ----------
     results : TaskResults
     bundle : Bundle
-    styles : mapping of str to Style
+    styles : mapping of str to DrawingStyle
         Of all labels of the page, as `mocapbench.reports.figures.styles.model_styles` returns them.
     shared : container of str
         Remarks that stand elsewhere, as they are on other tasks too.

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.scores.basis import basis
 from mocapbench.reports.scores.drawing import Drawing
 from mocapbench.reports.scores.published import published_rows
@@ -17,14 +17,16 @@ from mocapbench.reports.text import FEWEST_DECIMALS, counted, slug
 __all__ = ["score_table"]
 
 
-def score_table(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> ScoreTable:
+def score_table(
+    results: TaskResults, metric: str, styles: Mapping[str, DrawingStyle]
+) -> ScoreTable:
     """Return the table of ``metric``: competitors best first, then references and papers' models.
 
     Parameters
     ----------
     results : TaskResults
     metric : str
-    styles : mapping of str to Style
+    styles : mapping of str to DrawingStyle
         How each label is drawn.
     """
     counting = results.representative_cases(metric)

@@ -17,7 +17,7 @@ from mocapbench.reports.analysis.units import unit_names
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.scale import Scale
 from mocapbench.reports.figures.strip import strip, strip_axis, strip_scale
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.text import counted
 
 __all__ = ["Drawing"]
@@ -35,12 +35,12 @@ class Drawing:
         By label, of the cases that enter means.
     scale : Scale or None
         None where no label has a value.
-    styles : mapping of str to Style
+    styles : mapping of str to DrawingStyle
     """
 
     samples: Mapping[str, FoldSample]
     scale: Scale | None
-    styles: Mapping[str, Style]
+    styles: Mapping[str, DrawingStyle]
 
     @classmethod
     def of(
@@ -48,7 +48,7 @@ class Drawing:
         results: TaskResults,
         metric: str,
         cases: Sequence[CaseLayout],
-        styles: Mapping[str, Style],
+        styles: Mapping[str, DrawingStyle],
     ) -> Self:
         """Return the drawing of the scores of ``metric`` in ``cases``."""
         grid = results.grid

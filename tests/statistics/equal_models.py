@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from mocapbench.benchmark.filling.gaps import gaps_of
-from mocapbench.benchmark.filling.question import Answer, Question
+from mocapbench.benchmark.filling.question import FilledEntries, GapQuestion
 from mocapbench.benchmark.filling.trials.making import make_trials
 from mocapbench.benchmark.filling.trials.places import places_of
 from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
@@ -48,7 +48,7 @@ FILES = {
 }
 
 
-def files(name: str, n_files: int) -> Iterator[Question]:
+def files(name: str, n_files: int) -> Iterator[GapQuestion]:
     """Yield files of one kind, with their gaps."""
     n_frames, gaps = FILES[name]
     target = np.zeros((n_frames, len(ALL)), dtype=bool)
@@ -59,12 +59,12 @@ def files(name: str, n_files: int) -> Iterator[Question]:
     for _ in range(n_files):
         walk = np.cumsum(rng.normal(size=n_frames))[:, None]
         values = walk + rng.normal(0.0, 0.05, target.shape)
-        yield Question(
+        yield GapQuestion(
             Recording("r", times, values, ("a", "b", "c"), ("mm",) * 3).hide(target), target
         )
 
 
-def rankings(question: Question, lead: float = 0.0) -> tuple[Ranking, Ranking]:
+def rankings(question: GapQuestion, lead: float = 0.0) -> tuple[Ranking, Ranking]:
     """Return the ranking of both models, with each trial gap as one unit, and with places."""
     trials = make_trials(question, np.random.default_rng(0))
     scales, heights = held_errors(trials), {"above": HEIGHT - lead, "below": -HEIGHT}
@@ -76,11 +76,11 @@ def rankings(question: Question, lead: float = 0.0) -> tuple[Ranking, Ranking]:
     return rank(scores, weights, np.arange(len(places))), rank(scores, weights, places)
 
 
-def _answer(trial: Trial, height: float) -> Answer:
+def _answer(trial: Trial, height: float) -> FilledEntries:
     values = trial.question.given.values
     filled = np.column_stack([_line(column) for column in values.T])
     filled += height * _bows(~np.isfinite(values))
-    return Answer(filled[trial.question.target], None)
+    return FilledEntries(filled[trial.question.target], None)
 
 
 def _line(column: np.ndarray) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 from mocapbench.benchmark.figures.motions.chosen import chosen
 from mocapbench.benchmark.figures.motions.placing import PlacesJoints, placed
 from mocapbench.benchmark.figures.motions.played import Pair, played
-from mocapbench.benchmark.figures.motions.window import Window
+from mocapbench.benchmark.figures.motions.window import ShownWindow
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.reports import Motions
@@ -46,7 +46,7 @@ class FilledMotion:
     def pictures(self, solved: FilledProblem, /) -> Sequence[Motions]:
         """Return one player; none if no body is known, or part of the truth shown is not."""
         body, given = self.body(solved), solved.problem.given[0]
-        window = Window(given.times, np.asarray((~given.visible).any(axis=1)))
+        window = ShownWindow(given.times, np.asarray((~given.visible).any(axis=1)))
         shown, truth = given.frames(np.r_[window.part]), solved.problem.truth[0][window.part]
         if body is None or not np.isfinite(truth).all():
             return ()

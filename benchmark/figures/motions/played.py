@@ -10,7 +10,7 @@ import numpy as np
 from mocapbench.benchmark.figures.motions.chosen import Chosen
 from mocapbench.benchmark.figures.motions.placing import PlacesJoints
 from mocapbench.benchmark.figures.motions.side_view import side_view
-from mocapbench.benchmark.figures.motions.window import Window
+from mocapbench.benchmark.figures.motions.window import ShownWindow
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.datasets import FrameByJointBy3, Frames
 from mocapbench.reports import Motion, Motions
@@ -26,7 +26,7 @@ class Pair(NamedTuple):
     against : str
         Name of the truth.
     truth, made : ndarray of shape (P, J, 3)
-        Positions of joints in the `Window.part`, in centimetres.
+        Positions of joints in the `ShownWindow.part`, in centimetres.
     """
 
     against: str
@@ -37,7 +37,7 @@ class Pair(NamedTuple):
 def played(
     solved: Solved[Any, Any],
     body: PlacesJoints,
-    window: Window,
+    window: ShownWindow,
     *,
     entrants: Chosen,
     pairs: Sequence[Pair],
@@ -49,7 +49,7 @@ def played(
     ----------
     solved : Solved
     body : PlacesJoints
-    window : Window
+    window : ShownWindow
     entrants : Chosen
     pairs : sequence of Pair
         In the order of the entrants.

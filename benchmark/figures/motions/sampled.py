@@ -11,7 +11,7 @@ from numpy.linalg import norm
 from mocapbench.benchmark.figures.motions.chosen import chosen
 from mocapbench.benchmark.figures.motions.placing import on_the_spot, placed
 from mocapbench.benchmark.figures.motions.played import Pair, played
-from mocapbench.benchmark.figures.motions.window import Window
+from mocapbench.benchmark.figures.motions.window import ShownWindow
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.synthesise import Samples, SynthesiseProblem
 from mocapbench.datasets import FrameByJointBy3
@@ -38,7 +38,7 @@ class SampledMotion:
         if body is None:
             return ()
         entrants = chosen(solved, self.n_most)
-        window = Window(problem.times, np.zeros(len(problem.times), dtype=bool))
+        window = ShownWindow(problem.times, np.zeros(len(problem.times), dtype=bool))
         samples = [solved.answers[label].values[0] for label in entrants.labels]
         values = [motion[window.part] for motion in (*problem.references, *samples)]
         like = replace(problem.train[0], times=problem.times[window.part], values=values[0])

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mocapbench.datasets import Frames
 
-__all__ = ["LONGEST", "Window", "shown_frames"]
+__all__ = ["LONGEST", "ShownWindow", "shown_frames"]
 
 LONGEST = 10.0
 """Seconds."""
@@ -18,7 +18,7 @@ _RATE = 30.0
 _TOLERANCE = 1.001  # 59.99 frames per second are 60
 
 
-class Window(NamedTuple):
+class ShownWindow(NamedTuple):
     """The part of a recording that a player shows.
 
     Parameters

@@ -19,11 +19,11 @@ from mocapbench.benchmark.filling.requests.refusals import (
 )
 from mocapbench.datasets import Mask, Recording, unwrapped
 
-__all__ = ["Entries", "Request", "select"]
+__all__ = ["FillRequest", "NamedEntries", "select"]
 
 
 @dataclass(frozen=True)
-class Entries:
+class NamedEntries:
     """Which entries the user names; by default every hidden one.
 
     Parameters
@@ -43,7 +43,7 @@ class Entries:
 
 
 @dataclass(frozen=True, eq=False)
-class Request:
+class FillRequest:
     """A recording, and which of its entries to fill.
 
     Parameters
@@ -75,7 +75,9 @@ class Request:
         return gaps_of(self.target)
 
 
-def select(recording: Recording, entries: Entries, train: Sequence[Recording] = ()) -> Request:
+def select(
+    recording: Recording, entries: NamedEntries, train: Sequence[Recording] = ()
+) -> FillRequest:
     """Return the request of filling the entries named.
 
     Channels of which nothing is visible, here or in recordings to learn from, stay as they are.
@@ -106,7 +108,7 @@ def select(recording: Recording, entries: Entries, train: Sequence[Recording] = 
     target = named & ~mask_of(left_open, named.shape)
     replaced = int((target & recording.visible).sum())
     open_too = recording.hide(named)
-    return Request(unwrapped(open_too), target, left_open, unlabelled, unknown, replaced)
+    return FillRequest(unwrapped(open_too), target, left_open, unlabelled, unknown, replaced)
 
 
 def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[Gap, ...]:
@@ -122,7 +124,7 @@ def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[G
     return longer
 
 
-def _asked(recording: Recording, entries: Entries) -> Mask:
+def _asked(recording: Recording, entries: NamedEntries) -> Mask:
     """Return the entries (N, D) that are asked for: given frames, or else what is hidden."""
     rows = ~recording.visible if entries.frames is None else _rows(recording, entries.frames)
     return rows & chosen(recording, entries.channels)

@@ -9,7 +9,7 @@ import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.able import able_models
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import GapQuestion
 from mocapbench.benchmark.filling.trials.bands import coverage
 from mocapbench.benchmark.filling.trials.comparison import Choice, compared
 from mocapbench.benchmark.filling.trials.making import has_room, make_trials
@@ -28,13 +28,13 @@ class NoneInTimeError(UsageError):
 
 
 def choose(
-    question: Question, workers: Workers, budget: float, watch: Callable[[int, int], object]
+    question: GapQuestion, workers: Workers, budget: float, watch: Callable[[int, int], object]
 ) -> Choice:
     """Return which model fills gaps like those of a question best.
 
     Parameters
     ----------
-    question : Question
+    question : GapQuestion
     workers : Workers
     budget : float
         Seconds to compare models; half as many more may go to the bands of the best.
@@ -66,7 +66,7 @@ def choose(
     return replace(choice, coverage=coverage(best, trials, workers, _FOR_BANDS * budget))
 
 
-def require_room(question: Question) -> None:
+def require_room(question: GapQuestion) -> None:
     """Refuse a recording on which no model can be tried.
 
     Raises
@@ -78,14 +78,14 @@ def require_room(question: Question) -> None:
         raise _no_room(question)
 
 
-def _no_room(question: Question) -> UsageError:
+def _no_room(question: GapQuestion) -> UsageError:
     return UsageError(
         f"{question.given.name}: expected a visible stretch to try models on, got none that is "
         f"free of gaps; {_advice(question, able_models(question))}"
     )
 
 
-def _advice(question: Question, models: Sequence[str]) -> str:
+def _advice(question: GapQuestion, models: Sequence[str]) -> str:
     """Return how to go on where the recording itself cannot tell which model to take."""
     advice = f"name a model with --model: {', '.join(models)}"
     if len(question.train) > 1 and "best-of" in models:

@@ -11,7 +11,7 @@ from mocapbench.benchmark.filling.trials.placement import free_places, occupy
 from mocapbench.benchmark.filling.trials.turns import Turns
 from mocapbench.datasets import Mask
 
-__all__ = ["Layout"]
+__all__ = ["EpisodeLayout"]
 
 _HIDDEN_SHARE = 0.15
 """Of the frames, that a trial may hide besides the real gaps, unless one gap alone is longer."""
@@ -19,7 +19,7 @@ _SHARES = (1.0, 0.5, 0.25, 0.125)
 """By which episodes are shortened that fit nowhere."""
 
 
-class Layout:
+class EpisodeLayout:
     """The episodes of one trial, as they are placed one by one.
 
     Parameters

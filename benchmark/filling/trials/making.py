@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.benchmark.filling.gaps import Episode, Gap, episodes_of, gaps_of
-from mocapbench.benchmark.filling.question import Question
-from mocapbench.benchmark.filling.trials.layout import Layout
+from mocapbench.benchmark.filling.question import GapQuestion
+from mocapbench.benchmark.filling.trials.layout import EpisodeLayout
 from mocapbench.benchmark.filling.trials.trial import Trial
 from mocapbench.benchmark.filling.trials.turns import Turns
 from mocapbench.datasets import Mask
@@ -26,7 +26,7 @@ _REPEATS = 10
 """Trials that may repeat others before no more are made."""
 
 
-def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
+def make_trials(question: GapQuestion, rng: np.random.Generator) -> list[Trial]:
     """Return trials of the gaps that a question asks for; none if there is no room for any.
 
     No two are alike: some that repeat others are made again, and then no more.
@@ -49,16 +49,18 @@ def make_trials(question: Question, rng: np.random.Generator) -> list[Trial]:
     return trials
 
 
-def has_room(question: Question, rng: np.random.Generator) -> bool:
+def has_room(question: GapQuestion, rng: np.random.Generator) -> bool:
     """Return whether there is room for a trial of the gaps that a question asks for."""
     used = np.zeros(len(question.given.times), dtype=bool)
     return _trial(question, used, Turns(_interior(question), rng), rng) is not None
 
 
-def _trial(question: Question, used: Mask, turns: Turns, rng: np.random.Generator) -> Trial | None:
+def _trial(
+    question: GapQuestion, used: Mask, turns: Turns, rng: np.random.Generator
+) -> Trial | None:
     """Return one trial, and mark the frames that it hides as used."""
     recording = question.given
-    layout = Layout(~recording.visible, used, rng)
+    layout = EpisodeLayout(~recording.visible, used, rng)
     first, last = _ends(question)
     layout.begin(first)
     layout.end(last)
@@ -73,20 +75,20 @@ def _hidden_where(trial: Trial) -> tuple[float, bytes]:
     return float(trial.question.given.times[0]), trial.question.target.tobytes()
 
 
-def _ends(question: Question) -> tuple[list[Gap], list[Gap]]:
+def _ends(question: GapQuestion) -> tuple[list[Gap], list[Gap]]:
     """Return the gaps at the beginning and those at the end of the recording."""
     n_frames, gaps = len(question.given.times), gaps_of(question.target)
     first = [gap for gap in gaps if gap.start == 0]
     return first, [gap for gap in gaps if gap.stop == n_frames and gap.start > 0]
 
 
-def _interior(question: Question) -> tuple[Episode, ...]:
+def _interior(question: GapQuestion) -> tuple[Episode, ...]:
     """Return the episodes of the other gaps."""
     ends = {gap for gaps in _ends(question) for gap in gaps}
     return episodes_of([gap for gap in gaps_of(question.target) if gap not in ends])
 
 
-def _made(question: Question, layout: Layout) -> Trial:
+def _made(question: GapQuestion, layout: EpisodeLayout) -> Trial:
     frames = np.arange(layout.start, layout.stop)
     recording = question.given.frames(frames)
     owners = np.full(question.target.shape, -1, dtype=np.int32)
@@ -97,7 +99,7 @@ def _made(question: Question, layout: Layout) -> Trial:
     target = owners >= 0
     units = (np.flatnonzero(owners[target] == number) for number in range(len(layout.episodes)))
     return Trial(
-        question=Question(recording.hide(target), target, question.train),
+        question=GapQuestion(recording.hide(target), target, question.train),
         truth=recording.values[target],
         units=tuple(units),
         copies=tuple(layout.episodes),

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from mocapbench.benchmark.filling.trials.scores import Scores
+from mocapbench.benchmark.filling.trials.scores import TrialScores
 from mocapbench.metrics.statistics import ALPHA, holm_tests_of_means, too_few, unit_means
 
 __all__ = ["Ranking", "rank"]
@@ -29,7 +29,7 @@ class Ranking:
         The models; the first is the choice.
     means : mapping of str to float
         The weighted mean error of each.
-    scores : mapping of str to Scores
+    scores : mapping of str to TrialScores
     n, n_places : int
         The number of trial gaps, and that of the places where they are.
     tested : bool
@@ -42,7 +42,7 @@ class Ranking:
 
     order: tuple[str, ...]
     means: Mapping[str, float]
-    scores: Mapping[str, Scores]
+    scores: Mapping[str, TrialScores]
     n: int
     n_places: int
     tested: bool
@@ -61,7 +61,7 @@ class Ranking:
 
 
 def rank(
-    scores: Mapping[str, Scores], weights: NDArray[np.float64], places: NDArray[np.intp]
+    scores: Mapping[str, TrialScores], weights: NDArray[np.float64], places: NDArray[np.intp]
 ) -> Ranking:
     """Return the ranking of one or more models that answered the same trials.
 
@@ -69,7 +69,7 @@ def rank(
 
     Parameters
     ----------
-    scores : mapping of str to Scores
+    scores : mapping of str to TrialScores
     weights : ndarray of shape (n,)
         How much each trial gap counts, 1 in the mean.
     places : ndarray of int of shape (n,)

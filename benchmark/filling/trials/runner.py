@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from itertools import count, takewhile
 
 from mocapbench.benchmark.filling.attempt import Attempt
-from mocapbench.benchmark.filling.question import Answer
+from mocapbench.benchmark.filling.question import FilledEntries
 
 __all__ = ["Runner"]
 
@@ -18,7 +18,7 @@ class Runner:
     Parameters
     ----------
     model : str
-    found : dict of int to Answer
+    found : dict of int to FilledEntries
         Its answers, by the number of the trial.
     trouble : str
         Why it has no more of them.
@@ -31,14 +31,14 @@ class Runner:
     """
 
     model: str
-    found: dict[int, Answer] = field(default_factory=dict)
+    found: dict[int, FilledEntries] = field(default_factory=dict)
     trouble: str = ""
     late: bool = False
     windows: int = 0
     seconds: float = 0.0
 
     @property
-    def answers(self) -> list[Answer]:
+    def answers(self) -> list[FilledEntries]:
         """Those to the first trials, in order, up to one that it has not answered."""
         return [self.found[number] for number in takewhile(self.found.__contains__, count())]
 

@@ -10,10 +10,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from mocapbench.benchmark.filling.question import Answer
+from mocapbench.benchmark.filling.question import FilledEntries
 from mocapbench.benchmark.filling.trials.trial import Trial
 
-__all__ = ["Scores", "held_errors", "scores_of", "weights_of"]
+__all__ = ["TrialScores", "held_errors", "scores_of", "weights_of"]
 
 Array = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ _LEAST = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Scores:
+class TrialScores:
     """How a model filled the trial gaps.
 
     Parameters
@@ -75,18 +75,18 @@ def _held(trial: Trial) -> Array:
 
 
 def scores_of(
-    trials: Sequence[Trial], answers: Sequence[Answer], scales: Mapping[str, float]
-) -> Scores:
+    trials: Sequence[Trial], answers: Sequence[FilledEntries], scales: Mapping[str, float]
+) -> TrialScores:
     """Return the scores of a model's answers to the first trials, relative to scales by unit."""
     pairs = list(zip(trials, answers, strict=False))
-    return Scores(
+    return TrialScores(
         np.array([error for pair in pairs for error in _errors(*pair, scales)]),
         _by_unit(pairs),
         all(answer.variance is not None for answer in answers),
     )
 
 
-def _errors(trial: Trial, answer: Answer, scales: Mapping[str, float]) -> Iterator[float]:
+def _errors(trial: Trial, answer: FilledEntries, scales: Mapping[str, float]) -> Iterator[float]:
     units = _units(trial)
     squares = (answer.mean - trial.truth) ** 2
     for gap in trial.units:
@@ -103,7 +103,7 @@ def _units(trial: Trial) -> NDArray[np.str_]:
     return np.array(trial.question.given.units)[channels]
 
 
-def _by_unit(pairs: Sequence[tuple[Trial, Answer]]) -> Mapping[str, float]:
+def _by_unit(pairs: Sequence[tuple[Trial, FilledEntries]]) -> Mapping[str, float]:
     squares: dict[str, list[Array]] = {}
     for trial, answer in pairs:
         units = _units(trial)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.filling.gaps import Episode
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import GapQuestion
 
 __all__ = ["Trial"]
 
@@ -19,7 +19,7 @@ class Trial:
 
     Parameters
     ----------
-    question : Question
+    question : GapQuestion
         The recording, or a part of it that begins or ends with a gap, with more hidden.
     truth : ndarray of shape (M,)
         The values of the wanted entries, in the order of ``np.nonzero(question.target)``.
@@ -33,7 +33,7 @@ class Trial:
         The length of the shortest trial gap relative to the real one; 1 if none was shortened.
     """
 
-    question: Question
+    question: GapQuestion
     truth: NDArray[np.float64]
     units: tuple[NDArray[np.intp], ...]
     copies: tuple[Episode, ...]

@@ -15,7 +15,7 @@ import numpy as np
 from mocapbench.benchmark.task_files.selection import matching_channels
 from mocapbench.datasets import Archive, Mask, Recording
 
-__all__ = ["Hiding", "HidingError", "Place", "columns_of"]
+__all__ = ["Hiding", "HidingError", "HidingPlace", "columns_of"]
 
 
 class HidingError(ValueError):
@@ -37,7 +37,7 @@ class HidingError(ValueError):
 
 
 @dataclass(frozen=True)
-class Place:
+class HidingPlace:
     """Where something is hidden.
 
     Parameters
@@ -58,7 +58,7 @@ class Place:
 class Hiding(Protocol):
     """A way to hide entries of a recording."""
 
-    def mask(self, recording: Recording, place: Place, /) -> Mask:
+    def mask(self, recording: Recording, place: HidingPlace, /) -> Mask:
         """Return the entries (N, D) to hide.
 
         Raises

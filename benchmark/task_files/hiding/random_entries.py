@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.benchmark.task_files.hiding.base import Place, columns_of
+from mocapbench.benchmark.task_files.hiding.base import HidingPlace, columns_of
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["RandomEntries"]
@@ -26,7 +26,7 @@ class RandomEntries:
     share: float
     channels: tuple[str, ...] = ()
 
-    def mask(self, recording: Recording, place: Place, /) -> Mask:
+    def mask(self, recording: Recording, place: HidingPlace, /) -> Mask:
         """Return a draw of the fold; see `Hiding`."""
         eligible = np.zeros(recording.values.shape, dtype=bool)
         eligible[:, columns_of(self.channels, recording)] = True

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.benchmark.task_files.hiding.base import HidingError, Place, columns_of
+from mocapbench.benchmark.task_files.hiding.base import HidingError, HidingPlace, columns_of
 from mocapbench.datasets import Mask, Recording, frame_rate
 
 __all__ = ["RandomGaps"]
@@ -40,7 +40,7 @@ class RandomGaps:
     together: str = "all"
     channels: tuple[str, ...] = ()
 
-    def mask(self, recording: Recording, place: Place, /) -> Mask:
+    def mask(self, recording: Recording, place: HidingPlace, /) -> Mask:
         """Return a draw of the fold; see `Hiding`."""
         groups, length = self._groups(recording), self.frames(recording)
         free = recording.visible.copy()

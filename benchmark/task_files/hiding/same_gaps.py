@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.benchmark.task_files.hiding.base import HidingError, Place, columns_of
+from mocapbench.benchmark.task_files.hiding.base import HidingError, HidingPlace, columns_of
 from mocapbench.datasets import Mask, Recording, frame_rate
 from mocapbench.datasets.formats.sets import same_rate
 
@@ -30,7 +30,7 @@ class SameGaps:
     uri: str
     channels: tuple[str, ...] = ()
 
-    def mask(self, recording: Recording, place: Place, /) -> Mask:
+    def mask(self, recording: Recording, place: HidingPlace, /) -> Mask:
         """Return the gaps, moved by the draw of the fold; see `Hiding`."""
         pattern = place.archive.recording(self.uri)
         if not same_rate(recording, pattern):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.benchmark.task_files.hiding.base import HidingError, Place, columns_of
+from mocapbench.benchmark.task_files.hiding.base import HidingError, HidingPlace, columns_of
 from mocapbench.benchmark.task_files.selection import Span
 from mocapbench.datasets import Mask, Recording
 
@@ -27,7 +27,7 @@ class Spans:
     spans: tuple[Span, ...]
     channels: tuple[str, ...] = ()
 
-    def mask(self, recording: Recording, place: Place, /) -> Mask:
+    def mask(self, recording: Recording, place: HidingPlace, /) -> Mask:
         """Return the same entries in every fold; see `Hiding`."""
         del place
         n_frames = len(recording.times)

@@ -14,7 +14,7 @@ from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.text.cells import Words
 from mocapbench.datasets.formats.text.lines import read_lines, write_lines
 from mocapbench.datasets.formats.text.numbers import numeric
-from mocapbench.datasets.formats.text.rows import Table
+from mocapbench.datasets.formats.text.rows import TextTable
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["BVHFormat"]
@@ -67,7 +67,7 @@ class _Head:
     units: Sequence[str]
     n_frames: float
     frame_time: float
-    table: Table
+    table: TextTable
 
 
 class _Lines:
@@ -95,7 +95,7 @@ def _head(file: str, text: Sequence[str]) -> _Head:
     named = list(_hierarchy(lines))
     n_frames = _positive(lines, "Frames:")
     frame_time = _positive(lines, "Frame", "Time:")
-    table = Table(file, text, lines.index + 1, Words(), len(named), len(named))
+    table = TextTable(file, text, lines.index + 1, Words(), len(named), len(named))
     units = [unit for _, unit in named]
     return _Head([name for name, _ in named], units, n_frames, frame_time, table)
 

@@ -15,7 +15,12 @@ from mocapbench.datasets.formats.base import Extra, Format
 from mocapbench.datasets.formats.building import even_times, recording_of
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.isolation.calls import IsolatedCallError, call_isolated
-from mocapbench.datasets.formats.markers.c3d_layout import BLOCK, MOST_FRAMES, Layout, read_layout
+from mocapbench.datasets.formats.markers.c3d_layout import (
+    BLOCK,
+    MOST_FRAMES,
+    C3DLayout,
+    read_layout,
+)
 from mocapbench.datasets.formats.markers.channels import marker_channels
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recording
 
@@ -135,7 +140,7 @@ def _whole_points(known: Mask) -> Mask:
     return np.repeat(whole, 3, axis=1)
 
 
-def _stored(like: Path, layout: Layout, values: Frames) -> Frames:
+def _stored(like: Path, layout: C3DLayout, values: Frames) -> Frames:
     """Return coordinates as the file stores them."""
     stored = values / layout.scale
     if layout.dtype.kind != "i":

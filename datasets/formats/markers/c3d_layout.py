@@ -16,7 +16,7 @@ import numpy as np
 
 from mocapbench.datasets.formats.errors import FormatError
 
-__all__ = ["BLOCK", "MOST_FRAMES", "Layout", "read_layout"]
+__all__ = ["BLOCK", "MOST_FRAMES", "C3DLayout", "read_layout"]
 
 BLOCK = 512
 """Bytes."""
@@ -29,7 +29,7 @@ _ORDER = {_INTEL: "<", _MIPS: ">"}
 
 
 @dataclass(frozen=True)
-class Layout:
+class C3DLayout:
     """The frames of a file.
 
     Parameters
@@ -70,7 +70,7 @@ class Layout:
         return np.memmap(path, self.dtype, mode="r+", offset=self.start, shape=shape)
 
 
-def read_layout(path: Path) -> Layout:
+def read_layout(path: Path) -> C3DLayout:
     """Return the layout of a C3D file.
 
     Parameters
@@ -97,11 +97,11 @@ def read_layout(path: Path) -> Layout:
     return _layout(header, _ORDER[processor])
 
 
-def _layout(header: bytes, order: str) -> Layout:
+def _layout(header: bytes, order: str) -> C3DLayout:
     words = np.frombuffer(header, f"{order}u2")
     scale = float(np.frombuffer(header[12:16], f"{order}f4")[0])
     stored = np.dtype(f"{order}f4" if scale < 0 else f"{order}i2")
     start = max(int(words[8]) - 1, 0) * BLOCK
     n_frames = max(int(words[4]) - int(words[3]) + 1, 0)
     factor = 1.0 if scale < 0 else scale
-    return Layout(start, n_frames, int(words[1]), int(words[2]), stored, factor)
+    return C3DLayout(start, n_frames, int(words[1]), int(words[2]), stored, factor)

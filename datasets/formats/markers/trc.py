@@ -12,7 +12,7 @@ from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.markers.channels import marker_channels
 from mocapbench.datasets.formats.text.cells import Separated
 from mocapbench.datasets.formats.text.lines import read_lines, write_lines
-from mocapbench.datasets.formats.text.rows import Table
+from mocapbench.datasets.formats.text.rows import TextTable
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["TRCFormat"]
@@ -65,7 +65,7 @@ class _Head:
     markers: Sequence[str]
 
 
-def _parsed(path: Path) -> tuple[_Head, Table]:
+def _parsed(path: Path) -> tuple[_Head, TextTable]:
     lines = read_lines(path)
     rows = [[cell.strip() for cell in _CELLS.split(line)] for line in lines[:_HEAD]]
     if len(rows) < _HEAD or rows[0][:1] != ["PathFileType"] or rows[3][:1] != ["Frame#"]:
@@ -83,7 +83,7 @@ def _parsed(path: Path) -> tuple[_Head, Table]:
         raise FormatError(path.name, expected, f"{len(markers)} names", advice, line=4)
     start = next((k for k in range(_HEAD, len(lines)) if lines[k].strip()), len(lines))
     width = _LEADING + 3 * len(markers)
-    return _Head(facts, markers), Table(path.name, lines, start, _CELLS, width, _LEADING)
+    return _Head(facts, markers), TextTable(path.name, lines, start, _CELLS, width, _LEADING)
 
 
 def _check_count(file: str, head: _Head, n_frames: int) -> None:

@@ -11,7 +11,7 @@ from mocapbench.datasets.formats.tables.dialect import dialect_of
 from mocapbench.datasets.formats.tables.header import check_lines, column_names
 from mocapbench.datasets.formats.text.lines import read_lines, write_lines
 from mocapbench.datasets.formats.text.numbers import is_missing, looks_numeric
-from mocapbench.datasets.formats.text.rows import Table
+from mocapbench.datasets.formats.text.rows import TextTable
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["CSVFormat"]
@@ -63,16 +63,16 @@ class CSVFormat(Format):
         write_lines(path, table.with_numbers(columns.channels, values, new), like)
 
 
-def _table(path: Path) -> Table:
+def _table(path: Path) -> TextTable:
     """Return the rows below the names of the columns."""
     lines = read_lines(path)
     check_lines(path.name, lines)
     cells, decimal = dialect_of(lines)
     names = column_names(path.name, lines, cells)
-    return Table(path.name, lines, 1, cells, len(names), len(names), decimal, names)
+    return TextTable(path.name, lines, 1, cells, len(names), len(names), decimal, names)
 
 
-def _are_numbers(table: Table) -> list[bool]:
+def _are_numbers(table: TextTable) -> list[bool]:
     """Return whether each column has numbers, or nothing: if its first cell does not tell, all do.
 
     Of different texts and numbers, the half or more are numbers; so a mark of missing values that
@@ -89,7 +89,7 @@ def _are_numbers(table: Table) -> list[bool]:
     return [column not in text for column in range(table.width)]
 
 
-def _first_cells(table: Table) -> dict[int, str]:
+def _first_cells(table: TextTable) -> dict[int, str]:
     """Return the first cell of each column that is not missing, if there is one."""
     first: dict[int, str] = {}
     for index in range(table.start, table.stop):

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
-__all__ = ["Cells", "Separated", "Words"]
+__all__ = ["CellSplitter", "Separated", "Words"]
 
 _ENDS = "\r\n"
 _BYTE_ORDER_MARK = "\ufeff"
 
 
-class Cells(Protocol):
+class CellSplitter(Protocol):
     """How the cells of a row are told apart."""
 
     def split(self, line: str) -> list[str]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mocapbench.datasets.formats.errors import FormatError
-from mocapbench.datasets.formats.text.cells import Cells
+from mocapbench.datasets.formats.text.cells import CellSplitter
 from mocapbench.datasets.formats.text.numbers import (
     is_missing,
     is_number,
@@ -19,11 +19,11 @@ from mocapbench.datasets.formats.text.numbers import (
 )
 from mocapbench.datasets.recording import FrameByChannel, Mask
 
-__all__ = ["Table"]
+__all__ = ["TextTable"]
 
 
 @dataclass(frozen=True)
-class Table:
+class TextTable:
     """Rows of as many cells each, below a head; blank lines may follow them.
 
     Parameters
@@ -34,7 +34,7 @@ class Table:
         The lines of the file.
     start : int
         Index of the first row.
-    cells : Cells
+    cells : CellSplitter
         How cells are told apart.
     width : int
         Cells of a row.
@@ -49,7 +49,7 @@ class Table:
     file: str
     lines: Sequence[str]
     start: int
-    cells: Cells
+    cells: CellSplitter
     width: int
     shortest: int
     decimal: str = "."

@@ -8,7 +8,7 @@ from importlib.resources import files
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.scores.ranking import ranking
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 
 __all__ = ["ranking_figure", "style_sheet"]
@@ -34,7 +34,7 @@ table.numbers tr > :nth-child(n + 3), table.published tr > :nth-child(2) {{ text
 """What pages add to the styles of the report."""
 
 
-def ranking_figure(results: TaskResults, styles: Mapping[str, Style]) -> SvgFigure | None:
+def ranking_figure(results: TaskResults, styles: Mapping[str, DrawingStyle]) -> SvgFigure | None:
     """Return the ranking by the first metric of a task; None where nothing competes."""
     return ranking(results, results.layout.page.metrics[0], styles)
 

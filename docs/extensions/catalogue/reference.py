@@ -15,7 +15,7 @@ from mocapbench.benchmark.runs.planning.selection import entrants
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.reports.analysis.results import TaskResults, task_results
-from mocapbench.reports.figures.styles import Style, model_styles
+from mocapbench.reports.figures.styles import DrawingStyle, model_styles
 
 __all__ = ["Stored", "Today", "read_today"]
 
@@ -43,7 +43,7 @@ class Today:
     tasks: Mapping[str, Stored]
 
     @cached_property
-    def styles(self) -> Mapping[str, Style]:
+    def styles(self) -> Mapping[str, DrawingStyle]:
         """How each label is drawn, on all pages alike."""
         return model_styles([stored.results.layout for stored in self.tasks.values()])
 

@@ -7,7 +7,7 @@ from functools import singledispatch
 
 from mocapbench.reports.bundle.pictures import HeatMaps, Illustration, Motions, Picture, Space
 from mocapbench.reports.figures.pictures import heat_maps, panels, spaces
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.motions import player
 from mocapbench.reports.motions.player import PlayerFigure
@@ -16,7 +16,7 @@ __all__ = ["draw"]
 
 
 @singledispatch
-def draw(picture: Picture, models: Mapping[str, Style]) -> SvgFigure | PlayerFigure:
+def draw(picture: Picture, models: Mapping[str, DrawingStyle]) -> SvgFigure | PlayerFigure:
     """Return ``picture`` as a figure of the page, models in their styles.
 
     Raises
@@ -36,7 +36,7 @@ draw.register(Space, spaces.draw)
 
 
 @draw.register
-def _(picture: Motions, models: Mapping[str, Style]) -> PlayerFigure:
+def _(picture: Motions, models: Mapping[str, DrawingStyle]) -> PlayerFigure:
     """Return a player, in which two hues tell the motions apart that are shown."""
     del models
     return player.draw(picture)

@@ -18,7 +18,7 @@ from mocapbench.reports.bundle.heat_maps import HeatMap, HeatMaps
 from mocapbench.reports.figures.axes import panels
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import horizontal, rectangle, squares, svg, text, vertical
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
 from mocapbench.reports.text import MINUS, counted, number
 
@@ -28,12 +28,12 @@ MOST_WRITTEN = 8
 """Matrices with more rows have no room for their values."""
 N_LEVELS, MIDDLE = 9, 4
 LEFT, TOP, SIDE, BOTTOM = 72.0, 20.0, 260.0, 72.0
-_INK = Style("ht")
+_INK = DrawingStyle("ht")
 
 Level = NDArray[np.intp]
 
 
-def draw(figure: HeatMaps, models: Mapping[str, Style]) -> SvgFigure:
+def draw(figure: HeatMaps, models: Mapping[str, DrawingStyle]) -> SvgFigure:
     """Return ``figure`` drawn; its colours run over ± its limit."""
     del models  # a matrix is in no model's colour
     drawn = [_map(figure, heat_map) for heat_map in figure.maps]

@@ -15,7 +15,7 @@ from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, group, polyline
 from mocapbench.reports.figures.pictures.thinning import thinned
 from mocapbench.reports.figures.scale import LinearScale
-from mocapbench.reports.figures.styles import Style, group_styles
+from mocapbench.reports.figures.styles import DrawingStyle, group_styles
 from mocapbench.reports.figures.svg_figure import SvgFigure
 
 __all__ = ["draw"]
@@ -23,7 +23,7 @@ __all__ = ["draw"]
 HEIGHT, WIDE = 150.0, 700.0
 """Of the axes of a panel, and the width of a panel with motion in space, in pixels."""
 
-Styles = Mapping[str, Style]
+Styles = Mapping[str, DrawingStyle]
 
 
 def draw(illustration: Illustration, models: Styles) -> SvgFigure:

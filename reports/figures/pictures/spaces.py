@@ -15,7 +15,7 @@ from mocapbench.reports.figures.axes import WIDTH, panels
 from mocapbench.reports.figures.legend import key, line_keys
 from mocapbench.reports.figures.marks import dot, group, polyline, svg, text
 from mocapbench.reports.figures.pictures.thinning import thinned
-from mocapbench.reports.figures.styles import Style, group_styles
+from mocapbench.reports.figures.styles import DrawingStyle, group_styles
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
 from mocapbench.reports.text import counted
 
@@ -31,7 +31,7 @@ CLOUD = range(5, 9)
 _REACH = 32767
 
 Array = NDArray[np.float64]
-Styles = Mapping[str, Style]
+Styles = Mapping[str, DrawingStyle]
 
 
 def draw(space: Space, models: Styles) -> SvgFigure:
@@ -143,6 +143,6 @@ def _packed(points: Array) -> str:
 
 def _level_keys(space: Space) -> list[Key]:
     return [
-        key(f"{space.value_name} ≥ {edge:.3g}", Style(f"c{level}"), dot(14.0, 7.0))
+        key(f"{space.value_name} ≥ {edge:.3g}", DrawingStyle(f"c{level}"), dot(14.0, 7.0))
         for level, edge in zip(CLOUD, _edges(space), strict=True)
     ]

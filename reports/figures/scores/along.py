@@ -18,7 +18,7 @@ from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, dot, group, polyline
 from mocapbench.reports.figures.scale import Scale
 from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_values
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 
 __all__ = ["curves_along"]
@@ -33,7 +33,7 @@ CAPTION = "bands are of the {n} models with the least mean, where there are {uni
 
 
 def curves_along(
-    results: TaskResults, metric: str, column: str, styles: Mapping[str, Style]
+    results: TaskResults, metric: str, column: str, styles: Mapping[str, DrawingStyle]
 ) -> SvgFigure | None:
     """Return the means over folds of each entrant as a curve along a column of the cases.
 
@@ -44,7 +44,7 @@ def curves_along(
     column : str
         A column of the cases that holds numbers. Cases that are alike in all other columns share
         a panel.
-    styles : mapping of str to Style
+    styles : mapping of str to DrawingStyle
 
     Returns
     -------
@@ -78,7 +78,7 @@ class _Panel:
         self.results, self.metric, self.column, self.values = results, metric, column, values
 
     def draw(
-        self, heading: str, cases: Sequence[CaseLayout], styles: Mapping[str, Style]
+        self, heading: str, cases: Sequence[CaseLayout], styles: Mapping[str, DrawingStyle]
     ) -> tuple[Markup, str]:
         """Return the panel, and a remark on its axis."""
         curves = self._curves(cases)
@@ -119,7 +119,7 @@ def _is_banded(sample: FoldSample) -> bool:
     return sample.n_units >= FEWEST_BANDED
 
 
-def _curve(curve: Curve, x: Scale, y: Scale, style: Style) -> str:
+def _curve(curve: Curve, x: Scale, y: Scale, style: DrawingStyle) -> str:
     places = x.places(np.array(list(curve)))
     heights = y.places(np.array([centre(sample, y) for sample in curve.values()]))
     dots = (dot(*point, style.shape) for point in zip(places, heights, strict=True))

@@ -14,7 +14,7 @@ from mocapbench.reports.figures.legend import dot_keys
 from mocapbench.reports.figures.marks import dot, group, polyline, text
 from mocapbench.reports.figures.scale import Scale
 from mocapbench.reports.figures.scores.best import mean_values
-from mocapbench.reports.figures.styles import TRUTH, Style
+from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 
 __all__ = ["cost_against_error", "front"]
@@ -26,7 +26,9 @@ SHORTEST = 0.001
 """Seconds; what takes less is drawn there."""
 
 
-def cost_against_error(results: TaskResults, styles: Mapping[str, Style]) -> SvgFigure | None:
+def cost_against_error(
+    results: TaskResults, styles: Mapping[str, DrawingStyle]
+) -> SvgFigure | None:
     """Return a point for each model by its mean of the first metric and its median seconds.
 
     None with fewer than three models.
@@ -71,7 +73,7 @@ def _panel(
     points: Mapping[str, tuple[float, float]],
     best: Sequence[str],
     title: str,
-    styles: Mapping[str, Style],
+    styles: Mapping[str, DrawingStyle],
 ) -> tuple[Markup, str]:
     x = fitted((error for error, _ in points.values()), LEFT, WIDTH)
     y = fitted((seconds for _, seconds in points.values()), TOP + HEIGHT, TOP)

@@ -16,7 +16,7 @@ from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertica
 from mocapbench.reports.figures.scale import LogScale, Scale
 from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_values
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.text import counted
 
@@ -27,7 +27,9 @@ MOST_PANELS = 6
 WINDOWS = "windows of one recording are one unit, so there is no interval."
 
 
-def dot_plot(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> SvgFigure | None:
+def dot_plot(
+    results: TaskResults, metric: str, styles: Mapping[str, DrawingStyle]
+) -> SvgFigure | None:
     """Return a panel for each case; None unless there are two to six, which differ in scale."""
     values = fold_values(results, metric)
     scored = {case for case, _ in values}
@@ -51,7 +53,7 @@ def _panel(
     metric: str,
     case: CaseLayout,
     values: FoldValues,
-    styles: Mapping[str, Style],
+    styles: Mapping[str, DrawingStyle],
 ) -> tuple[Markup, str]:
     """Return the panel of one case, and a remark on its axis."""
     of_case = {label: sample for (name, label), sample in values.items() if name == case.name}
@@ -71,7 +73,7 @@ def _panel(
     return svg(WIDTH, bottom + BOTTOM, name, marks), remark(scale)
 
 
-def _row(style: Style, sample: FoldSample, place: int, scale: Scale) -> str:
+def _row(style: DrawingStyle, sample: FoldSample, place: int, scale: Scale) -> str:
     """Return ticks, interval and dot of a model."""
     y, values = place_of(place), sample.values
     ends = interval(sample, scale)

@@ -16,7 +16,7 @@ from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
 from mocapbench.reports.figures.scale import LogScale, Scale
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.text import counted
 
@@ -32,7 +32,7 @@ MARKS = {
 }
 DIAMOND = 3
 STOP = WIDTH - 22.0
-_PAPER = Style("hr", DIAMOND)
+_PAPER = DrawingStyle("hr", DIAMOND)
 CAPTION = (
     "grey diamonds are the papers’ values, with their ± where printed; ours are in the colour of "
     "the model, with 95 % intervals where folds give one. = within 2 %, ≈ within the "
@@ -41,7 +41,7 @@ CAPTION = (
 
 
 def forest(
-    results: TaskResults, pairs: Sequence[Comparison], styles: Mapping[str, Style]
+    results: TaskResults, pairs: Sequence[Comparison], styles: Mapping[str, DrawingStyle]
 ) -> SvgFigure | None:
     """Return a panel for each table of a paper and metric; None without a published value."""
     tables = defaultdict(list)
@@ -55,7 +55,7 @@ def forest(
     return SvgFigure(title, panels(drawn), legend, CAPTION)
 
 
-def _panel(title: str, pairs: Sequence[Comparison], styles: Mapping[str, Style]) -> Markup:
+def _panel(title: str, pairs: Sequence[Comparison], styles: Mapping[str, DrawingStyle]) -> Markup:
     scale = fitted((end for pair in pairs for end in _values(pair)), NAMES, STOP)
     bottom = TOP + ROW * len(pairs)
     marks = [
@@ -72,7 +72,7 @@ def _values(pair: Comparison) -> tuple[float, float]:
     return pair.ours.mean, pair.published.value
 
 
-def _row(pair: Comparison, number: int, scale: Scale, style: Style) -> str:
+def _row(pair: Comparison, number: int, scale: Scale, style: DrawingStyle) -> str:
     y, ours, paper = place_of(number), pair.ours.mean, pair.published.value
     theirs = [
         _line(paper, pair.published.two_sd, scale, y - 2.5),

@@ -15,7 +15,7 @@ from mocapbench.reports.figures.fitting import linear
 from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, group, polyline
 from mocapbench.reports.figures.scores.best import CHOICE, best_labels
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.text import counted
 
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 
 def gap_error(
-    results: TaskResults, parts: ErrorParts, styles: Mapping[str, Style]
+    results: TaskResults, parts: ErrorParts, styles: Mapping[str, DrawingStyle]
 ) -> SvgFigure | None:
     """Return the mean error along gaps of the best models; None where no gap is long enough."""
     metric = parts.metrics.get(results.layout.name, "")
@@ -59,7 +59,7 @@ def _windows(results: TaskResults, parts: ErrorParts, metric: str) -> dict[str, 
 
 
 def _axes(
-    windows: Mapping[str, Array], title: str, banded: set[str], styles: Mapping[str, Style]
+    windows: Mapping[str, Array], title: str, banded: set[str], styles: Mapping[str, DrawingStyle]
 ) -> Markup:
     n_places = next(iter(windows.values())).shape[1]
     places = (np.arange(n_places) + 0.5) / n_places

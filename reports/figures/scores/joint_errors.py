@@ -15,7 +15,7 @@ from mocapbench.reports.figures.axes import panels
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import disc, group, polyline, svg, text
 from mocapbench.reports.figures.scores.best import CHOICE, best_labels
-from mocapbench.reports.figures.styles import TRUTH, Style
+from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
 
 __all__ = ["joint_errors"]
@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 
 def joint_errors(
-    results: TaskResults, parts: ErrorParts, styles: Mapping[str, Style]
+    results: TaskResults, parts: ErrorParts, styles: Mapping[str, DrawingStyle]
 ) -> SvgFigure | None:
     """Return bodies from the front with a disc on each joint; None without a body or errors."""
     pose = parts.rest_poses.get(results.layout.name)
@@ -60,7 +60,7 @@ def _errors(results: TaskResults, parts: ErrorParts) -> dict[str, Array]:
     return {label: mean_over(them, np.isfinite(them), axis=0) for label, them in stacked.items()}
 
 
-def _body(pose: RestPose, errors: Array, largest: float, style: Style) -> Markup:
+def _body(pose: RestPose, errors: Array, largest: float, style: DrawingStyle) -> Markup:
     places = _placed(pose)
     parents = np.array(pose.parents)
     bones = [(joint, parent) for joint, parent in enumerate(parents) if parent >= 0]

@@ -15,7 +15,7 @@ from mocapbench.reports.figures.fitting import fitted, remark
 from mocapbench.reports.figures.marks import dot, svg, vertical
 from mocapbench.reports.figures.scale import LogScale, Scale
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.text import counted
 
@@ -31,14 +31,16 @@ class _Line:
     cases: Sequence[float]
 
 
-def ranking(results: TaskResults, metric: str, styles: Mapping[str, Style]) -> SvgFigure | None:
+def ranking(
+    results: TaskResults, metric: str, styles: Mapping[str, DrawingStyle]
+) -> SvgFigure | None:
     """Return one panel of all models, then references; None where there are fewer than two.
 
     Parameters
     ----------
     results : TaskResults
     metric : str
-    styles : mapping of str to Style
+    styles : mapping of str to DrawingStyle
         How each label is drawn.
     """
     lines = _lines(results, metric)
@@ -67,7 +69,7 @@ def _lines(results: TaskResults, metric: str) -> list[_Line]:
     return [_Line(label, float(np.mean(v)), v) for label, v in found.items() if v]
 
 
-def _row(line: _Line, place: int, scale: Scale, style: Style) -> str:
+def _row(line: _Line, place: int, scale: Scale, style: DrawingStyle) -> str:
     y = place_of(place)
     ticks = vertical(map(scale.place, line.cases), y - 4.0, y + 4.0) if len(line.cases) > 1 else ""
     summary = f"{line.label}: {line.mean:.4g}, {counted(len(line.cases), 'case')}"

@@ -16,7 +16,7 @@ from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
 from mocapbench.reports.figures.scale import LinearScale
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.text import counted
 
@@ -26,12 +26,12 @@ BAR_GAP = 7.0
 """Between the bars of two groups, in pixels."""
 
 
-def rank_figure(ranks: Ranks, title: str, styles: Mapping[str, Style]) -> SvgFigure:
+def rank_figure(ranks: Ranks, title: str, styles: Mapping[str, DrawingStyle]) -> SvgFigure:
     """Return the diagram of ``ranks``."""
     return SvgFigure(title, panels([_diagram(ranks, title, styles)]), (), _caption(ranks))
 
 
-def _diagram(ranks: Ranks, title: str, styles: Mapping[str, Style]) -> Markup:
+def _diagram(ranks: Ranks, title: str, styles: Mapping[str, DrawingStyle]) -> Markup:
     means, n_entrants = ranks.comparison.mean_ranks, len(ranks.labels)
     order = sorted(range(n_entrants), key=means.__getitem__)
     stop = WIDTH - 34.0 - BAR_GAP * len(ranks.comparison.groups)
@@ -50,7 +50,7 @@ def _diagram(ranks: Ranks, title: str, styles: Mapping[str, Style]) -> Markup:
     return svg(WIDTH, bottom + BOTTOM, label, marks)
 
 
-def _row(style: Style, number: int, mean: float, scale: LinearScale) -> str:
+def _row(style: DrawingStyle, number: int, mean: float, scale: LinearScale) -> str:
     x, y = scale.place(mean), place_of(number)
     marks = (
         horizontal(scale.start, x, y, "grid"),

@@ -14,19 +14,19 @@ from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import dot, group, polyline
 from mocapbench.reports.figures.scale import LinearScale
 from mocapbench.reports.figures.scores.best import mean_values
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
 from mocapbench.reports.text import counted
 
 __all__ = ["reliability"]
 
 FEWEST = 2
-_DIAGONAL = Style("hr", 1)
+_DIAGONAL = DrawingStyle("hr", 1)
 
 Curve = dict[float, float]
 
 
-def reliability(results: TaskResults, styles: Mapping[str, Style]) -> SvgFigure | None:
+def reliability(results: TaskResults, styles: Mapping[str, DrawingStyle]) -> SvgFigure | None:
     """Return nominal against empirical coverage of each model; None with fewer than two levels."""
     levels = _levels(results)
     curves: dict[str, Curve] = {}
@@ -53,7 +53,7 @@ def _levels(results: TaskResults) -> dict[float, str]:
     }
 
 
-def _panel(curves: Mapping[str, Curve], styles: Mapping[str, Style]) -> Markup:
+def _panel(curves: Mapping[str, Curve], styles: Mapping[str, DrawingStyle]) -> Markup:
     lowest = min(min(*curve, *curve.values()) for curve in curves.values())
     low = np.floor(10.0 * lowest) / 10.0
     x = LinearScale(low, 1.0, LEFT, WIDTH)
@@ -72,7 +72,7 @@ def _panel(curves: Mapping[str, Curve], styles: Mapping[str, Style]) -> Markup:
     )
 
 
-def _marks(curve: Curve, x: LinearScale, y: LinearScale, style: Style) -> list[str]:
+def _marks(curve: Curve, x: LinearScale, y: LinearScale, style: DrawingStyle) -> list[str]:
     at, heights = x.places(np.array(list(curve))), y.places(np.array(list(curve.values())))
     points = zip(at, heights, strict=True)
     return [polyline(at, heights), *(dot(*point, style.shape) for point in points)]

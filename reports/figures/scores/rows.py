@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mocapbench.reports.figures.marks import group, text
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 
 __all__ = ["NAMES", "ROW", "TOP", "place_of", "row"]
 
@@ -17,7 +17,7 @@ def place_of(number: int) -> float:
     return TOP + (number + 0.5) * ROW
 
 
-def row(style: Style, number: int, *marks: str, title: str = "", name: str = "") -> str:
+def row(style: DrawingStyle, number: int, *marks: str, title: str = "", name: str = "") -> str:
     """Return the marks of one row with the name of its model; ``title`` says its numbers."""
     written = name or style.label
     short = written if len(written) <= _LONGEST else f"{written[: _LONGEST - 1]}…"

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from mocapbench.benchmark.filling.filler import Filled
-from mocapbench.benchmark.filling.question import Answer
-from mocapbench.benchmark.filling.requests.request import Request
+from mocapbench.benchmark.filling.question import FilledEntries
+from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.benchmark.filling.sources import Source
 from mocapbench.benchmark.filling.trials.comparison import Choice
 from mocapbench.benchmark.filling.trials.ranking import rank
-from mocapbench.benchmark.filling.trials.scores import Scores
+from mocapbench.benchmark.filling.trials.scores import TrialScores
 from mocapbench.datasets import CSVFormat, Recording
 
 CHANNELS = ("hip.rx", "hip.ry", "knee.rx", "root.ty")
@@ -48,8 +48,8 @@ def filled(waves, hidden):
 
     def make(choice=None, *, left_open=(), windows=0, failed=()):
         target = hidden((50, 60, [0, 1]))
-        request = Request(waves().hide(target), target, left_open)
-        answer = Answer(waves().values[target], np.ones(20))
+        request = FillRequest(waves().hide(target), target, left_open)
+        answer = FilledEntries(waves().values[target], np.ones(20))
         source = Source(Path("waves.csv"), CSVFormat(), request, ())
         return Filled(source, "one", answer, windows, choice, failed)
 
@@ -62,7 +62,7 @@ def choice_of():
 
     def make(errors, share=1.0, places=None):
         scores = {
-            model: Scores(np.array(of_model, dtype=float), {"deg": 1.0}, has_bands=False)
+            model: TrialScores(np.array(of_model, dtype=float), {"deg": 1.0}, has_bands=False)
             for model, of_model in errors.items()
         }
         n = len(next(iter(errors.values())))

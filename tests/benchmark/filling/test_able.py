@@ -3,7 +3,7 @@ import pytest
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.able import able_models, require_able
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import GapQuestion
 from mocapbench.datasets import Recording
 
 FIRST_TO_LAST = ("pchip", "rigid-body", "channel-kriging", "lds", "mohgp", "best-of")
@@ -14,7 +14,7 @@ def question(channels):
     recording = Recording("r", np.arange(9.0), values, channels, ("cm",) * len(channels))
     hidden = np.zeros(values.shape, dtype=bool)
     hidden[3:5, 0] = True
-    return Question(recording.hide(hidden), hidden)
+    return GapQuestion(recording.hide(hidden), hidden)
 
 
 def test_models_of_markers_are_tried_on_markers_alone():

@@ -9,7 +9,7 @@ from mocapbench.baselines import LinearImputer
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.attempt import Attempt, attempt
 from mocapbench.benchmark.filling.filler import BEST, fill
-from mocapbench.benchmark.filling.requests.request import Entries, select
+from mocapbench.benchmark.filling.requests.request import NamedEntries, select
 from mocapbench.benchmark.filling.sources import Source
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.datasets import CSVFormat
@@ -36,7 +36,7 @@ class Slow:
 
 
 def source(recording, mask):
-    request = select(recording.hide(mask), Entries())
+    request = select(recording.hide(mask), NamedEntries())
     return Source(Path("waves.csv"), CSVFormat(), request, ())
 
 

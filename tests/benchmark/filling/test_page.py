@@ -8,16 +8,16 @@ import pytest
 
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.page import page_of
-from mocapbench.benchmark.filling.question import Answer
-from mocapbench.benchmark.filling.requests.request import Request
+from mocapbench.benchmark.filling.question import FilledEntries
+from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.benchmark.filling.sources import Source
 from mocapbench.datasets import AcclaimFormat, CSVFormat, Recording
 
 
 def page_for(whole, target, filled):
     """Return the page of a file of which the target was filled with these values."""
-    source = Source(Path("waves.csv"), CSVFormat(), Request(whole.hide(target), target, ()), ())
-    answer = Answer(filled[target], np.ones(int(target.sum())))
+    source = Source(Path("waves.csv"), CSVFormat(), FillRequest(whole.hide(target), target, ()), ())
+    answer = FilledEntries(filled[target], np.ones(int(target.sum())))
     return page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill")
 
 
@@ -28,8 +28,8 @@ def test_figures_show_filled_frames_and_frames_of_the_file_beside_them(tmp_path,
     format_files.write_acclaim(path, walk)
     target = np.zeros(walk.values.shape, dtype=bool)
     target[start : start + length, 10] = True
-    source = Source(path, AcclaimFormat(), Request(walk.hide(target), target, ()), ())
-    answer = Answer(walk.values[target], np.ones(length))
+    source = Source(path, AcclaimFormat(), FillRequest(walk.hide(target), target, ()), ())
+    answer = FilledEntries(walk.values[target], np.ones(length))
     panel = page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill").motion
     groups = [curve.group for curve in panel.curves]
     assert {*groups} == {"filled", "in the file"}

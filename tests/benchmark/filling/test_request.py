@@ -6,31 +6,31 @@ import pytest
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.gaps import Gap
-from mocapbench.benchmark.filling.requests.request import Entries, select
+from mocapbench.benchmark.filling.requests.request import NamedEntries, select
 from mocapbench.datasets import Recording
 
 
 def test_without_names_the_gaps_are_what_is_hidden(waves, hidden):
     mask = hidden((20, 30, [0]), (90, 95, [1, 2]))
-    np.testing.assert_array_equal(select(waves().hide(mask), Entries()).target, mask)
+    np.testing.assert_array_equal(select(waves().hide(mask), NamedEntries()).target, mask)
 
 
 def test_named_frames_are_filled_though_they_are_visible_and_other_gaps_are_not(waves, hidden):
     recording = waves().hide(hidden((20, 30, [0])))
-    request = select(recording, Entries(frames=(50, 60), channels="hip.*"))
+    request = select(recording, NamedEntries(frames=(50, 60), channels="hip.*"))
     np.testing.assert_array_equal(request.target, hidden((50, 60, [0, 1])))
     assert not request.given.visible[50:60, :2].any()
     assert not request.given.visible[20:30, 0].any()
     assert request.replaced == 20
-    assert select(recording, Entries(frames=(25, 35), channels="hip.rx")).replaced == 5
-    assert select(recording, Entries()).replaced == 0
+    assert select(recording, NamedEntries(frames=(25, 35), channels="hip.rx")).replaced == 5
+    assert select(recording, NamedEntries()).replaced == 0
 
 
 def test_a_pattern_matches_whole_names(waves, hidden):
     recording = waves().hide(hidden((20, 30, [0, 2])))
-    assert select(recording, Entries(channels="knee.rx")).gaps == (Gap(20, 30, (2,)),)
+    assert select(recording, NamedEntries(channels="knee.rx")).gaps == (Gap(20, 30, (2,)),)
     with pytest.raises(UsageError, match="to match a channel, got 'knee'"):
-        select(recording, Entries(channels="knee"))
+        select(recording, NamedEntries(channels="knee"))
 
 
 @pytest.fixture
@@ -47,11 +47,11 @@ def starred(waves):
 @pytest.mark.parametrize("frames", [None, (20, 30)])
 def test_unlabelled_markers_stay_as_they_are_unless_they_are_named(starred, hidden, frames):
     recording = starred(hidden((5, 200, [0, 1, 2]), (20, 30, [3])))
-    request = select(recording, Entries(frames))
+    request = select(recording, NamedEntries(frames))
     assert request.gaps == (Gap(20, 30, (3,)),)
     assert request.unlabelled == ("*12.x", "*12.y", "*12.z")
     for pattern in (".*", r"\*12.*"):
-        named = select(recording, Entries(frames, channels=pattern))
+        named = select(recording, NamedEntries(frames, channels=pattern))
         assert named.target[:, :3].any()
         assert not named.unlabelled
 
@@ -59,10 +59,12 @@ def test_unlabelled_markers_stay_as_they_are_unless_they_are_named(starred, hidd
 def test_where_only_unlabelled_markers_have_gaps_that_is_said(starred, hidden):
     recording = starred(hidden((5, 200, [0, 1, 2])))
     with pytest.raises(UsageError, match=r"hidden entries of 1 unlabelled marker only \(\*12\)"):
-        select(recording, Entries())
+        select(recording, NamedEntries())
 
 
-@pytest.mark.parametrize("entries", [Entries(), Entries(channels="hip.*"), Entries((20, 30))])
+@pytest.mark.parametrize(
+    "entries", [NamedEntries(), NamedEntries(channels="hip.*"), NamedEntries((20, 30))]
+)
 def test_channels_that_nothing_can_tell_stay_as_they_are(waves, hidden, entries):
     mask = hidden((0, 200, [1]), (20, 30, [0]))
     request = select(waves().hide(mask), entries)
@@ -75,14 +77,14 @@ def test_channels_that_nothing_can_tell_stay_as_they_are(waves, hidden, entries)
 
 def test_a_channel_that_is_visible_in_the_frames_to_fill_only_keeps_them(waves, hidden):
     recording = waves().hide(hidden((0, 50, [1]), (60, 200, [1])))
-    request = select(recording, Entries((50, 60)))
+    request = select(recording, NamedEntries((50, 60)))
     assert request.unknown == ("hip.ry",)
     np.testing.assert_array_equal(request.given.values[:, 1], recording.values[:, 1])
 
 
 def test_longer_gaps_stay_open(waves, hidden):
     recording = waves().hide(hidden((20, 30, [0]), (90, 140, [1])))
-    request = select(recording, Entries(max_gap=0.5))  # 25 frames
+    request = select(recording, NamedEntries(max_gap=0.5))  # 25 frames
     assert request.gaps == (Gap(20, 30, (0,)),)
     assert request.left_open == (Gap(90, 140, (1,)),)
 
@@ -90,21 +92,24 @@ def test_longer_gaps_stay_open(waves, hidden):
 def test_angles_beside_a_named_gap_are_unwrapped_across_it():
     angles = [[170.0], [178.0], [-174.0], [-166.0]]
     turning = Recording("turn", np.arange(4) / 10, angles, ("hip.rx",), ("deg",))
-    given = select(turning, Entries(frames=(1, 2))).given
+    given = select(turning, NamedEntries(frames=(1, 2))).given
     np.testing.assert_allclose(given.values.ravel(), [170.0, np.nan, 186.0, 194.0])
 
 
 @pytest.mark.parametrize(
     ("entries", "message"),
     [
-        (Entries(), "expected a gap, got all entries visible"),
-        (Entries(frames=(0, 200)), "expected visible entries to fill the others from, got none"),
-        (Entries(frames=(150, 201)), "expected --frames within 0:200"),
-        (Entries(frames=(60, 60)), "the first before the last, got 60:60"),
-        (Entries(channels="("), "expected a regular expression"),
-        (Entries(frames=(50, 100), max_gap=0.1), "raise --max-gap"),
-        (Entries(frames=(50, 51), max_gap=0.0), "expected a gap of 0 s or less, got 1 of"),
-        (Entries(frames=(50, 51), max_gap=math.nan), "expected a gap of nan s or less"),
+        (NamedEntries(), "expected a gap, got all entries visible"),
+        (
+            NamedEntries(frames=(0, 200)),
+            "expected visible entries to fill the others from, got none",
+        ),
+        (NamedEntries(frames=(150, 201)), "expected --frames within 0:200"),
+        (NamedEntries(frames=(60, 60)), "the first before the last, got 60:60"),
+        (NamedEntries(channels="("), "expected a regular expression"),
+        (NamedEntries(frames=(50, 100), max_gap=0.1), "raise --max-gap"),
+        (NamedEntries(frames=(50, 51), max_gap=0.0), "expected a gap of 0 s or less, got 1 of"),
+        (NamedEntries(frames=(50, 51), max_gap=math.nan), "expected a gap of nan s or less"),
     ],
 )
 def test_what_cannot_be_filled_is_refused(waves, entries, message):

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import GapQuestion
 from mocapbench.benchmark.filling.windows import windows_of
 from mocapbench.datasets import Recording
 
@@ -20,7 +20,7 @@ def question(starts, length, n_train=0):
         Recording(f"t{k}", times, np.ones((N_FRAMES, 2)), ("a", "b"), ("", ""))
         for k in range(n_train)
     )
-    return Question(whole.hide(target), target, train)
+    return GapQuestion(whole.hide(target), target, train)
 
 
 STARTS = st.lists(st.integers(0, N_FRAMES - 20), min_size=1, max_size=6)

@@ -7,8 +7,8 @@ import pytest
 
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.gaps import Gap
-from mocapbench.benchmark.filling.question import Answer
-from mocapbench.benchmark.filling.requests.request import Request
+from mocapbench.benchmark.filling.question import FilledEntries
+from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.benchmark.filling.sources import Source
 from mocapbench.benchmark.filling.trials.bands import Coverage
 from mocapbench.benchmark.filling.trials.runner import Runner
@@ -29,7 +29,7 @@ def test_channels_of_which_nothing_is_visible_are_named(
     target[:, 2] = True
     request = replace(request, given=request.given.hide(target), target=target)
     source = replace(one.source, request=request, train=(request.given,) * n_train)
-    answer = Answer(np.zeros(target.sum()), None)
+    answer = FilledEntries(np.zeros(target.sum()), None)
     (said,) = (r for r in remarks(replace(one, source=source, answer=answer)) if "nothing is" in r)
     assert said.startswith(f"Of {request.given.channels[2]}, nothing is visible in the file")
     assert ("--model best-of" in said) is advised
@@ -48,7 +48,7 @@ def test_one_of_anything_is_singular(filled):
     hides_two = given.hide(target | np.roll(target, 1))
     request = replace(one.source.request, given=hides_two, target=target)
     source = replace(one.source, request=request)
-    one = replace(one, source=source, answer=Answer(np.zeros(1), np.ones(1)))
+    one = replace(one, source=source, answer=FilledEntries(np.zeros(1), np.ones(1)))
     said = [*remarks(one)]
     assert headline(one) == "one filled 1 entry in 1 gap."
     assert "1 longer gap was left open." in said
@@ -185,8 +185,8 @@ def test_a_model_with_bands_that_is_behind_a_worse_one_is_not_named(filled, choi
 def test_a_channel_of_which_little_is_visible_is_named(filled, waves, visible, train, said):
     target = np.zeros((200, 4), dtype=bool)
     target[visible:, 1] = True
-    request = Request(waves().hide(target), target, ())
-    answer = Answer(waves().values[target], np.ones(int(target.sum())))
+    request = FillRequest(waves().hide(target), target, ())
+    answer = FilledEntries(waves().values[target], np.ones(int(target.sum())))
     others = (waves(name="other"),) if train else ()
     source = replace(filled().source, request=request, train=others)
     words = " ".join(remarks(replace(filled(), source=source, answer=answer)))
@@ -197,10 +197,10 @@ def test_unlabelled_markers_that_stay_as_they_are_are_counted_once(filled, waves
     given = waves().hide(hidden((5, 200, [1, 2, 3])))
     given = replace(given, channels=("hip.rx", "*12.x", "*12.y", "*12.z"))
     target = hidden((50, 60, [0]))
-    request = Request(given.hide(target), target, (), given.channels[1:])
+    request = FillRequest(given.hide(target), target, (), given.channels[1:])
     one = filled()
     one = replace(one, source=replace(one.source, request=request))
-    (said,) = remarks(replace(one, answer=Answer(waves().values[target], np.ones(10))))
+    (said,) = remarks(replace(one, answer=FilledEntries(waves().values[target], np.ones(10))))
     assert said.startswith("1 unlabelled marker (*12) stays as it is: name it with --channels")
 
 
@@ -215,8 +215,10 @@ def test_unlabelled_markers_that_stay_as_they_are_are_counted_once(filled, waves
 )
 def test_gaps_with_frames_on_one_side_only_are_counted(filled, waves, hidden, gaps, said):
     target = hidden(*gaps)
-    request = Request(waves().hide(target), target, ())
-    one = replace(filled(), answer=Answer(waves().values[target], np.ones(int(target.sum()))))
+    request = FillRequest(waves().hide(target), target, ())
+    one = replace(
+        filled(), answer=FilledEntries(waves().values[target], np.ones(int(target.sum())))
+    )
     found = [
         remark
         for remark in remarks(replace(one, source=replace(one.source, request=request)))
@@ -228,7 +230,7 @@ def test_gaps_with_frames_on_one_side_only_are_counted(filled, waves, hidden, ga
 
 
 def test_a_jump_at_an_edge_is_said(filled):
-    raised = replace(filled(), answer=Answer(np.full(20, 99.0), np.ones(20)))
+    raised = replace(filled(), answer=FilledEntries(np.full(20, 99.0), np.ones(20)))
     (said,) = remarks(raised)
     assert said.startswith("At 4 edges of gaps, a channel jumps further than between any two")
     assert "deg at frame 5" in said
@@ -247,8 +249,8 @@ def test_times_that_are_probably_not_in_seconds_are_said(filled):
 def test_one_frame_has_no_interval_to_remark_on():
     given = Recording("one", [0.0], [[1.0, np.nan]], ("a", "b"), ("deg", "deg"))
     target = np.array([[False, True]])
-    source = Source(Path("one.csv"), CSVFormat(), Request(given, target, ()), ())
-    filled = Filled(source, "one", Answer(np.zeros(1), np.ones(1)), 0, None, ())
+    source = Source(Path("one.csv"), CSVFormat(), FillRequest(given, target, ()), ())
+    filled = Filled(source, "one", FilledEntries(np.zeros(1), np.ones(1)), 0, None, ())
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         (said,) = remarks(filled)

@@ -1,6 +1,6 @@
 import pytest
 
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import GapQuestion
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.benchmark.plugins import load_plugin
 
@@ -13,7 +13,7 @@ def answers(broken_models, waves, hidden):
 
     def ask(*models, seconds=20.0):
         with Workers(2, (broken_models,)) as workers:
-            question = workers.keep(Question(waves().hide(mask), mask))
+            question = workers.keep(GapQuestion(waves().hide(mask), mask))
             futures = [workers.submit(model, question, seconds) for model in models]
             return [workers.result(future) for future in futures]
 

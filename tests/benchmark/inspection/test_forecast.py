@@ -8,7 +8,7 @@ from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.inspection.explanation import Step, explain
 from mocapbench.benchmark.inspection.forecast import forecast
 from mocapbench.benchmark.inspection.forecast_output import forecast_lines, lacking, lacking_line
-from mocapbench.benchmark.inspection.work import Basis, Work
+from mocapbench.benchmark.inspection.work import Basis, ExpectedWork
 from mocapbench.benchmark.runs.plan import plan
 from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
@@ -133,7 +133,7 @@ def test_a_run_that_is_done_takes_no_time(tmp_path):
 
 @given(st.lists(st.floats(0.0, 1e3)), st.integers(1, 64))
 def test_no_run_is_shorter_than_its_longest_fit_or_longer_than_its_work(seconds, n_workers):
-    work = Work(tuple(seconds), {})
+    work = ExpectedWork(tuple(seconds), {})
     assert max(seconds, default=0.0) <= work.wall_time(n_workers)
     assert work.wall_time(n_workers) <= work.total * (1 + 1e-12)
     assert work.wall_time(1) == pytest.approx(work.total)

@@ -7,9 +7,9 @@ from mocapbench.reports.analysis.ranks import ranks_over_units
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.scores.ranks import rank_figure
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 
-STYLES = {label: Style("h0", 0, label) for label in "abcd"}
+STYLES = {label: DrawingStyle("h0", 0, label) for label in "abcd"}
 ORDERED = {
     f"row {number}": {"a": [1.0 * number], "b": [2.0 * number], "c": [3.0 * number]}
     for number in range(1, 9)

@@ -14,7 +14,7 @@ from mocapbench.reports.figures.axes import Axes, panels
 from mocapbench.reports.figures.fitting import fitted
 from mocapbench.reports.figures.marks import SHAPES, band, dot, group, polyline, svg, text
 from mocapbench.reports.figures.paths import coordinate, segments
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 
 PLACES = st.floats(-2000.0, 2000.0)
 POINTS = arrays(float, st.tuples(st.integers(1, 30), st.just(2)), elements=PLACES)
@@ -65,7 +65,7 @@ HOSTILE = '<script>"&'
 
 
 def test_names_are_text_whatever_they_hold():
-    marks = [group(Style("h1", 0, HOSTILE), text(0.0, 0.0, HOSTILE), title=HOSTILE)]
+    marks = [group(DrawingStyle("h1", 0, HOSTILE), text(0.0, 0.0, HOSTILE), title=HOSTILE)]
     root = ElementTree.fromstring(svg(10.0, 10.0, HOSTILE, marks))
     assert root.attrib["aria-label"] == HOSTILE
     assert [element.text for element in root.iter("text")] == [HOSTILE]

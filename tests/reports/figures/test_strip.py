@@ -11,9 +11,9 @@ from samples import draws
 from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.strip import strip, strip_axis, strip_scale
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 
-STYLE = Style("h3", 1, "knn <&>")
+STYLE = DrawingStyle("h3", 1, "knn <&>")
 VALUES = st.lists(st.floats(0.1, 1000.0), min_size=2, max_size=12)
 
 

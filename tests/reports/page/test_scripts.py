@@ -7,10 +7,12 @@ import pytest
 
 from mocapbench.reports import Curve, HeatMap, HeatMaps, Illustration, Panel, Path3D, Space
 from mocapbench.reports.figures.pictures.draw import draw
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.resources import styles
 
-STYLES = {name: Style(f"h{place}", place, name) for place, name in enumerate(("knn", 'a "b" \\'))}
+STYLES = {
+    name: DrawingStyle(f"h{place}", place, name) for place, name in enumerate(("knn", 'a "b" \\'))
+}
 TIMES = np.linspace(0.0, 1.0, 5)
 CURVES = tuple(Curve(TIMES, TIMES * place, name) for place, name in enumerate(STYLES))
 PANELS = Illustration("t", "Curves", "", (Panel("p", "s", "cm", CURVES),))

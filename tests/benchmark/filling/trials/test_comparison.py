@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from fill_workers import Here
 
-from mocapbench.benchmark.filling.question import Answer, Question
+from mocapbench.benchmark.filling.question import FilledEntries, GapQuestion
 from mocapbench.benchmark.filling.trials import choice, comparison
 from mocapbench.benchmark.filling.trials.choice import choose
 from mocapbench.benchmark.filling.trials.runner import Runner
@@ -14,14 +14,14 @@ from mocapbench.benchmark.filling.trials.runner import Runner
 def chosen_of(waves, hidden, monkeypatch):
     """Return a function from the errors of models, trial by trial, to the choice among them."""
     mask = hidden((50, 58, [0, 1]))
-    question = Question(waves().hide(mask), mask)
+    question = GapQuestion(waves().hide(mask), mask)
     trials = choice.make_trials(question, np.random.default_rng(0))
 
     def chosen(errors):
         found = [Runner(model) for model in errors]
         for runner, off in zip(found, errors.values(), strict=True):
             pairs = zip(trials, off, strict=False)
-            answers = [Answer(trial.truth + error, None) for trial, error in pairs]
+            answers = [FilledEntries(trial.truth + error, None) for trial, error in pairs]
             runner.found = dict(enumerate(answers))
         monkeypatch.setattr(choice, "race", lambda *_: found)
         return choose(question, Here(), 60.0, lambda *_: None).ranking
@@ -33,7 +33,7 @@ def chosen_of(waves, hidden, monkeypatch):
 
 def test_fewer_trials_count_only_if_they_have_copies_of_all_gaps(waves, hidden):
     mask = hidden((20, 24, [0]), (60, 64, [1]), (100, 104, [2]))
-    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))
+    trials = choice.make_trials(GapQuestion(waves().hide(mask), mask), np.random.default_rng(0))
     assert comparison._of_all_gaps(trials[:1] * 2, trials[:1])
     one, other = (replace(trials[0], originals=trials[0].originals[n : n + 1]) for n in (0, 1))
     assert not comparison._of_all_gaps([one], [one, other])

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.filling.gaps import gaps_of
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import GapQuestion
 from mocapbench.benchmark.filling.trials.making import make_trials
 from mocapbench.datasets import Recording
 
@@ -22,7 +22,7 @@ def question(blocks):
         target[min(start, N_FRAMES - 1) : start + length, channel] = True
     values = np.arange(3.0 * N_FRAMES).reshape(N_FRAMES, 3)
     whole = Recording("r", np.arange(N_FRAMES) / 10, values, ("a", "b", "c"), ("", "", ""))
-    return Question(whole.hide(target), target)
+    return GapQuestion(whole.hide(target), target)
 
 
 @settings(deadline=None)
@@ -59,7 +59,7 @@ def test_no_two_trials_are_alike_however_short_the_recording(n_frames, length, s
     target = np.zeros((n_frames, 2), dtype=bool)
     target[1 : 1 + length, 0] = True
     whole = Recording("r", np.arange(n_frames) / 10, values, ("a", "b"), ("", ""))
-    trials = make_trials(Question(whole.hide(target), target), np.random.default_rng(seed))
+    trials = make_trials(GapQuestion(whole.hide(target), target), np.random.default_rng(seed))
     hidden = [trial.question.target.tobytes() for trial in trials]
     assert len(set(hidden)) == len(hidden)
 
@@ -116,7 +116,7 @@ def test_a_gap_at_an_end_takes_no_trial_from_the_others():
     values = np.arange(360.0).reshape(120, 3)
     whole = Recording("r", np.arange(120) / 10, values, ("a", "b", "c"), ("", "", ""))
     for seed in range(5):
-        trials = make_trials(Question(whole.hide(target), target), np.random.default_rng(seed))
+        trials = make_trials(GapQuestion(whole.hide(target), target), np.random.default_rng(seed))
         copies = [episode for trial in trials for episode in trial.originals]
         channels = [gap.channels for episode in copies for gap in episode.gaps]
         assert channels.count((1,)) >= len(trials) // 2 > 0
@@ -131,5 +131,5 @@ def test_a_repeated_trial_is_not_the_end():
     values = np.arange(1200.0).reshape(400, 3)
     whole = Recording("r", np.arange(400) / 10, values, ("a", "b", "c"), ("", "", ""))
     for seed in range(5):
-        trials = make_trials(Question(whole.hide(hidden), target), np.random.default_rng(seed))
+        trials = make_trials(GapQuestion(whole.hide(hidden), target), np.random.default_rng(seed))
         assert len(trials) > 5

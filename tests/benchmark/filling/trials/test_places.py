@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.filling.question import Question
+from mocapbench.benchmark.filling.question import GapQuestion
 from mocapbench.benchmark.filling.trials.making import make_trials
 from mocapbench.benchmark.filling.trials.places import places_of
 from mocapbench.datasets import Recording
@@ -17,7 +17,7 @@ def question(n_frames, *gaps, rng=None):
         target[first:stop] = True
     values = walk + rng.normal(0.0, 0.05, target.shape)
     times = np.arange(n_frames) / 30
-    return Question(Recording("r", times, values, ("a", "b"), ("mm",) * 2).hide(target), target)
+    return GapQuestion(Recording("r", times, values, ("a", "b"), ("mm",) * 2).hide(target), target)
 
 
 def spans_of(trials):

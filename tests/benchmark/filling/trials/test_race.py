@@ -6,14 +6,14 @@ import pytest
 from fill_workers import Here
 
 from mocapbench.benchmark.filling.attempt import Attempt
-from mocapbench.benchmark.filling.question import Answer, Question
+from mocapbench.benchmark.filling.question import FilledEntries, GapQuestion
 from mocapbench.benchmark.filling.trials import choice
 from mocapbench.benchmark.filling.trials.race import race
 
 
 def test_nothing_starts_after_the_budget(waves, hidden):
     mask = hidden((50, 58, [0]))
-    trial = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[0]
+    trial = choice.make_trials(GapQuestion(waves().hide(mask), mask), np.random.default_rng(0))[0]
     workers = Here()
     (runner,) = race(["linear"], [trial], workers, 0.0, lambda *_: None)
     assert not workers.limits
@@ -23,14 +23,14 @@ def test_nothing_starts_after_the_budget(waves, hidden):
 
 def test_models_that_are_slow_are_late_and_no_others(waves, hidden):
     mask = hidden((50, 58, [0]))
-    trial = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[0]
+    trial = choice.make_trials(GapQuestion(waves().hide(mask), mask), np.random.default_rng(0))[0]
     runners = race(["linear", "hold"], [trial], Here(slow=("hold",)), 60.0, lambda *_: None)
     assert {runner.model: runner.late for runner in runners} == {"linear": False, "hold": True}
 
 
 def test_progress_counts_answers(waves, hidden):
     mask = hidden((50, 58, [0]))
-    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[:2]
+    trials = choice.make_trials(GapQuestion(waves().hide(mask), mask), np.random.default_rng(0))[:2]
     told = []
     race(["linear", "hold"], trials, Here(), 60.0, lambda done, total: told.append((done, total)))
     assert told[-1] == (4, 4)
@@ -49,7 +49,7 @@ class Slow(Here):
 
 def test_slow_models_have_their_trials_one_after_another(waves, hidden):
     mask = hidden((50, 58, [0]))
-    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[:3]
+    trials = choice.make_trials(GapQuestion(waves().hide(mask), mask), np.random.default_rng(0))[:3]
     workers = Slow()
     race(["linear", "hold"], trials, workers, 64.0, lambda *_: None)
     models = [model for model, _ in workers.limits]
@@ -64,7 +64,7 @@ class TwoSlow(Slow):
 
 def test_from_its_first_answer_on_all_workers_try_a_slow_model(waves, hidden):
     mask = hidden((50, 58, [0]))
-    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[:4]
+    trials = choice.make_trials(GapQuestion(waves().hide(mask), mask), np.random.default_rng(0))[:4]
     workers = TwoSlow()
     linear, hold = race(["linear", "hold"], trials, workers, 64.0, lambda *_: None)
     models = [model for model, _ in workers.limits][2:]
@@ -88,7 +88,7 @@ class Scripted:
     def submit(self, model, question, seconds, method):
         self.tried[question].append(model)
         took = self.seconds[model][question]
-        attempt = Attempt(Answer(np.zeros(1), None), seconds=took)
+        attempt = Attempt(FilledEntries(np.zeros(1), None), seconds=took)
         if took > seconds:
             attempt = Attempt(None, "was stopped", seconds=seconds, slow=True)
         elif (model, question) in self.failing:
@@ -111,7 +111,7 @@ class Scripted:
 def raced(waves, hidden, monkeypatch):
     """Return a function from what models take in six trials to the runners and the workers."""
     mask = hidden((50, 58, [0]))
-    trials = choice.make_trials(Question(waves().hide(mask), mask), np.random.default_rng(0))[:6]
+    trials = choice.make_trials(GapQuestion(waves().hide(mask), mask), np.random.default_rng(0))[:6]
 
     def run(seconds, failing=(), budget=32.0):
         workers = Scripted(seconds, failing)

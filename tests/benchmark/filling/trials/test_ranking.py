@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.benchmark.filling.trials.ranking import rank
-from mocapbench.benchmark.filling.trials.scores import Scores
+from mocapbench.benchmark.filling.trials.scores import TrialScores
 
 ERRORS = {
     "bad": [2.0, 2.1, 2.2, 1.9, 2.0],
@@ -12,7 +12,7 @@ ERRORS = {
 
 
 def ranking_of(errors, places=None):
-    scores = {model: Scores(np.array(e), {"deg": 1.0}, None) for model, e in errors.items()}
+    scores = {model: TrialScores(np.array(e), {"deg": 1.0}, None) for model, e in errors.items()}
     n = len(next(iter(errors.values())))
     return rank(scores, np.ones(n), np.arange(n) if places is None else np.array(places))
 

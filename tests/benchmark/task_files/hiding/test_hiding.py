@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.task_files.hiding.base import HidingError, Place
+from mocapbench.benchmark.task_files.hiding.base import HidingError, HidingPlace
 from mocapbench.benchmark.task_files.hiding.random_entries import RandomEntries
 from mocapbench.benchmark.task_files.hiding.random_gaps import RandomGaps
 from mocapbench.benchmark.task_files.hiding.same_gaps import SameGaps
@@ -37,7 +37,7 @@ class Shelf(Library):
 
 def place(fold=0, seed=0, **recordings):
     archive = Archive({"shelf": Shelf(**recordings)})
-    return Place(fold, np.random.default_rng([seed, fold]), archive)
+    return HidingPlace(fold, np.random.default_rng([seed, fold]), archive)
 
 
 def runs_of(column):

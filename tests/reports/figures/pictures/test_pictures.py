@@ -14,9 +14,9 @@ from mocapbench.reports import Band, Curve, HeatMap, HeatMaps, Illustration, Pan
 from mocapbench.reports.figures.pictures.draw import draw
 from mocapbench.reports.figures.pictures.heat_maps import levels_of
 from mocapbench.reports.figures.pictures.spaces import projection
-from mocapbench.reports.figures.styles import Style
+from mocapbench.reports.figures.styles import DrawingStyle
 
-MODELS = {"knn": Style("h4", 2, "knn")}
+MODELS = {"knn": DrawingStyle("h4", 2, "knn")}
 TIMES = np.linspace(0.0, 12.0, 100)
 CURVES = tuple(
     Curve(TIMES, np.sin(TIMES + shift), name)
