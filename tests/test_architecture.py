@@ -1,7 +1,8 @@
-"""The page on architecture names the folders that there are, and no folder is crowded."""
+"""Folders are on the page on architecture and not crowded, and names of classes tell them apart."""
 
 import ast
 import re
+from collections import defaultdict
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,27 @@ LISTS = {
     "baselines/alignment": 17,
 }
 
+NAMESAKES = {
+    # A prior's matrices, and the figure of them, which users import.
+    "Coregionalisation": [
+        "baselines/gp/prior/coregionalisation",
+        "benchmark/figures/coregionalisation",
+    ],
+    # Curves fitted to cycles, and a model fitted to a problem.
+    "Fit": ["baselines/functional/fitting", "benchmark/runs/fitting/fit"],
+    # Users import the first two.
+    "Motion": ["datasets/acclaim/motion", "reports/bundle/motions", "benchmark/tasks/marker_gaps"],
+    # Candidates, and a set of axes, which users import.
+    "Panel": ["baselines/choosing/panel", "reports/bundle/panels"],
+    # Those of a Gaussian process, and those of a linear dynamical system.
+    "Parameters": ["baselines/gp/prior/parameters", "baselines/state_space/model"],
+}
+"""Names that unlike classes keep, and the modules of these.
+
+To rename a class of a model or of a task is to fit again all that was fitted with it, so such names
+stay until these modules change anyway.
+"""
+
 
 def holding_modules():
     """Return the folders that hold modules, as paths below the root."""
@@ -26,6 +48,16 @@ def holding_modules():
         for top in FOLDERS
         for path in (ROOT / top).rglob("*.py")
     }
+
+
+def class_homes():
+    """Return the modules of every public class, as paths below the root without suffix."""
+    homes = defaultdict(list)
+    for path in sorted(path for top in FOLDERS for path in (ROOT / top).rglob("*.py")):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                homes[node.name].append(path.relative_to(ROOT).with_suffix("").as_posix())
+    return homes
 
 
 def on_the_page():
@@ -63,6 +95,11 @@ def test_no_package_exports_a_name_that_a_module_of_its_own_has(stub):
     assert not names & {
         path.stem for path in stub.parent.iterdir() if not path.stem.startswith("_")
     }
+
+
+def test_unlike_classes_do_not_share_a_name():
+    shared = {name: homes for name, homes in class_homes().items() if len(homes) > 1}
+    assert shared == {name: sorted(homes) for name, homes in NAMESAKES.items()}
 
 
 def test_every_path_that_the_page_names_exists():
