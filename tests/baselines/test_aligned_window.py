@@ -2,17 +2,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from samples import recording
 
 from mocapbench.baselines.aligned_window import AlignedWindow
-from mocapbench.datasets import Recording
 
 SCALES = np.arange(0.75, 1.351, 0.05)
-
-
-def recording(name, values):
-    values = np.asarray(values, dtype=float)
-    channels = tuple(f"c{d}" for d in range(values.shape[1]))
-    return Recording(name, np.arange(len(values)), values, channels, ("",) * len(channels))
 
 
 def hide(truth, *frames):

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from samples import gap
 
 from mocapbench.baselines import MOHGP, BestOf, LinearImputer, MakimaImputer, PchipImputer
 from mocapbench.baselines.choosing import panel
@@ -16,12 +17,6 @@ def walk(name, phase, offset=0.0, n_frames=60):
 def still(name, n_frames=60):
     values = np.random.default_rng(0).normal(scale=0.005, size=(n_frames, 3)).cumsum(axis=0)
     return Recording(name, np.arange(n_frames) / 30, values, ("a", "b", "c"), ("",) * 3)
-
-
-def gap(recording, first, last, channels=slice(None)):
-    hidden = np.zeros(recording.values.shape, dtype=bool)
-    hidden[first:last, channels] = True
-    return recording.hide(hidden)
 
 
 TRAINING = [walk("one", 0.0), walk("two", 1.0, 0.1)]

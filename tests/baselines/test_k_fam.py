@@ -1,20 +1,10 @@
 import numpy as np
+from samples import walks_of_two_styles
 
 from mocapbench.baselines.fam import FAM
 from mocapbench.baselines.k_fam import KFAM
-from mocapbench.datasets import Recording
 
-
-def _walks():
-    rng = np.random.default_rng(0)
-    for k in range(6):
-        phase = 2.0 * np.pi * (np.arange(40) / 12.0 + rng.random())
-        values = 5.0 * np.sin(phase[:, None] * [1, 2] + [0.0, 1.0]) + [0.0, 6.0 * (k % 2)]
-        values += 0.2 * rng.normal(size=values.shape)
-        yield Recording(f"w{k}", np.arange(40) / 30, values, ("a", "b"), ("deg", "deg"))
-
-
-WALKS = tuple(_walks())
+WALKS = walks_of_two_styles()
 
 
 def test_styles_are_told_apart_and_seeded():

@@ -2,18 +2,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from samples import recording
 from scipy.stats import multivariate_normal
 
 from mocapbench.baselines import LowRank
-from mocapbench.datasets import Recording
 
 N_FRAMES, N_CHANNELS = 60, 4
-
-
-def recording(name, values):
-    channels = tuple(f"c{d}" for d in range(values.shape[1]))
-    times = np.arange(float(len(values)))
-    return Recording(name, times, values, channels, ("",) * len(channels))
 
 
 def motion(name, seed, *, noise=0.1, offset=0.0):

@@ -2,16 +2,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from samples import recording
 from sklearn.impute import KNNImputer
 
 from mocapbench.baselines.nn import NN
-from mocapbench.datasets import Recording
-
-
-def recording(name, values):
-    values = np.asarray(values, dtype=float)
-    channels = tuple(f"c{d}" for d in range(values.shape[1]))
-    return Recording(name, np.arange(len(values)), values, channels, ("",) * len(channels))
 
 
 def test_hidden_entries_are_copied_from_the_nearest_frame():

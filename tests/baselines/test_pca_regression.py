@@ -1,18 +1,12 @@
 import numpy as np
 import pytest
+from samples import recording
 
 from mocapbench.baselines import PCARegression
-from mocapbench.datasets import Recording
 
 N_FRAMES, N_CHANNELS = 60, 6
 HIDDEN = [1, 4]
 VISIBLE = [0, 2, 3, 5]
-
-
-def recording(name, values):
-    channels = tuple(f"c{d}" for d in range(values.shape[1]))
-    times = np.arange(float(len(values)))
-    return Recording(name, times, values, channels, ("",) * len(channels))
 
 
 def motion(name, seed, *, rank=3, offset=0.0):

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from samples import gap
 
 from mocapbench.baselines.kriging.conditioned import ConditionedFrames
 from mocapbench.baselines.kriging.own_course import own_course
@@ -19,12 +20,6 @@ def walk(name, start, n_frames, style=0.0):
     values = np.column_stack([np.sin(angle), np.cos(angle), np.sin(angle + 1.0)])
     values = values + style * np.column_stack([np.cos(2 * angle), np.sin(angle), 1 + 0 * angle])
     return Recording(name, np.arange(n_frames) / 30, values, ("a", "b", "c"), ("",) * 3)
-
-
-def gap(recording, first, last):
-    hidden = np.zeros(recording.values.shape, dtype=bool)
-    hidden[first:last] = True
-    return recording.hide(hidden)
 
 
 TRAINING = [walk("one", 0, 50), walk("two", 3, 45)]

@@ -4,16 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from samples import recording
 
 from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.pose_viterbi import PoseViterbi
-from mocapbench.datasets import Recording
-
-
-def recording(name, values):
-    values = np.asarray(values, dtype=float)
-    channels = tuple(f"c{d}" for d in range(values.shape[1]))
-    return Recording(name, np.arange(len(values)) / 30, values, channels, ("",) * len(channels))
 
 
 def circle(start, n_frames):

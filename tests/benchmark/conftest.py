@@ -41,6 +41,13 @@ def cli(capsys, monkeypatch):
     return CommandLine(capsys)
 
 
+@pytest.fixture
+def nothing_here(monkeypatch, tmp_path):
+    """Hide the recordings of this machine."""
+    monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
+    monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path / "cache"))
+
+
 @pytest.fixture(scope="session")
 def posed():
     """Return a function that poses the problem of a case."""

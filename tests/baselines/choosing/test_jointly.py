@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from samples import gap
 from sklearn.exceptions import NotFittedError
 
 from mocapbench.baselines import MOHGP
@@ -16,12 +17,6 @@ def walk(name, phase=0.0, n_frames=25, n_channels=2):
     return Recording(name, times, np.sin(angles), channels, ("",) * n_channels)
 
 
-def gap(recording, first=8, last=16):
-    hidden = np.zeros(recording.values.shape, dtype=bool)
-    hidden[first:last] = True
-    return recording.hide(hidden)
-
-
 TRAINING = [walk("one"), gap(walk("two", 0.2), 3, 5)]
 
 
@@ -32,7 +27,7 @@ def model():
 
 def test_it_is_the_process_given_all_recordings_together(model):
     """Up to the one iteration: the posterior is that of its parameters."""
-    given = gap(walk("new", 0.1))
+    given = gap(walk("new", 0.1), 8, 16)
     (filled,) = model.impute([given])
     together = MOHGP(n_restarts=1, max_iter=15).fit([given, *TRAINING]).impute([given])[0]
     truth = walk("new", 0.1).values
@@ -50,19 +45,20 @@ def test_with_other_recordings_parameters_stay(model):
     assert [recording.name for recording in model.recordings_] == ["one", "two"]
     np.testing.assert_array_equal(again.process_.parameters_.flat, before)
     assert [recording.name for recording in again.recordings_] == ["three", "four"]
-    model.impute([gap(walk("new"))])
+    model.impute([gap(walk("new"), 8, 16)])
     np.testing.assert_array_equal(model.process_.parameters_.flat, before)
 
 
 def test_fit_forgets_what_was_learnt_before(model):
-    others = [gap(walk("three", 0.9)).with_values(5.0 * gap(walk("three", 0.9)).values ** 3)]
+    three = gap(walk("three", 0.9), 8, 16)
+    others = [three.with_values(5.0 * three.values**3)]
     fresh = Jointly(MOHGP(n_restarts=1, max_iter=15)).fit(others)
     again = Jointly(MOHGP(n_restarts=1, max_iter=15)).fit(TRAINING).fit(others)
     np.testing.assert_array_equal(again.process_.parameters_.flat, fresh.process_.parameters_.flat)
 
 
 def test_company_does_not_matter(model):
-    given = [gap(walk("new", 0.1)), gap(walk("other", 0.5), 2, 6)]
+    given = [gap(walk("new", 0.1), 8, 16), gap(walk("other", 0.5), 2, 6)]
     alone, together = model.impute(given[:1])[0], model.impute(given)[0]
     np.testing.assert_array_equal(alone.mean, together.mean)
     np.testing.assert_array_equal(alone.variance, together.variance)
@@ -70,7 +66,7 @@ def test_company_does_not_matter(model):
 
 def test_a_recording_that_was_learnt_from_is_filled_as_given(model):
     """What `fit` saw of it does not count."""
-    (filled,) = model.impute([gap(walk("one"))])
+    (filled,) = model.impute([gap(walk("one"), 8, 16)])
     assert (filled.variance[8:16] > 1e-9).all()
 
 
@@ -84,7 +80,7 @@ def test_the_recording_to_fill_comes_first():
             return super().fit(recordings)
 
     model = Jointly(Watched(n_restarts=1, max_iter=2)).fit(TRAINING)
-    model.impute([gap(walk("new")), gap(walk("two"))])
+    model.impute([gap(walk("new"), 8, 16), gap(walk("two"), 8, 16)])
     assert orders == [["one", "two"], ["new", "one", "two"], ["two", "one"]]
 
 
@@ -98,7 +94,7 @@ def test_recordings_that_would_take_long_are_refused(model):
     with pytest.raises(ValueError, match=r"at most 1.8e\+11, .* got 3.8e\+11 and 3e\+06"):
         Jointly(MOHGP()).fit(large)
     with pytest.raises(ValueError, match=r"of frames to 3e\+06, got 2.7e\+07 and 3.4e\+06"):
-        model.impute([gap(walk("long", n_frames=150))])
+        model.impute([gap(walk("long", n_frames=150), 8, 16)])
 
 
 @pytest.mark.parametrize("name", ["mohgp", "mohgp-registered"])
@@ -116,7 +112,7 @@ def test_a_candidate_fitted_anew_leaves_the_first_as_it_is(name, monkeypatch):
 
 
 def test_channels_are_those_of_fit(model):
-    given = gap(walk("new"))
+    given = gap(walk("new"), 8, 16)
     with pytest.raises(NotFittedError):
         Jointly(MOHGP()).as_claimed([given])
     for answer in (model.as_claimed, model.impute):

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from samples import gap
 
 from mocapbench.baselines.choosing.panel import Panel
 from mocapbench.baselines.choosing.parts import parts_of
@@ -12,12 +13,6 @@ def walk(name, n_frames=60, phase=0.0):
     angle = 2 * np.pi * np.arange(n_frames) / 20 + phase
     values = np.column_stack([np.sin(angle), np.cos(angle)])
     return Recording(name, np.arange(n_frames) / 30, values, ("a", "b"), ("",) * 2)
-
-
-def gap(recording, first, last):
-    hidden = np.zeros(recording.values.shape, dtype=bool)
-    hidden[first:last] = True
-    return recording.hide(hidden)
 
 
 class Watching(Imputer):

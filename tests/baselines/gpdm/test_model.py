@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from samples import gap
 
 from mocapbench.baselines.gpdm.conditional import Query
 from mocapbench.baselines.gpdm.model import GPDM
@@ -18,12 +19,6 @@ def walk(name, start, n_frames, offset=0.0):
     values = np.column_stack([np.sin(angle), np.cos(angle), np.sin(angle + 1), np.cos(angle - 1)])
     channels = tuple(f"c{d}" for d in range(4))
     return Recording(name, np.arange(n_frames) / 30, values + offset, channels, ("",) * 4)
-
-
-def gap(recording, first, last):
-    frames = np.arange(len(recording.times))
-    inside = (frames >= first) & (frames < last)
-    return recording.hide(np.repeat(inside[:, None], len(recording.channels), axis=1))
 
 
 WALKS = [walk("a", 0, 25), walk("b", 4.5, 22)]

@@ -2,16 +2,9 @@
 
 import numpy as np
 import pytest
+from samples import recording
 
 from mocapbench.baselines.gpdm.sequences import TrainingSequences, whitened_components
-from mocapbench.datasets import Recording
-
-
-def recording(name, values):
-    values = np.asarray(values, dtype=float)
-    channels = tuple(f"c{d}" for d in range(values.shape[1]))
-    return Recording(name, np.arange(len(values)) / 30, values, channels, ("",) * len(channels))
-
 
 VALUES = np.random.default_rng(0).normal(size=(9, 3))
 

@@ -6,12 +6,6 @@ TOY = ("run", "--dry-run", "--tasks", "toy-interpolation-1", "--models", "trivia
 FRAMES = ("run", "--dry-run", "--tasks", "missing-frames", "--models", "trivial", "--folds", 1)
 
 
-@pytest.fixture
-def nothing_here(monkeypatch, tmp_path):
-    monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
-    monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path / "cache"))
-
-
 def test_cases_of_the_same_entrants_stand_together(cli, tmp_path):
     assert cli(*TOY, "--out", tmp_path / "run") == 0
     assert "toy-interpolation-1 18 jobs = 3 cases × 2 entrants × 3 folds" in cli.printed

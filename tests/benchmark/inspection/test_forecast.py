@@ -17,12 +17,6 @@ from mocapbench.benchmark.runs.store import Store
 TASKS = ("toy-interpolation-1", "missing-frames")
 
 
-@pytest.fixture
-def nothing_here(monkeypatch, tmp_path):
-    monkeypatch.delenv("MOCAPBENCH_DATA", raising=False)
-    monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path / "cache"))
-
-
 def jobs(models, tasks=TASKS, profile="quick", folds=2):
     return plan(Request(profile, tasks, models, folds=folds), archive_at(None))
 
