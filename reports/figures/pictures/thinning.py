@@ -12,28 +12,29 @@ __all__ = ["TOLERANCE", "thinned"]
 Array = NDArray[np.float64]
 
 TOLERANCE = 0.4
-"""Pixels; with the rounding of coordinates no point moves by more than half a pixel."""
+"""The largest distance of a point from the line, in pixels.
+
+With the rounding of coordinates no point moves by more than half a pixel.
+"""
 
 
-def thinned(points: Array, tolerance: float = TOLERANCE) -> Array:
-    """Return some of ``points``, so that a line through them passes close to all others.
+def thinned(points: Array) -> Array:
+    """Return some of ``points``, whose line passes within `TOLERANCE` of all others.
 
     Parameters
     ----------
     points : ndarray of shape (N, 2)
         In pixels; rows with NaN, which break the line, stay.
-    tolerance : float
-        The largest distance of a point from the line, in pixels.
     """
     kept = np.asarray(np.isnan(points).any(axis=1))
     ends = [-1, *np.flatnonzero(kept), len(points)]
     for before, after in pairwise(ends):
         if after - before > 1:
-            _keep(points, kept, before + 1, after - 1, tolerance)
+            _keep(points, kept, before + 1, after - 1)
     return np.asarray(points[kept])
 
 
-def _keep(points: Array, kept: NDArray[np.bool_], first: int, last: int, tolerance: float) -> None:
+def _keep(points: Array, kept: NDArray[np.bool_], first: int, last: int) -> None:
     """Mark what a run needs: its ends, then whatever lies furthest from the line so far."""
     kept[[first, last]] = True
     waiting = [(first, last)]
@@ -43,7 +44,7 @@ def _keep(points: Array, kept: NDArray[np.bool_], first: int, last: int, toleran
             continue
         distances = _distances(points[start + 1 : end], points[start], points[end])
         furthest = int(distances.argmax())
-        if distances[furthest] > tolerance:
+        if distances[furthest] > TOLERANCE:
             middle = start + 1 + furthest
             kept[middle] = True
             waiting += [(start, middle), (middle, end)]
