@@ -19,6 +19,8 @@ __all__ = [
     "require_writable_folder",
     "target_of",
     "words_of",
+    "write_bytes",
+    "write_text",
 ]
 
 ENTRIES = ".entries.csv"
@@ -47,6 +49,17 @@ def atomic_write(path: Path) -> Iterator[IO[bytes]]:
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
         raise
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write ``text`` as UTF-8, whole or not at all."""
+    write_bytes(path, text.encode())
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write ``content`` whole or not at all."""
+    with atomic_write(path) as file:
+        file.write(content)
 
 
 def is_writable(folder: Path) -> bool:

@@ -19,7 +19,7 @@ from mocapbench.benchmark.cli.options import (
     show_left_out,
 )
 from mocapbench.benchmark.errors import ExitCode, UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_bytes, write_text
 from mocapbench.benchmark.gate.environment import Environment
 
 if TYPE_CHECKING:
@@ -98,8 +98,10 @@ def check(
         known, values, records, environment=environment, tolerances=tolerances, strict=strict
     )
     _show(result, console)
-    _write(markdown, gate.markdown(result).encode())
-    _write(junit, gate.junit(result))
+    if markdown is not None:
+        write_text(markdown, gate.markdown(result))
+    if junit is not None:
+        write_bytes(junit, gate.junit(result))
     if update:
         gate.write_reference(reference, gate.updated(known, values, records))
         console.print(f"{reference} now holds this run: review it like code", soft_wrap=True)
@@ -138,9 +140,3 @@ def _show(result: Check, console: LiteralConsole) -> None:
     if table.row_count:
         console.print(table)
     console.print(f"check: {gate.summary(result)}", soft_wrap=True)
-
-
-def _write(path: Path | None, content: bytes) -> None:
-    if path is not None:
-        with atomic_write(path) as file:
-            file.write(content)

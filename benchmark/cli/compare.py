@@ -22,7 +22,7 @@ from mocapbench.benchmark.cli.options import (
     split,
 )
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_text
 
 if TYPE_CHECKING:
     from mocapbench.benchmark.comparison.sides import Side
@@ -63,8 +63,10 @@ def compare(
             console.print(f"The two have no value of {metric} in common.", highlight=False)
     for note in comparison.notes(rows, sides):
         console.print(note, highlight=False)
-    _write(markdown, comparison.markdown(rows, sides))
-    _write(csv, reports.csv_text(comparison.tidy(rows, sides)))
+    if markdown is not None:
+        write_text(markdown, comparison.markdown(rows, sides))
+    if csv is not None:
+        write_text(csv, reports.csv_text(comparison.tidy(rows, sides)))
 
 
 def _sides(
@@ -89,9 +91,3 @@ def _records(run: Path, console: LiteralConsole) -> Side:
     records = comparison.planned_side(store)
     show_left_out(store.damaged, console)
     return records
-
-
-def _write(path: Path | None, text: str) -> None:
-    if path is not None:
-        with atomic_write(path) as file:
-            file.write(text.encode())

@@ -13,7 +13,7 @@ from mocapbench import reports
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DEFAULT_OUT, Out, show_left_out
 from mocapbench.benchmark.errors import ExitCode
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import atomic_write, write_text
 
 __all__ = ["app"]
 
@@ -35,8 +35,7 @@ def export(
     records = store.planned()
     tables = {"scores": bench.score_table(records), "jobs": bench.job_table(records)}
     for name, table in tables.items():
-        with atomic_write(folder / f"{name}.csv") as file:
-            file.write(reports.csv_text(table).encode())
+        write_text(folder / f"{name}.csv", reports.csv_text(table))
         if with_parquet:
             with atomic_write(folder / f"{name}.parquet") as file:
                 table.to_parquet(file, index=False)

@@ -13,7 +13,7 @@ from mocapbench import reports
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins, require_writable
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_text
 
 __all__ = ["app"]
 
@@ -41,8 +41,7 @@ def init(
         )
     require_writable(task_file)
     draft = bench.draft(str(task_file), recordings, rate)
-    with atomic_write(task_file) as file:
-        file.write(draft.text.encode())
+    write_text(task_file, draft.text)
     for reason in draft.left_out:
         console.print(f"left out: {reason}", soft_wrap=True, highlight=False)
     count = reports.counted(len(draft.tests), "recording")

@@ -24,7 +24,7 @@ from mocapbench.benchmark.cli.options import (
     show_left_out,
 )
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_text
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Record, Store
@@ -96,6 +96,5 @@ def write_report(
 
 
 def _write(path: Path, page: str, console: LiteralConsole) -> None:
-    with atomic_write(path) as file:
-        file.write(page.encode())
+    write_text(path, page)
     console.print(f"report: {path.resolve()}", soft_wrap=True, highlight=False)

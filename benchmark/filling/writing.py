@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import ENTRIES, atomic_write, require_writable_folder
+from mocapbench.benchmark.files import ENTRIES, require_writable_folder, write_text
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.reports import csv_text
 
@@ -75,8 +75,8 @@ def write(filled: Filled, outputs: Outputs, page: str) -> None:
         source.format.write(
             outputs.filled, filled.recording, like=source.path, replaced=source.request.target
         )
-        _write_text(outputs.entries, csv_text(entry_table(filled)))
-        _write_text(outputs.page, page)
+        write_text(outputs.entries, csv_text(entry_table(filled)))
+        write_text(outputs.page, page)
     except BaseException:
         for path in outputs:
             path.unlink(missing_ok=True)
@@ -102,8 +102,3 @@ def entry_table(filled: Filled) -> pd.DataFrame:
             "sd": filled.deviations,
         }
     )
-
-
-def _write_text(path: Path, text: str) -> None:
-    with atomic_write(path) as file:
-        file.write(text.encode())

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_text
 from mocapbench.benchmark.gate.reference import (
     COLUMNS,
     ENVIRONMENT,
@@ -166,5 +166,4 @@ def _write(path: Path, values: Mapping[Series, Folds], about: Mapping[str, str])
         cells = (guarded(str(cell)) for cell in series.cells)
         writer.writerow([*cells, *(by_fold.get(fold) for fold in folds)])
     path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(path) as file:
-        file.write(buffer.getvalue().encode())
+    write_text(path, buffer.getvalue())

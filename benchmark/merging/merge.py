@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_bytes
 from mocapbench.benchmark.merging.plans import unite_plans
 from mocapbench.benchmark.merging.records import unite_fits, unite_records
 from mocapbench.benchmark.merging.sources import read_source
@@ -117,5 +117,4 @@ def _copy(source: Path, target: Path) -> None:
     content = source.read_bytes()
     if not target.is_file() or target.read_bytes() != content:
         target.parent.mkdir(exist_ok=True)
-        with atomic_write(target) as file:
-            file.write(content)
+        write_bytes(target, content)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write, require_writable_folder
+from mocapbench.benchmark.files import require_writable_folder, write_bytes
 from mocapbench.benchmark.motion.gif import gif_bytes
 from mocapbench.benchmark.motion.joint_angles import amc_text, bvh_text
 from mocapbench.benchmark.motion.made import EntrantMotion
@@ -75,8 +75,7 @@ def write(motion: EntrantMotion, files: Mapping[str, Path], title: str) -> list[
         path: text for kind, named in files.items() for path, text in contents[kind](named).items()
     }
     for path, content in texts.items():
-        with atomic_write(path) as file:
-            file.write(content)
+        write_bytes(path, content)
     return [*texts]
 
 

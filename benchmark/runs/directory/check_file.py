@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_text
 
 __all__ = ["CHECK", "read_check", "write_check"]
 
@@ -17,8 +17,7 @@ _PARTS = {"reference", "summary", "passed", "findings"}
 
 def write_check(path: Path, check: Mapping[str, Any]) -> None:
     """Write what a check found, whole or not at all."""
-    with atomic_write(path) as file:
-        file.write(json.dumps(check, indent=1).encode())
+    write_text(path, json.dumps(check, indent=1))
 
 
 def read_check(path: Path) -> Mapping[str, Any]:

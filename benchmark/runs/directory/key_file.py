@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_text
 from mocapbench.benchmark.tasks.address import Address
 
 __all__ = ["KEYS", "KeyEntry", "read_keys", "write_keys"]
@@ -35,8 +35,7 @@ def write_keys(path: Path, entries: Mapping[str, KeyEntry]) -> None:
         for parts in [entry.parts]
     }
     document = {"format": _FORMAT, "parts": list(numbers), "keys": keys}
-    with atomic_write(path) as file:
-        file.write(json.dumps(document).encode())
+    write_text(path, json.dumps(document))
 
 
 def read_keys(path: Path) -> dict[str, KeyEntry]:

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_text
 
 __all__ = ["is_run", "mark", "require_run", "require_usable"]
 
@@ -22,8 +22,7 @@ def is_run(path: Path) -> bool:
 def mark(path: Path) -> None:
     """Make a folder a run directory, if it is none yet."""
     if not is_run(path):
-        with atomic_write(path / _MARKER) as file:
-            file.write(json.dumps({"format": _FORMAT}).encode())
+        write_text(path / _MARKER, json.dumps({"format": _FORMAT}))
 
 
 def require_run(path: Path) -> None:

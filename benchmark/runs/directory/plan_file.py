@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_text
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.address import Address
@@ -78,8 +78,7 @@ def planned_jobs(plan: Mapping[str, Any]) -> list[PlannedJob]:
 
 def save_plan(folder: Path, plan: Mapping[str, Any]) -> None:
     """Write a plan whole or not at all."""
-    with atomic_write(folder / PLAN) as file:
-        file.write(json.dumps(plan, indent=1).encode())
+    write_text(folder / PLAN, json.dumps(plan, indent=1))
 
 
 def load_plan(folder: Path) -> Mapping[str, Any]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_text
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.directory.files_by_key import FilesByKey
 from mocapbench.benchmark.runs.record import Record, RecordError
@@ -48,8 +48,7 @@ class RecordFiles:
 
     def save(self, record: Record) -> None:
         """Write ``record`` whole or not at all."""
-        with atomic_write(self.files.make_room(record.key)) as file:
-            file.write(record.to_json().encode())
+        write_text(self.files.make_room(record.key), record.to_json())
 
 
 def _with_metrics_of_today(record: Record) -> Record:

@@ -12,7 +12,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import atomic_write, write_bytes
 from mocapbench.benchmark.messages import reason
 from mocapbench.datasets import Archive, Library, Recording, Skeleton, SkeletonUnavailable
 
@@ -92,8 +92,7 @@ class Spool:
     def receive(self, name: str, content: bytes) -> None:
         """Keep a file of another spool, under its name, unless it is here already."""
         if not (self.folder / name).exists():
-            with atomic_write(self.folder / name) as file:
-                file.write(content)
+            write_bytes(self.folder / name, content)
 
     def path(self, uri: str, digest: str) -> Path:
         """Return the file of a recording."""

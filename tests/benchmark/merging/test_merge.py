@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.benchmark.files import write_bytes
 from mocapbench.benchmark.merging import merge as module
 from mocapbench.benchmark.merging.merge import merge
 from mocapbench.benchmark.runs.record import Status
@@ -228,12 +228,12 @@ def test_a_merge_that_fails_leaves_no_new_folder(write_run, tmp_path, monkeypatc
     one, other = write_run(tmp_path / "1", ROWS[:3]), write_run(tmp_path / "2", ROWS[3:6])
     count = iter(range(written))
 
-    def failing(path):
+    def failing(path, content):
         if next(count, None) is None:
             raise DiskFullError
-        return atomic_write(path)
+        write_bytes(path, content)
 
-    monkeypatch.setattr(module, "atomic_write", failing)
+    monkeypatch.setattr(module, "write_bytes", failing)
     with pytest.raises(DiskFullError):
         merge([one, other], tmp_path / "out")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["1", "2"]
@@ -243,13 +243,13 @@ def test_a_merge_that_fails_leaves_the_plan_of_an_existing_run(write_run, tmp_pa
     out, other = write_run(tmp_path / "1", ROWS[:3]), write_run(tmp_path / "2", ROWS[3:6])
     plan, count = _plan(out), iter(range(4))
 
-    def failing(path):
+    def failing(path, content):
         if next(count, None) is None:
             raise DiskFullError
-        return atomic_write(path)
+        write_bytes(path, content)
 
     with monkeypatch.context() as patched, pytest.raises(DiskFullError):
-        patched.setattr(module, "atomic_write", failing)
+        patched.setattr(module, "write_bytes", failing)
         merge([other], out)
     assert _plan(out) == plan
     assert Store(out).damaged == []
