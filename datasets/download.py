@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import requests
 from requests.adapters import HTTPAdapter
 from urllib3.util.retry import Retry
 
 from mocapbench.datasets.errors import FetchError, ServerUnreachable
+from mocapbench.datasets.formats.whole import written_whole
 
 __all__ = ["Downloader"]
 
@@ -52,7 +52,10 @@ class Downloader:
         url = self.base_url + path
         content = self._get(url)
         check(content, url)
-        _write_whole(self.folder / path, content)
+        file = self.folder / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with written_whole(file) as part:
+            part.write_bytes(content)
 
     def _get(self, url: str) -> bytes:
         try:
@@ -90,12 +93,3 @@ class Downloader:
         for scheme in ("http://", "https://"):
             session.mount(scheme, HTTPAdapter(max_retries=retry))
         return session
-
-
-def _write_whole(file: Path, content: bytes) -> None:
-    """Write a file by renaming, so that a process that is killed leaves no part of it."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    with TemporaryDirectory(dir=file.parent) as folder:
-        part = Path(folder) / file.name
-        part.write_bytes(content)
-        part.replace(file)

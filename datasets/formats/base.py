@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,6 +16,7 @@ from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.formats.errors import FormatError, MissingExtraError
 from mocapbench.datasets.formats.memory import check_fits
 from mocapbench.datasets.formats.turns import unwrapped, wrapped
+from mocapbench.datasets.formats.whole import written_whole
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["Extra", "Format"]
@@ -183,7 +183,7 @@ class Format(ABC):
             filled.visible
         )
         values = wrapped(filled.values, raw.hide(new), new)
-        with _plain_errors(path), _whole(path) as temporary:
+        with _plain_errors(path), written_whole(path) as temporary:
             self.save(temporary, values, new, like)
 
     def _raw(self, path: Path, rate: float | None) -> Recording:
@@ -232,12 +232,3 @@ def _plain_errors(path: Path) -> Iterator[None]:
     except ValueError as error:
         advice = "export the recording again"
         raise FormatError(str(path), "a recording", str(error), advice) from error
-
-
-@contextmanager
-def _whole(path: Path) -> Iterator[Path]:
-    """Yield a temporary name in the same folder, which becomes ``path`` if nothing goes wrong."""
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.") as folder:
-        temporary = Path(folder, "part")
-        yield temporary
-        temporary.replace(path)
