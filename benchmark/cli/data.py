@@ -58,9 +58,7 @@ def status(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
     archive, console = open_archive(data_dir), LiteralConsole()
     rows = archive.status(_addresses(trials, archive))
     _show(rows, data_dir, console)
-    console.print(
-        bench.next_data_step(rows, bench.DataRequest(trials, data_dir, plugin)), soft_wrap=True
-    )
+    _suggest(rows, bench.DataRequest(trials, data_dir, plugin), console)
 
 
 @app.command()
@@ -81,9 +79,7 @@ def fetch(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = Non
     _show(rows, data_dir, console)
     if failures:
         raise UsageError("\n".join(failures))
-    console.print(
-        bench.next_data_step(rows, bench.DataRequest(trials, data_dir, plugin)), soft_wrap=True
-    )
+    _suggest(rows, bench.DataRequest(trials, data_dir, plugin), console)
 
 
 @app.command()
@@ -94,9 +90,7 @@ def verify(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
     tracked = track(_addresses(trials, archive), "verifying", console=console)
     rows = [row for uri in tracked for row in archive.verify([uri])]
     _show(rows, data_dir, console)
-    console.print(
-        bench.next_data_step(rows, bench.DataRequest(trials, data_dir, plugin)), soft_wrap=True
-    )
+    _suggest(rows, bench.DataRequest(trials, data_dir, plugin), console)
     if any(row.state == "wrong" for row in rows):
         raise typer.Exit(ExitCode.USAGE)
 
@@ -126,3 +120,10 @@ def _show(rows: Sequence[RecordingStatus], data_dir: Path | None, console: Liter
         table.add_row(*cells[: len(heads)])
     console.print(table)
     console.print(bench.data_totals(rows, data_dir), soft_wrap=True)
+
+
+def _suggest(
+    rows: Sequence[RecordingStatus], request: bench.DataRequest, console: LiteralConsole
+) -> None:
+    """Say what to do next."""
+    console.print(bench.next_data_step(rows, request), soft_wrap=True)

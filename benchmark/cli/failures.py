@@ -28,13 +28,7 @@ def exit_code(error: BaseException) -> ExitCode:
         ``USAGE`` for an error of the request or of a file, ``DEFECT`` for any other: else the
         interpreter's own exit code, 1, would say that a metric got worse.
     """
-    match error:
-        case UsageError() | DigestMismatch() | AcclaimError() | FormatError() | OSError():
-            return ExitCode.USAGE
-        case KeyboardInterrupt():
-            return ExitCode.INTERRUPTED
-        case _:
-            return ExitCode.DEFECT
+    return _code_and_message(error)[0]
 
 
 def explain(error: Exception) -> ExitCode:
@@ -45,15 +39,11 @@ def explain(error: Exception) -> ExitCode:
     ExitCode
         See `exit_code`.
     """
-    match error:
-        case UsageError() | DigestMismatch() | AcclaimError() | FormatError():
-            _say(str(error))
-        case OSError():
-            _say(f"cannot read or write: {words_of(error)}")
-        case _:
-            _quote("".join(traceback.format_exception(error)))
-            _say("a defect of mocapbench or an added package; see above")
-    return exit_code(error)
+    code, message = _code_and_message(error)
+    if code is ExitCode.DEFECT:
+        _quote("".join(traceback.format_exception(error)))
+    _say(message)
+    return code
 
 
 def show_warning(
@@ -73,6 +63,19 @@ def show_warning(
         _say(str(message), Text("warning:", "bold"))
     else:
         _quote(warnings.formatwarning(message, category, filename, lineno, line))
+
+
+def _code_and_message(error: BaseException) -> tuple[ExitCode, str]:
+    """Return the exit code of an error, and what to say of it."""
+    match error:
+        case UsageError() | DigestMismatch() | AcclaimError() | FormatError():
+            return ExitCode.USAGE, str(error)
+        case OSError():
+            return ExitCode.USAGE, f"cannot read or write: {words_of(error)}"
+        case KeyboardInterrupt():
+            return ExitCode.INTERRUPTED, "interrupted"
+        case _:
+            return ExitCode.DEFECT, "a defect of mocapbench or an added package; see above"
 
 
 def _say(message: str, kind: Text = ERROR) -> None:

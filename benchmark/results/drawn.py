@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-import importlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.record import Record
+from mocapbench.benchmark.runs.source_code.folders import folders_digest
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.task_files.task_file import TaskFile
 
@@ -42,20 +42,7 @@ def stamp(
 @cache
 def _drawing_code() -> bytes:
     """Return a digest of our code, templates, styles and published values."""
-    digest = hashlib.sha256()
-    for part in _PARTS:
-        (folder,) = importlib.import_module(f"mocapbench.{part}").__path__
-        for path in _files(Path(folder)):
-            digest.update(path.relative_to(folder).as_posix().encode())
-            digest.update(path.read_bytes())
-    return digest.digest()
-
-
-def _files(folder: Path) -> Iterator[Path]:
-    """Yield the files that a package was installed with, in a fixed order."""
-    for path in sorted(folder.rglob("*")):
-        if path.is_file() and "__pycache__" not in path.parts:
-            yield path
+    return folders_digest(_PARTS).encode()
 
 
 def last_drawn(store: Store, keys: Sequence[str]) -> str:

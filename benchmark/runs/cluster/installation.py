@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
-import importlib
 from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import entry_points, version
-from pathlib import Path
 
 from mocapbench.benchmark.registry import REGISTRIES
+from mocapbench.benchmark.runs.source_code.folders import folders_digest
 
 __all__ = ["difference", "installation"]
 
@@ -27,7 +25,7 @@ def installation() -> Mapping[str, str]:
     points = (point for registry in REGISTRIES for point in entry_points(group=registry.group))
     packages = {point.dist.name for point in points if point.dist}
     versions = {name: version(name) for name in sorted({*_LIBRARIES, *packages})}
-    return {**versions, _SOURCE: _source_digest()}
+    return {**versions, _SOURCE: folders_digest(_PARTS, "*.py")[:12]}
 
 
 def difference(expected: Mapping[str, str], found: Mapping[str, str]) -> str:
@@ -38,13 +36,3 @@ def difference(expected: Mapping[str, str], found: Mapping[str, str]) -> str:
         f"{found.get(name, 'none')}"
         for name in names
     )
-
-
-def _source_digest() -> str:
-    digest = hashlib.sha256()
-    for part in _PARTS:
-        (folder,) = importlib.import_module(f"mocapbench.{part}").__path__
-        for path in sorted(Path(folder).rglob("*.py")):
-            digest.update(path.relative_to(folder).as_posix().encode())
-            digest.update(path.read_bytes())
-    return digest.hexdigest()[:12]
