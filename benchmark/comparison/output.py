@@ -13,7 +13,8 @@ from mocapbench.benchmark.comparison.incomplete import incomplete_notes, losses
 from mocapbench.benchmark.comparison.rows import POOLED, Row
 from mocapbench.benchmark.markdown import escape, table_lines
 from mocapbench.benchmark.registry import METRICS
-from mocapbench.metrics.statistics import ALPHA, FEWEST_UNITS, Contrast, least_signed_rank_p
+from mocapbench.metrics.statistics import FEWEST_UNITS, Contrast, least_signed_rank_p
+from mocapbench.reports import ChangeVerdict
 
 __all__ = ["markdown", "notes", "outcome", "terminal"]
 
@@ -22,10 +23,9 @@ POWERLESS = (
     f"{least_signed_rank_p(FEWEST_UNITS):.4g}, however large the difference: go by the paired "
     "t-test."
 )
-TOO_FEW = "too few to test"
 MORE = (
-    f"For what is {TOO_FEW}: `mocapbench run` with more --folds helps where n counts folds, and "
-    "recordings of more people, as many of each, where it counts people."
+    "Too few to test: where n counts folds, give `mocapbench run` more --folds; where it counts "
+    "people, add recordings of more people, equally many of each."
 )
 
 TARGETED = (
@@ -36,16 +36,12 @@ TARGETED = (
 
 def outcome(row: Row, sides: tuple[str, str]) -> str:
     """Return who is better by the corrected t-test, or why that cannot be said."""
-    contrast = row.contrast
-    if row.incomplete:
+    verdict = row.verdict
+    if verdict is ChangeVerdict.INCOMPLETE:
         return "; ".join(f"{side} {loss}" for side, loss in losses(row, sides))
-    if row.identical:
-        return "identical"
-    if not contrast.tested:
-        return TOO_FEW
-    if row.t_p_holm > ALPHA:
-        return "not separable"
-    return f"{sides[contrast.advantage < 0.0]} better"
+    if verdict.more_than_chance:
+        return f"{sides[verdict is ChangeVerdict.BETTER]} better"
+    return str(verdict.value)
 
 
 def terminal(rows: Sequence[Row], sides: tuple[str, str]) -> Iterator[Table]:
@@ -54,12 +50,12 @@ def terminal(rows: Sequence[Row], sides: tuple[str, str]) -> Iterator[Table]:
     They are for a console that knows no markup.
     """
     for title, group in _by_metric(rows):
-        shown = [row for row in group if outcome(row, sides) != "identical"]
+        shown = [row for row in group if row.verdict is not ChangeVerdict.IDENTICAL]
         table = Table(box=SIMPLE, padding=0, title=title, title_justify="left")
         for head in _columns(sides):
             table.add_column(head, overflow="fold")
         for row in shown:
-            style = "bold" if outcome(row, sides).endswith("better") else ""
+            style = "bold" if row.verdict.more_than_chance else ""
             table.add_row(*_cells(row, sides), style=style)
         if shown:
             yield table
@@ -89,7 +85,7 @@ def notes(rows: Sequence[Row], sides: tuple[str, str]) -> list[str]:
         "which a few have most of the weight.",
         *([f"{identical} of {len(rows)} comparisons are identical."] if identical else []),
         *([POWERLESS] if FEWEST_UNITS in tested else []),
-        *([MORE] if any(outcome(row, sides) == TOO_FEW for row in rows) else []),
+        *([MORE] if any(row.verdict is ChangeVerdict.UNTESTED for row in rows) else []),
     ]
 
 

@@ -15,7 +15,8 @@ import pandas as pd
 from mocapbench.benchmark.comparison.units import units_of, with_advantages
 from mocapbench.benchmark.results.bundle import metric_info
 from mocapbench.benchmark.tasks.base import Task
-from mocapbench.metrics.statistics import ROPE, Contrast, contrast, holm
+from mocapbench.metrics.statistics import ALPHA, ROPE, Contrast, contrast, holm
+from mocapbench.reports import ChangeVerdict
 
 __all__ = ["POOLED", "Row", "case_rows", "corrected", "pooled_rows"]
 
@@ -51,6 +52,19 @@ class Row:
     def incomplete(self) -> bool:
         """Whether a side lost folds."""
         return self.first_lost + self.second_lost > 0
+
+    @property
+    def verdict(self) -> ChangeVerdict:
+        """How the second side compares with the first, by the corrected t-test."""
+        if self.incomplete:
+            return ChangeVerdict.INCOMPLETE
+        if self.identical:
+            return ChangeVerdict.IDENTICAL
+        if not self.contrast.tested:
+            return ChangeVerdict.UNTESTED
+        if self.t_p_holm > ALPHA:
+            return ChangeVerdict.MAY_BE_CHANCE
+        return ChangeVerdict.BETTER if self.contrast.advantage < 0.0 else ChangeVerdict.WORSE
 
 
 def case_rows(task: Task, metric: str, folds: Folds, rope: float = ROPE) -> list[Row]:

@@ -15,8 +15,7 @@ from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.results.shown_metrics import shown_metrics
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Task
-from mocapbench.metrics.statistics import ALPHA
-from mocapbench.reports import ChangeVerdict, ScoreChange
+from mocapbench.reports import ScoreChange
 
 __all__ = ["score_changes"]
 
@@ -57,17 +56,5 @@ def _change(row: Row) -> ScoreChange:
         second=found.second,
         low=-found.high,
         high=-found.low,
-        verdict=_verdict(row),
+        verdict=row.verdict,
     )
-
-
-def _verdict(row: Row) -> ChangeVerdict:
-    if row.incomplete:
-        return ChangeVerdict.INCOMPLETE
-    if row.identical:
-        return ChangeVerdict.IDENTICAL
-    if not row.contrast.tested:
-        return ChangeVerdict.UNTESTED
-    if row.t_p_holm > ALPHA:
-        return ChangeVerdict.MAY_BE_CHANCE
-    return ChangeVerdict.BETTER if row.contrast.advantage < 0.0 else ChangeVerdict.WORSE

@@ -45,7 +45,7 @@ def units(filled: Filled) -> tuple[str, ...]:
 
 def _note(choice: Choice, model: str, *, chosen: str) -> str:
     ranking = choice.ranking
-    alike = f"not separable from {ranking.order[0]}" if model in ranking.rivals else ""
+    alike = f"lead of {ranking.order[0]} may be chance" if model in ranking.rivals else ""
     notes = ("chosen" if model == chosen else "", alike)
     windows = "fitted to windows" if choice.windows[model] else ""
     return ", ".join(filter(None, (*notes, windows)))

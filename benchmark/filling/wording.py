@@ -60,7 +60,7 @@ def _lead(choice: Choice) -> str:
     if not ranking.rivals:
         return f"It leads by far, but gaps differ too much for a test, over {trials}."
     rivals = listed(ranking.rivals, len(ranking.rivals))
-    return f"Its lead over {rivals} could be chance, over {trials}."
+    return f"Its lead over {rivals} may be chance, over {trials}."
 
 
 def _trials(ranking: Ranking) -> str:

@@ -140,7 +140,8 @@ def test_overlapping_windows_of_one_person_count_as_one(cli, run, tmp_path):
     rows = compared(cli, tmp_path, run("run", *groups), "--models", "knn,nn")
     assert list(rows["n"]) == [1, 1, 2]
     assert rows["t_p"].isna().all()
-    assert cli.printed.count("too few to test") == 5  # three rows, and two notes
+    assert cli.printed.count("too few to test") == 4  # three rows, and the note on n
+    assert "give `mocapbench run` more --folds" in cli.printed
 
 
 @pytest.mark.parametrize(
@@ -195,13 +196,14 @@ def test_equal_means_of_units_are_not_identical_values(cli, run, tmp_path):
     rows = compared(cli, tmp_path, both, "--models", "knn,nn", "--metrics", "mse")
     assert not rows["identical"].any()
     assert rows.loc["all cases", ["n", "advantage"]].to_list() == [1, 0.0]
-    assert cli.printed.count("too few to test") == 5  # three rows, and two notes
+    assert cli.printed.count("too few to test") == 4  # three rows, and the note on n
+    assert "give `mocapbench run` more --folds" in cli.printed
 
 
 def test_nothing_is_said_of_few_units_where_all_is_identical(cli, run):
     path = run("run", records("knn", {"test 1": [1.0]}))
     assert cli("compare", path, path) == 0
-    assert "For what is too few to test" not in cli.printed
+    assert "give `mocapbench run` more --folds" not in cli.printed
 
 
 def test_rows_that_are_means_of_others_do_not_count_beside_them(cli, run, tmp_path):
