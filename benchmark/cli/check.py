@@ -56,7 +56,11 @@ def check(
         typer.Option(help="How tight to be; by default what versions and machine say."),
     ] = None,
     controls: Annotated[
-        bool, typer.Option("--controls", help="Rather: do samples surpass those of the control?")
+        bool,
+        typer.Option(
+            "--controls",
+            help="Check samples against the negative control instead of reference values.",
+        ),
     ] = False,
     strict: Annotated[
         bool, typer.Option("--strict", help="Fail too on what is better or new, until recorded.")

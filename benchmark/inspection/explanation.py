@@ -16,6 +16,8 @@ from mocapbench.benchmark.tasks.address import Address
 
 __all__ = ["Explanation", "Step", "explain"]
 
+UNEXPLAINED = "its record was written by an earlier version, which did not keep the reasons"
+
 
 class Step(StrEnum):
     """What becomes of a job."""
@@ -130,7 +132,7 @@ class _Earlier:
         if several:
             return "new since its last record", min(several, key=len)
         if row in self._without_parts:
-            return "its record is of an earlier version, which did not keep what keys cover", ()
+            return UNEXPLAINED, ()
         return "no record yet", ()
 
 

@@ -268,7 +268,7 @@ def test_records_of_earlier_versions_are_told_from_none(world, monkeypatch):
     (world.out / "keys.json").unlink()
     assert world.explained().step is Step.SKIP
     _metric(world, monkeypatch)
-    assert "of an earlier version" in world.explained().cause
+    assert "by an earlier version" in world.explained().cause
 
 
 def test_of_jobs_that_share_predictions_one_fits(world):
