@@ -102,10 +102,7 @@ def check(
         known, values, records, environment=environment, tolerances=tolerances, strict=strict
     )
     _show(result, console)
-    if markdown is not None:
-        write_text(markdown, gate.markdown(result))
-    if junit is not None:
-        write_bytes(junit, gate.junit(result))
+    _write(result, markdown, junit)
     if update:
         gate.write_reference(reference, gate.updated(known, values, records))
         console.print(f"{reference} now holds this run: review it like code", soft_wrap=True)
@@ -144,3 +141,10 @@ def _show(result: Check, console: LiteralConsole) -> None:
     if table.row_count:
         console.print(table)
     console.print(f"check: {gate.summary(result)}", soft_wrap=True)
+
+
+def _write(result: Check, markdown: Path | None, junit: Path | None) -> None:
+    if markdown is not None:
+        write_text(markdown, gate.markdown(result))
+    if junit is not None:
+        write_bytes(junit, gate.junit(result))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,6 +14,9 @@ from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DEFAULT_OUT, Out, show_left_out
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.files import atomic_write, write_text
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 __all__ = ["app"]
 
@@ -35,14 +38,8 @@ def export(
     records = store.planned()
     tables = {"scores": bench.score_table(records), "jobs": bench.job_table(records)}
     for name, table in tables.items():
-        write_text(folder / f"{name}.csv", reports.csv_text(table))
-        if with_parquet:
-            with atomic_write(folder / f"{name}.parquet") as file:
-                table.to_parquet(file, index=False)
-        suffixes = ".csv and .parquet" if with_parquet else ".csv"
-        console.print(
-            f"{reports.counted(len(table), 'row')}: {folder / name}{suffixes}", soft_wrap=True
-        )
+        files = _write_table(table, folder / name, with_parquet=with_parquet)
+        console.print(f"{reports.counted(len(table), 'row')}: {files}", soft_wrap=True)
     if not with_parquet:
         advice = "no Parquet files, which need pyarrow: `pip install 'mocapbench[parquet]'`"
         console.print(advice)
@@ -52,3 +49,13 @@ def export(
         console.print(f"not exported: {jobs} of earlier runs in {out}", soft_wrap=True)
     if not records:
         raise typer.Exit(ExitCode.NOTHING_RAN)
+
+
+def _write_table(table: pd.DataFrame, path: Path, *, with_parquet: bool) -> str:
+    """Write a table to files called ``path`` and a suffix, and return which they are."""
+    write_text(path.with_name(f"{path.name}.csv"), reports.csv_text(table))
+    if not with_parquet:
+        return f"{path}.csv"
+    with atomic_write(path.with_name(f"{path.name}.parquet")) as file:
+        table.to_parquet(file, index=False)
+    return f"{path}.csv and .parquet"

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Sequence
-from datetime import UTC, datetime
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench import datasets
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.data import fetch_missing
 from mocapbench.benchmark.cli.options import (
@@ -25,10 +22,11 @@ from mocapbench.benchmark.cli.options import (
     open_archive,
     split,
 )
+from mocapbench.benchmark.cli.running.about import about
 from mocapbench.benchmark.cli.running.log import require_log, run_log
 from mocapbench.benchmark.cli.running.session import Session
 from mocapbench.benchmark.cli.running.signals import interrupt_at_the_end_of_the_session
-from mocapbench.benchmark.cli.running.wording import fetching
+from mocapbench.benchmark.cli.running.wording import downloading, fetching
 from mocapbench.benchmark.errors import UsageError
 
 if TYPE_CHECKING:
@@ -119,13 +117,11 @@ def run(
     planned = _planned(request, archive)
     if explain:
         console.print(bench.explanation_table(bench.explain(planned, out)))
-    elif dry_run:
-        console.print(bench.plan_table(planned))
     if dry_run:
         n_workers = None if scheduler or cluster else jobs or bench.n_cores()
-        remedy = fetching(planned, plugins) if offline else _downloading(planned)
-        for line in bench.forecast_text(planned, profile, out, n_workers, remedy):
-            console.print(line, soft_wrap=True, highlight=False)
+        remedy = fetching(planned, plugins) if offline else downloading(planned)
+        forecast = bench.forecast_text(planned, profile, out, n_workers, remedy)
+        _show_plan(planned, forecast, console, explained=explain)
         return
     store, site = bench.Store.create(out), bench.open_site(jobs, scheduler, cluster)
     config = bench.WorkerConfig(
@@ -134,7 +130,7 @@ def run(
         timeout,
         int((memory or site.memory) * 2**30),
         threads,
-        _about(planned, request, threads),
+        about(planned, request, threads),
         task_files,
     )
     interrupt_at_the_end_of_the_session()
@@ -155,23 +151,15 @@ def _planned(request: Request, archive: Archive) -> Sequence[Job]:
     return planned
 
 
-def _about(planned: Sequence[Job], request: Request, threads: int) -> dict[str, str]:
-    """Return what is to be known of the run: its provenance, its request and when it started."""
-    return {
-        **bench.provenance(["mocapbench", *sys.argv[1:]], threads),
-        "profile": request.profile,
-        "seed": str(request.seed),
-        "started": datetime.now(UTC).isoformat(timespec="seconds"),
-        **_acknowledgement(planned),
-    }
-
-
-def _downloading(planned: Sequence[Job]) -> str:
-    trials = " ".join(uri.removeprefix("cmu:") for uri in bench.lacking(planned))
-    return f"the run downloads them first: {trials}"
-
-
-def _acknowledgement(planned: Sequence[Job]) -> dict[str, str]:
-    """Return what the database asks to be said of work that uses it."""
-    used = any(uri.startswith("cmu:") for job in planned if not job.missing for uri in job.digests)
-    return {"acknowledgement": datasets.CMU_ACKNOWLEDGEMENT} if used else {}
+def _show_plan(
+    planned: Sequence[Job],
+    forecast: Iterable[str],
+    console: LiteralConsole,
+    *,
+    explained: bool,
+) -> None:
+    """Show what a run would do, in a table unless that was explained, and how long it may take."""
+    if not explained:
+        console.print(bench.plan_table(planned))
+    for line in forecast:
+        console.print(line, soft_wrap=True, highlight=False)

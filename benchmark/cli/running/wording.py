@@ -14,7 +14,7 @@ from mocapbench import reports
 if TYPE_CHECKING:
     from mocapbench.benchmark import Job, Record
 
-__all__ = ["fetching", "summary", "wall_time", "without_report"]
+__all__ = ["downloading", "fetching", "summary", "wall_time", "without_report"]
 
 
 def summary(records: Sequence[Record]) -> str:
@@ -27,6 +27,12 @@ def summary(records: Sequence[Record]) -> str:
 def fetching(planned: Sequence[Job], plugins: Sequence[Path]) -> str:
     """Return which command gets the recordings that jobs lack."""
     return f"`{bench.fetch_command(bench.lacking(planned), plugins)}` gets them"
+
+
+def downloading(planned: Sequence[Job]) -> str:
+    """Return which recordings that jobs lack a run downloads."""
+    trials = " ".join(uri.removeprefix("cmu:") for uri in bench.lacking(planned))
+    return f"the run downloads them first: {trials}"
 
 
 def wall_time(seconds: float, records: Sequence[Record], started: str) -> str:
