@@ -1,4 +1,4 @@
-from .archives import archive_at, fetch_command, full_paths, require_recordings
+from .archives import archive_at, fetch_command, full_paths, recording_names, require_recordings
 from .catalogue import (
     entrant_entry,
     format_entry,
@@ -166,6 +166,7 @@ __all__ = [
     "plan_table",
     "planned_task_files",
     "provenance",
+    "recording_names",
     "require_recordings",
     "require_site",
     "required_sources",

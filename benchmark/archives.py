@@ -11,7 +11,14 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES
 from mocapbench.datasets import Archive, named_folders
 
-__all__ = ["archive_at", "fetch_command", "full_paths", "require_recordings"]
+__all__ = [
+    "archive_at",
+    "fetch_command",
+    "fetch_start",
+    "full_paths",
+    "recording_names",
+    "require_recordings",
+]
 
 
 def archive_at(data_dir: Path | None) -> Archive:
@@ -46,8 +53,18 @@ def full_paths(data_dir: Path | None) -> Path | None:
 
 def fetch_command(uris: Iterable[str], plugins: Iterable[Path]) -> str:
     """Return the command that gets recordings, of libraries that plug-in files define too."""
+    return f"{fetch_start(plugins)} {shlex.join(recording_names(uris))}"
+
+
+def fetch_start(plugins: Iterable[Path]) -> str:
+    """Return the command that gets recordings up to their names, which may be any."""
     options = "".join(f" --plugin {shlex.quote(str(path))}" for path in plugins)
-    return f"{Archive.fetch_command(*uris)}{options}"
+    return f"{Archive.fetch_command()}{options}"
+
+
+def recording_names(uris: Iterable[str]) -> tuple[str, ...]:
+    """Return recordings as the command that gets them names them, such as ``"35_02"``."""
+    return tuple(uri.removeprefix("cmu:") for uri in uris)
 
 
 def require_recordings(data_dir: Path | None, archive: Archive) -> None:

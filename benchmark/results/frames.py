@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 
 import numpy as np
@@ -47,7 +48,9 @@ def job_table(records: Sequence[Record]) -> pd.DataFrame:
     """Return one row per job, with how it ended and what it cost.
 
     Columns: ``task, case, fold, label, model, parameters, status, message, traceback``,
-    ``fit_seconds, predict_seconds, peak_memory_mb, iterations, converged, engine``.
+    ``fit_seconds, predict_seconds, peak_memory_mb, iterations, converged, engine``, and of a job
+    that lacked recordings ``missing``, their names as a shell takes them, and ``fetch``, the
+    command that gets them, up to their names.
     """
     rows = [
         {
@@ -57,10 +60,13 @@ def job_table(records: Sequence[Record]) -> pd.DataFrame:
             "status": record.status.value,
             "message": record.message,
             "traceback": record.traceback,
+            "missing": shlex.join(record.missing),
+            "fetch": record.fetch,
         }
         for record in records
     ]
     columns = [*_ADDRESS, "parameters", "status", "message", "traceback", *_COSTS]
+    columns += ["missing", "fetch"]
     return pd.DataFrame(rows, columns=columns)
 
 

@@ -73,6 +73,9 @@ class Record:
     problem : str
         Digest of the problem that was posed; empty where there are no scores, and in records of
         earlier versions.
+    missing, fetch : tuple of str, str
+        Recordings that the job lacked, and the command that gets them, up to their names; empty
+        in records of earlier versions.
     """
 
     key: str
@@ -96,11 +99,14 @@ class Record:
     warnings: tuple[str, ...] = ()
     provenance: Mapping[str, str] = field(default_factory=dict)
     problem: str = ""
+    missing: tuple[str, ...] = ()
+    fetch: str = ""
 
     def __post_init__(self) -> None:
-        for name in ("message", "traceback", "engine"):
+        for name in ("message", "traceback", "engine", "fetch"):
             object.__setattr__(self, name, _plain(getattr(self, name)))
-        object.__setattr__(self, "warnings", tuple(map(_plain, self.warnings)))
+        for name in ("warnings", "missing"):
+            object.__setattr__(self, name, tuple(map(_plain, getattr(self, name))))
 
     def to_json(self) -> str:
         """Return the record as strict JSON; NaN becomes null, the address five entries."""
@@ -125,12 +131,12 @@ class Record:
             if document.pop("format") != FORMAT:
                 raise RecordError("the record has another format")
             document["status"] = Status(document["status"])
-            document["warnings"] = tuple(document["warnings"])
+            document = {**_SINCE, **document}
+            document |= {name: tuple(document[name]) for name in ("warnings", "missing")}
             document["scores"] = {
                 name: math.nan if value is None else float(value)
                 for name, value in document["scores"].items()
             }
-            document.setdefault("problem", "")  # of an earlier version
             missing = _ENTRIES ^ set(document)
             if missing:
                 raise RecordError(f"fields missing or unknown: {sorted(missing)}")
@@ -141,6 +147,10 @@ class Record:
 
 
 _ENTRIES = {*Address._fields, *(item.name for item in fields(Record))} - {"address"}
+
+
+_SINCE: Mapping[str, Any] = {"problem": "", "missing": (), "fetch": ""}
+"""What records of earlier versions lack."""
 
 
 _LONG = re.compile(rb"(?<![0-9.])[0-9]{19}")

@@ -7,7 +7,12 @@ from functools import partial
 
 from rich.console import Console
 
-from mocapbench.benchmark.archives import archive_at, fetch_command
+from mocapbench.benchmark.archives import (
+    archive_at,
+    fetch_command,
+    fetch_start,
+    recording_names,
+)
 from mocapbench.benchmark.events import EventLog
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
 from mocapbench.benchmark.runs.execution.base import Site
@@ -120,8 +125,13 @@ def _log_end(log: EventLog, record: Record, seconds: float) -> None:
 
 
 def _without_data(job: Job, config: WorkerConfig) -> Record:
-    """Return the record of a job whose recordings cannot be had."""
-    trials = " ".join(uri.removeprefix("cmu:") for uri in job.missing)
-    command = fetch_command(job.missing, config.plugins)
-    message = f"{trials} cannot be had: get it with `{command}`"
-    return job.record(Status.DATA_MISSING, message, provenance=config.provenance)
+    """Return the record of a job whose recordings are not here."""
+    names, command = recording_names(job.missing), fetch_command(job.missing, config.plugins)
+    those = "it" if len(names) == 1 else "them"
+    return job.record(
+        Status.DATA_MISSING,
+        f"not on this machine: {', '.join(names)}; get {those} with `{command}`",
+        missing=names,
+        fetch=fetch_start(config.plugins),
+        provenance=config.provenance,
+    )

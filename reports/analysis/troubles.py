@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -28,6 +30,10 @@ class Trouble:
     status : str
         How it ended: any status but ``"ok"``.
     message, traceback : str
+    missing : tuple of str
+        Names of the recordings that it lacked, where that is known.
+    fetch : str
+        The command that gets them, up to their names.
     """
 
     id: str
@@ -38,21 +44,28 @@ class Trouble:
     status: str
     message: str
     traceback: str
+    missing: tuple[str, ...] = ()
+    fetch: str = ""
 
 
-FIELDS = ("task", "case", "label", "status", "message", "traceback")
+FIELDS = ("task", "case", "label", "status", "message", "traceback", "fetch")
 
 
 def troubles(bundle: Bundle, task: str | None = None) -> tuple[Trouble, ...]:
     """Return the jobs that did not end well, of one task or all, in the order of the records."""
     lost = bundle.records["status"].to_numpy() != "ok"
     wanted = lost if task is None else lost & (bundle.records["task"].to_numpy() == task)
-    rows = bundle.records.loc[wanted, ["fold", *FIELDS]].assign(number=np.cumsum(lost)[wanted])
+    rows = bundle.records[wanted].reindex(columns=["fold", "missing", *FIELDS])
     return tuple(
         Trouble(
-            id=f"job-{row['number']}",
+            id=f"job-{number}",
             fold=int(row["fold"]),
-            **{field: "" if pd.isna(row[field]) else str(row[field]) for field in FIELDS},
+            missing=tuple(shlex.split(_text(row["missing"]))),
+            **{field: _text(row[field]) for field in FIELDS},
         )
-        for row in rows.to_dict("records")
+        for number, row in zip(np.cumsum(lost)[wanted], rows.to_dict("records"), strict=True)
     )
+
+
+def _text(cell: Any) -> str:
+    return "" if pd.isna(cell) else str(cell)

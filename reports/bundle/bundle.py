@@ -47,7 +47,8 @@ class Bundle:
         ``data-missing``), ``message``, ``traceback``, ``fit_seconds``, ``predict_seconds``,
         ``peak_memory_mb``, ``iterations``, ``converged``, ``engine`` (a name, a colon and the
         reason for it, or nothing). The message of a ``data-missing`` job says how to get the
-        data.
+        data. Columns ``missing`` and ``fetch`` may have the names of its recordings, as a shell
+        takes them, and the command that gets them, up to their names.
     layouts : tuple of TaskLayout
         The tasks, in page order.
     metrics : mapping of str to MetricInfo

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import re
+import shlex
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from mocapbench.reports.analysis.troubles import Trouble
 
 __all__ = ["MissingData", "missing_data"]
-
-MESSAGE = re.compile(r"(?P<names>\S.*) cannot be had: get it with `(?P<command>[^`]+)`")
-"""How a job says which recordings it lacks, and the command that gets them."""
-NAMES = "{names}"
 
 
 @dataclass(frozen=True)
@@ -39,26 +35,17 @@ class MissingData:
 
 def missing_data(jobs: Iterable[Trouble]) -> list[MissingData]:
     """Group the jobs that lack data by the command that gets them, whatever the recordings."""
-    by_command: dict[str, list[tuple[Trouble, tuple[str, ...]]]] = {}
+    groups: dict[str, list[Trouble]] = {}
     for job in jobs:
-        command, recordings = _parse(job.message)
-        by_command.setdefault(command, []).append((job, recordings))
-    return [_group(command, group) for command, group in by_command.items()]
+        groups.setdefault(job.fetch or job.message, []).append(job)
+    return [_group(start, group) for start, group in groups.items()]
 
 
-def _parse(message: str) -> tuple[str, tuple[str, ...]]:
-    """Return the command without the names of the recordings, and the names."""
-    match = MESSAGE.fullmatch(message)
-    if match is None or match["names"] not in match["command"]:
-        return message, ()
-    return match["command"].replace(match["names"], NAMES, 1), tuple(match["names"].split())
-
-
-def _group(command: str, group: list[tuple[Trouble, tuple[str, ...]]]) -> MissingData:
-    recordings = tuple(dict.fromkeys(name for _, names in group for name in names))
+def _group(start: str, group: list[Trouble]) -> MissingData:
+    recordings = tuple(dict.fromkeys(name for job in group for name in job.missing))
     return MissingData(
         recordings,
-        command.replace(NAMES, " ".join(recordings)) if recordings else command,
-        tuple(dict.fromkeys(job.task for job, _ in group)),
+        f"{start} {shlex.join(recordings)}".strip(),
+        tuple(dict.fromkeys(job.task for job in group)),
         len(group),
     )

@@ -31,7 +31,7 @@ def fetching(planned: Sequence[Job], plugins: Sequence[Path]) -> str:
 
 def downloading(planned: Sequence[Job]) -> str:
     """Return which recordings that jobs lack a run downloads."""
-    trials = " ".join(uri.removeprefix("cmu:") for uri in bench.lacking(planned))
+    trials = " ".join(bench.recording_names(bench.lacking(planned)))
     return f"the run downloads them first: {trials}"
 
 

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -40,6 +42,12 @@ def test_a_row_has_the_whole_address_of_its_record(table):
     named = {name: row[name] for name in ("task", "case", "fold", "label")}
     assert named == {name: getattr(ADDRESS, name) for name in named}
     assert (row["model"], row["parameters"]) == ("m", "n=2")
+
+
+def test_a_job_without_its_recordings_names_them_and_the_command_that_gets_them():
+    lacking = replace(_record({}), missing=("12_02", "own:a walk"), fetch="mocapbench data fetch")
+    (row,) = job_table([lacking]).to_dict("records")
+    assert (row["missing"], row["fetch"]) == ("12_02 'own:a walk'", "mocapbench data fetch")
 
 
 def test_what_tells_two_rows_of_one_address_apart_is_in_the_table():

@@ -28,6 +28,8 @@ RECORDS = st.builds(
     fit_seconds=st.none() | st.floats(0, 1e6),
     converged=st.none() | st.booleans(),
     engine=TEXT,
+    missing=st.lists(TEXT).map(tuple),
+    fetch=TEXT,
 )
 
 

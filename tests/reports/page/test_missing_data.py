@@ -1,18 +1,15 @@
 from mocapbench.reports.analysis.troubles import Trouble
 from mocapbench.reports.page.missing_data import missing_data
 
-
-def job(message, case="row", task="missing-frames"):
-    return Trouble("job-1", task, case, 0, "knn", "data-missing", message, "")
+FETCH = "mocapbench data fetch"
 
 
-def lacks(*names, options=""):
-    listed = " ".join(names)
-    return f"{listed} cannot be had: get it with `mocapbench data fetch {listed}{options}`"
+def job(*names, fetch=FETCH, message="not on this machine", case="row", task="missing-frames"):
+    return Trouble("job-1", task, case, 0, "knn", "data-missing", message, "", names, fetch)
 
 
 def test_a_missing_recording_is_said_once_whatever_the_jobs():
-    jobs = [job(lacks("12_02"), "a"), job(lacks("12_02", "12_03"), "b"), job(lacks("12_03"), "c")]
+    jobs = [job("12_02", case="a"), job("12_02", "12_03", case="b"), job("12_03", case="c")]
     (found,) = missing_data([*jobs, *jobs])
     assert found.recordings == ("12_02", "12_03")
     assert found.message == "mocapbench data fetch 12_02 12_03"
@@ -20,12 +17,12 @@ def test_a_missing_recording_is_said_once_whatever_the_jobs():
 
 
 def test_commands_with_other_options_stay_apart():
-    plugin = lacks("own:a", options=" --plugin own.py")
-    first, second = missing_data([job(lacks("12_02")), job(plugin, task="own")])
+    plugin = job("own:a walk", fetch=f"{FETCH} --plugin own.py", task="own")
+    first, second = missing_data([job("12_02"), plugin])
     assert first.message == "mocapbench data fetch 12_02"
-    assert second.message == "mocapbench data fetch own:a --plugin own.py"
+    assert second.message == "mocapbench data fetch --plugin own.py 'own:a walk'"
 
 
-def test_another_message_is_shown_as_it_is():
-    (found,) = missing_data([job("ask the owner"), job("ask the owner")])
+def test_a_message_without_names_is_shown_as_it_is():
+    (found,) = missing_data([job(fetch="", message="ask the owner")] * 2)
     assert (found.recordings, found.message, found.jobs) == ((), "ask the owner", 2)
