@@ -89,7 +89,7 @@ def _metrics(records: Sequence[Record]) -> dict[str, str]:
 
 def _mean(folds: Sequence[Array]) -> Array:
     """Return the mean over folds of what each has; NaN where none has anything."""
-    stacked = np.stack(folds)
+    stacked = np.stack(folds).astype(np.float64)
     return mean_over(stacked, np.isfinite(stacked), axis=0).astype(np.float32)
 
 
