@@ -114,7 +114,7 @@ class ChannelKriging(Widened, Imputer, Inductive):
             `fit`, or channels that are hidden together are visible together nowhere.
         """
         self._check_given(recordings)
-        return rehearsed(self, self.recordings_, recordings)
+        return rehearsed(self, recordings, learnt_from=self.recordings_)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

@@ -62,7 +62,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
 
     Attributes
     ----------
-    learnt_from_ : tuple of Recording
+    recordings_ : tuple of Recording
         The recordings given to `fit`.
     periods_ : ndarray of shape (K,)
         Length of a cycle of each recording, in seconds.
@@ -154,7 +154,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
         """
         check_settings(**self.get_params())
         checked = check_recordings(recordings)
-        self.learnt_from_ = checked
+        self.recordings_ = checked
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         # Recordings are sorted by name, so that their order does not affect results.
         order = np.argsort([recording.name for recording in checked], kind="stable")
@@ -189,7 +189,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
             If channels differ, or a recording has no frame.
         """
         self._check_given(recordings)
-        return widened(self, recordings, self.learnt_from_)
+        return widened(self, recordings, learnt_from=self.recordings_)
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
         """Return the state of each frame of recordings, which are placed as by `impute`.

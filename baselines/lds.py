@@ -58,7 +58,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
 
     Attributes
     ----------
-    learnt_from_ : tuple of Recording
+    recordings_ : tuple of Recording
         The recordings given to `fit`.
     parameters_ : Parameters
         The learnt parameters, for standardised channels.
@@ -124,7 +124,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         check_positive("tolerance", self.tolerance)
         # In the order of names, so that the order given does not affect results.
         ordered = sorted(check_recordings(recordings), key=lambda recording: recording.name)
-        self.learnt_from_ = tuple(ordered)
+        self.recordings_ = tuple(ordered)
         self.channels_, self.units_ = ordered[0].channels, ordered[0].units
         self.scaling_ = Standardisation.of(ordered)
         data = self._observations(ordered)
@@ -151,7 +151,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
             If channels differ.
         """
         self._check_given(recordings)
-        return widened(self, recordings, self.learnt_from_)
+        return widened(self, recordings, learnt_from=self.recordings_)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

@@ -67,7 +67,7 @@ class LowRank(Relearning, Imputer, Inductive):
 
     Attributes
     ----------
-    learnt_from_ : tuple of Recording
+    recordings_ : tuple of Recording
         The recordings given to `fit`.
     channels_, units_ : tuple of D str
         The channels of the recordings given to `fit`, and their units.
@@ -133,7 +133,7 @@ class LowRank(Relearning, Imputer, Inductive):
         check_positive("tolerance", self.tolerance)
         checked = check_recordings(recordings)
         check_spread(checked)
-        self.learnt_from_ = checked
+        self.recordings_ = checked
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.own_means_ = OwnMeans.of(checked)
         frames = _Frames.of(np.concatenate([self.own_means_.apply(one) for one in checked]))
@@ -166,7 +166,7 @@ class LowRank(Relearning, Imputer, Inductive):
             `fit`.
         """
         self._check_given(recordings)
-        return widened(self, recordings, self.learnt_from_)
+        return widened(self, recordings, learnt_from=self.recordings_)
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""

@@ -81,7 +81,7 @@ class LatentVariableModel(Relearning, FrameImputer, Inductive, Embedded):
         self._check_parameters()
         dynamics, learning = self._dynamics(), self._learning()
         checked = self._checked(recordings)
-        self.learnt_from_ = checked
+        self.recordings_ = checked
         self.sequences_ = TrainingSequences.of([in_pose_units(each) for each in checked])
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.matcher_ = PoseViterbi().fit(checked)

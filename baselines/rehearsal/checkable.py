@@ -52,13 +52,13 @@ class Relearning(Widened):
     than in gaps.
     """
 
-    learnt_from_: Sequence[Recording]
+    recordings_: Sequence[Recording]
     """The recordings given to ``fit``, which sets them."""
 
     def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
         """Return what it claims of recordings of which more is hidden, not having seen that."""
         self._check_given(trials)
-        known = {recording.name for recording in self.learnt_from_}
+        known = {recording.name for recording in self.recordings_}
         strangers = [trial for trial in trials if trial.name not in known]
         answers = iter(self.as_claimed(strangers) if strangers else ())
         return [self._anew(trial) if trial.name in known else next(answers) for trial in trials]
@@ -66,6 +66,6 @@ class Relearning(Widened):
     def _anew(self, trial: Recording) -> Prediction:
         relearnt: Relearning = clone(self)
         try:
-            return relearnt.fit(pool(self.learnt_from_, [trial])).as_claimed([trial])[0]
+            return relearnt.fit(pool(self.recordings_, [trial])).as_claimed([trial])[0]
         except ValueError:  # a trial may leave too little to learn from
             return self.as_claimed([trial])[0]

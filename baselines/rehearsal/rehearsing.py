@@ -33,7 +33,7 @@ _TINY = np.finfo(np.float64).tiny
 
 
 def rehearsed(
-    model: Widened, learnt_from: Sequence[Recording], recordings: Sequence[Recording]
+    model: Widened, recordings: Sequence[Recording], *, learnt_from: Sequence[Recording]
 ) -> list[Prediction]:
     """Return a model's predictions with variances that trials and training bear out.
 
@@ -43,9 +43,9 @@ def rehearsed(
     ----------
     model : Widened
         What it claims of one recording may not depend on the others.
+    recordings : sequence of Recording
     learnt_from : sequence of Recording
         Those given to its ``fit``.
-    recordings : sequence of Recording
     """
     return [
         _rehearsed(model, learnt_from, recording, claimed)

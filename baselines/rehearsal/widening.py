@@ -20,7 +20,7 @@ __all__ = ["widened"]
 
 
 def widened(
-    model: Widened, recordings: Sequence[Recording], learnt_from: Sequence[Recording] = ()
+    model: Widened, recordings: Sequence[Recording], *, learnt_from: Sequence[Recording] = ()
 ) -> list[Prediction]:
     """Return a model's predictions of recordings, with variances that their trials bear out.
 

@@ -59,7 +59,7 @@ def test_the_frame_rate_is_that_of_recordings_with_two_frames(fitted):
 
 
 def test_recordings_of_different_rates_are_refused(fitted):
-    frame, walk = fitted.learnt_from_
+    frame, walk = fitted.recordings_
     twice = replace(walk, name="twice", times=walk.times / 2)
     for given in ([frame, walk, twice], [walk, frame, twice]):
         with pytest.raises(ValueError, match=r"'twice': expected 30 .* as in 'walk', got 60; res"):

@@ -51,7 +51,10 @@ def test_the_trials_hide_different_channels():
 
 
 def factors(given, training):
-    (before,), (after,) = Claiming().as_claimed([given]), widened(Claiming(), [given], training)
+    (before,), (after,) = (
+        Claiming().as_claimed([given]),
+        widened(Claiming(), [given], learnt_from=training),
+    )
     np.testing.assert_array_equal(after.mean, before.mean)
     hidden = ~given.visible
     return np.where(hidden, after.variance / np.where(hidden, before.variance, 1.0), np.nan)
@@ -84,7 +87,9 @@ def test_without_training_to_hold_out_the_recording_alone_decides():
 def test_other_gaps_keep_what_their_trials_show():
     training, gap = [noise(name, 3.0) for name in "abc"], slice(40, 50)
     recording = without(noise("new", 3.0), [1], gap)
-    (alone,), (both,) = (widened(Claiming(), [recording], known) for known in ((), training))
+    (alone,), (both,) = (
+        widened(Claiming(), [recording], learnt_from=known) for known in ((), training)
+    )
     others = np.arange(8) != 1
     np.testing.assert_array_equal(both.variance[:, others], alone.variance[:, others])
     assert (both.variance[:, 1] > 4.0).all()
@@ -93,7 +98,9 @@ def test_other_gaps_keep_what_their_trials_show():
 def test_a_recording_without_lost_channels_is_left_alone():
     training = [noise(name, 3.0) for name in "abc"]
     recording = without(noise("new", 3.0), [], slice(40, 50))
-    (alone,), (both,) = (widened(Claiming(), [recording], known) for known in ((), training))
+    (alone,), (both,) = (
+        widened(Claiming(), [recording], learnt_from=known) for known in ((), training)
+    )
     np.testing.assert_array_equal(both.variance, alone.variance)
 
 

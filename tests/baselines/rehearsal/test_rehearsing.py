@@ -46,7 +46,10 @@ def with_gap(recording, gap=GAP):
 
 def factor(model, learnt_from, recording):
     """Return by how much the variances of each channel were multiplied."""
-    (before,), (after,) = model.as_claimed([recording]), rehearsed(model, learnt_from, [recording])
+    (before,), (after,) = (
+        model.as_claimed([recording]),
+        rehearsed(model, [recording], learnt_from=learnt_from),
+    )
     hidden = ~recording.visible
     np.testing.assert_array_equal(after.mean, before.mean)
     np.testing.assert_array_equal(after.variance[~hidden], 0.0)
@@ -101,7 +104,7 @@ def test_without_training_to_hold_out_the_recording_alone_decides(training):
     given = with_gap(noise("new", 4.0))
     learnt_from = [given if name == "new" else noise(name, 1.0) for name in training]
     (alone,) = widened(Claiming(), [given])
-    (prediction,) = rehearsed(Claiming(), learnt_from, [given])
+    (prediction,) = rehearsed(Claiming(), [given], learnt_from=learnt_from)
     np.testing.assert_array_equal(prediction.variance, alone.variance)
 
 
@@ -132,7 +135,7 @@ def test_training_has_the_gaps_and_a_copy_besides_where_that_is_shorter():
     assert len(check.copies) == 3
     assert (check.steepest > 1.0).all()
     Looking.seen.clear()
-    rehearsed(Looking(), training, [given])
+    rehearsed(Looking(), [given], learnt_from=training)
     for name in "abc":
         gaps, both = [r for r in Looking.seen if r.name == name]
         np.testing.assert_array_equal(gaps.visible, given.visible)
@@ -143,7 +146,10 @@ def test_training_has_the_gaps_and_a_copy_besides_where_that_is_shorter():
 def test_a_training_recording_in_which_gaps_are_shorter_says_nothing(n_frames, says):
     given = with_gap(noise("new", 1.0))
     training = [noise(name, 9.0, n_frames=n_frames) for name in "abc"]
-    (alone,), (prediction,) = widened(Claiming(), [given]), rehearsed(Claiming(), training, [given])
+    (alone,), (prediction,) = (
+        widened(Claiming(), [given]),
+        rehearsed(Claiming(), [given], learnt_from=training),
+    )
     assert np.array_equal(prediction.variance, alone.variance) is not says
 
 
@@ -163,7 +169,7 @@ def test_those_held_out_are_not_learnt_from_and_share_a_turn_where_many_are_left
         Watched.fits.clear()
         training = [noise(name, 1.0) for name in names]
         held_out = [[r.name for r in turn] for turn, _ in turns([*training, new], new)]
-        rehearsed(Watched(), [*training, new], [with_gap(new)])
+        rehearsed(Watched(), [with_gap(new)], learnt_from=[*training, new])
         assert (len(held_out) == 1) is shared
         assert [*chain(*held_out)] == [names[0], names[len(names) // 2], names[-1]]
         for learnt, turn in zip(Watched.fits, held_out, strict=True):
