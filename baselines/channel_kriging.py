@@ -19,7 +19,7 @@ from mocapbench.baselines.kriging.channel_pairs import DescribedFrames
 from mocapbench.baselines.kriging.channel_process import ChannelProcess
 from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.checkable import Widened
+from mocapbench.baselines.rehearsal.checkable import OneByOne
 from mocapbench.baselines.rehearsal.rehearsing import rehearsed
 from mocapbench.datasets import Recording
 
@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 
-class ChannelKriging(Widened, Imputer, Inductive):
+class ChannelKriging(OneByOne, Imputer, Inductive):
     r"""Predict hidden channels from the visible ones around a frame, by a Gaussian process.
 
     A frame x of recording r at time t is described by the visible channels in it and in the frames
@@ -116,12 +116,7 @@ class ChannelKriging(Widened, Imputer, Inductive):
         self._check_given(recordings)
         return rehearsed(self, recordings, learnt_from=self.recordings_)
 
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictions of `impute`, with the variances that the model itself claims."""
-        self._check_given(recordings)
-        return [self._filled(recording) for recording in recordings]
-
-    def _filled(self, recording: Recording) -> Prediction:
+    def _claimed(self, recording: Recording) -> Prediction:
         pooled = pool(self.recordings_, [recording])
         scaling = Standardisation.of(pooled)
         frames = StackedFrames.of([scaling.apply(each) for each in pooled])

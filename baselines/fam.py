@@ -21,14 +21,14 @@ from mocapbench.baselines.functional.shifts import SHIFTS, Aligned, shift_togeth
 from mocapbench.baselines.functional.statistics import CurveStatistics
 from mocapbench.baselines.functional.validation import check_settings
 from mocapbench.baselines.protocols import Aligner, Imputer, Inductive, Prediction, StatePath
-from mocapbench.baselines.rehearsal.checkable import Relearning
+from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning
 from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.datasets import Recording
 
 __all__ = ["FAM"]
 
 
-class FAM(Relearning, Imputer, Inductive, Aligner):
+class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
     r"""A smooth mean cycle, and a few components by which single cycles differ from it.
 
     A recording is folded at the length of cycle with the highest signal-to-noise ratio, and shifted
@@ -246,12 +246,7 @@ class FAM(Relearning, Imputer, Inductive, Aligner):
     def _placed(self, recording: Recording) -> Array:
         return place(self.scaling_.apply(recording), self.reference_, self.periods_)
 
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictions of `impute`, with the variances that the model itself claims."""
-        self._check_given(recordings)
-        return [self._predicted(recording) for recording in recordings]
-
-    def _predicted(self, recording: Recording) -> Prediction:
+    def _claimed(self, recording: Recording) -> Prediction:
         scaled = self.scaling_.apply(recording)
         cycles = Cycles.of([scaled], [self._placed(recording)], self.n_harmonics)
         scores = infer_scores(cycles.statistics, self.model_)

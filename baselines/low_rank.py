@@ -18,7 +18,7 @@ from mocapbench.baselines.common.recordings import (
 )
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.checkable import Relearning
+from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning
 from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -37,7 +37,7 @@ Where few entries are visible together, loadings may fit them exactly, and the l
 without bound as the noise vanishes (a Heywood case)."""
 
 
-class LowRank(Relearning, Imputer, Inductive):
+class LowRank(OneByOne, Relearning, Imputer, Inductive):
     r"""Fill hidden channels of a frame along the main directions in which poses vary (PPCA).
 
     A frame is :math:`y = m + S (W x + \varepsilon)` with latent :math:`x \sim N(0, I_q)` and noise
@@ -168,12 +168,7 @@ class LowRank(Relearning, Imputer, Inductive):
         self._check_given(recordings)
         return widened(self, recordings, learnt_from=self.recordings_)
 
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictions of `impute`, with the variances that the model itself claims."""
-        self._check_given(recordings)
-        return [self._filled(recording) for recording in recordings]
-
-    def _filled(self, recording: Recording) -> Prediction:
+    def _claimed(self, recording: Recording) -> Prediction:
         frames = _Frames.of(self.own_means_.apply(recording))
         posterior = _Posterior.of(frames, self.loadings_, self.noise_variance_)
         mean = self.own_means_.restore(recording, posterior.latents @ self.loadings_.T)

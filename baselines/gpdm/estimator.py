@@ -33,7 +33,7 @@ from mocapbench.baselines.gpdm.sequences import TrainingSequences, whitened_comp
 from mocapbench.baselines.gpdm.starts import STARTS
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import Embedded, FrameImputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.checkable import Relearning
+from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning
 from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -42,7 +42,7 @@ __all__ = ["LatentVariableModel"]
 Array = NDArray[np.float64]
 
 
-class LatentVariableModel(Relearning, FrameImputer, Inductive, Embedded):
+class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedded):
     """Poses as smooth functions of latent positions, which have a prior.
 
     A subclass provides the prior and the learning algorithm. Its constructor stores ``n_latent``,
@@ -143,12 +143,7 @@ class LatentVariableModel(Relearning, FrameImputer, Inductive, Embedded):
             visible_frames(recording)  # before it learns anew for any of them
         return widened(self, recordings)
 
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictions of `impute`, with the variances that the model itself claims."""
-        self._check_given(recordings)
-        return [self._filled(recording) for recording in recordings]
-
-    def _filled(self, recording: Recording) -> Prediction:
+    def _claimed(self, recording: Recording) -> Prediction:
         visible = visible_frames(recording)
         offset = self.subject_offset * self.matcher_.residual(recording)
         query = Query(self._scaled(recording.values - offset), visible)

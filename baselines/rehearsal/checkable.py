@@ -12,7 +12,7 @@ from mocapbench.baselines.common.recordings import check_channels, pool
 from mocapbench.baselines.protocols import FrameImputer, Prediction
 from mocapbench.datasets import Recording
 
-__all__ = ["Relearning", "Widened"]
+__all__ = ["OneByOne", "Relearning", "Widened"]
 
 
 class Widened(FrameImputer):
@@ -43,6 +43,19 @@ class Widened(FrameImputer):
         """Check that the model is fitted, and to recordings of these channels and units."""
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
+
+
+class OneByOne(Widened):
+    """A model that claims something of each recording by itself, whatever others are given."""
+
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute`, with the variances that the model itself claims."""
+        self._check_given(recordings)
+        return [self._claimed(recording) for recording in recordings]
+
+    @abstractmethod
+    def _claimed(self, recording: Recording) -> Prediction:
+        """Return what the fitted model claims of a recording with its channels and units."""
 
 
 class Relearning(Widened):
