@@ -15,6 +15,7 @@ from mocapbench.baselines.choosing.parts import parts_of
 from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
 from mocapbench.baselines.common.recordings import (
+    by_name,
     check_channels,
     check_recordings,
     check_spread,
@@ -118,10 +119,9 @@ class BestOf(Imputer, Inductive):
             repeats, or a channel has a single visible entry.
         """
         check_share("shrinkage", self.shrinkage)
-        # In the order of names, so that the order given does not affect results.
         checked = check_recordings(recordings)
         check_spread(checked)
-        self.recordings_ = tuple(sorted(checked, key=lambda recording: recording.name))
+        self.recordings_ = by_name(checked)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.panel_ = Panel.of(self.recordings_)
         self.left_out_ = self.panel_.left_out

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.gaps import hidden_together, runs
-from mocapbench.baselines.common.recordings import check_recordings, pool
+from mocapbench.baselines.common.recordings import by_name, check_recordings, pool
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.kriging.channel_pairs import DescribedFrames
 from mocapbench.baselines.kriging.channel_process import ChannelProcess
@@ -96,8 +96,7 @@ class ChannelKriging(OneByOne, Imputer, Inductive):
         ValueError
             If there is no recording, channels differ, or a name repeats.
         """
-        # In the order of names, so that the order given does not affect results.
-        self.recordings_ = tuple(sorted(check_recordings(recordings), key=lambda r: r.name))
+        self.recordings_ = by_name(check_recordings(recordings))
         self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
         return self
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
+from numpy.typing import NDArray
 
 from mocapbench.baselines.alignment.estimator import CycleAligner
 from mocapbench.baselines.alignment.fitting import random_cycle
@@ -133,9 +132,9 @@ class CPM(CycleAligner):
         ]
         return max(runs, key=lambda run: run.objectives[-1])
 
-    def _describe(self, run: Ascent[State], order: Sequence[int]) -> None:
+    def _describe(self, run: Ascent[State], places: NDArray[np.intp]) -> None:
         self.log_likelihood_ = np.array(run.objectives)
         trace = run.state.cycles.mean[:, 0]
-        given = self.sequences_.rows(np.array(order, dtype=np.intp))
+        given = self.sequences_.rows(places)
         self.trace_ = self._unscaled(trace)
         self.prototypes_ = self._unscaled(prototypes(self.path_, given, trace))

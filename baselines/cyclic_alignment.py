@@ -282,10 +282,10 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         self.restart_bounds_ = np.array([run.objectives[-1] for run in self.runs_])
         return self.runs_[int(self.restart_bounds_.argmax())]
 
-    def _describe(self, run: Ascent[State], order: Sequence[int]) -> None:
+    def _describe(self, run: Ascent[State], places: NDArray[np.intp]) -> None:
         self.bound_ = np.array(run.objectives)
         self.cycles_ = self._unscaled(run.state.cycles.mean.swapaxes(0, 1))
-        self.probabilities_ = run.state.labels[list(order)]
+        self.probabilities_ = run.state.labels[places]
         self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)
 
     def _mixture(self, recording: Recording, states: Sequence[State]) -> Prediction:

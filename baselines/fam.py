@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.recordings import by_name, check_recordings, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.functional.basis import Array
 from mocapbench.baselines.functional.components import infer_scores, principal_axes
@@ -156,9 +156,7 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         checked = check_recordings(recordings)
         self.recordings_ = checked
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        # Recordings are sorted by name, so that their order does not affect results.
-        order = np.argsort([recording.name for recording in checked], kind="stable")
-        ordered = [checked[k] for k in order]
+        ordered, places = by_name(checked), places_by_name(checked)
         self.scaling_ = Standardisation.of(ordered)
         scaled = [self.scaling_.apply(recording) for recording in ordered]
         periods = cycle_periods(scaled)
@@ -168,10 +166,9 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
             for shift, recording, period in zip(aligned.shifts, scaled, periods, strict=True)
         ]
         self.reference_, self.cycle_length_ = aligned.curve, self._n_states(scaled, periods)
-        rank = np.argsort(order)
-        self.periods_, self.offsets_ = periods[rank], SHIFTS[aligned.shifts][rank]
-        self.path_ = tuple(self._states(phases[k]) for k in rank)
-        self._learn(Cycles.of(scaled, phases, self.n_harmonics), rank)
+        self.periods_, self.offsets_ = periods[places], SHIFTS[aligned.shifts][places]
+        self.path_ = tuple(self._states(phases[k]) for k in places)
+        self._learn(Cycles.of(scaled, phases, self.n_harmonics), places)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -215,8 +212,8 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         # Runs often end alike but for a shift of all recordings: rounding must not choose.
         return next(run for run in runs if run.objectives[-1] <= least * (1.0 + 1e-9))
 
-    def _learn(self, cycles: Cycles, rank: NDArray[np.intp]) -> None:
-        """Fit mean and components, and set what follows in the order of ``rank`` (K,)."""
+    def _learn(self, cycles: Cycles, places: NDArray[np.intp]) -> None:
+        """Set the mean, the components and, of the recordings at ``places`` (K,), prototypes."""
         n_components = min(self.n_components, len(cycles.phases) - 1)
         fit = fit_components(
             cycles.statistics,
@@ -231,7 +228,7 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         curves = sampled(self.model_.coefficients, self.cycle_length_)
         self.mean_cycle_ = self.scaling_.restore(curves[0])
         self.components_ = curves[1:] * self.scaling_.scale
-        cycle = prototypes(fit.state.components, fit.state.scores, cycles)[rank]
+        cycle = prototypes(fit.state.components, fit.state.scores, cycles)[places]
         self.prototypes_ = self.scaling_.restore(sampled(cycle, self.cycle_length_))
 
     def _n_states(self, scaled: Sequence[Recording], periods: Array) -> int:

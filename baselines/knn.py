@@ -17,6 +17,7 @@ from mocapbench.baselines.common.recordings import (
     check_channels,
     check_recordings,
     check_visible,
+    places_by_name,
     pool,
     stack,
     visible_moments,
@@ -160,8 +161,8 @@ def _later(recordings: Sequence[Recording], spread: float) -> Array:
     Otherwise rounding, which differs among processors, would choose between those before and after
     a frame, and among recordings.
     """
-    rank = {name: place for place, name in enumerate(sorted(r.name for r in recordings), start=1)}
-    return np.concatenate([np.full(len(r.times), TIE * spread * rank[r.name]) for r in recordings])
+    ranks = 1 + places_by_name(recordings)
+    return np.repeat(TIE * spread * ranks, [len(recording.times) for recording in recordings])
 
 
 def _fill_frames(

@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.recordings import by_name, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_sampling
 from mocapbench.baselines.protocols import (
@@ -122,12 +122,10 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         check_count("n_states", self.n_states, 1)
         check_count("max_iter", self.max_iter, 1)
         check_positive("tolerance", self.tolerance)
-        # In the order of names, so that the order given does not affect results.
-        ordered = sorted(check_recordings(recordings), key=lambda recording: recording.name)
-        self.recordings_ = tuple(ordered)
-        self.channels_, self.units_ = ordered[0].channels, ordered[0].units
-        self.scaling_ = Standardisation.of(ordered)
-        data = self._observations(ordered)
+        self.recordings_ = by_name(check_recordings(recordings))
+        self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
+        self.scaling_ = Standardisation.of(self.recordings_)
+        data = self._observations(self.recordings_)
         first = start(initial_states(data, self.n_states), data, PRIORS)
         run = expectation_maximisation(
             first, data, PRIORS, max_iter=self.max_iter, tolerance=self.tolerance

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.ascent import Ascent
-from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.recordings import by_name, check_recordings, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
 from mocapbench.baselines.protocols import Clusterer
@@ -129,8 +129,7 @@ class LGSSM(Clusterer):
         """
         self._check_parameters()
         checked = check_recordings(recordings)
-        # In the order of names, so that the order given does not affect results.
-        ordered = sorted(checked, key=lambda recording: recording.name)
+        ordered = by_name(checked)
         self.scaling_ = Standardisation.of(ordered)
         data = Observations.of([self.scaling_.apply(recording).values for recording in ordered])
         states, rng = initial_states(data, self.n_states), np.random.default_rng(self.random_state)
@@ -140,9 +139,7 @@ class LGSSM(Clusterer):
         self.mixture_, self.converged_ = best.state, best.converged
         self.objective_ = np.array(best.objectives)
         self.n_iterations_ = best.n_iterations
-        names = [recording.name for recording in ordered]
-        order = [names.index(recording.name) for recording in checked]
-        self.labels_: NDArray[np.intp] = best.state.labels[order]
+        self.labels_: NDArray[np.intp] = best.state.labels[places_by_name(checked)]
         return self
 
     def _check_parameters(self) -> None:

@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.markers import marker_places
-from mocapbench.baselines.common.recordings import check_channels, check_recordings, pool
+from mocapbench.baselines.common.recordings import by_name, check_channels, check_recordings, pool
 from mocapbench.baselines.common.rigid import FEWEST, steadiness
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_positive
@@ -111,8 +111,7 @@ class MarkerKriging(Imputer, Inductive, Spatial):
             repeats.
         """
         check_positive("power", self.power)
-        # In the order of names, so that the order given does not affect results.
-        self.recordings_ = tuple(sorted(check_recordings(recordings), key=lambda r: r.name))
+        self.recordings_ = by_name(check_recordings(recordings))
         self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
         self.markers_ = marker_places(self.channels_, self.units_)
         return self

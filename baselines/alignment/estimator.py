@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
+from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.inference import infer
@@ -16,7 +17,12 @@ from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.alignment.start import best_paths
 from mocapbench.baselines.alignment.validation import check_settings
 from mocapbench.baselines.common.ascent import Ascent
-from mocapbench.baselines.common.recordings import check_channels, check_recordings
+from mocapbench.baselines.common.recordings import (
+    by_name,
+    check_channels,
+    check_recordings,
+    places_by_name,
+)
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.protocols import Aligner, StatePath
 from mocapbench.datasets import Recording
@@ -27,8 +33,8 @@ __all__ = ["CycleAligner"]
 class CycleAligner(Aligner):
     """An estimator of one common cycle; a subclass provides the learning and its attributes.
 
-    The model works on channels of zero mean and unit variance. Recordings are sorted by name, so
-    that their order does not affect results.
+    The model works on channels of zero mean and unit variance, and learns from recordings in the
+    order of their names.
     """
 
     family: ClassVar[str] = "Alignment"
@@ -49,7 +55,7 @@ class CycleAligner(Aligner):
         check_settings(**self.get_params())
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        ordered = sorted(checked, key=lambda recording: recording.name)
+        ordered, places = by_name(checked), places_by_name(checked)
         self.scaling_ = Standardisation.of(ordered)
         self.names_ = tuple(recording.name for recording in ordered)
         self.sequences_ = self._sequences(ordered)
@@ -58,11 +64,10 @@ class CycleAligner(Aligner):
         run = self._learn(np.random.default_rng(self.random_state))
         self.state_, self.converged_ = run.state, run.converged
         self.n_iterations_ = run.n_iterations
-        order = [self.names_.index(recording.name) for recording in checked]
         paths = best_paths(self.state_, self.sequences_)
-        self.path_ = tuple(paths[k] for k in order)
+        self.path_ = tuple(paths[k] for k in places)
         self.fitted_ = {r.name: (r, path) for r, path in zip(checked, self.path_, strict=True)}
-        self._describe(run, order)
+        self._describe(run, places)
         return self
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
@@ -88,10 +93,11 @@ class CycleAligner(Aligner):
         """Run EM on ``sequences_`` from random starts and return the best run."""
 
     @abstractmethod
-    def _describe(self, run: Ascent[State], order: Sequence[int]) -> None:
+    def _describe(self, run: Ascent[State], places: NDArray[np.intp]) -> None:
         """Set the attributes of the subclass from the best run.
 
-        Values are in the channels' units, and in the ``order`` in which recordings were given.
+        Values are in the channels' units, and in the order in which recordings were given, whose
+        ``places`` (K,) are those in the run.
         """
 
     def _check_fitted(self, recordings: Sequence[Recording]) -> None:

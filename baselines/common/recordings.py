@@ -1,4 +1,4 @@
-"""Checks of the recordings that models are given, and pooling over fit and impute."""
+"""Checks of the recordings that models are given, their order, and pooling over fit and impute."""
 
 from __future__ import annotations
 
@@ -11,12 +11,14 @@ from mocapbench.datasets import FrameByChannel, Recording, ToyProcess, frame_rat
 from mocapbench.datasets.formats.sets import same_rate
 
 __all__ = [
+    "by_name",
     "check_channels",
     "check_outputs",
     "check_rates",
     "check_recordings",
     "check_spread",
     "check_visible",
+    "places_by_name",
     "pool",
     "stack",
     "visible_moments",
@@ -178,6 +180,24 @@ def check_spread(recordings: Sequence[Recording]) -> None:
         )
 
 
+def by_name(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
+    """Return recordings in the order of their names.
+
+    Models learn from them in this order, so that the order in which they are given does not affect
+    results: neither rounding nor what is drawn at random depends on it.
+    """
+    return tuple(sorted(recordings, key=lambda recording: recording.name))
+
+
+def places_by_name(recordings: Sequence[Recording]) -> NDArray[np.intp]:
+    """Return the place (K,) of each of K recordings in `by_name`, their names being distinct.
+
+    Indexed with it, an array of results in the order of names is in the order of ``recordings``.
+    """
+    places = {recording.name: place for place, recording in enumerate(by_name(recordings))}
+    return np.array([places[recording.name] for recording in recordings], dtype=np.intp)
+
+
 def pool(fitted: Sequence[Recording], given: Sequence[Recording]) -> tuple[Recording, ...]:
     """Return the recordings given to fit or impute, each name once.
 
@@ -188,8 +208,8 @@ def pool(fitted: Sequence[Recording], given: Sequence[Recording]) -> tuple[Recor
     ValueError
         If ``given`` is not a sequence of recordings, there is none, or channels or units differ.
     """
-    by_name = {recording.name: recording for recording in (*fitted, *_listed(given))}
-    return check_recordings(tuple(by_name.values()))
+    named = {recording.name: recording for recording in (*fitted, *_listed(given))}
+    return check_recordings(tuple(named.values()))
 
 
 def stack(recordings: Sequence[Recording]) -> FrameByChannel:

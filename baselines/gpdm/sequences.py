@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.gaps import complete_stretches
-from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.recordings import by_name, check_recordings
 from mocapbench.baselines.common.signs import oriented
 from mocapbench.datasets import Recording
 
@@ -53,7 +53,7 @@ class TrainingSequences:
             If there is no recording, channels differ, a name repeats, no two consecutive frames
             are complete, or no channel moves.
         """
-        checked = sorted(check_recordings(recordings), key=lambda recording: recording.name)
+        checked = by_name(check_recordings(recordings))
         stretches = complete_stretches(checked)
         values = np.concatenate(stretches)
         size = np.maximum(np.abs(values).max(axis=0), 1.0)

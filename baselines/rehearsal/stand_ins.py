@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mocapbench.baselines.common.recordings import by_name
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["Turn", "aligned", "turns"]
@@ -36,7 +37,7 @@ def turns(recordings: Sequence[Recording], given: Recording) -> list[Turn]:
     given : Recording
         The one to fill.
     """
-    others = sorted((r for r in recordings if r.name != given.name), key=lambda r: r.name)
+    others = by_name([one for one in recordings if one.name != given.name])
     if len(recordings) < 2:
         return []
     places = np.unique(np.linspace(0, len(others) - 1, _MOST).round().astype(int))

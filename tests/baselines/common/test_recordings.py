@@ -6,11 +6,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.baselines.common.recordings import (
+    by_name,
     check_channels,
     check_rates,
     check_recordings,
     check_spread,
     check_visible,
+    places_by_name,
     pool,
     visible_moments,
 )
@@ -31,6 +33,14 @@ def test_moments_are_those_of_the_visible_entries(seed):
     mean, variance = visible_moments([recording("a", values[:5]), recording("b", values[5:])])
     np.testing.assert_allclose(mean, np.nanmean(values, axis=0))
     np.testing.assert_allclose(variance, np.nanvar(values, axis=0), atol=1e-15)
+
+
+@given(names=st.lists(st.text(), min_size=1, unique=True))
+def test_what_is_in_the_order_of_names_comes_back_in_the_order_given(names):
+    given = [recording(name, [[0.0]]) for name in names]
+    ordered = by_name(given)
+    assert [one.name for one in ordered] == sorted(names)
+    assert [ordered[place] for place in places_by_name(given)] == given
 
 
 def test_moments_of_a_channel_without_visible_entries_are_nan():
