@@ -10,7 +10,12 @@ import numpy as np
 from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_channels, check_recordings, visible_moments
+from mocapbench.baselines.common.recordings import (
+    check_channels,
+    check_known,
+    check_recordings,
+    visible_moments,
+)
 from mocapbench.baselines.protocols import Inductive, Interpolator, Prediction
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
@@ -63,12 +68,7 @@ class _Interpolation(Interpolator, Inductive):
     def _curves(self, recording: Recording) -> FrameByChannel:
         means = zip(recording.values.T, self.mean_, strict=True)
         curves = np.column_stack([self._curve(recording.times, *channel) for channel in means])
-        if np.isnan(curves).any():
-            channels = [recording.channels[d] for d in np.flatnonzero(np.isnan(curves).any(axis=0))]
-            raise ValueError(
-                f"recording {recording.name!r}: expected a visible entry of every channel here or "
-                f"in the recordings given to fit, got none of {channels}; leave these channels out"
-            )
+        check_known(recording, np.asarray(~np.isnan(curves).any(axis=0)))
         return curves
 
     def _curve(self, times: Frames, values: Frames, mean: float) -> Frames:

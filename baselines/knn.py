@@ -11,7 +11,7 @@ from sklearn.impute import KNNImputer
 from sklearn.neighbors import NearestNeighbors
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.gaps import hidden_frames, runs
+from mocapbench.baselines.common.gaps import hidden_frames, runs, with_steps
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import (
     check_channels,
@@ -181,11 +181,10 @@ def _fill_frames(
 
 def _mean_steps(recordings: Sequence[Recording], n_neighbors: int) -> Steps:
     """Return a function from frames to the mean step of the training frames nearest to each."""
-    steps = np.concatenate([np.diff(recording.values, axis=0) for recording in recordings])
-    frames = np.concatenate([recording.values[:-1] for recording in recordings])
+    usable = with_steps(recordings)
+    steps = np.concatenate([np.diff(recording.values, axis=0) for recording in usable])
+    frames = np.concatenate([recording.values[:-1] for recording in usable])
     known = ~np.isnan(steps).any(axis=1)
-    if not known.any():
-        raise ValueError("expected two consecutive visible frames in some recording, got none")
     steps, frames = steps[known], frames[known]
     index = NearestNeighbors(n_neighbors=min(n_neighbors, len(frames))).fit(frames)
 

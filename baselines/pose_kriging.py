@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.gaps import stretches, visible_frames
+from mocapbench.baselines.common.gaps import visible_frames, with_steps
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import (
@@ -171,9 +171,7 @@ class PoseKriging(FrameImputer, Inductive):
         check_share("least_explained", self.least_explained)
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        usable = [in_pose_units(recording) for recording in checked if _has_step(recording)]
-        if not usable:
-            raise ValueError("expected two consecutive complete frames in training, got none")
+        usable = list(map(in_pose_units, with_steps(checked)))
         self.names_ = tuple(recording.name for recording in usable)
         self.symmetries_ = symmetries(usable)
         self.matchers_ = [
@@ -249,7 +247,3 @@ class PoseKriging(FrameImputer, Inductive):
         shared = np.kron(alike, np.ones((n_frames, n_frames)))
         within = np.kron(np.eye(n_images), drift)
         return np.asarray(shared * (_CONSTANT + self.pose_variance * poses) + _DRIFT * within)
-
-
-def _has_step(recording: Recording) -> bool:
-    return any(len(stretch) > 1 for stretch in stretches(recording))

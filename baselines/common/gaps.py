@@ -20,6 +20,7 @@ __all__ = [
     "stretches",
     "visible_frames",
     "whole_gaps",
+    "with_steps",
 ]
 
 
@@ -120,10 +121,25 @@ def complete_stretches(recordings: Sequence[Recording]) -> list[FrameByChannel]:
     ValueError
         If no two consecutive frames are complete.
     """
-    every = [stretch for recording in recordings for stretch in stretches(recording)]
-    if max(map(len, every), default=0) < 2:
-        raise ValueError("expected two consecutive complete frames in training, got none")
-    return every
+    with_steps(recordings)
+    return [stretch for recording in recordings for stretch in stretches(recording)]
+
+
+def with_steps(recordings: Sequence[Recording]) -> list[Recording]:
+    """Return the recordings in which two consecutive frames are complete.
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+    """
+    usable = [one for one in recordings if any(len(each) > 1 for each in stretches(one))]
+    if not usable:
+        raise ValueError(
+            "expected two consecutive frames of some recording that are visible in all channels, "
+            "got none; add such a recording, or use a model that learns from any visible entries"
+        )
+    return usable
 
 
 def interpolated(

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.recordings import visible_moments
+from mocapbench.baselines.common.recordings import check_known, visible_moments
 from mocapbench.baselines.common.scaling import is_constant
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -62,12 +62,7 @@ class OwnMeans:
         """
         own, _ = visible_moments([recording])
         centre = np.where(np.isnan(own), self.mean, own)
-        if np.isnan(centre).any():
-            channels = [recording.channels[d] for d in np.flatnonzero(np.isnan(centre))]
-            raise ValueError(
-                f"recording {recording.name!r}: expected a visible entry of every channel here or "
-                f"in the recordings given to fit, got none of {channels}; leave these channels out"
-            )
+        check_known(recording, ~np.isnan(centre))
         return centre + self.scale * deviations
 
 

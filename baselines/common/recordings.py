@@ -13,6 +13,7 @@ from mocapbench.datasets.formats.sets import same_rate
 __all__ = [
     "by_name",
     "check_channels",
+    "check_known",
     "check_outputs",
     "check_rates",
     "check_recordings",
@@ -154,10 +155,35 @@ def check_visible(recordings: Sequence[Recording]) -> None:
     ValueError
         If one is hidden in all recordings.
     """
-    seen = ~np.isnan(stack(recordings)).all(axis=0)
-    if not seen.all():
-        channels = [recordings[0].channels[d] for d in np.flatnonzero(~seen)]
-        raise ValueError(f"expected a visible entry of every channel, got none of {channels}")
+    unseen = np.asarray(np.isnan(stack(recordings)).all(axis=0))
+    if unseen.any():
+        channels = _named(recordings[0], unseen)
+        raise ValueError(
+            f"expected a visible entry of every channel in some recording, got none of {channels}; "
+            "leave these channels out with Recording.select"
+        )
+
+
+def check_known(recording: Recording, known: NDArray[np.bool_]) -> None:
+    """Check that every channel of a recording to fill is known, from itself or from training.
+
+    Parameters
+    ----------
+    recording : Recording
+    known : ndarray of bool, shape (D,)
+        Which channels have a visible entry in it or in the recordings given to ``fit``.
+
+    Raises
+    ------
+    ValueError
+        If one is not.
+    """
+    if not known.all():
+        raise ValueError(
+            f"recording {recording.name!r}: expected a visible entry of every channel here or in "
+            f"the recordings given to fit, got none of {_named(recording, ~known)}; leave these "
+            "channels out with Recording.select"
+        )
 
 
 def check_spread(recordings: Sequence[Recording]) -> None:
@@ -172,12 +198,16 @@ def check_spread(recordings: Sequence[Recording]) -> None:
     """
     counts = (~np.isnan(stack(recordings))).sum(axis=0)
     if (counts == 1).any():
-        channels = [recordings[0].channels[d] for d in np.flatnonzero(counts == 1)]
+        channels = _named(recordings[0], counts == 1)
         raise ValueError(
             f"expected at least two visible entries of every channel, got one of {channels}, which "
             "tells nothing of how far it goes: learn from recordings that show more of it, or "
             "leave it out with Recording.select"
         )
+
+
+def _named(recording: Recording, which: NDArray[np.bool_]) -> list[str]:
+    return [recording.channels[d] for d in np.flatnonzero(which)]
 
 
 def by_name(recordings: Sequence[Recording]) -> tuple[Recording, ...]:

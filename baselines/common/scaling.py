@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.recordings import check_spread, visible_moments
+from mocapbench.baselines.common.recordings import check_spread, check_visible, visible_moments
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["Standardisation", "is_constant", "unit_scales"]
@@ -44,14 +44,9 @@ class Standardisation:
         ValueError
             If an output is nowhere visible, or in one entry only.
         """
-        mean, variance = visible_moments(recordings)
-        if np.isnan(mean).any():
-            unseen = [recordings[0].channels[d] for d in np.flatnonzero(np.isnan(mean))]
-            raise ValueError(
-                f"expected every channel to have a visible entry in some recording, got none for "
-                f"{unseen}: leave these channels out with Recording.select"
-            )
+        check_visible(recordings)
         check_spread(recordings)
+        mean, variance = visible_moments(recordings)
         counts = np.sum([recording.visible.sum(axis=0) for recording in recordings], axis=0)
         return cls(mean, np.where(is_constant(mean, variance), 1.0, np.sqrt(variance)), counts)
 

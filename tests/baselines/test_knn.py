@@ -77,7 +77,7 @@ def test_recordings_of_one_instant_are_filled():
 @pytest.mark.parametrize(
     ("train", "new", "message"),
     [
-        ([[1.0, 2.0]], [[np.nan, np.nan]], "consecutive visible frames"),
+        ([[1.0, 2.0]], [[np.nan, np.nan]], "two consecutive frames"),
         ([[1.0, 2.0], [2.0, 3.0]], [[np.nan, np.nan]], "'new': expected a visible frame"),
         ([[np.nan, 2.0]], [[np.nan, 1.0]], r"none of \['c0'\]"),
     ],

@@ -102,7 +102,7 @@ def test_a_constant_channel_keeps_its_value():
 
 
 def test_a_channel_that_nobody_shows_is_refused():
-    with pytest.raises(ValueError, match=r"none for \['hip.ry'\]: leave these channels out"):
+    with pytest.raises(ValueError, match=r"none of \['hip.ry'\]; leave these channels out"):
         LDS().fit([hidden(w, slice(None), 2) for w in WALKS])
 
 

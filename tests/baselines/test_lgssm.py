@@ -64,7 +64,7 @@ def test_a_single_frame_a_still_recording_and_a_hidden_channel_are_clustered():
 
 def test_a_channel_that_nobody_shows_is_refused():
     hidden = [g.hide(np.repeat([[False, True]], len(g.times), axis=0)) for g in GAITS]
-    with pytest.raises(ValueError, match=r"none for \['hip.rx'\]"):
+    with pytest.raises(ValueError, match=r"none of \['hip.rx'\]"):
         LGSSM().fit(hidden)
 
 

@@ -195,7 +195,7 @@ def test_parameters_are_validated(parameters, message):
 
 
 def test_what_cannot_be_filled_is_refused():
-    with pytest.raises(ValueError, match="two consecutive complete frames"):
+    with pytest.raises(ValueError, match="two consecutive frames"):
         PoseKriging().fit([walk("one", 0, 1)])
     model = PoseKriging().fit(TRAINING)
     with pytest.raises(ValueError, match="'new': expected a visible frame"):

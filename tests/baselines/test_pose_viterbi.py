@@ -68,7 +68,7 @@ def test_parameters_are_validated(parameters, message):
 
 
 def test_what_cannot_be_filled_is_refused():
-    with pytest.raises(ValueError, match="two consecutive complete frames"):
+    with pytest.raises(ValueError, match="two consecutive frames"):
         PoseViterbi().fit([recording("train", [[1.0, 2.0]])])
     model = PoseViterbi().fit([recording("train", circle(0, 10))])
     with pytest.raises(ValueError, match="'new': expected a visible frame"):

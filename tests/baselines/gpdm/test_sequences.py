@@ -38,7 +38,7 @@ def test_constant_channels_are_left_out_with_a_warning():
 def test_without_a_moving_channel_or_two_frames_there_is_nothing_to_learn():
     with pytest.raises(ValueError, match="a channel that moves"):
         TrainingSequences.of([recording("a", np.ones((5, 2)))])
-    with pytest.raises(ValueError, match="two consecutive complete frames"):
+    with pytest.raises(ValueError, match="two consecutive frames"):
         TrainingSequences.of([recording("a", np.ones((1, 2)))])
 
 
