@@ -36,9 +36,9 @@ class CPM(CycleAligner):
         kept.
     max_iter : int, default=60
         Largest number of iterations of a run.
-    tolerance : float, default=1e-5
+    tol : float, default=1e-5
         A run has converged when an iteration raises the penalised log-likelihood by less than
-        ``tolerance`` per visible entry.
+        ``tol`` per visible entry.
     regularisation : float, default=0.1
         Weight :math:`\eta` of the penalty on the trace's squared steps and of the Dirichlet prior
         of the jumps.
@@ -103,7 +103,7 @@ class CPM(CycleAligner):
         max_jump: int = 3,
         n_restarts: int = 1,
         max_iter: int = 60,
-        tolerance: float = 1e-5,
+        tol: float = 1e-5,
         regularisation: float = 0.1,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
@@ -111,7 +111,7 @@ class CPM(CycleAligner):
         self.max_jump = max_jump
         self.n_restarts = n_restarts
         self.max_iter = max_iter
-        self.tolerance = tolerance
+        self.tol = tol
         self.regularisation = regularisation
         self.random_state = random_state
 
@@ -126,7 +126,7 @@ class CPM(CycleAligner):
                 self.hyper_,
                 max_jump=self.max_jump,
                 max_iter=self.max_iter,
-                tolerance=self.tolerance,
+                tol=self.tol,
             )
             for _ in range(self.n_restarts)
         ]

@@ -63,8 +63,8 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         `impute` averages over all.
     max_iter : int, default=40
         Largest number of iterations of a run.
-    tolerance : float, default=1e-5
-        A run has converged when an iteration raises the bound by less than ``tolerance`` per
+    tol : float, default=1e-5
+        A run has converged when an iteration raises the bound by less than ``tol`` per
         visible entry.
     n_inner : int, default=3
         Sweeps of the E-step in an iteration.
@@ -167,7 +167,7 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         max_jump: int = 3,
         n_restarts: int = 3,
         max_iter: int = 40,
-        tolerance: float = 1e-5,
+        tol: float = 1e-5,
         n_inner: int = 3,
         regularisation: float = 0.1,
         closeness: float = 0.01,
@@ -183,7 +183,7 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         self.max_jump = max_jump
         self.n_restarts = n_restarts
         self.max_iter = max_iter
-        self.tolerance = tolerance
+        self.tol = tol
         self.n_inner = n_inner
         self.regularisation = regularisation
         self.closeness = closeness
@@ -269,7 +269,7 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
             smoothness=self.smoothness,
             hyper=self.hyper_,
             n_inner=self.n_inner,
-            tolerance=self.tolerance,
+            tol=self.tol,
             grouping=self.grouping,
         )
         self.runs_ = restarts(

@@ -54,9 +54,9 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         if there are fewer); the alignment with the least penalised squared error is kept.
     max_iter : int, default=30
         Largest number of rounds of filling and estimating again.
-    tolerance : float, default=1e-4
+    tol : float, default=1e-4
         A fit has converged when a round raises the penalised log-likelihood by less than
-        ``tolerance`` per visible entry.
+        ``tol`` per visible entry.
     random_state : int, numpy.random.Generator or None, default=None
         Seed of the first reference curves.
 
@@ -132,7 +132,7 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         smoothness: float = 0.1,
         n_restarts: int = 3,
         max_iter: int = 30,
-        tolerance: float = 1e-4,
+        tol: float = 1e-4,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
         self.n_components = n_components
@@ -140,7 +140,7 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         self.smoothness = smoothness
         self.n_restarts = n_restarts
         self.max_iter = max_iter
-        self.tolerance = tolerance
+        self.tol = tol
         self.random_state = random_state
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
@@ -220,7 +220,7 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
             start(cycles.statistics, self.reference_, n_components, self.smoothness),
             self.smoothness,
             max_iter=self.max_iter,
-            tolerance=self.tolerance,
+            tol=self.tol,
         )
         self.log_likelihood_, self.converged_ = np.array(fit.objectives), fit.converged
         self.n_iterations_ = fit.n_iterations

@@ -34,7 +34,7 @@ class KCPM(Clusterer, Aligner):
         Number of runs of CPM, and of K-means.
     max_iter : int, default=60
         Largest number of iterations of a run of CPM.
-    tolerance : float, default=1e-5
+    tol : float, default=1e-5
         Convergence threshold of CPM, as in `CPM`.
     regularisation : float, default=0.1
         Weight of the penalties of CPM, as in `CPM`.
@@ -91,7 +91,7 @@ class KCPM(Clusterer, Aligner):
         max_jump: int = 3,
         n_restarts: int = 1,
         max_iter: int = 60,
-        tolerance: float = 1e-5,
+        tol: float = 1e-5,
         regularisation: float = 0.1,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
@@ -100,7 +100,7 @@ class KCPM(Clusterer, Aligner):
         self.max_jump = max_jump
         self.n_restarts = n_restarts
         self.max_iter = max_iter
-        self.tolerance = tolerance
+        self.tol = tol
         self.regularisation = regularisation
         self.random_state = random_state
 

@@ -32,7 +32,7 @@ class KFAM(Clusterer, Aligner):
         Number of starts of FAM's alignment, and of K-means.
     max_iter : int, default=30
         As in `FAM`.
-    tolerance : float, default=1e-4
+    tol : float, default=1e-4
         As in `FAM`.
     random_state : int, numpy.random.Generator or None, default=None
         Seed of the starts of both.
@@ -88,7 +88,7 @@ class KFAM(Clusterer, Aligner):
         smoothness: float = 0.1,
         n_restarts: int = 1,
         max_iter: int = 30,
-        tolerance: float = 1e-4,
+        tol: float = 1e-4,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
         self.n_styles = n_styles
@@ -97,7 +97,7 @@ class KFAM(Clusterer, Aligner):
         self.smoothness = smoothness
         self.n_restarts = n_restarts
         self.max_iter = max_iter
-        self.tolerance = tolerance
+        self.tol = tol
         self.random_state = random_state
 
     def fit(self, recordings: Sequence[Recording]) -> Self:

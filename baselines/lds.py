@@ -52,8 +52,8 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         training frames have fewer dimensions. ``docs/state-space.md`` has the choice of 15.
     max_iter : int, default=10
         Largest number of iterations of EM.
-    tolerance : float, default=1e-3
-        EM has converged when an iteration raises the objective by less than ``tolerance`` per
+    tol : float, default=1e-3
+        EM has converged when an iteration raises the objective by less than ``tol`` per
         visible entry.
 
     Attributes
@@ -105,10 +105,10 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
 
     family: ClassVar[str] = "State space"
 
-    def __init__(self, n_states: int = 15, *, max_iter: int = 10, tolerance: float = 1e-3) -> None:
+    def __init__(self, n_states: int = 15, *, max_iter: int = 10, tol: float = 1e-3) -> None:
         self.n_states = n_states
         self.max_iter = max_iter
-        self.tolerance = tolerance
+        self.tol = tol
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Learn the parameters from the visible entries.
@@ -121,15 +121,13 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         """
         check_count("n_states", self.n_states, 1)
         check_count("max_iter", self.max_iter, 1)
-        check_positive("tolerance", self.tolerance)
+        check_positive("tol", self.tol)
         self.recordings_ = by_name(check_recordings(recordings))
         self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
         self.scaling_ = Standardisation.of(self.recordings_)
         data = self._observations(self.recordings_)
         first = start(initial_states(data, self.n_states), data, PRIORS)
-        run = expectation_maximisation(
-            first, data, PRIORS, max_iter=self.max_iter, tolerance=self.tolerance
-        )
+        run = expectation_maximisation(first, data, PRIORS, max_iter=self.max_iter, tol=self.tol)
         self.parameters_, self.converged_ = run.state.parameters, run.converged
         self.objective_, self.n_iterations_ = np.array(run.objectives), run.n_iterations
         self.n_states_ = self.parameters_.n_states

@@ -44,8 +44,8 @@ class LGSSM(Clusterer):
         the highest objective is kept.
     max_iter : int, default=10
         Largest number of iterations of a run.
-    tolerance : float, default=1e-3
-        A run has converged when an iteration raises the objective by less than ``tolerance`` per
+    tol : float, default=1e-3
+        A run has converged when an iteration raises the objective by less than ``tol`` per
         visible entry.
     random_state : int, numpy.random.Generator or None, default=None
         Seed of the starts.
@@ -108,14 +108,14 @@ class LGSSM(Clusterer):
         n_states: int = 5,
         n_restarts: int = 3,
         max_iter: int = 10,
-        tolerance: float = 1e-3,
+        tol: float = 1e-3,
         random_state: int | np.random.Generator | None = None,
     ) -> None:
         self.n_styles = n_styles
         self.n_states = n_states
         self.n_restarts = n_restarts
         self.max_iter = max_iter
-        self.tolerance = tolerance
+        self.tol = tol
         self.random_state = random_state
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
@@ -145,7 +145,7 @@ class LGSSM(Clusterer):
     def _check_parameters(self) -> None:
         for name in ("n_styles", "n_states", "n_restarts", "max_iter"):
             check_count(name, getattr(self, name), 1)
-        check_positive("tolerance", self.tolerance)
+        check_positive("tol", self.tol)
         check_seed("random_state", self.random_state)
 
     def _run(self, states: Array, data: Observations, rng: np.random.Generator) -> Ascent[Mixture]:
@@ -156,5 +156,5 @@ class LGSSM(Clusterer):
             data,
             PRIORS,
             max_iter=self.max_iter,
-            tolerance=self.tolerance,
+            tol=self.tol,
         )

@@ -62,7 +62,7 @@ class LowRank(OneByOne, Relearning, Imputer, Inductive):
         Share of variance that the components hold at the start, from 0 to 1.
     max_iter : int, default=100
         Largest number of iterations of EM.
-    tolerance : float, default=1e-5
+    tol : float, default=1e-5
         EM stops when the objective gains less than this for each visible entry; positive.
 
     Attributes
@@ -113,11 +113,11 @@ class LowRank(OneByOne, Relearning, Imputer, Inductive):
         explained_variance: float = 0.95,
         *,
         max_iter: int = 100,
-        tolerance: float = 1e-5,
+        tol: float = 1e-5,
     ) -> None:
         self.explained_variance = explained_variance
         self.max_iter = max_iter
-        self.tolerance = tolerance
+        self.tol = tol
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Learn the loadings and the noise.
@@ -130,7 +130,7 @@ class LowRank(OneByOne, Relearning, Imputer, Inductive):
         """
         check_share("explained_variance", self.explained_variance)
         check_count("max_iter", self.max_iter, 1)
-        check_positive("tolerance", self.tolerance)
+        check_positive("tol", self.tol)
         checked = check_recordings(recordings)
         check_spread(checked)
         self.recordings_ = checked
@@ -146,7 +146,7 @@ class LowRank(OneByOne, Relearning, Imputer, Inductive):
             lambda now: _Fit.of(frames, *_maximised(frames, now.posterior)),
             lambda now: now.posterior.log_likelihood + _log_prior(now.noise),
             max_iter=self.max_iter,
-            threshold=self.tolerance * max(float(frames.seen.sum()), 1.0),
+            threshold=self.tol * max(float(frames.seen.sum()), 1.0),
         )
         self.loadings_, self.noise_variance_ = run.state.loadings, run.state.noise
         self.objective_, self.n_iterations_ = np.array(run.objectives), run.n_iterations

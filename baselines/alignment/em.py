@@ -25,12 +25,12 @@ def expectation_maximisation(
     m_step: Sequence[Update],
     n_inner: int,
     max_iter: int,
-    tolerance: float,
+    tol: float,
     objective: Objective = bound,
 ) -> Ascent[State]:
     """Alternate ``n_inner`` sweeps of the E-step with one of the M-step.
 
-    Stops when the objective rises by less than ``tolerance`` per visible entry, and after
+    Stops when the objective rises by less than ``tol`` per visible entry, and after
     ``max_iter`` iterations at the latest.
     """
     updates = (*e_step,) * n_inner + (*m_step,)
@@ -39,5 +39,5 @@ def expectation_maximisation(
         lambda before: reduce(lambda now, update: update(now, sequences, hyper), updates, before),
         lambda now: objective(now, sequences, hyper),
         max_iter=max_iter,
-        threshold=tolerance * sequences.counts.sum(),
+        threshold=tol * sequences.counts.sum(),
     )

@@ -55,7 +55,7 @@ class EMSettings:
     smoothness: float
     hyper: Hyperparameters
     n_inner: int
-    tolerance: float
+    tol: float
     grouping: str = "random"
 
 
@@ -84,7 +84,7 @@ def run(state: State, sequences: Sequences, settings: EMSettings, max_iter: int)
         m_step=_CLOSENESS[settings.learn_closeness] + _M_STEP,
         n_inner=settings.n_inner,
         max_iter=max_iter,
-        tolerance=settings.tolerance,
+        tol=settings.tol,
     )
 
 

@@ -56,7 +56,7 @@ def infer(sequence: Sequences, fitted: State, hyper: Hyperparameters) -> State:
         m_step=(update_jumps,),
         n_inner=1,
         max_iter=_MAX_ITER,
-        tolerance=_TOLERANCE,
+        tol=_TOLERANCE,
     ).state
 
 

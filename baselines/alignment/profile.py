@@ -33,7 +33,7 @@ def fit_profile(
     *,
     max_jump: int,
     max_iter: int,
-    tolerance: float,
+    tol: float,
 ) -> Ascent[State]:
     """Run EM from a trace (M, F)."""
     state = start(trace, sequences, closeness=1.0, smoothness=1.0, max_jump=max_jump, hyper=hyper)
@@ -46,7 +46,7 @@ def fit_profile(
         m_step=(update_precisions, update_jumps, update_paths),
         n_inner=1,
         max_iter=max_iter,
-        tolerance=tolerance,
+        tol=tol,
         objective=penalised_likelihood,
     )
 

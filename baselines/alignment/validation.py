@@ -24,7 +24,7 @@ _CHECKS: dict[str, Callable[[str, object], None]] = {
         partial(check_count, least=1),
     ),
     "refine_iter": partial(check_count, least=0),
-    **dict.fromkeys(("regularisation", "closeness", "smoothness", "tolerance"), check_positive),
+    **dict.fromkeys(("regularisation", "closeness", "smoothness", "tol"), check_positive),
     "learn_closeness": check_flag,
     "prior": partial(check_choice, choices=PRIORS),
     "grouping": partial(check_choice, choices=GROUPINGS),

@@ -81,9 +81,9 @@ def fit_components(
     smoothness: float,
     *,
     max_iter: int,
-    tolerance: float,
+    tol: float,
 ) -> Ascent[Fit]:
-    """Alternate scores and components until the likelihood rises by less than the tolerance.
+    """Alternate scores and components until the likelihood has converged.
 
     Parameters
     ----------
@@ -95,13 +95,13 @@ def fit_components(
         Weight of the roughness.
     max_iter : int
         Largest number of rounds.
-    tolerance : float
-        Least rise in a round, per visible entry.
+    tol : float
+        It has once a round raises it by less than this per visible entry.
     """
     return ascend(
         Fit.of(statistics, initial),
         lambda now: Fit.of(statistics, update(statistics, now.scores, now.components, smoothness)),
         lambda now: penalised_likelihood(now.scores, now.components, smoothness),
         max_iter=max_iter,
-        threshold=tolerance * statistics.counts.sum(),
+        threshold=tol * statistics.counts.sum(),
     )

@@ -15,7 +15,7 @@ _CHECKS: dict[str, Callable[[str, object], None]] = {
         ("n_styles", "n_harmonics", "n_restarts", "max_iter"), partial(check_count, least=1)
     ),
     "n_components": partial(check_count, least=0),
-    **dict.fromkeys(("smoothness", "tolerance"), check_positive),
+    **dict.fromkeys(("smoothness", "tol"), check_positive),
     "random_state": check_seed,
 }
 

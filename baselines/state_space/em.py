@@ -43,16 +43,16 @@ def expectation_maximisation(
     priors: Priors,
     *,
     max_iter: int,
-    tolerance: float,
+    tol: float,
 ) -> Ascent[Expected]:
     """Alternate M-step and E-step, ``max_iter`` times at most.
 
-    Stops when an iteration raises the objective by less than ``tolerance`` per visible entry.
+    Stops when an iteration raises the objective by less than ``tol`` per visible entry.
     """
     return ascend(
         Expected.of(parameters, data),
         lambda now: Expected.of(maximised(now.states, data, priors), data),
         lambda now: now.objective(priors),
         max_iter=max_iter,
-        threshold=tolerance * data.counts.sum(),
+        threshold=tol * data.counts.sum(),
     )

@@ -94,16 +94,16 @@ def seeded(states: Array, data: Observations, seeds: Labels, priors: Priors) -> 
 
 
 def classification_em(
-    mixture: Mixture, data: Observations, priors: Priors, *, max_iter: int, tolerance: float
+    mixture: Mixture, data: Observations, priors: Priors, *, max_iter: int, tol: float
 ) -> Ascent[Mixture]:
     """Improve a mixture, ``max_iter`` times at most.
 
-    Stops when an iteration raises the objective by less than ``tolerance`` per visible entry.
+    Stops when an iteration raises the objective by less than ``tol`` per visible entry.
     """
     return ascend(
         mixture,
         lambda now: now.improved(data, priors),
         lambda now: now.objective,
         max_iter=max_iter,
-        threshold=tolerance * data.counts.sum(),
+        threshold=tol * data.counts.sum(),
     )

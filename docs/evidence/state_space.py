@@ -36,11 +36,11 @@ N_STARTS = 12
 STATES = (3, 5, 8, 10, 12, 15, 18, 20, 25)
 
 
-def errors(walks: Sequence[Recording], n_states: int, tolerance: float) -> list[float]:
+def errors(walks: Sequence[Recording], n_states: int, tol: float) -> list[float]:
     """Return the mean error norm per frame for each walk when it is left out."""
     found = []
     for test in walks:
-        model = LDS(n_states, max_iter=100, tolerance=tolerance)
+        model = LDS(n_states, max_iter=100, tol=tol)
         model.fit([walk for walk in walks if walk is not test])
         short = test.frames(np.arange(N_TEST_FRAMES))
         starts = range(FIRST_HIDDEN, FIRST_HIDDEN + N_WINDOWS)
@@ -65,10 +65,10 @@ def states() -> None:
         for uri in GROUPS["three-walkers"]
     ]
     for n_states in STATES:
-        for tolerance in (1e-3, 1e-12):
-            left_out = errors(walks, n_states, tolerance)
+        for tol in (1e-3, 1e-12):
+            left_out = errors(walks, n_states, tol)
             began = time.process_time()
-            model = LDS(n_states, max_iter=100, tolerance=tolerance).fit(walks)
+            model = LDS(n_states, max_iter=100, tol=tol).fit(walks)
             seconds = time.process_time() - began
             row = " ".join(f"{error:6.1f}" for error in left_out)
             print(

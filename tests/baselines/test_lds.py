@@ -139,7 +139,7 @@ def test_the_default_raises_no_warning_on_walks_with_noise():
     [
         ({"n_states": 0}, "expected n_states to be an integer of at least 1, got 0"),
         ({"max_iter": 1.5}, "expected max_iter to be an integer of at least 1, got 1.5"),
-        ({"tolerance": -1.0}, "expected tolerance to be a finite positive number, got -1.0"),
+        ({"tol": -1.0}, "expected tol to be a finite positive number, got -1.0"),
     ],
 )
 def test_bad_parameters_are_refused(parameters, message):
@@ -171,7 +171,7 @@ def test_bands_are_hardly_wider_than_the_noise_of_a_recording_that_repeats_itsel
 
 @pytest.mark.parametrize("max_iter", [1, 3, 50])
 def test_the_objective_is_that_of_the_start_and_of_each_iteration(max_iter):
-    model = LDS(2, max_iter=max_iter, tolerance=0.1).fit(WALKS)
+    model = LDS(2, max_iter=max_iter, tol=0.1).fit(WALKS)
     assert len(model.objective_) == model.n_iterations_ + 1
     assert model.n_iterations_ <= max_iter
     assert model.converged_ or model.n_iterations_ == max_iter

@@ -73,7 +73,7 @@ def test_a_channel_that_nobody_shows_is_refused():
     [
         ({"n_styles": 0}, "expected n_styles to be an integer of at least 1, got 0"),
         ({"n_restarts": "3"}, "expected n_restarts to be an integer of at least 1, got '3'"),
-        ({"tolerance": 0.0}, "expected tolerance to be a finite positive number, got 0.0"),
+        ({"tol": 0.0}, "expected tol to be a finite positive number, got 0.0"),
         ({"random_state": -1}, "expected random_state to be None, an integer"),
     ],
 )

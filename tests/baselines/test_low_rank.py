@@ -52,9 +52,7 @@ def test_the_objective_is_the_likelihood_of_the_visible_entries_and_the_prior():
     explained_variance=st.sampled_from([0.3, 0.9, 1.0]),
 )
 def test_the_objective_never_falls(seed, share, explained_variance):
-    model = fitted(
-        scattered("r", seed, share), explained_variance=explained_variance, tolerance=1e-9
-    )
+    model = fitted(scattered("r", seed, share), explained_variance=explained_variance, tol=1e-9)
     assert (np.diff(model.objective_) >= -1e-8).all()
 
 
@@ -163,7 +161,7 @@ def test_a_channel_never_visible_in_training_takes_its_own_mean():
     [
         ({"explained_variance": 2.0}, "expected explained_variance to be a number from 0 to 1"),
         ({"max_iter": 0}, "expected max_iter to be an integer of at least 1, got 0"),
-        ({"tolerance": -1.0}, "expected tolerance to be a finite positive number, got -1.0"),
+        ({"tol": -1.0}, "expected tol to be a finite positive number, got -1.0"),
     ],
 )
 def test_parameters_out_of_range_are_refused(parameters, message):

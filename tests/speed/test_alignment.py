@@ -111,7 +111,7 @@ def _em(n_sequences, n_frames, max_iter):
         smoothness=0.1,
         hyper=Hyperparameters(0.1, PRIORS["normalised"]),
         n_inner=3,
-        tolerance=-np.inf,
+        tol=-np.inf,
     )
     sequences, rng = _sequences(n_sequences, n_frames), np.random.default_rng(0)
     (best,) = restarts(sequences, settings, n_restarts=1, max_iter=max_iter, rng=rng)

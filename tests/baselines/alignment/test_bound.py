@@ -67,7 +67,7 @@ def test_em_never_lowers_the_bound(pose, n_inner, **problem):
         m_step=M_STEP,
         n_inner=n_inner,
         max_iter=12,
-        tolerance=0.0,
+        tol=0.0,
     )
     bounds = np.array([bound(posed.state, posed.sequences, posed.hyper), *run.objectives])
     assert (np.diff(bounds) >= -_slack(bounds[1:])).all()

@@ -7,7 +7,7 @@ import pytest
 from mocapbench.baselines.alignment.em import expectation_maximisation
 
 
-def run(posed, gains, *, tolerance, max_iter=10, calls=None):
+def run(posed, gains, *, tol, max_iter=10, calls=None):
     """Run EM with an objective that rises by the given gains, one an iteration."""
     values, log = iter([0.0, *[sum(gains[: i + 1]) for i in range(len(gains))]]), []
 
@@ -26,7 +26,7 @@ def run(posed, gains, *, tolerance, max_iter=10, calls=None):
         m_step=(update("M"),),
         n_inner=2,
         max_iter=max_iter,
-        tolerance=tolerance,
+        tol=tol,
         objective=lambda *_: next(values),
     )
     return outcome, log
@@ -35,14 +35,14 @@ def run(posed, gains, *, tolerance, max_iter=10, calls=None):
 def test_it_stops_when_the_objective_gains_too_little(pose):
     posed = pose(0)
     n_visible = posed.sequences.counts.sum()
-    outcome, log = run(posed, [10 * n_visible, n_visible, 0.1 * n_visible, 9.0], tolerance=0.5)
+    outcome, log = run(posed, [10 * n_visible, n_visible, 0.1 * n_visible, 9.0], tol=0.5)
     assert outcome.converged
     assert len(outcome.objectives) == 4
     assert log == ["E", "E", "M"] * 3
 
 
 def test_it_stops_at_the_largest_number_of_iterations(pose):
-    outcome, log = run(pose(0), [1.0] * 5, tolerance=0.0, max_iter=4)
+    outcome, log = run(pose(0), [1.0] * 5, tol=0.0, max_iter=4)
     assert not outcome.converged
     assert outcome.objectives == pytest.approx((0.0, 1.0, 2.0, 3.0, 4.0))
     assert log == ["E", "E", "M"] * 4

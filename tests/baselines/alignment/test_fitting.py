@@ -26,7 +26,7 @@ SETTINGS = EMSettings(
     smoothness=0.1,
     hyper=Hyperparameters(0.1, PRIORS["normalised"]),
     n_inner=1,
-    tolerance=1e-4,
+    tol=1e-4,
 )
 
 

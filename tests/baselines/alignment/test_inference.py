@@ -17,7 +17,7 @@ SETTINGS = EMSettings(
     smoothness=0.1,
     hyper=HYPER,
     n_inner=2,
-    tolerance=0.0,
+    tol=0.0,
 )
 
 

@@ -17,7 +17,7 @@ def test_em_never_lowers_the_penalised_likelihood():
         hyper,
         max_jump=2,
         max_iter=30,
-        tolerance=0.0,
+        tol=0.0,
     )
     assert (np.diff(run.objectives) >= -1e-9 * np.abs(run.objectives[1:])).all()
     assert run.objectives[-1] > run.objectives[0] + 1.0

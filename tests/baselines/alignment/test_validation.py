@@ -25,7 +25,7 @@ REFUSED = {
     ),
     "n_states": (6, 0, -8, 20.0, np.nan, "20", True),
     "refine_iter": (-1, 2.5, np.nan, "3", False, None),
-    **dict.fromkeys(("tolerance", "regularisation", "closeness", "smoothness"), NOT_POSITIVE),
+    **dict.fromkeys(("tol", "regularisation", "closeness", "smoothness"), NOT_POSITIVE),
     "learn_closeness": (0, 1, "yes", None, np.nan),
     "prior": ("flat", "", None, 1, np.nan, ["paper"]),
     "grouping": ("alike", "", None, 1, np.nan, ["random"]),

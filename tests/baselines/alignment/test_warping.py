@@ -23,7 +23,7 @@ STEADY = EMSettings(
     smoothness=0.1,
     hyper=Hyperparameters(0.1, PRIORS["normalised"]),
     n_inner=1,
-    tolerance=1e-4,
+    tol=1e-4,
 )
 SIZES = np.array([1.0, 2.0, 1.0, 2.0, 2.0, 1.0, 1.0])
 

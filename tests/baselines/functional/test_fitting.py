@@ -10,7 +10,7 @@ from mocapbench.baselines.functional.shifts import periodic_curve
 
 def _fit(statistics, n_components, smoothness=0.1, max_iter=8):
     initial = start(statistics, periodic_curve(statistics, smoothness), n_components, smoothness)
-    return fit_components(statistics, initial, smoothness, max_iter=max_iter, tolerance=1e-12)
+    return fit_components(statistics, initial, smoothness, max_iter=max_iter, tol=1e-12)
 
 
 @settings(max_examples=30, deadline=None)
@@ -38,9 +38,7 @@ def test_it_ends_when_a_round_gains_too_little(curves):
     statistics = curves(0).statistics
     assert not _fit(statistics, 2, max_iter=1).converged
     curve = periodic_curve(statistics, 0.1)
-    fit = fit_components(
-        statistics, start(statistics, curve, 2, 0.1), 0.1, max_iter=50, tolerance=0.1
-    )
+    fit = fit_components(statistics, start(statistics, curve, 2, 0.1), 0.1, max_iter=50, tol=0.1)
     assert fit.converged
     assert fit.objectives[-1] - fit.objectives[-2] < 0.1 * statistics.counts.sum()
     assert len(fit.objectives) == pytest.approx(3, abs=2)

@@ -13,7 +13,7 @@ NOT_POSITIVE = (0.0, -1e-3, np.nan, np.inf, "0.1", True, None)
 REFUSED = {
     **dict.fromkeys(("n_styles", "n_harmonics", "n_restarts", "max_iter"), NOT_COUNTS),
     "n_components": (-1, 2.5, np.nan, "3", False, None),
-    **dict.fromkeys(("tolerance", "smoothness"), NOT_POSITIVE),
+    **dict.fromkeys(("tol", "smoothness"), NOT_POSITIVE),
     "random_state": (-1, 0.5, np.nan, "0", True, np.random.RandomState),
 }
 WRONG = [

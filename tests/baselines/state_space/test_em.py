@@ -33,9 +33,7 @@ SIZES = st.fixed_dictionaries(
 )
 def test_no_iteration_lowers_the_objective(pose, sizes, priors):
     problem = pose(**sizes)
-    run = expectation_maximisation(
-        problem.parameters, problem.data, priors, max_iter=8, tolerance=-1e9
-    )
+    run = expectation_maximisation(problem.parameters, problem.data, priors, max_iter=8, tol=-1e9)
     objectives = np.array(run.objectives)
     assert len(objectives) == 9
     assert np.diff(objectives).min() >= -1e-9 * np.abs(objectives).max()
@@ -43,9 +41,7 @@ def test_no_iteration_lowers_the_objective(pose, sizes, priors):
 
 def test_the_objective_is_the_likelihood_with_the_prior(pose):
     problem = pose(4)
-    run = expectation_maximisation(
-        problem.parameters, problem.data, PRIORS, max_iter=1, tolerance=0.0
-    )
+    run = expectation_maximisation(problem.parameters, problem.data, PRIORS, max_iter=1, tol=0.0)
     exact = sum(exact.log_likelihood for exact in problem.exact())
     assert run.objectives[0] == pytest.approx(exact + problem.parameters.log_prior(PRIORS))
 
@@ -54,7 +50,7 @@ def test_a_fixed_point_is_a_maximum_of_the_objective(pose):
     """After many iterations, no small step of a parameter raises the objective (a law of EM)."""
     problem = pose(5, lengths=(9, 8), n_states=1, n_channels=2)
     run = expectation_maximisation(
-        problem.parameters, problem.data, PRIORS, max_iter=1000, tolerance=-1e9
+        problem.parameters, problem.data, PRIORS, max_iter=1000, tol=-1e9
     )
 
     def objective(parameters):
@@ -98,9 +94,7 @@ def test_the_order_of_sequences_changes_nothing(pose):
 def test_it_stops_when_an_iteration_gains_too_little(pose):
     problem = pose(8, lengths=(9, 8))
     n_visible = problem.data.counts.sum()
-    run = expectation_maximisation(
-        problem.parameters, problem.data, PRIORS, max_iter=500, tolerance=1e-3
-    )
+    run = expectation_maximisation(problem.parameters, problem.data, PRIORS, max_iter=500, tol=1e-3)
     gains = np.diff(run.objectives) / n_visible
     assert run.converged
     assert gains[-1] < 1e-3 <= gains[:-1].min()

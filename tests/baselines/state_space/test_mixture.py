@@ -20,7 +20,7 @@ def mixture_of(problem, seeds=SEEDS):
 @pytest.mark.parametrize("seed", range(12))
 def test_no_iteration_lowers_the_objective(pose, seed):
     problem = pose(seed, lengths=(6, 1, 9, 4, 7, 5), hidden=0.2)
-    run = classification_em(mixture_of(problem), problem.data, PRIORS, max_iter=10, tolerance=-1e9)
+    run = classification_em(mixture_of(problem), problem.data, PRIORS, max_iter=10, tol=-1e9)
     assert len(run.objectives) == 11
     assert np.diff(run.objectives).min() >= -1e-9 * np.abs(run.objectives).max()
 
@@ -49,7 +49,7 @@ def test_a_component_without_members_stays_as_it_is(pose):
 
 def test_it_stops_when_an_iteration_gains_too_little(pose):
     problem = pose(2, lengths=(6, 5, 8, 7), hidden=0.1)
-    run = classification_em(mixture_of(problem), problem.data, PRIORS, max_iter=99, tolerance=0.01)
+    run = classification_em(mixture_of(problem), problem.data, PRIORS, max_iter=99, tol=0.01)
     gains = np.diff(run.objectives) / problem.data.counts.sum()
     assert run.converged
     assert gains[-1] < 0.01 <= gains[:-1].min()
