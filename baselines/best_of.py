@@ -10,7 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.choosing.panel import LAST_RESORT, Panel
+from mocapbench.baselines.choosing.panel import LAST_RESORT, CandidatePanel
 from mocapbench.baselines.choosing.parts import parts_of
 from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
@@ -73,7 +73,7 @@ class BestOf(Imputer, Inductive):
         The channels of the recordings given to `fit`, and their units.
     recordings_ : tuple of Recording
         The recordings given to `fit`, by which candidates are rehearsed.
-    panel_ : Panel
+    panel_ : CandidatePanel
         The candidates, fitted to them.
     left_out_ : mapping of str to str
         Why other candidates cannot learn from them, by name.
@@ -123,7 +123,7 @@ class BestOf(Imputer, Inductive):
         check_spread(checked)
         self.recordings_ = by_name(checked)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.panel_ = Panel.of(self.recordings_)
+        self.panel_ = CandidatePanel.of(self.recordings_)
         self.left_out_ = self.panel_.left_out
         return self
 

@@ -21,7 +21,7 @@ from mocapbench.baselines.protocols import (
 from mocapbench.baselines.rehearsal.checkable import Relearning
 from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.baselines.state_space.em import expectation_maximisation
-from mocapbench.baselines.state_space.model import PRIORS, Parameters
+from mocapbench.baselines.state_space.model import PRIORS, StateSpaceParameters
 from mocapbench.baselines.state_space.noise import NoiseShown
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.prediction import drawn, moments
@@ -60,7 +60,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
     ----------
     recordings_ : tuple of Recording
         The recordings given to `fit`.
-    parameters_ : Parameters
+    parameters_ : StateSpaceParameters
         The learnt parameters, for standardised channels.
     n_states_ : int
         The number of states.
@@ -164,7 +164,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         return self._smoothed(recordings, self._noise.shown) if recordings else []
 
     def _smoothed(
-        self, recordings: Sequence[Recording], parameters: Parameters
+        self, recordings: Sequence[Recording], parameters: StateSpaceParameters
     ) -> list[Prediction]:
         if not len(recordings):
             return []

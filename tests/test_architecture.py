@@ -25,20 +25,10 @@ NAMESAKES = {
         "baselines/gp/prior/coregionalisation",
         "benchmark/figures/coregionalisation",
     ],
-    # Curves fitted to cycles, and a model fitted to a problem.
-    "Fit": ["baselines/functional/fitting", "benchmark/runs/fitting/fit"],
-    # Users import the first two.
-    "Motion": ["datasets/acclaim/motion", "reports/bundle/motions", "benchmark/tasks/marker_gaps"],
-    # Candidates, and a set of axes, which users import.
-    "Panel": ["baselines/choosing/panel", "reports/bundle/panels"],
-    # Those of a Gaussian process, and those of a linear dynamical system.
-    "Parameters": ["baselines/gp/prior/parameters", "baselines/state_space/model"],
+    # Users import both.
+    "Motion": ["datasets/acclaim/motion", "reports/bundle/motions"],
 }
-"""Names that unlike classes keep, and the modules of these.
-
-To rename a class of a model or of a task is to fit again all that was fitted with it, so such names
-stay until these modules change anyway.
-"""
+"""Names that unlike classes keep, and the modules of these."""
 
 
 def holding_modules():

@@ -31,7 +31,7 @@ from mocapbench.baselines.protocols import FrameImputer, Prediction
 from mocapbench.baselines.rigid_body import RigidBody
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["CANDIDATES", "LAST_RESORT", "OF_MARKERS", "Panel"]
+__all__ = ["CANDIDATES", "LAST_RESORT", "OF_MARKERS", "CandidatePanel"]
 
 Asked = TypeVar("Asked")
 Answer = TypeVar("Answer")
@@ -76,7 +76,7 @@ OF_MARKERS: Mapping[str, Callable[[], FrameImputer]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Panel:
+class CandidatePanel:
     """Fitted models by name, and why others are not among them.
 
     Parameters

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from mocapbench.baselines.choosing.panel import Panel
+from mocapbench.baselines.choosing.panel import CandidatePanel
 from mocapbench.baselines.choosing.parts import EVERYTHING, GAPS, Part
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.recordings import pool
@@ -64,14 +64,14 @@ class Rehearsals:
     ----------
     fitted : sequence of Recording
         What models learn from.
-    panel : Panel
+    panel : CandidatePanel
         The models, fitted to them.
     given : Recording
         The recording to fill.
     """
 
     fitted: Sequence[Recording]
-    panel: Panel
+    panel: CandidatePanel
     given: Recording
 
     @cached_property
@@ -127,7 +127,9 @@ class Rehearsals:
             found += [self._in_place_of_given(panel, recording) for recording in held_out]
         return found
 
-    def _in_place_of_given(self, panel: Panel, recording: Recording) -> tuple[Errors, Errors]:
+    def _in_place_of_given(
+        self, panel: CandidatePanel, recording: Recording
+    ) -> tuple[Errors, Errors]:
         middle = len(self._copies) // 2
         short = self._copies[middle : middle + 1] if self.are_short(GAPS) else []
         masks = [~self.given.visible, *short]
@@ -138,7 +140,7 @@ class Rehearsals:
         return full, copies[0] if copies else Errors({}, hidden)
 
     def _errors(
-        self, panel: Panel, given: Recording, mask: Mask, truth: Recording | None = None
+        self, panel: CandidatePanel, given: Recording, mask: Mask, truth: Recording | None = None
     ) -> Errors:
         """Return a panel's errors where ``mask`` hides entries of ``given``."""
         known, tried = mask & (truth or given).visible, given.hide(mask)

@@ -19,11 +19,11 @@ from mocapbench.baselines.functional.components import (
 )
 from mocapbench.baselines.functional.statistics import CurveStatistics
 
-__all__ = ["Fit", "fit_components", "start"]
+__all__ = ["ComponentFit", "fit_components", "start"]
 
 
 @dataclass(frozen=True, eq=False)
-class Fit:
+class ComponentFit:
     """Components, and the scores of the cycles that they were fitted to.
 
     Parameters
@@ -82,7 +82,7 @@ def fit_components(
     *,
     max_iter: int,
     tol: float,
-) -> Ascent[Fit]:
+) -> Ascent[ComponentFit]:
     """Alternate scores and components until the likelihood has converged.
 
     Parameters
@@ -99,8 +99,10 @@ def fit_components(
         It has once a round raises it by less than this per visible entry.
     """
     return ascend(
-        Fit.of(statistics, initial),
-        lambda now: Fit.of(statistics, update(statistics, now.scores, now.components, smoothness)),
+        ComponentFit.of(statistics, initial),
+        lambda now: ComponentFit.of(
+            statistics, update(statistics, now.scores, now.components, smoothness)
+        ),
         lambda now: penalised_likelihood(now.scores, now.components, smoothness),
         max_iter=max_iter,
         threshold=tol * statistics.counts.sum(),

@@ -7,7 +7,7 @@ from typing import Self
 
 from mocapbench.baselines.common.ascent import Ascent, ascend
 from mocapbench.baselines.state_space.maximisation import maximised
-from mocapbench.baselines.state_space.model import Parameters, Priors
+from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.smoothing import Smoothed, smoothed
 
@@ -20,15 +20,15 @@ class Expected:
 
     Parameters
     ----------
-    parameters : Parameters
+    parameters : StateSpaceParameters
     states : Smoothed
     """
 
-    parameters: Parameters
+    parameters: StateSpaceParameters
     states: Smoothed
 
     @classmethod
-    def of(cls, parameters: Parameters, data: Observations) -> Self:
+    def of(cls, parameters: StateSpaceParameters, data: Observations) -> Self:
         """Take the E-step."""
         return cls(parameters, smoothed(parameters, data))
 
@@ -38,7 +38,7 @@ class Expected:
 
 
 def expectation_maximisation(
-    parameters: Parameters,
+    parameters: StateSpaceParameters,
     data: Observations,
     priors: Priors,
     *,

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines.state_space.model import Parameters
+from mocapbench.baselines.state_space.model import StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.regression import Array, transposed
 
@@ -42,7 +42,7 @@ class Filtered:
     log_likelihood: Array
 
 
-def filtered(parameters: Parameters, data: Observations) -> Filtered:
+def filtered(parameters: StateSpaceParameters, data: Observations) -> Filtered:
     """Return the filtered states of all sequences."""
     weights = data.visible / parameters.noise
     centred = data.visible * (data.values - parameters.offset)
@@ -74,7 +74,7 @@ def recurrence(gains: Array, shifts: Array) -> Array:
     return states
 
 
-def _covariances(parameters: Parameters, information: Array) -> tuple[Array, Array]:
+def _covariances(parameters: StateSpaceParameters, information: Array) -> tuple[Array, Array]:
     """Return the covariances (U, N, q, q) of the predicted and of the filtered states."""
     transition, noise = parameters.dynamics.coefficients, parameters.dynamics.covariance
     predicted, covariance = np.empty_like(information), np.empty_like(information)
@@ -90,7 +90,7 @@ def _covariances(parameters: Parameters, information: Array) -> tuple[Array, Arr
 
 
 def _means(
-    parameters: Parameters,
+    parameters: StateSpaceParameters,
     data: Observations,
     information: Array,
     covariance: Array,

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mocapbench.baselines.state_space.model import Parameters, Priors
+from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.regression import Array, Regression, Sums
 from mocapbench.baselines.state_space.smoothing import Smoothed
@@ -20,12 +20,12 @@ from mocapbench.baselines.state_space.smoothing import Smoothed
 __all__ = ["maximised"]
 
 
-def maximised(posterior: Smoothed, data: Observations, priors: Priors) -> Parameters:
+def maximised(posterior: Smoothed, data: Observations, priors: Priors) -> StateSpaceParameters:
     """Return the parameters with the highest expected posterior density."""
     second = posterior.covariance + _outer(posterior.mean, posterior.mean)
     second = np.where(data.frames[..., None, None], second, 0.0)
     mean = np.where(data.frames[..., None], posterior.mean, 0.0)
-    return Parameters(
+    return StateSpaceParameters(
         Regression.of(_start(mean, second), priors.start),
         Regression.of(_dynamics(posterior, second, data), priors.dynamics),
         Regression.of(_emission(mean, second, data), priors.emission),

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from mocapbench.baselines.common.ascent import Ascent, ascend
 from mocapbench.baselines.state_space.filtering import filtered
 from mocapbench.baselines.state_space.maximisation import maximised
-from mocapbench.baselines.state_space.model import Parameters, Priors
+from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.regression import Array
 from mocapbench.baselines.state_space.smoothing import smoothed
@@ -37,7 +37,7 @@ class Mixture:
 
     Parameters
     ----------
-    components : tuple of Parameters
+    components : tuple of StateSpaceParameters
         The parameters of each component.
     weights : ndarray of shape (C,)
         The probability of each component.
@@ -47,7 +47,7 @@ class Mixture:
         The log-density and the log-prior.
     """
 
-    components: tuple[Parameters, ...]
+    components: tuple[StateSpaceParameters, ...]
     weights: Array
     labels: Labels
     objective: float
@@ -55,7 +55,7 @@ class Mixture:
     @classmethod
     def assigned(
         cls,
-        components: Sequence[Parameters],
+        components: Sequence[StateSpaceParameters],
         weights: Array,
         data: Observations,
         priors: Priors,

@@ -9,7 +9,7 @@ import numpy as np
 
 from mocapbench.baselines.state_space.regression import Array, Prior, Regression
 
-__all__ = ["PRIORS", "Parameters", "Priors"]
+__all__ = ["PRIORS", "Priors", "StateSpaceParameters"]
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ PRIORS = Priors(
 
 
 @dataclass(frozen=True, eq=False)
-class Parameters:
+class StateSpaceParameters:
     """The parameters of the model of q states and D channels.
 
     Parameters

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mocapbench.baselines.state_space.model import Parameters
+from mocapbench.baselines.state_space.model import StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.prediction import moments
 from mocapbench.baselines.state_space.regression import Prior, Regression
@@ -20,7 +20,7 @@ _PRIOR = Prior(frames=1.0, variance=1e-2, ridge=0.0)
 _ITERATIONS = 5
 
 
-def with_noise_shown(parameters: Parameters, data: Observations) -> Parameters:
+def with_noise_shown(parameters: StateSpaceParameters, data: Observations) -> StateSpaceParameters:
     """Return the parameters with the noise of each channel as its visible entries show it.
 
     These are a few iterations of EM in which all else is kept.
@@ -42,14 +42,14 @@ class NoiseShown:
 
     Parameters
     ----------
-    learnt : Parameters
+    learnt : StateSpaceParameters
     data : Observations
     """
 
-    learnt: Parameters
+    learnt: StateSpaceParameters
     data: Observations
 
     @cached_property
-    def shown(self) -> Parameters:
+    def shown(self) -> StateSpaceParameters:
         """The parameters with this noise."""
         return with_noise_shown(self.learnt, self.data)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from mocapbench.baselines.state_space.model import Parameters
+from mocapbench.baselines.state_space.model import StateSpaceParameters
 from mocapbench.baselines.state_space.regression import Array
 from mocapbench.baselines.state_space.smoothing import Smoothed
 
 __all__ = ["drawn", "moments"]
 
 
-def moments(parameters: Parameters, posterior: Smoothed) -> tuple[Array, Array]:
+def moments(parameters: StateSpaceParameters, posterior: Smoothed) -> tuple[Array, Array]:
     """Return the mean and variance of every entry, noise included: (K, N, D) each."""
     mean = posterior.mean @ parameters.loadings.T + parameters.offset
     shape = posterior.covariance.shape
@@ -20,7 +20,9 @@ def moments(parameters: Parameters, posterior: Smoothed) -> tuple[Array, Array]:
     return mean, np.maximum(signal, 0.0) + parameters.noise
 
 
-def drawn(parameters: Parameters, n_samples: int, n_frames: int, rng: np.random.Generator) -> Array:
+def drawn(
+    parameters: StateSpaceParameters, n_samples: int, n_frames: int, rng: np.random.Generator
+) -> Array:
     """Return new sequences in standard units, noise included: (n, N, D)."""
     q, n_channels = parameters.n_states, len(parameters.noise)
     shocks = rng.standard_normal((n_frames, n_samples, q))

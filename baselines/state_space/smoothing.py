@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mocapbench.baselines.state_space.filtering import Filtered, filtered, recurrence
-from mocapbench.baselines.state_space.model import Parameters
+from mocapbench.baselines.state_space.model import StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.regression import Array, transposed
 
@@ -44,7 +44,7 @@ class Smoothed:
     log_likelihood: Array
 
 
-def smoothed(parameters: Parameters, data: Observations) -> Smoothed:
+def smoothed(parameters: StateSpaceParameters, data: Observations) -> Smoothed:
     """Return the posterior of the states of all sequences."""
     forward = filtered(parameters, data)
     gains = _gains(parameters, forward, data)
@@ -56,7 +56,7 @@ def smoothed(parameters: Parameters, data: Observations) -> Smoothed:
     return Smoothed(mean, covariance, lagged, forward.log_likelihood)
 
 
-def _gains(parameters: Parameters, forward: Filtered, data: Observations) -> Array:
+def _gains(parameters: StateSpaceParameters, forward: Filtered, data: Observations) -> Array:
     """Return the gains (K, N, q, q), 0 where a sequence has no next frame."""
     ahead = parameters.dynamics.coefficients @ forward.covariance[:, :-1]
     gains = np.zeros_like(forward.covariance)

@@ -16,7 +16,7 @@ import numpy as np
 
 from mocapbench.baselines.common.signs import oriented
 from mocapbench.baselines.state_space.maximisation import maximised
-from mocapbench.baselines.state_space.model import Parameters, Priors
+from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.regression import Array
 from mocapbench.baselines.state_space.smoothing import Smoothed
@@ -39,7 +39,7 @@ def initial_states(data: Observations, n_states: int) -> Array:
     return padded
 
 
-def start(states: Array, data: Observations, priors: Priors) -> Parameters:
+def start(states: Array, data: Observations, priors: Priors) -> StateSpaceParameters:
     """Return the parameters that are most probable if ``states`` (K, N, q) are the states."""
     certain = np.zeros((*states.shape, states.shape[2]))
     known = Smoothed(states, certain, certain[:, 1:], np.zeros(len(states)))

@@ -70,7 +70,7 @@ PLACES: Mapping[str, ChooseJoints] = {
 
 
 @dataclass(frozen=True)
-class Motion:
+class GappedMotion:
     """A recording with gaps, and others of the same subject.
 
     Parameters
@@ -85,14 +85,14 @@ class Motion:
     others: tuple[str, ...]
 
 
-WALK = Motion("cmu:35_03", ("cmu:35_01", "cmu:35_02", "cmu:35_04"))
-KICK = Motion("cmu:10_06", ("cmu:10_02", "cmu:10_03", "cmu:10_05"))
-SWING = Motion("cmu:64_02", ("cmu:64_01", "cmu:64_03", "cmu:64_04"))
-PUNCHES = Motion("cmu:02_05", ("cmu:02_01", "cmu:02_06", "cmu:02_10"))
+WALK = GappedMotion("cmu:35_03", ("cmu:35_01", "cmu:35_02", "cmu:35_04"))
+KICK = GappedMotion("cmu:10_06", ("cmu:10_02", "cmu:10_03", "cmu:10_05"))
+SWING = GappedMotion("cmu:64_02", ("cmu:64_01", "cmu:64_03", "cmu:64_04"))
+PUNCHES = GappedMotion("cmu:02_05", ("cmu:02_01", "cmu:02_06", "cmu:02_10"))
 MOTIONS = (WALK, KICK, SWING, PUNCHES)
 SYNTHETIC = (
-    Motion("gait:01_01", ("gait:01_02", "gait:01_03", "gait:01_06")),
-    Motion("gait:02_01", ("gait:02_02", "gait:02_03", "gait:02_04")),
+    GappedMotion("gait:01_01", ("gait:01_02", "gait:01_03", "gait:01_06")),
+    GappedMotion("gait:02_01", ("gait:02_02", "gait:02_03", "gait:02_04")),
 )
 
 
@@ -105,9 +105,9 @@ class Gaps:
 
 
 def marker_gaps_problem(
-    motions: tuple[Motion, ...],
+    motions: tuple[GappedMotion, ...],
     gaps: Gaps,
-    trained_on: Callable[[Motion], tuple[str, ...]],
+    trained_on: Callable[[GappedMotion], tuple[str, ...]],
     seeds: Seeds,
     archive: Archive,
 ) -> ImputeProblem:
@@ -152,12 +152,12 @@ def _start(place: float, n_hidden: int, recording: Recording) -> int:
     return N_BESIDE + round(place * room)
 
 
-def _alone(motion: Motion) -> tuple[str, ...]:
+def _alone(motion: GappedMotion) -> tuple[str, ...]:
     del motion
     return ()
 
 
-def _others(motion: Motion) -> tuple[str, ...]:
+def _others(motion: GappedMotion) -> tuple[str, ...]:
     return motion.others
 
 
@@ -165,7 +165,7 @@ _TRAINING = {ALONE: _alone, OTHERS: _others}
 
 
 def _cases(
-    motions: tuple[Motion, ...], places: tuple[str, ...], prefix: str = "", *, synthetic: bool
+    motions: tuple[GappedMotion, ...], places: tuple[str, ...], prefix: str = "", *, synthetic: bool
 ) -> tuple[Case, ...]:
     return tuple(
         Case(

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from mocapbench.baselines.state_space.model import Parameters
+from mocapbench.baselines.state_space.model import StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.regression import Regression
 
@@ -59,7 +59,7 @@ class Problem:
 
     def __init__(self, seed, *, lengths=(4, 1, 6), n_states=3, n_channels=2, hidden=0.4):
         rng = np.random.default_rng(seed)
-        self.parameters = Parameters(
+        self.parameters = StateSpaceParameters(
             Regression(rng.normal(size=(n_states, 1)), spd(rng, n_states)),
             Regression(0.6 * rng.normal(size=(n_states, n_states)), spd(rng, n_states)),
             Regression(
