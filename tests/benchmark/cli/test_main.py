@@ -254,8 +254,8 @@ def test_missing_recordings_are_not_a_failure(cli, records, tmp_path, monkeypatc
     said = "not on this machine: 35_03, 35_02, 12_01, 16_15; get them with `mocapbench data fetch "
     assert found["35-03 three-walkers"]["message"].startswith(said)
     page = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
-    assert "Not on this machine: 35_03, 35_02, 12_01, 16_15. " in page
-    assert ">mocapbench data fetch 35_03 35_02 12_01 16_15<" in page
+    assert "Not on this machine: 35_03, 35_02, 10_04, 12_01, 16_15. 2 jobs of" in page
+    assert ">mocapbench data fetch 35_03 35_02 10_04 12_01 16_15<" in page
     assert any(r["status"] == "ok" for case, r in found.items() if case.startswith("synthetic"))
 
 
