@@ -14,12 +14,8 @@ from mocapbench.baselines.choosing.panel import LAST_RESORT, CandidatePanel
 from mocapbench.baselines.choosing.parts import parts_of
 from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
-from mocapbench.baselines.common.recordings import (
-    by_name,
-    check_channels,
-    check_recordings,
-    check_spread,
-)
+from mocapbench.baselines.common.checks import check_channels, check_recordings, check_spread
+from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.validation import check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording

@@ -12,8 +12,9 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.checks import check_recordings, pool
 from mocapbench.baselines.common.gaps import hidden_together, runs
-from mocapbench.baselines.common.recordings import by_name, check_recordings, pool
+from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.kriging.channel_pairs import DescribedFrames
 from mocapbench.baselines.kriging.channel_process import ChannelProcess

@@ -14,7 +14,7 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_outputs, check_recordings
+from mocapbench.baselines.common.checks import check_outputs, check_recordings
 from mocapbench.baselines.common.validation import check_sampling
 from mocapbench.baselines.protocols import Misinformed, SampleByFrameByChannel, Synthesiser
 from mocapbench.datasets import Frames, Recording, ToyProcess

@@ -10,12 +10,8 @@ import numpy as np
 from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import (
-    check_channels,
-    check_known,
-    check_recordings,
-    visible_moments,
-)
+from mocapbench.baselines.common.checks import check_channels, check_known, check_recordings
+from mocapbench.baselines.common.recordings import visible_moments
 from mocapbench.baselines.protocols import Inductive, Interpolator, Prediction
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 

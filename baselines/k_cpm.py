@@ -9,8 +9,8 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.validation import check_settings
+from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.prototypes import cluster_cycles
-from mocapbench.baselines.common.recordings import check_recordings
 from mocapbench.baselines.cpm import CPM
 from mocapbench.baselines.protocols import Aligner, Clusterer, StatePath
 from mocapbench.datasets import Recording

@@ -11,17 +11,10 @@ from sklearn.impute import KNNImputer
 from sklearn.neighbors import NearestNeighbors
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.checks import check_channels, check_recordings, check_visible, pool
 from mocapbench.baselines.common.gaps import hidden_frames, runs, with_steps
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
-from mocapbench.baselines.common.recordings import (
-    check_channels,
-    check_recordings,
-    check_visible,
-    places_by_name,
-    pool,
-    stack,
-    visible_moments,
-)
+from mocapbench.baselines.common.recordings import places_by_name, stack, visible_moments
 from mocapbench.baselines.common.transitions import Steps, fill_gap
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction

@@ -8,7 +8,8 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import by_name, check_recordings
+from mocapbench.baselines.common.checks import check_recordings
+from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_sampling
 from mocapbench.baselines.protocols import (

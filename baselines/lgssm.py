@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.ascent import Ascent
-from mocapbench.baselines.common.recordings import by_name, check_recordings, places_by_name
+from mocapbench.baselines.common.checks import check_recordings
+from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
 from mocapbench.baselines.protocols import Clusterer

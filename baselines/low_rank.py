@@ -11,11 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.ascent import ascend
+from mocapbench.baselines.common.checks import check_recordings, check_spread
 from mocapbench.baselines.common.own_means import OwnMeans
-from mocapbench.baselines.common.recordings import (
-    check_recordings,
-    check_spread,
-)
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.checks import check_channels, check_recordings, pool
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.markers import marker_places
-from mocapbench.baselines.common.recordings import by_name, check_channels, check_recordings, pool
+from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.rigid import FEWEST, steadiness
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_positive

@@ -17,7 +17,7 @@ from typing import Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.validation import check_choice
 from mocapbench.baselines.gp.prior.parameters import CHILD
 from mocapbench.baselines.gp.reduction.hierarchy import hierarchical

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_channels, check_outputs, check_recordings
+from mocapbench.baselines.common.checks import check_channels, check_outputs, check_recordings
 from mocapbench.baselines.common.validation import check_sampling, check_times
 from mocapbench.baselines.protocols import (
     Imputer,

@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.gaps import visible_frames, with_steps
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
-from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.validation import (
     check_not_negative,
     check_positive,

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.markers import marker_places
-from mocapbench.baselines.common.recordings import check_channels, check_recordings
 from mocapbench.baselines.common.rigid import (
     FEWEST,
     least_rotations,

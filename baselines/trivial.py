@@ -8,12 +8,8 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import (
-    check_recordings,
-    check_visible,
-    pool,
-    visible_moments,
-)
+from mocapbench.baselines.common.checks import check_recordings, check_visible, pool
+from mocapbench.baselines.common.recordings import visible_moments
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.datasets import Recording
 

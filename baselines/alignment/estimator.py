@@ -17,12 +17,8 @@ from mocapbench.baselines.alignment.sequences import Array, Sequences
 from mocapbench.baselines.alignment.start import best_paths
 from mocapbench.baselines.alignment.validation import check_settings
 from mocapbench.baselines.common.ascent import Ascent
-from mocapbench.baselines.common.recordings import (
-    by_name,
-    check_channels,
-    check_recordings,
-    places_by_name,
-)
+from mocapbench.baselines.common.checks import check_channels, check_recordings
+from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.protocols import Aligner, StatePath
 from mocapbench.datasets import Recording

@@ -8,7 +8,7 @@ from typing import Self
 
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import pool
+from mocapbench.baselines.common.checks import pool
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.baselines.rehearsal.checkable import Widened

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.choosing.panel import CandidatePanel
 from mocapbench.baselines.choosing.parts import EVERYTHING, GAPS, Part
+from mocapbench.baselines.common.checks import pool
 from mocapbench.baselines.common.gaps import runs
-from mocapbench.baselines.common.recordings import pool
 from mocapbench.baselines.common.scaling import unit_scales
 from mocapbench.baselines.rehearsal.lost_channels import lost_trials
 from mocapbench.baselines.rehearsal.stand_ins import aligned, turns

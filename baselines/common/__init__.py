@@ -1,10 +1,10 @@
 """Helpers that more than one family of models uses.
 
-* `validation`, `recordings`: checks of parameters and of recordings; `scaling`, `own_means`,
-  `pose_units`: units in which channels count alike;
+* `validation`, `checks`: checks of parameters and of recordings; `recordings`: several of them
+  together; `scaling`, `own_means`, `pose_units`: units in which channels count alike;
 * `gaps`: what is hidden, and lines across it;
 * `markers`, `rigid`: channels that are coordinates of markers, and how these move together;
 * `ascent`: steps that raise an objective; `shortest_path`, `transitions`: paths of frames;
 * `prototypes`: recordings grouped by their cycles; `signs`: of eigenvectors;
-* `cholesky`, `lapack`, `threads`: linear algebra.
+* `cholesky`, `lapack`: linear algebra.
 """

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.recordings import check_known, visible_moments
+from mocapbench.baselines.common.checks import check_known
+from mocapbench.baselines.common.recordings import visible_moments
 from mocapbench.baselines.common.scaling import is_constant
 from mocapbench.datasets import FrameByChannel, Recording
 

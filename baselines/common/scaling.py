@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.recordings import check_spread, check_visible, visible_moments
+from mocapbench.baselines.common.checks import check_spread, check_visible
+from mocapbench.baselines.common.recordings import visible_moments
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["Standardisation", "is_constant", "unit_scales"]

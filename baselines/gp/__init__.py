@@ -6,7 +6,7 @@ Data pass through its folders and modules in this order:
 * `reduction`: recordings become a few small Gaussian problems of one form, exactly;
 * `solvers`: interchangeable exact methods evaluate, differentiate and condition such a problem
   (`solvers.dense`, `solvers.kronecker`, `solvers.latent_split`, `solvers.state_space`), and
-  `planner` chooses the one with the least work;
+  `planner` chooses the one with the least work; `threads` share it;
 * `training`: the parameters of largest likelihood are searched for;
 * `posterior`: predictions, joint covariances and draws with these parameters;
 * `estimator`: the base class of the models, on `covariances` (what is learnt), `imputation` (what

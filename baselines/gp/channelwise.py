@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.validation import check_positive, check_seed
 from mocapbench.baselines.gp.channel_posteriors import ChannelPosteriors, Single
 from mocapbench.datasets import Recording

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.threads import thread_mapper
 from mocapbench.baselines.common.validation import check_choice, check_times
 from mocapbench.baselines.gp.posterior.fitted import FittedProcess
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.reduction.tree import Tree
+from mocapbench.baselines.gp.threads import thread_mapper
 from mocapbench.baselines.protocols import Coregionalised
 from mocapbench.datasets import Frames
 

@@ -11,9 +11,8 @@ from typing import ClassVar, Self
 import numpy as np
 from joblib import effective_n_jobs
 
-from mocapbench.baselines.common.recordings import check_recordings
+from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.threads import thread_mapper
 from mocapbench.baselines.common.validation import (
     check_choice,
     check_count,
@@ -33,6 +32,7 @@ from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
 from mocapbench.baselines.gp.synthesis import NewRecordings
+from mocapbench.baselines.gp.threads import thread_mapper
 from mocapbench.baselines.gp.training.bounds import bounds
 from mocapbench.baselines.gp.training.coordinates import Coordinates
 from mocapbench.baselines.gp.training.maximum_likelihood import maximise

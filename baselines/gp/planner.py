@@ -7,7 +7,6 @@ from types import MappingProxyType
 
 import numpy as np
 
-from mocapbench.baselines.common.threads import Mapper
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.reduction.reduction import Reduction
@@ -16,6 +15,7 @@ from mocapbench.baselines.gp.solvers.kronecker import Kronecker
 from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
 from mocapbench.baselines.gp.solvers.solver import Solver
 from mocapbench.baselines.gp.solvers.state_space.solver import StateSpace
+from mocapbench.baselines.gp.threads import Mapper
 
 __all__ = ["PLANS", "Plan", "describe_work", "solver_names", "with_mapper", "work"]
 

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.gaps import complete_stretches
-from mocapbench.baselines.common.recordings import by_name, check_recordings
+from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.signs import oriented
 from mocapbench.datasets import Recording
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_rates
+from mocapbench.baselines.common.checks import check_rates
 from mocapbench.baselines.common.validation import check_count, check_sampling, check_seed
 from mocapbench.baselines.gpdm.estimator import LatentVariableModel
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo

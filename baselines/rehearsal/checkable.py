@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from sklearn.base import clone
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.recordings import check_channels, pool
+from mocapbench.baselines.common.checks import check_channels, pool
 from mocapbench.baselines.protocols import FrameImputer, Prediction
 from mocapbench.datasets import Recording
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.common.threads import Mapper
 from mocapbench.baselines.gp.planner import with_mapper
 from mocapbench.baselines.gp.posterior.joint import draw_curves, joint_covariance
 from mocapbench.baselines.gp.posterior.prediction import infer
@@ -19,6 +18,7 @@ from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
 from mocapbench.baselines.gp.solvers.solver import Solver
+from mocapbench.baselines.gp.threads import Mapper
 from mocapbench.baselines.protocols import SampleByFrameByChannel
 from mocapbench.datasets import FrameByChannel, Frames
 

@@ -24,10 +24,10 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.threads import Mapper
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
+from mocapbench.baselines.gp.threads import Mapper
 
 __all__ = ["BlockPosterior", "SingularCovarianceError", "Solver", "refuse_singular"]
 
@@ -85,7 +85,7 @@ class Solver(ABC):
         The kernel of every component.
     mapper : callable, default=map
         Calls a function for every output, like the builtin ``map``, possibly in threads
-        (`mocapbench.baselines.common.threads`).
+        (`mocapbench.baselines.gp.threads`).
     """
 
     name: ClassVar[str]

@@ -12,7 +12,7 @@ from mocapbench.benchmark.filling.attempt import Attempt
 from mocapbench.benchmark.filling.trials.runner import Runner
 from mocapbench.benchmark.filling.workers import Workers
 
-__all__ = ["Lap", "OneByOne"]
+__all__ = ["Lap", "InTurn"]
 
 
 class Lap:
@@ -97,7 +97,7 @@ class Lap:
             self._ready.append(runner)
 
 
-class OneByOne(Lap):
+class InTurn(Lap):
     """A round in which a model that keeps to the limit has all its trials before the next one.
 
     All workers try a model once it has answered a trial; before that, one alone.

@@ -11,14 +11,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 
-from mocapbench.benchmark.filling.trials.laps import Lap, OneByOne
+from mocapbench.benchmark.filling.trials.laps import Lap, InTurn
 from mocapbench.benchmark.filling.trials.runner import Runner
 from mocapbench.benchmark.filling.trials.trial import Trial
 from mocapbench.benchmark.filling.workers import Workers
 
 __all__ = ["race"]
 
-_ROUNDS = ((1 / 32, Lap), (1 / 8, OneByOne), (1 / 2, OneByOne))
+_ROUNDS = ((1 / 32, Lap), (1 / 8, InTurn), (1 / 2, InTurn))
 """Of the budget, what one attempt may take; and how models take turns."""
 
 

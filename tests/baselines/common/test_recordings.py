@@ -5,17 +5,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.baselines.common.recordings import (
-    by_name,
+from mocapbench.baselines.common.checks import (
     check_channels,
     check_rates,
     check_recordings,
     check_spread,
     check_visible,
-    places_by_name,
     pool,
-    visible_moments,
 )
+from mocapbench.baselines.common.recordings import by_name, places_by_name, visible_moments
 from mocapbench.datasets import Recording
 
 

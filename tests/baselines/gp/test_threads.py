@@ -2,8 +2,8 @@ import joblib
 import numpy as np
 import pytest
 
-from mocapbench.baselines.common.threads import thread_mapper
 from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
+from mocapbench.baselines.gp.threads import thread_mapper
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.datasets import Recording
 

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.cholesky import invert
-from mocapbench.baselines.common.threads import Mapper
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block
@@ -20,6 +19,7 @@ from mocapbench.baselines.gp.solvers.entries import Entries
 from mocapbench.baselines.gp.solvers.latent_split.independent_parts import IndependentParts
 from mocapbench.baselines.gp.solvers.latent_split.latents import Latents
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
+from mocapbench.baselines.gp.threads import Mapper
 
 __all__ = ["Factorisation"]
 

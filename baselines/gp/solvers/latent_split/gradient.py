@@ -29,9 +29,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.threads import Mapper
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.latent_split.factorisation import Factorisation, project
+from mocapbench.baselines.gp.threads import Mapper
 
 __all__ = ["split_gradient"]
 

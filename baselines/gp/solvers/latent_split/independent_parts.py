@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.cholesky import invert
-from mocapbench.baselines.common.threads import Mapper
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
+from mocapbench.baselines.gp.threads import Mapper
 
 __all__ = ["IndependentParts"]
 

@@ -1,7 +1,7 @@
 import pytest
 from threadpoolctl import threadpool_info
 
-from mocapbench.baselines.common.threads import thread_mapper
+from mocapbench.baselines.gp.threads import thread_mapper
 
 
 @pytest.mark.parametrize("n_threads", [1, 2, 3])
