@@ -12,7 +12,7 @@ from mocapbench.benchmark.filling.attempt import Attempt
 from mocapbench.benchmark.filling.trials.runner import Runner
 from mocapbench.benchmark.filling.workers import Workers
 
-__all__ = ["Lap", "InTurn"]
+__all__ = ["InTurn", "Lap"]
 
 
 class Lap:

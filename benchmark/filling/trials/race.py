@@ -11,7 +11,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 
-from mocapbench.benchmark.filling.trials.laps import Lap, InTurn
+from mocapbench.benchmark.filling.trials.laps import InTurn, Lap
 from mocapbench.benchmark.filling.trials.runner import Runner
 from mocapbench.benchmark.filling.trials.trial import Trial
 from mocapbench.benchmark.filling.workers import Workers
