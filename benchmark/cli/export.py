@@ -38,8 +38,13 @@ def export(
     records = store.planned()
     tables = {"scores": bench.score_table(records), "jobs": bench.job_table(records)}
     for name, table in tables.items():
-        files = _write_table(table, folder / name, with_parquet=with_parquet)
-        console.print(f"{reports.counted(len(table), 'row')}: {files}", soft_wrap=True)
+        _write_csv(table, folder / f"{name}.csv")
+        if with_parquet:
+            _write_parquet(table, folder / f"{name}.parquet")
+        suffixes = ".csv and .parquet" if with_parquet else ".csv"
+        console.print(
+            f"{reports.counted(len(table), 'row')}: {folder / name}{suffixes}", soft_wrap=True
+        )
     if not with_parquet:
         advice = "no Parquet files, which need pyarrow: `pip install 'mocapbench[parquet]'`"
         console.print(advice)
@@ -51,11 +56,10 @@ def export(
         raise typer.Exit(ExitCode.NOTHING_RAN)
 
 
-def _write_table(table: pd.DataFrame, path: Path, *, with_parquet: bool) -> str:
-    """Write a table to files called ``path`` and a suffix, and return which they are."""
-    write_text(path.with_name(f"{path.name}.csv"), reports.csv_text(table))
-    if not with_parquet:
-        return f"{path}.csv"
-    with atomic_write(path.with_name(f"{path.name}.parquet")) as file:
+def _write_csv(table: pd.DataFrame, path: Path) -> None:
+    write_text(path, reports.csv_text(table))
+
+
+def _write_parquet(table: pd.DataFrame, path: Path) -> None:
+    with atomic_write(path) as file:
         table.to_parquet(file, index=False)
-    return f"{path}.csv and .parquet"

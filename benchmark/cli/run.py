@@ -117,11 +117,12 @@ def run(
     planned = _planned(request, archive)
     if explain:
         console.print(bench.explanation_table(bench.explain(planned, out)))
+    elif dry_run:
+        console.print(bench.plan_table(planned))
     if dry_run:
         n_workers = None if scheduler or cluster else jobs or bench.n_cores()
         remedy = fetching(planned, plugins) if offline else downloading(planned)
-        forecast = bench.forecast_text(planned, profile, out, n_workers, remedy)
-        _show_plan(planned, forecast, console, explained=explain)
+        _show(bench.forecast_text(planned, profile, out, n_workers, remedy), console)
         return
     store, site = bench.Store.create(out), bench.open_site(jobs, scheduler, cluster)
     config = bench.WorkerConfig(
@@ -151,15 +152,6 @@ def _planned(request: Request, archive: Archive) -> Sequence[Job]:
     return planned
 
 
-def _show_plan(
-    planned: Sequence[Job],
-    forecast: Iterable[str],
-    console: LiteralConsole,
-    *,
-    explained: bool,
-) -> None:
-    """Show what a run would do, in a table unless that was explained, and how long it may take."""
-    if not explained:
-        console.print(bench.plan_table(planned))
+def _show(forecast: Iterable[str], console: LiteralConsole) -> None:
     for line in forecast:
         console.print(line, soft_wrap=True, highlight=False)
