@@ -110,7 +110,7 @@ class Registry(Generic[T]):
 
     def _is_ours(self, name: str) -> bool:
         point = self._points.get(name)
-        return point is not None and point.dist is not None and point.dist.name == "mocapbench"
+        return point is not None and point.value.startswith("mocapbench.")
 
     def _was_called(self, name: str, current: str) -> bool:
         return name in getattr(self.get(current), "former_names", ())
