@@ -1,7 +1,7 @@
 """Metrics: pure functions of an outcome, one module per family.
 
-Each metric is a `Metric` object, such as `smse`. The docstring of the function that it calls
-(``help(smse.statistic)``) states formula, axis, ddof, unit and direction.
+Each metric is a function that `metric` declares, such as `smse`. Its docstring (``help(smse)``)
+states formula, axis and ddof; unit, range and direction are attributes, such as ``smse.unit``.
 """
 
 import lazy_loader

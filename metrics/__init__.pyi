@@ -1,5 +1,5 @@
 from .angles import cumulative_scaled_error, rms_angle
-from .base import Direction, Metric, Score, has_poses
+from .base import Direction, Metric, Score, has_poses, metric
 from .calibration import coverage_50, coverage_80, coverage_90, coverage_95, crps, pit, sharpness
 from .clustering import adjusted_rand, purity
 from .contact import foot_skate, sample_foot_skate
@@ -45,6 +45,7 @@ __all__ = [
     "logdet_parent",
     "mcc",
     "mcc_best",
+    "metric",
     "mlc",
     "mlc_best",
     "mpjpe",

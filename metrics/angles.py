@@ -11,25 +11,36 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Metric, Score
-from mocapbench.metrics.entries import hidden_entries, mean_over
+from mocapbench.metrics.base import Direction, Score, metric
+from mocapbench.metrics.entries import mean_over
 from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
-    "cumulative_error_of_scaled_angles",
     "cumulative_scaled_error",
     "rms_angle",
-    "root_mean_square_of_angles",
 ]
 
 Array = NDArray[np.float64]
 
 
-def root_mean_square_of_angles(outcome: Imputation) -> Score:
+def _has_scales(outcome: Imputation) -> bool:
+    return outcome.scales is not None
+
+
+@metric(
+    title="RMS error of joint angles, degrees",
+    direction=Direction.LOWER,
+    sentence="Root mean square error over all hidden joint angles.",
+    unit="degrees",
+    range="0 to ∞",
+    source="Lawrence 2007",
+    defined=_has_scales,
+)
+def rms_angle(outcome: Imputation) -> Score:
     r"""Return √(mean of (y − μ)²) over the hidden entries of joint angles.
 
-    The metric ``rms_angle``. Joint angles are the outputs that have a scale; the mean is over all
-    their hidden entries together. Lower is better; in degrees.
+    Joint angles are the outputs that have a scale; the mean is over all their hidden entries
+    together.
 
     Parameters
     ----------
@@ -44,8 +55,7 @@ def root_mean_square_of_angles(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or there
-        are no scales.
+        If there are no scales.
 
     Warnings
     --------
@@ -82,12 +92,22 @@ def root_mean_square_of_angles(outcome: Imputation) -> Score:
     return Score(float(np.sqrt(mean_over(errors.ravel() ** 2, entries.ravel(), axis=0))))
 
 
-def cumulative_error_of_scaled_angles(outcome: Imputation) -> Score:
+@metric(
+    title="Cumulative scaled error",
+    direction=Direction.LOWER,
+    sentence=(
+        "Squared errors of joint angles, each multiplied by its scale, summed over hidden frames "
+        "and averaged over angles; it grows with the gap."
+    ),
+    range="0 to ∞",
+    source="Taylor et al. 2006",
+    defined=_has_scales,
+)
+def cumulative_scaled_error(outcome: Imputation) -> Score:
     r"""Return Σ over frames of (s_d (y − μ))², the mean over hidden joint angles d.
 
-    The metric ``cumulative_scaled_error``. Joint angles are the outputs that have a scale s_d; an
-    angle counts if any of its entries is hidden, and the sum is over these. Lower is better,
-    without unit. It grows with the number of hidden frames.
+    Joint angles are the outputs that have a scale s_d; an angle counts if any of its entries is
+    hidden, and the sum is over these. It grows with the number of hidden frames.
 
     Parameters
     ----------
@@ -102,8 +122,7 @@ def cumulative_error_of_scaled_angles(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or there
-        are no scales.
+        If there are no scales.
 
     Warnings
     --------
@@ -147,40 +166,8 @@ def cumulative_error_of_scaled_angles(outcome: Imputation) -> Score:
 
 def _hidden_angles(outcome: Imputation) -> tuple[Array, NDArray[np.bool_], Array]:
     """Return the errors (N, D), where joint angles are hidden (N, D), and the scales (D,)."""
-    hidden = hidden_entries(outcome)
+    hidden = outcome.hidden
     if outcome.scales is None:
         raise ValueError("expected scales of the joint angles, got None: this metric needs them")
     errors = np.where(hidden, outcome.truth - outcome.mean, 0.0)
     return errors, hidden & ~np.isnan(outcome.scales), outcome.scales
-
-
-def _has_scales(outcome: Imputation) -> bool:
-    return outcome.scales is not None
-
-
-rms_angle = Metric(
-    "rms_angle",
-    "RMS error of joint angles, degrees",
-    Direction.LOWER,
-    Imputation,
-    root_mean_square_of_angles,
-    defined=_has_scales,
-    sentence="Root mean square error over all hidden joint angles.",
-    unit="degrees",
-    range="0 to ∞",
-    source="Lawrence 2007",
-)
-cumulative_scaled_error = Metric(
-    "cumulative_scaled_error",
-    "Cumulative scaled error",
-    Direction.LOWER,
-    Imputation,
-    cumulative_error_of_scaled_angles,
-    defined=_has_scales,
-    sentence=(
-        "Squared errors of joint angles, each multiplied by its scale, summed over hidden frames "
-        "and averaged over angles; it grows with the gap."
-    ),
-    range="0 to ∞",
-    source="Taylor et al. 2006",
-)

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
-from mocapbench.metrics.base import Direction, Metric, Score
-from mocapbench.metrics.entries import average, deviations, hidden_entries
+from mocapbench.metrics.base import Direction, Metric, Score, metric
+from mocapbench.metrics.entries import average, deviations
 from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
@@ -21,11 +21,8 @@ __all__ = [
     "coverage_90",
     "coverage_95",
     "crps",
-    "gaussian_crps",
     "interval_coverage",
-    "mean_deviation",
     "pit",
-    "pit_distance",
     "sharpness",
 ]
 
@@ -43,7 +40,7 @@ def interval_coverage(outcome: Imputation, level: float) -> Score:
 
     The metrics ``coverage_50``, ``coverage_80``, ``coverage_90`` and ``coverage_95``. An entry is
     inside where y is at most z σ from μ, with z the (1 + level) / 2 quantile of the standard normal
-    distribution. The target is ``level``; without unit.
+    distribution.
 
     Parameters
     ----------
@@ -60,8 +57,7 @@ def interval_coverage(outcome: Imputation, level: float) -> Score:
     Raises
     ------
     ValueError
-        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
-        variance is missing or not positive.
+        If there is no predictive variance.
 
     Warnings
     --------
@@ -94,16 +90,26 @@ def interval_coverage(outcome: Imputation, level: float) -> Score:
     (0.25, 0.5)
     """
     inside = np.abs(_z_scores(outcome)) <= ndtri((1 + level) / 2)
-    return average(inside.astype(np.float64), hidden_entries(outcome))
+    return average(inside.astype(np.float64), outcome.hidden)
 
 
-def pit_distance(outcome: Imputation) -> Score:
+@metric(
+    title="Probability integral transform (PIT), distance from uniform",
+    direction=Direction.LOWER,
+    sentence=(
+        "How far the truth’s ranks within its predictive distributions are from uniform: 0 where "
+        "the distributions are right."
+    ),
+    range="0 to 0.9",
+    source="Gneiting et al. 2007",
+    needs_variance=True,
+)
+def pit(outcome: Imputation) -> Score:
     r"""Return the distance of the PIT histogram from uniform, ``½ Σ_b |f_b − 1/10|``.
 
-    The metric ``pit``. f_b is the share of hidden entries whose probability integral transform
-    (PIT) Φ((y − μ)/σ) falls in the b-th of ten equal bins of [0, 1]. The distance is the total
-    variation: near 0 for calibrated predictions of many entries, and at most 0.9. Lower is better;
-    without unit.
+    f_b is the share of hidden entries whose probability integral transform (PIT) Φ((y − μ)/σ) falls
+    in the b-th of ten equal bins of [0, 1]. The distance is the total variation: near 0 for
+    calibrated predictions of many entries, and at most 0.9.
 
     Parameters
     ----------
@@ -118,8 +124,7 @@ def pit_distance(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
-        variance is missing or not positive.
+        If there is no predictive variance.
 
     Warnings
     --------
@@ -155,17 +160,26 @@ def pit_distance(outcome: Imputation) -> Score:
     >>> pit(outcome).parts["bin"]
     array([0.25, 0.  , 0.  , 0.  , 0.  , 0.25, 0.  , 0.  , 0.25, 0.25])
     """
-    transform = ndtr(_z_scores(outcome)[hidden_entries(outcome)])
+    transform = ndtr(_z_scores(outcome)[outcome.hidden])
     counts, _ = np.histogram(transform, bins=_PIT_BINS, range=(0.0, 1.0))
     shares = counts / transform.size
     return Score(float(0.5 * np.abs(shares - 1 / _PIT_BINS).sum()), {"bin": shares})
 
 
-def mean_deviation(outcome: Imputation) -> Score:
+@metric(
+    title="Sharpness (mean predictive sd)",
+    direction=Direction.LOWER,
+    sentence=(
+        "Mean predictive standard deviation; small is good only among models whose intervals "
+        "cover as they should."
+    ),
+    unit="that of the data",
+    range="0 to ∞",
+    source="Gneiting et al. 2007",
+    needs_variance=True,
+)
+def sharpness(outcome: Imputation) -> Score:
     r"""Return the mean predictive standard deviation of the hidden entries.
-
-    The metric ``sharpness``. Lower is sharper, and better among models whose coverage is right; in
-    the unit of the outputs.
 
     Parameters
     ----------
@@ -181,8 +195,7 @@ def mean_deviation(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
-        variance is missing or not positive.
+        If there is no predictive variance.
 
     Warnings
     --------
@@ -210,14 +223,25 @@ def mean_deviation(outcome: Imputation) -> Score:
     >>> sharpness(outcome).value
     1.0
     """
-    return average(deviations(outcome), hidden_entries(outcome))
+    return average(deviations(outcome), outcome.hidden)
 
 
-def gaussian_crps(outcome: Imputation) -> Score:
+@metric(
+    title="Continuous ranked probability score (CRPS)",
+    direction=Direction.LOWER,
+    sentence=(
+        "Absolute error of a predictive distribution: small where it is both near the truth and "
+        "narrow."
+    ),
+    unit="that of the data",
+    range="0 to ∞",
+    source="Gneiting and Raftery 2007",
+    needs_variance=True,
+)
+def crps(outcome: Imputation) -> Score:
     r"""Return the mean continuous ranked probability score of the hidden entries.
 
-    The metric ``crps``. For a Gaussian it is σ [z (2Φ(z) − 1) + 2φ(z) − 1/√π] with z = (y − μ)/σ.
-    Lower is better; in the unit of the outputs.
+    For a Gaussian it is σ [z (2Φ(z) − 1) + 2φ(z) − 1/√π] with z = (y − μ)/σ.
 
     Parameters
     ----------
@@ -233,8 +257,7 @@ def gaussian_crps(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
-        variance is missing or not positive.
+        If there is no predictive variance.
 
     Warnings
     --------
@@ -274,18 +297,15 @@ def gaussian_crps(outcome: Imputation) -> Score:
     z = _z_scores(outcome)
     density = np.exp(-0.5 * z**2) / np.sqrt(2 * np.pi)
     scores = deviations(outcome) * (z * (2 * ndtr(z) - 1) + 2 * density - 1 / np.sqrt(np.pi))
-    return average(scores, hidden_entries(outcome))
+    return average(scores, outcome.hidden)
 
 
-def _coverage(percent: int) -> Metric[Imputation]:
+def _declare_coverage(percent: int) -> Metric[Imputation]:
     level = percent / 100
-    return Metric(
-        f"coverage_{percent}",
-        f"Coverage of the {percent} % interval",
-        Direction.TARGET,
-        Imputation,
-        partial(interval_coverage, level=level),
-        needs_variance=True,
+    declare = metric(
+        name=f"coverage_{percent}",
+        title=f"Coverage of the {percent} % interval",
+        direction=Direction.TARGET,
         target=level,
         sentence=(
             f"Share of hidden entries inside their central {percent} % interval: less is too sure, "
@@ -293,54 +313,9 @@ def _coverage(percent: int) -> Metric[Imputation]:
         ),
         range="0 to 1",
         source="Gneiting et al. 2007",
+        needs_variance=True,
     )
+    return declare(partial(interval_coverage, level=level))
 
 
-coverage_50 = _coverage(50)
-coverage_80 = _coverage(80)
-coverage_90 = _coverage(90)
-coverage_95 = _coverage(95)
-pit = Metric(
-    "pit",
-    "Probability integral transform (PIT), distance from uniform",
-    Direction.LOWER,
-    Imputation,
-    pit_distance,
-    needs_variance=True,
-    sentence=(
-        "How far the truth’s ranks within its predictive distributions are from uniform: 0 where "
-        "the distributions are right."
-    ),
-    range="0 to 0.9",
-    source="Gneiting et al. 2007",
-)
-sharpness = Metric(
-    "sharpness",
-    "Sharpness (mean predictive sd)",
-    Direction.LOWER,
-    Imputation,
-    mean_deviation,
-    needs_variance=True,
-    sentence=(
-        "Mean predictive standard deviation; small is good only among models whose intervals "
-        "cover as they should."
-    ),
-    unit="that of the data",
-    range="0 to ∞",
-    source="Gneiting et al. 2007",
-)
-crps = Metric(
-    "crps",
-    "Continuous ranked probability score (CRPS)",
-    Direction.LOWER,
-    Imputation,
-    gaussian_crps,
-    needs_variance=True,
-    sentence=(
-        "Absolute error of a predictive distribution: small where it is both near the truth and "
-        "narrow."
-    ),
-    unit="that of the data",
-    range="0 to ∞",
-    source="Gneiting and Raftery 2007",
-)
+coverage_50, coverage_80, coverage_90, coverage_95 = map(_declare_coverage, (50, 80, 90, 95))

@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
 from sklearn.metrics import adjusted_rand_score
 from sklearn.metrics.cluster import contingency_matrix
 
-from mocapbench.metrics.base import Direction, Metric, Score
+from mocapbench.metrics.base import Direction, Score, metric
 from mocapbench.metrics.outcomes.clustering import Clustering
 
-__all__ = ["adjusted_rand", "adjusted_rand_index", "average_purity", "purity"]
+__all__ = ["adjusted_rand", "purity"]
 
 
-def average_purity(outcome: Clustering) -> Score:
+@metric(
+    title="Purity",
+    direction=Direction.HIGHER,
+    sentence=(
+        "Share of recordings that belong to the majority style of their cluster; it grows with "
+        "the number of clusters by itself."
+    ),
+    range="0 to 1",
+    source="Pan and Torresani 2009",
+)
+def purity(outcome: Clustering) -> Score:
     r"""Return Σ_c max_t n_ct / K, with n_ct recordings of class t in cluster c.
 
-    The metric ``purity``: the mean of the clusters' purities, each the share of its most frequent
-    class, weighted by their sizes. Higher is better, at most 1; without unit. It never falls when a
-    cluster is split and is 1 for clusters of one recording: compare at equal numbers of clusters.
+    It is the mean of the clusters' purities, each the share of its most frequent class, weighted by
+    their sizes. It never falls when a cluster is split and is 1 for clusters of one recording:
+    compare at equal numbers of clusters.
 
     Parameters
     ----------
@@ -29,11 +37,6 @@ def average_purity(outcome: Clustering) -> Score:
     -------
     Score
         Without parts.
-
-    Raises
-    ------
-    ValueError
-        If there is no recording, or not one class and one cluster for each.
 
     Warnings
     --------
@@ -61,16 +64,26 @@ def average_purity(outcome: Clustering) -> Score:
     >>> purity(Clustering(truth=styles, labels=np.array([1, 1, 1, 0]))).value
     1.0
     """
-    counts = _counts(outcome)
+    counts = contingency_matrix(outcome.truth, outcome.labels)  # classes are rows
     return Score(float(counts.max(axis=0).sum() / counts.sum()))
 
 
-def adjusted_rand_index(outcome: Clustering) -> Score:
+@metric(
+    title="Adjusted Rand index",
+    direction=Direction.HIGHER,
+    sentence=(
+        "Share of pairs of recordings rightly put together or apart, corrected for chance: 0 by "
+        "chance, 1 for the styles."
+    ),
+    range="−0.5 to 1",
+    source="Hubert and Arabie 1985",
+)
+def adjusted_rand(outcome: Clustering) -> Score:
     r"""Return how far clusters and classes agree on pairs of recordings, corrected for chance.
 
-    The metric ``adjusted_rand``: (RI − E[RI]) / (1 − E[RI]), where RI is the share of pairs of
-    recordings that are together, or apart, in both. Higher is better; without unit. 1 if clusters
-    are the classes, under any names; 0 on average for random clusters of the same sizes.
+    It is (RI − E[RI]) / (1 − E[RI]), where RI is the share of pairs of recordings that are
+    together, or apart, in both. 1 if clusters are the classes, under any names; 0 on average for
+    random clusters of the same sizes.
 
     Parameters
     ----------
@@ -81,11 +94,6 @@ def adjusted_rand_index(outcome: Clustering) -> Score:
     -------
     Score
         Without parts.
-
-    Raises
-    ------
-    ValueError
-        If there is no recording, or not one class and one cluster for each.
 
     Warnings
     --------
@@ -113,50 +121,4 @@ def adjusted_rand_index(outcome: Clustering) -> Score:
     >>> adjusted_rand(Clustering(truth=styles, labels=np.array([1, 1, 1, 0]))).value
     1.0
     """
-    _counts(outcome)
     return Score(float(adjusted_rand_score(outcome.truth, outcome.labels)))
-
-
-def _counts(outcome: Clustering) -> NDArray[np.intp]:
-    """Return how many recordings of each class (rows) are in each cluster (columns).
-
-    Raises
-    ------
-    ValueError
-        If there is no recording, or not one class and one cluster for each.
-    """
-    truth, labels = outcome.truth, outcome.labels
-    if truth.ndim != 1 or not len(truth) or truth.shape != labels.shape:
-        raise ValueError(
-            "expected one class and one cluster for each of one or more recordings, "
-            f"got shapes {truth.shape} and {labels.shape}"
-        )
-    return np.asarray(contingency_matrix(truth, labels))
-
-
-purity = Metric(
-    "purity",
-    "Purity",
-    Direction.HIGHER,
-    Clustering,
-    average_purity,
-    sentence=(
-        "Share of recordings that belong to the majority style of their cluster; it grows with "
-        "the number of clusters by itself."
-    ),
-    range="0 to 1",
-    source="Pan and Torresani 2009",
-)
-adjusted_rand = Metric(
-    "adjusted_rand",
-    "Adjusted Rand index",
-    Direction.HIGHER,
-    Clustering,
-    adjusted_rand_index,
-    sentence=(
-        "Share of pairs of recordings rightly put together or apart, corrected for chance: 0 by "
-        "chance, 1 for the styles."
-    ),
-    range="−0.5 to 1",
-    source="Hubert and Arabie 1985",
-)

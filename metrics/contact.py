@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Metric, Score, has_poses
-from mocapbench.metrics.entries import hidden_entries, mean_over
+from mocapbench.metrics.base import Direction, Score, has_poses, metric
+from mocapbench.metrics.entries import mean_over
 from mocapbench.metrics.frames import runs_of_frames
 from mocapbench.metrics.outcomes.imputation import Imputation
 from mocapbench.metrics.outcomes.synthesis import Synthesis
 
-__all__ = ["foot_skate", "imputed_foot_skate", "sample_foot_skate", "sampled_foot_skate"]
+__all__ = ["foot_skate", "sample_foot_skate"]
 
 Array = NDArray[np.float64]
 
@@ -26,15 +26,27 @@ _FOOT = "foot"
 _HORIZONTAL = [0, 2]
 
 
-def imputed_foot_skate(outcome: Imputation) -> Score:
+@metric(
+    title="Foot skate, cm/s",
+    direction=Direction.LOWER,
+    sentence=(
+        "Mean horizontal speed of a filled foot while the true foot stands; recorded walks have 6 "
+        "to 10 themselves."
+    ),
+    unit="cm/s",
+    range="0 to ∞",
+    source="this project",
+    defined=has_poses,
+)
+def foot_skate(outcome: Imputation) -> Score:
     r"""Return the mean horizontal speed of predicted feet while the true feet stand.
 
-    The metric ``foot_skate``. A foot is a joint whose name ends in ``foot``; in the Acclaim format
-    it is placed at the ball of the foot. It stands from one frame to the next where the truth is
-    below 5 cm at both, above its lowest place in the recording, and slower than 30 cm/s between
-    them. The mean is over the feet and pairs of frames where it stands and is hidden at either
-    frame. Lower is better; in centimetres per second. The truth itself does not have 0: recordings
-    of the CMU database have 6 to 10 cm/s in walks and 10 to 15 in runs (docs/centimetres.md).
+    A foot is a joint whose name ends in ``foot``; in the Acclaim format it is placed at the ball of
+    the foot. It stands from one frame to the next where the truth is below 5 cm at both, above its
+    lowest place in the recording, and slower than 30 cm/s between them. The mean is over the feet
+    and pairs of frames where it stands and is hidden at either frame. The truth itself does not
+    have 0: recordings of the CMU database have 6 to 10 cm/s in walks and 10 to 15 in runs
+    (docs/centimetres.md).
 
     Parameters
     ----------
@@ -49,8 +61,7 @@ def imputed_foot_skate(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or the
-        outcome has no poses or no feet.
+        If the outcome has no poses or no feet.
 
     Warnings
     --------
@@ -89,7 +100,6 @@ def imputed_foot_skate(outcome: Imputation) -> Score:
     >>> round(foot_skate(outcome).value, 6)
     30.0
     """
-    hidden_entries(outcome)
     poses = outcome.poses
     of_feet = _feet(poses.joints)
     first = runs_of_frames(len(poses.times), poses.starts, 2)
@@ -105,13 +115,25 @@ def imputed_foot_skate(outcome: Imputation) -> Score:
     return Score(float(speeds[counts].mean()) if counts.any() else np.nan, {"joint": by_joint})
 
 
-def sampled_foot_skate(outcome: Synthesis) -> Score:
+@metric(
+    title="Foot skate of samples, cm/s",
+    direction=Direction.LOWER,
+    sentence=(
+        "Mean horizontal speed of sampled feet near the ground; recorded walks have 4 to 12 "
+        "themselves."
+    ),
+    unit="cm/s",
+    range="0 to ∞",
+    source="Zhang et al. 2018",
+    defined=has_poses,
+)
+def sample_foot_skate(outcome: Synthesis) -> Score:
     r"""Return the mean horizontal speed of sampled feet near the ground, weighted by nearness.
 
-    The metric ``sample_foot_skate``: the mean of v (2 − 2^(h/H)) over the feet and pairs of frames
-    with h < H = 2.5 cm, v being the horizontal speed and h the height at the second frame above
-    the lowest place of the sample's feet. Lower is better; in centimetres per second. Recordings
-    of the CMU database have 4 to 12 cm/s in walks and 20 to 25 in runs (docs/centimetres.md).
+    It is the mean of v (2 − 2^(h/H)) over the feet and pairs of frames with h < H = 2.5 cm, v being
+    the horizontal speed and h the height at the second frame above the lowest place of the sample's
+    feet. Recordings of the CMU database have 4 to 12 cm/s in walks and 20 to 25 in runs
+    (docs/centimetres.md).
 
     Parameters
     ----------
@@ -201,35 +223,3 @@ def _feet(joints: tuple[str, ...]) -> list[int]:
             "or leave metrics of feet out"
         )
     return found
-
-
-foot_skate = Metric(
-    "foot_skate",
-    "Foot skate, cm/s",
-    Direction.LOWER,
-    Imputation,
-    imputed_foot_skate,
-    defined=has_poses,
-    sentence=(
-        "Mean horizontal speed of a filled foot while the true foot stands; recorded walks have 6 "
-        "to 10 themselves."
-    ),
-    unit="cm/s",
-    range="0 to ∞",
-    source="this project",
-)
-sample_foot_skate = Metric(
-    "sample_foot_skate",
-    "Foot skate of samples, cm/s",
-    Direction.LOWER,
-    Synthesis,
-    sampled_foot_skate,
-    defined=has_poses,
-    sentence=(
-        "Mean horizontal speed of sampled feet near the ground; recorded walks have 4 to 12 "
-        "themselves."
-    ),
-    unit="cm/s",
-    range="0 to ∞",
-    source="Zhang et al. 2018",
-)

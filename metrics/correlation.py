@@ -16,7 +16,6 @@ from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = [
     "SampleByReferenceByOutput",
-    "check_synthesis",
     "cross_correlation",
     "linear_correlation",
 ]
@@ -27,25 +26,6 @@ SampleByReferenceByOutput = NDArray[np.float64]
 
 _ROUNDING = 1e-12
 """Range of an output, relative to its largest value, up to which it counts as constant."""
-
-
-def check_synthesis(outcome: Synthesis) -> None:
-    """Check that samples and references are comparable.
-
-    Raises
-    ------
-    ValueError
-        If shapes disagree, either is empty, or a value is not finite.
-    """
-    samples, references = outcome.samples, outcome.references
-    same = samples.ndim == references.ndim == 3 and samples.shape[1:] == references.shape[1:]
-    if not same or min(samples.size, references.size) == 0:
-        raise ValueError(
-            "expected at least one sample and one reference with equal (frames, outputs), "
-            f"got shapes {samples.shape} and {references.shape}"
-        )
-    if not (np.isfinite(samples).all() and np.isfinite(references).all()):
-        raise ValueError("expected finite samples and references, got NaN or infinity")
 
 
 def cross_correlation(outcome: Synthesis) -> SampleByReferenceByOutput:
@@ -59,7 +39,6 @@ def cross_correlation(outcome: Synthesis) -> SampleByReferenceByOutput:
     ----------
     Thesis §4.3, mean cross correlation.
     """
-    check_synthesis(outcome)
     length = next_fast_len(2 * outcome.samples.shape[1] - 1, real=True)
     samples = rfft(_unit_range(outcome.samples), length, axis=1)
     references = rfft(_unit_range(outcome.references), length, axis=1)
@@ -78,7 +57,6 @@ def linear_correlation(outcome: Synthesis) -> SampleByReferenceByOutput:
     ----------
     Thesis §4.3, mean linear correlation.
     """
-    check_synthesis(outcome)
     samples, references = _unit_norm(outcome.samples), _unit_norm(outcome.references)
     correlations = np.einsum("snd,mnd->smd", samples, references)
     return np.where(_constant(outcome), np.nan, correlations)

@@ -5,23 +5,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Metric, Score
+from mocapbench.metrics.base import Direction, Score, metric
 from mocapbench.metrics.entries import (
     DEGENERATE,
     average,
-    hidden_entries,
     mean_over,
     variance_over,
 )
 from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
-    "mean_squared_error",
     "mse",
-    "pooled_standardised_error",
     "smse",
     "smse_pooled",
-    "standardised_error",
 ]
 
 Array = NDArray[np.float64]
@@ -31,10 +27,16 @@ def _squared_error(outcome: Imputation) -> Array:
     return np.asarray((outcome.truth - outcome.mean) ** 2)
 
 
-def mean_squared_error(outcome: Imputation) -> Score:
+@metric(
+    title="Mean squared error (MSE)",
+    direction=Direction.LOWER,
+    sentence="Mean squared difference of prediction and truth at hidden entries.",
+    unit="that of the data, squared",
+    range="0 to ∞",
+    source="Rasmussen and Williams 2006",
+)
+def mse(outcome: Imputation) -> Score:
     r"""Return the mean of (y − μ)² over the hidden entries.
-
-    The metric ``mse``. Lower is better; in the squared unit of the outputs.
 
     Parameters
     ----------
@@ -46,11 +48,6 @@ def mean_squared_error(outcome: Imputation) -> Score:
     Score
         With parts ``"output"`` (D,) and ``"frame"`` (N,), the means over the hidden entries of
         each.
-
-    Raises
-    ------
-    ValueError
-        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
 
     Warnings
     --------
@@ -80,16 +77,25 @@ def mean_squared_error(outcome: Imputation) -> Score:
     >>> mse(outcome).parts["output"]
     array([0.5, 8. ])
     """
-    return average(_squared_error(outcome), hidden_entries(outcome))
+    return average(_squared_error(outcome), outcome.hidden)
 
 
-def standardised_error(outcome: Imputation) -> Score:
+@metric(
+    title="Standardised MSE (SMSE)",
+    direction=Direction.LOWER,
+    sentence=(
+        "MSE over the variance of the true values, channel by channel, then averaged; predicting "
+        "the mean scores 1."
+    ),
+    range="0 to ∞",
+    source="Rasmussen and Williams 2006",
+)
+def smse(outcome: Imputation) -> Score:
     r"""Return the mean over outputs of MSE_d / var_d.
 
-    The metric ``smse``. MSE_d is the mean of (y − μ)² over the hidden entries of output d, and
-    var_d the variance (ddof 0) of its true values there. Lower is better, without unit; predicting
-    the mean of the hidden values scores 1. Outputs whose visible or hidden variance is below 1e-12
-    are left out.
+    MSE_d is the mean of (y − μ)² over the hidden entries of output d, and var_d the variance (ddof
+    0) of its true values there. Predicting the mean of the hidden values scores 1. Outputs whose
+    visible or hidden variance is below 1e-12 are left out.
 
     Parameters
     ----------
@@ -100,11 +106,6 @@ def standardised_error(outcome: Imputation) -> Score:
     -------
     Score
         NaN if all outputs are left out. With part ``"output"`` (D,), MSE_d / var_d.
-
-    Raises
-    ------
-    ValueError
-        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
 
     Warnings
     --------
@@ -146,7 +147,7 @@ def standardised_error(outcome: Imputation) -> Score:
     >>> smse(outcome).parts["output"]
     array([0.5, 2. ])
     """
-    hidden = hidden_entries(outcome)
+    hidden = outcome.hidden
     variance = variance_over(outcome.truth, hidden)
     kept = (outcome.visible_variance >= DEGENERATE) & (variance >= DEGENERATE)
     errors = mean_over(_squared_error(outcome), hidden & kept, axis=0)
@@ -155,13 +156,23 @@ def standardised_error(outcome: Imputation) -> Score:
     return Score(value, {"output": ratios}, int((hidden.any(axis=0) & ~kept).sum()))
 
 
-def pooled_standardised_error(outcome: Imputation) -> Score:
+@metric(
+    title="Standardised MSE of all channels together (pooled SMSE)",
+    direction=Direction.LOWER,
+    sentence=(
+        "MSE over the variance of the true values, both over all channels together, as the thesis "
+        "tabulates it."
+    ),
+    range="0 to ∞",
+    source="Gil López 2017",
+)
+def smse_pooled(outcome: Imputation) -> Score:
     r"""Return MSE / var, both over the hidden entries of all outputs together.
 
-    The metric ``smse_pooled``: one variance (ddof 0) around one mean. The thesis (J. D. Gil López,
-    *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc thesis, Universidad
-    Tecnológica de Pereira, 2017) tabulates this ratio as SMSE, as its columns of MSE show. Lower is
-    better, without unit. Outputs whose visible variance is below 1e-12 are left out.
+    There is one variance (ddof 0), around one mean. The thesis (J. D. Gil López, *Hierarchical
+    Multiple Output Gaussian Processes for Human Motion Data*, MSc thesis, Universidad Tecnológica
+    de Pereira, 2017) tabulates this ratio as SMSE, as its columns of MSE show. Outputs whose
+    visible variance is below 1e-12 are left out.
 
     Parameters
     ----------
@@ -173,11 +184,6 @@ def pooled_standardised_error(outcome: Imputation) -> Score:
     Score
         NaN if no variance remains. With parts ``"output"`` (D,) and ``"frame"`` (N,), their MSE
         over the same pooled variance.
-
-    Raises
-    ------
-    ValueError
-        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
 
     Warnings
     --------
@@ -214,49 +220,10 @@ def pooled_standardised_error(outcome: Imputation) -> Score:
     >>> round(smse_pooled(outcome).value, 6)
     0.485714
     """
-    hidden = hidden_entries(outcome)
+    hidden = outcome.hidden
     kept = outcome.visible_variance >= DEGENERATE
     scored = hidden & kept
     variance = outcome.truth[scored].var() if scored.any() else 0.0
     scale = variance if variance >= DEGENERATE else np.nan
     left_out = int((hidden.any(axis=0) & ~kept).sum())
     return average(_squared_error(outcome) / scale, scored, left_out)
-
-
-mse = Metric(
-    "mse",
-    "Mean squared error (MSE)",
-    Direction.LOWER,
-    Imputation,
-    mean_squared_error,
-    sentence="Mean squared difference of prediction and truth at hidden entries.",
-    unit="that of the data, squared",
-    range="0 to ∞",
-    source="Rasmussen and Williams 2006",
-)
-smse = Metric(
-    "smse",
-    "Standardised MSE (SMSE)",
-    Direction.LOWER,
-    Imputation,
-    standardised_error,
-    sentence=(
-        "MSE over the variance of the true values, channel by channel, then averaged; predicting "
-        "the mean scores 1."
-    ),
-    range="0 to ∞",
-    source="Rasmussen and Williams 2006",
-)
-smse_pooled = Metric(
-    "smse_pooled",
-    "Standardised MSE of all channels together (pooled SMSE)",
-    Direction.LOWER,
-    Imputation,
-    pooled_standardised_error,
-    sentence=(
-        "MSE over the variance of the true values, both over all channels together, as the thesis "
-        "tabulates it."
-    ),
-    range="0 to ∞",
-    source="Gil López 2017",
-)

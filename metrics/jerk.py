@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Metric, Score, has_poses
-from mocapbench.metrics.entries import hidden_entries
+from mocapbench.metrics.base import Direction, Score, has_poses, metric
 from mocapbench.metrics.frames import runs_of_frames
 from mocapbench.metrics.outcomes.imputation import Imputation
 from mocapbench.metrics.outcomes.synthesis import Synthesis
 
-__all__ = ["imputed_jerk", "jerk_ratio", "sample_jerk_ratio", "sampled_jerk"]
+__all__ = ["jerk_ratio", "sample_jerk_ratio"]
 
 Array = NDArray[np.float64]
 
@@ -19,14 +18,24 @@ _WIDTH = 4
 """Frames of a third difference."""
 
 
-def imputed_jerk(outcome: Imputation) -> Score:
+@metric(
+    title="Jerk, ratio to the truth",
+    direction=Direction.TARGET,
+    target=1.0,
+    sentence=(
+        "Jerk of filled joints over that of the true ones: below 1 too smooth, above 1 too rough."
+    ),
+    range="0 to ∞",
+    source="this project",
+    defined=has_poses,
+)
+def jerk_ratio(outcome: Imputation) -> Score:
     r"""Return the jerk of the prediction over that of the truth, within gaps.
 
-    The metric ``jerk_ratio``: Σ‖ĵ‖ / Σ‖j‖, with j the jerk of a joint's position relative to the
-    root over four frames in a row, 6 times the third divided difference over their times. The sums
-    run over all joints and fours of frames in which the joint is hidden at least once, so that
-    jumps at the ends of a gap count. The target is 1, without unit: less is too smooth, more too
-    rough.
+    It is Σ‖ĵ‖ / Σ‖j‖, with j the jerk of a joint's position relative to the root over four frames
+    in a row, 6 times the third divided difference over their times. The sums run over all joints
+    and fours of frames in which the joint is hidden at least once, so that jumps at the ends of a
+    gap count. Less than 1 is too smooth, more too rough.
 
     Parameters
     ----------
@@ -42,8 +51,7 @@ def imputed_jerk(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or the
-        outcome has no poses.
+        If the outcome has no poses.
 
     Warnings
     --------
@@ -83,7 +91,6 @@ def imputed_jerk(outcome: Imputation) -> Score:
     >>> round(jerk_ratio(outcome).value, 6)
     0.5
     """
-    hidden_entries(outcome)
     poses = outcome.poses
     first = runs_of_frames(len(poses.times), poses.starts, _WIDTH)
     near = np.stack([poses.hidden_relative[first + k] for k in range(_WIDTH)]).any(axis=0)
@@ -94,11 +101,21 @@ def imputed_jerk(outcome: Imputation) -> Score:
     return Score(float(_ratio(mean.sum(), truth.sum())), {"joint": by_joint})
 
 
-def sampled_jerk(outcome: Synthesis) -> Score:
+@metric(
+    title="Jerk, ratio to the references",
+    direction=Direction.TARGET,
+    target=1.0,
+    sentence=(
+        "Jerk of sampled joints over that of the references: below 1 too smooth, above 1 too rough."
+    ),
+    range="0 to ∞",
+    source="this project",
+    defined=has_poses,
+)
+def sample_jerk_ratio(outcome: Synthesis) -> Score:
     r"""Return the mean jerk of the samples over that of the references.
 
-    The metric ``sample_jerk_ratio``, of all joints relative to the root; jerk as in
-    `jerk_ratio`. The target is 1, without unit.
+    It takes all joints relative to the root; jerk is as in `jerk_ratio`.
 
     Parameters
     ----------
@@ -168,33 +185,3 @@ def _jerk(positions: Array, times: Array, first: NDArray[np.intp]) -> Array:
 
 def _ratio(numerator: Array, denominator: Array) -> Array:
     return np.asarray(numerator / np.where(denominator > 0.0, denominator, np.nan))
-
-
-jerk_ratio = Metric(
-    "jerk_ratio",
-    "Jerk, ratio to the truth",
-    Direction.TARGET,
-    Imputation,
-    imputed_jerk,
-    target=1.0,
-    defined=has_poses,
-    sentence=(
-        "Jerk of filled joints over that of the true ones: below 1 too smooth, above 1 too rough."
-    ),
-    range="0 to ∞",
-    source="this project",
-)
-sample_jerk_ratio = Metric(
-    "sample_jerk_ratio",
-    "Jerk, ratio to the references",
-    Direction.TARGET,
-    Synthesis,
-    sampled_jerk,
-    target=1.0,
-    defined=has_poses,
-    sentence=(
-        "Jerk of sampled joints over that of the references: below 1 too smooth, above 1 too rough."
-    ),
-    range="0 to ∞",
-    source="this project",
-)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Metric, Score
-from mocapbench.metrics.entries import DEGENERATE, average, deviations, hidden_entries
+from mocapbench.metrics.base import Direction, Score, metric
+from mocapbench.metrics.entries import DEGENERATE, average, deviations
 from mocapbench.metrics.outcomes.imputation import Imputation
 
-__all__ = ["mean_standardised_log_loss", "msll"]
+__all__ = ["msll"]
 
 Array = NDArray[np.float64]
 
@@ -19,13 +19,25 @@ def _log_loss(values: Array, mean: Array, variance: Array) -> Array:
     return np.asarray(0.5 * np.log(2 * np.pi * variance) + (values - mean) ** 2 / (2 * variance))
 
 
-def mean_standardised_log_loss(outcome: Imputation) -> Score:
+@metric(
+    title="Mean standardised log loss (MSLL)",
+    direction=Direction.LOWER,
+    sentence=(
+        "Log loss of the predictive distributions minus that of each channel’s visible mean and "
+        "variance, which therefore scores 0."
+    ),
+    unit="nats",
+    range="−∞ to ∞",
+    source="Rasmussen and Williams 2006",
+    needs_variance=True,
+)
+def msll(outcome: Imputation) -> Score:
     r"""Return the mean log loss of the hidden entries less that of a trivial model.
 
-    The metric ``msll``. The loss of an entry is ½ log(2πσ²) + (y − μ)² / (2σ²), with σ² the
-    predictive variance of an observation, noise included. The trivial model is a Gaussian with the
-    mean and the variance (ddof 0) of the output's visible entries; it scores 0. Lower is better, in
-    nats. Outputs whose visible variance is below 1e-12 are left out.
+    The loss of an entry is ½ log(2πσ²) + (y − μ)² / (2σ²), with σ² the predictive variance of an
+    observation, noise included. The trivial model is a Gaussian with the mean and the variance
+    (ddof 0) of the output's visible entries; it scores 0. Outputs whose visible variance is below
+    1e-12 are left out.
 
     Parameters
     ----------
@@ -41,8 +53,7 @@ def mean_standardised_log_loss(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or its
-        variance is missing or not positive.
+        If there is no predictive variance.
 
     Warnings
     --------
@@ -83,23 +94,6 @@ def mean_standardised_log_loss(outcome: Imputation) -> Score:
     trivial_variance = np.where(kept, outcome.visible_variance, 1.0)
     loss = _log_loss(outcome.truth, outcome.mean, variance)
     trivial = _log_loss(outcome.truth, outcome.visible_mean, trivial_variance)
-    hidden = hidden_entries(outcome)
+    hidden = outcome.hidden
     left_out = int((hidden.any(axis=0) & ~kept).sum())
     return average(loss - trivial, hidden & kept, left_out)
-
-
-msll = Metric(
-    "msll",
-    "Mean standardised log loss (MSLL)",
-    Direction.LOWER,
-    Imputation,
-    mean_standardised_log_loss,
-    needs_variance=True,
-    sentence=(
-        "Log loss of the predictive distributions minus that of each channel’s visible mean and "
-        "variance, which therefore scores 0."
-    ),
-    unit="nats",
-    range="−∞ to ∞",
-    source="Rasmussen and Williams 2006",
-)

@@ -5,16 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Metric, Score
-from mocapbench.metrics.entries import hidden_entries
+from mocapbench.metrics.base import Direction, Score, metric
 from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
-    "angle_error",
     "angle_error_per_frame",
-    "rms_error_per_frame",
     "rms_per_frame",
-    "root_error",
     "root_error_per_frame",
 ]
 
@@ -29,13 +25,24 @@ def _has_angles_and_path(outcome: Imputation) -> bool:
     return _has_angles(outcome) and set(outcome.units) != {_ANGLE}
 
 
-def rms_error_per_frame(outcome: Imputation) -> Score:
+@metric(
+    title="Mean error norm per frame (degrees and root steps, mixed)",
+    direction=Direction.LOWER,
+    sentence=(
+        "Mean over hidden frames of the Euclidean norm of the error of all channels, degrees and "
+        "root steps added as they are."
+    ),
+    unit="that of the data",
+    range="0 to ∞",
+    source="Wang et al. 2008",
+)
+def rms_per_frame(outcome: Imputation) -> Score:
     r"""Return the mean over hidden frames of ‖y_t − μ_t‖.
 
-    The metric ``rms_per_frame``. The norm is Euclidean, over the hidden entries of frame t; a frame
-    counts if any of its entries is hidden. It is not the root of a mean square: the name is that of
-    the paper's table. Lower is better; in the units of the outputs, which it adds up as they are:
-    degrees, and steps of the root in the skeleton's unit of length.
+    The norm is Euclidean, over the hidden entries of frame t; a frame counts if any of its entries
+    is hidden. It is not the root of a mean square: the name is that of the paper's table. It adds
+    up the units of the outputs as they are: degrees, and steps of the root in the skeleton's unit
+    of length.
 
     Parameters
     ----------
@@ -46,11 +53,6 @@ def rms_error_per_frame(outcome: Imputation) -> Score:
     -------
     Score
         With part ``"frame"`` (N,), the norms; NaN at frames without hidden entries.
-
-    Raises
-    ------
-    ValueError
-        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
 
     Warnings
     --------
@@ -92,11 +94,20 @@ def rms_error_per_frame(outcome: Imputation) -> Score:
     return _mean_norm(outcome, np.full(len(outcome.visible_mean), True))
 
 
-def angle_error(outcome: Imputation) -> Score:
+@metric(
+    title="Mean error norm per frame, angles (degrees)",
+    direction=Direction.LOWER,
+    sentence=("Mean over hidden frames of the Euclidean norm of the error of all hidden angles."),
+    unit="degrees",
+    range="0 to ∞",
+    source="this project",
+    defined=_has_angles,
+)
+def angle_error_per_frame(outcome: Imputation) -> Score:
     r"""Return the mean over frames of the norm of the error of the hidden angles.
 
-    The metric ``angle_error_per_frame``: as `rms_per_frame`, over the outputs whose unit is
-    ``deg`` and over the frames in which one of them is hidden. Lower is better; in degrees.
+    It is as `rms_per_frame`, over the outputs whose unit is ``deg`` and over the frames in which
+    one of them is hidden.
 
     Parameters
     ----------
@@ -107,11 +118,6 @@ def angle_error(outcome: Imputation) -> Score:
     -------
     Score
         NaN if no angle is hidden. With part ``"frame"`` (N,), the norms.
-
-    Raises
-    ------
-    ValueError
-        As `rms_per_frame`.
 
     Warnings
     --------
@@ -143,13 +149,23 @@ def angle_error(outcome: Imputation) -> Score:
     return _mean_norm(outcome, np.array([unit == _ANGLE for unit in outcome.units]))
 
 
-def root_error(outcome: Imputation) -> Score:
+@metric(
+    title="Mean error norm per frame, root translation (skeleton's unit of length)",
+    direction=Direction.LOWER,
+    sentence=(
+        "Mean over hidden frames of the Euclidean norm of the error of the root’s translation or "
+        "steps."
+    ),
+    unit="skeleton units (5.64 cm in the CMU database)",
+    range="0 to ∞",
+    source="this project",
+    defined=_has_angles_and_path,
+)
+def root_error_per_frame(outcome: Imputation) -> Score:
     r"""Return the mean over frames of the error norm of the hidden outputs that are not angles.
 
-    The metric ``root_error_per_frame``: of motions on a skeleton these are the root's translation,
-    or its steps from frame to frame. Otherwise as `rms_per_frame`, over the frames in which
-    one of them is hidden. Lower is better; in the skeleton's unit of length, which is 5.64 cm in
-    the CMU database.
+    Of motions on a skeleton these are the root's translation, or its steps from frame to frame.
+    Otherwise as `rms_per_frame`, over the frames in which one of them is hidden.
 
     Parameters
     ----------
@@ -160,11 +176,6 @@ def root_error(outcome: Imputation) -> Score:
     -------
     Score
         NaN if none is hidden. With part ``"frame"`` (N,), the norms.
-
-    Raises
-    ------
-    ValueError
-        As `rms_per_frame`.
 
     Warnings
     --------
@@ -198,51 +209,8 @@ def root_error(outcome: Imputation) -> Score:
 
 def _mean_norm(outcome: Imputation, counts: NDArray[np.bool_]) -> Score:
     """Return the mean norm over the hidden entries of the outputs that count (D,)."""
-    hidden = hidden_entries(outcome) & counts
+    hidden = outcome.hidden & counts
     errors = np.where(hidden, outcome.truth - outcome.mean, 0.0)
     norms = np.where(hidden.any(axis=1), np.linalg.norm(errors, axis=1), np.nan)
     mean = float(np.nanmean(norms)) if hidden.any() else float("nan")
     return Score(mean, {"frame": norms})
-
-
-rms_per_frame = Metric(
-    "rms_per_frame",
-    "Mean error norm per frame (degrees and root steps, mixed)",
-    Direction.LOWER,
-    Imputation,
-    rms_error_per_frame,
-    sentence=(
-        "Mean over hidden frames of the Euclidean norm of the error of all channels, degrees and "
-        "root steps added as they are."
-    ),
-    unit="that of the data",
-    range="0 to ∞",
-    source="Wang et al. 2008",
-)
-angle_error_per_frame = Metric(
-    "angle_error_per_frame",
-    "Mean error norm per frame, angles (degrees)",
-    Direction.LOWER,
-    Imputation,
-    angle_error,
-    defined=_has_angles,
-    sentence="Mean over hidden frames of the Euclidean norm of the error of all hidden angles.",
-    unit="degrees",
-    range="0 to ∞",
-    source="this project",
-)
-root_error_per_frame = Metric(
-    "root_error_per_frame",
-    "Mean error norm per frame, root translation (skeleton's unit of length)",
-    Direction.LOWER,
-    Imputation,
-    root_error,
-    defined=_has_angles_and_path,
-    sentence=(
-        "Mean over hidden frames of the Euclidean norm of the error of the root’s translation or "
-        "steps."
-    ),
-    unit="skeleton units (5.64 cm in the CMU database)",
-    range="0 to ∞",
-    source="this project",
-)

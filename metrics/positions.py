@@ -5,17 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.base import Direction, Metric, Score, has_poses
-from mocapbench.metrics.entries import hidden_entries, mean_over
+from mocapbench.metrics.base import Direction, Score, has_poses, metric
+from mocapbench.metrics.entries import mean_over
 from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = [
-    "bone_length_difference",
     "bone_length_error",
-    "joint_position_error",
     "mpjpe",
     "mpjpe_global",
-    "relative_joint_position_error",
 ]
 
 Array = NDArray[np.float64]
@@ -27,13 +24,24 @@ def _are_positions(outcome: Imputation) -> bool:
     return has_poses(outcome) and set(outcome.units) == {"cm"}
 
 
-def relative_joint_position_error(outcome: Imputation) -> Score:
+@metric(
+    title="Joint position error relative to the root (MPJPE), cm",
+    direction=Direction.LOWER,
+    sentence=(
+        "Mean distance of predicted joints from true ones, both placed by forward kinematics "
+        "relative to the root."
+    ),
+    unit="cm",
+    range="0 to ∞",
+    source="Ionescu et al. 2014",
+    defined=has_poses,
+)
+def mpjpe(outcome: Imputation) -> Score:
     r"""Return the mean distance of predicted from true joints, both relative to the root.
 
-    The metric ``mpjpe`` (mean per joint position error). With p_tj the position of joint j at frame
-    t, it is the mean of ‖(p̂_tj − p̂_t,root) − (p_tj − p_t,root)‖ over the joints and frames whose
-    position relative to the root depends on a hidden entry. Orientations are not aligned. Lower is
-    better; in centimetres.
+    With p_tj the position of joint j at frame t, it is the mean of ‖(p̂_tj − p̂_t,root) − (p_tj −
+    p_t,root)‖ over the joints and frames whose position relative to the root depends on a hidden
+    entry. Orientations are not aligned.
 
     Parameters
     ----------
@@ -49,8 +57,7 @@ def relative_joint_position_error(outcome: Imputation) -> Score:
     Raises
     ------
     ValueError
-        If shapes disagree, nothing is hidden, a hidden entry has no finite truth or mean, or the
-        outcome has no poses.
+        If the outcome has no poses.
 
     Warnings
     --------
@@ -96,19 +103,30 @@ def relative_joint_position_error(outcome: Imputation) -> Score:
     >>> mpjpe(outcome).value
     5.0
     """
-    hidden_entries(outcome)
     truth, mean = outcome.poses.relative
     distances = np.asarray(np.linalg.norm(mean - truth, axis=2))
     return _over_joints(distances, outcome.poses.hidden_relative)
 
 
-def joint_position_error(outcome: Imputation) -> Score:
+@metric(
+    title="Joint position error in space (global MPJPE), cm",
+    direction=Direction.LOWER,
+    sentence=(
+        "Mean distance of predicted joints from true ones in space; errors of the root’s steps "
+        "add up along a gap."
+    ),
+    unit="cm",
+    range="0 to ∞",
+    source="Ionescu et al. 2014",
+    defined=has_poses,
+)
+def mpjpe_global(outcome: Imputation) -> Score:
     r"""Return the mean distance of predicted from true joints in space.
 
-    The metric ``mpjpe_global``: the mean of ‖p̂_tj − p_tj‖ over the joints and frames whose position
-    depends on a hidden entry. Where the root's translation is given as differences, it is summed
-    up from the first frame of the recording, so that its errors accumulate along a gap; after the
-    gap they are not scored. Lower is better; in centimetres.
+    It is the mean of ‖p̂_tj − p_tj‖ over the joints and frames whose position depends on a hidden
+    entry. Where the root's translation is given as differences, it is summed up from the first
+    frame of the recording, so that its errors accumulate along a gap; after the gap they are not
+    scored.
 
     Parameters
     ----------
@@ -157,17 +175,27 @@ def joint_position_error(outcome: Imputation) -> Score:
     >>> mpjpe_global(outcome).value
     5.0
     """
-    hidden_entries(outcome)
     return _over_joints(outcome.poses.errors, outcome.poses.hidden)
 
 
-def bone_length_difference(outcome: Imputation) -> Score:
+@metric(
+    title="Bone length error, cm",
+    direction=Direction.LOWER,
+    sentence=(
+        "Mean difference of predicted from true bone lengths, at hidden joints; defined where "
+        "channels are positions."
+    ),
+    unit="cm",
+    range="0 to ∞",
+    source="this project",
+    defined=_are_positions,
+)
+def bone_length_error(outcome: Imputation) -> Score:
     r"""Return the mean absolute difference of the lengths of predicted and true bones.
 
-    The metric ``bone_length_error``: the mean of ``|ℓ̂_tj − ℓ_tj|`` over the bones and frames with a
-    hidden joint at either end, with ℓ_tj the distance of joint j from its parent at frame t. It is
-    defined where the outputs are positions; joint angles keep all lengths. Lower is better; in
-    centimetres.
+    It is the mean of ``|ℓ̂_tj − ℓ_tj|`` over the bones and frames with a hidden joint at either
+    end, with ℓ_tj the distance of joint j from its parent at frame t. It is defined where the
+    outputs are positions; joint angles keep all lengths.
 
     Parameters
     ----------
@@ -219,7 +247,6 @@ def bone_length_difference(outcome: Imputation) -> Score:
     >>> bone_length_error(outcome).value
     2.0
     """
-    hidden_entries(outcome)
     poses = outcome.poses
     parents = np.array(poses.parents)
     is_bone = parents >= 0
@@ -237,50 +264,3 @@ def _over_joints(values: Array, hidden: Mask) -> Score:
         "frame": mean_over(values, hidden, axis=1),
     }
     return Score(float(values[hidden].mean()) if hidden.any() else float("nan"), parts)
-
-
-mpjpe = Metric(
-    "mpjpe",
-    "Joint position error relative to the root (MPJPE), cm",
-    Direction.LOWER,
-    Imputation,
-    relative_joint_position_error,
-    defined=has_poses,
-    sentence=(
-        "Mean distance of predicted joints from true ones, both placed by forward kinematics "
-        "relative to the root."
-    ),
-    unit="cm",
-    range="0 to ∞",
-    source="Ionescu et al. 2014",
-)
-mpjpe_global = Metric(
-    "mpjpe_global",
-    "Joint position error in space (global MPJPE), cm",
-    Direction.LOWER,
-    Imputation,
-    joint_position_error,
-    defined=has_poses,
-    sentence=(
-        "Mean distance of predicted joints from true ones in space; errors of the root’s steps "
-        "add up along a gap."
-    ),
-    unit="cm",
-    range="0 to ∞",
-    source="Ionescu et al. 2014",
-)
-bone_length_error = Metric(
-    "bone_length_error",
-    "Bone length error, cm",
-    Direction.LOWER,
-    Imputation,
-    bone_length_difference,
-    defined=_are_positions,
-    sentence=(
-        "Mean difference of predicted from true bone lengths, at hidden joints; defined where "
-        "channels are positions."
-    ),
-    unit="cm",
-    range="0 to ∞",
-    source="this project",
-)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
-from mocapbench.metrics.base import Direction, Metric, Score
+from mocapbench.metrics.base import Direction, Metric, Score, metric
 from mocapbench.metrics.outcomes.recovery import Recovery
 
 __all__ = [
@@ -30,8 +30,8 @@ Array = NDArray[np.float64]
 def relative_frobenius(outcome: Recovery, layer: str) -> Score:
     r"""Return ‖K̂ − K‖ / ‖K‖ in the Frobenius norm, for the covariance K of ``layer``.
 
-    The metrics ``frobenius_child`` and ``frobenius_parent``. Noise is in neither matrix. Lower is
-    better, without unit: 0 for the truth, 1 for K̂ = 0.
+    The metrics ``frobenius_child`` and ``frobenius_parent``. Noise is in neither matrix. It is 0
+    for the truth, 1 for K̂ = 0.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def relative_frobenius(outcome: Recovery, layer: str) -> Score:
     Raises
     ------
     ValueError
-        If the matrices are not square and of the same size.
+        If the layer has no estimate.
 
     Warnings
     --------
@@ -78,10 +78,10 @@ def log_det_divergence(outcome: Recovery, layer: str) -> Score:
     r"""Return tr(A B⁻¹) − log det(A B⁻¹) − n with A = K + σ² I and B = K̂ + σ² I, K (n, n).
 
     The metrics ``logdet_child`` and ``logdet_parent``: twice the Kullback–Leibler divergence
-    KL(N(0, A) ‖ N(0, B)), the log loss from taking K̂ for the covariance of ``layer``. Lower is
-    better, in nats. Covariances of smooth curves are almost singular, and without noise the
-    divergence is infinite where K̂ lacks a direction of K; with σ², the variance of the true noise
-    in both matrices, directions too small to be observed hardly count.
+    KL(N(0, A) ‖ N(0, B)), the log loss from taking K̂ for the covariance of ``layer``. Covariances
+    of smooth curves are almost singular, and without noise the divergence is infinite where K̂
+    lacks a direction of K; with σ², the variance of the true noise in both matrices, directions too
+    small to be observed hardly count.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def log_det_divergence(outcome: Recovery, layer: str) -> Score:
     Raises
     ------
     ValueError
-        If the noise variance is not positive, or the matrices are not square and of the same size.
+        If the variance of the noise is not positive, or the layer has no estimate.
 
     Warnings
     --------
@@ -140,65 +140,53 @@ def _pair(outcome: Recovery, layer: str) -> tuple[Array, Array]:
     Raises
     ------
     ValueError
-        If one is missing, or they are not square matrices of the same size.
+        If it has no estimate.
     """
-    for name, layers in (("true", outcome.truth), ("estimated", outcome.estimate)):
-        if layer not in layers:
-            raise ValueError(
-                f"expected a covariance of layer {layer!r} among the {name} ones, "
-                f"got those of {sorted(layers)}"
-            )
-    truth, estimate = outcome.truth[layer], outcome.estimate[layer]
-    if truth.ndim != 2 or truth.shape != truth.T.shape or truth.shape != estimate.shape:
+    if not _has(outcome, layer):
         raise ValueError(
-            f"expected two square matrices of the same size for layer {layer!r}, "
-            f"got shapes {truth.shape} and {estimate.shape}"
+            f"expected a covariance of layer {layer!r} among the estimated ones, "
+            f"got those of {sorted(outcome.estimate)}"
         )
-    return truth, estimate
+    return outcome.truth[layer], outcome.estimate[layer]
 
 
 def _has(outcome: Recovery, layer: str) -> bool:
     return layer in outcome.estimate
 
 
+_SYMBOLS = {"child": "child K_f", "parent": "parent K_g"}
 _COVARIANCES = {
     "child": "covariance of children around their parent",
     "parent": "covariance of the parent",
 }
 
 
-def _relative_error(name: str, title: str, layer: str) -> Metric[Recovery]:
-    return Metric(
-        name,
-        title,
-        Direction.LOWER,
-        Recovery,
-        partial(relative_frobenius, layer=layer),
-        defined=partial(_has, layer=layer),
+def _declare_frobenius(layer: str) -> Metric[Recovery]:
+    declare = metric(
+        name=f"frobenius_{layer}",
+        title=f"Relative Frobenius error, {_SYMBOLS[layer]}",
+        direction=Direction.LOWER,
         sentence=f"Size of the error of the {_COVARIANCES[layer]}, over the size of the true one.",
         range="0 to ∞",
         source="this project",
-    )
-
-
-def _divergence(name: str, title: str, layer: str) -> Metric[Recovery]:
-    return Metric(
-        name,
-        title,
-        Direction.LOWER,
-        Recovery,
-        partial(log_det_divergence, layer=layer),
         defined=partial(_has, layer=layer),
+    )
+    return declare(partial(relative_frobenius, layer=layer))
+
+
+def _declare_logdet(layer: str) -> Metric[Recovery]:
+    declare = metric(
+        name=f"logdet_{layer}",
+        title=f"Log-determinant divergence, {_SYMBOLS[layer]}",
+        direction=Direction.LOWER,
         sentence=f"Log loss from taking the estimated {_COVARIANCES[layer]} for the true one.",
         unit="nats",
         range="0 to ∞",
         source="Kullback and Leibler 1951",
+        defined=partial(_has, layer=layer),
     )
+    return declare(partial(log_det_divergence, layer=layer))
 
 
-frobenius_child = _relative_error("frobenius_child", "Relative Frobenius error, child K_f", "child")
-frobenius_parent = _relative_error(
-    "frobenius_parent", "Relative Frobenius error, parent K_g", "parent"
-)
-logdet_child = _divergence("logdet_child", "Log-determinant divergence, child K_f", "child")
-logdet_parent = _divergence("logdet_parent", "Log-determinant divergence, parent K_g", "parent")
+frobenius_child, frobenius_parent = map(_declare_frobenius, ("child", "parent"))
+logdet_child, logdet_parent = map(_declare_logdet, ("child", "parent"))

@@ -8,13 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import fft
 
-from mocapbench.metrics.base import Direction, Metric, Score, has_poses
-from mocapbench.metrics.correlation import check_synthesis
-from mocapbench.metrics.entries import hidden_entries
+from mocapbench.metrics.base import Direction, Score, has_poses, metric
 from mocapbench.metrics.outcomes.imputation import Imputation
 from mocapbench.metrics.outcomes.synthesis import Synthesis
 
-__all__ = ["imputed_spectrum", "npss", "sample_npss", "sampled_spectrum"]
+__all__ = ["npss", "sample_npss"]
 
 Array = NDArray[np.float64]
 
@@ -22,14 +20,25 @@ SHORTEST = 4
 """Frames of the shortest run whose spectrum is compared."""
 
 
-def imputed_spectrum(outcome: Imputation) -> Score:
+@metric(
+    title="Normalised power spectrum similarity (NPSS)",
+    direction=Direction.LOWER,
+    sentence=(
+        "Distance of the power spectra of filled and true gaps, strong channels weighing more; "
+        "phases do not matter."
+    ),
+    unit="steps of frequency",
+    range="0 to ∞",
+    source="Gopalakrishnan et al. 2019",
+    defined=has_poses,
+)
+def npss(outcome: Imputation) -> Score:
     r"""Return the distance of the power spectra of prediction and truth, within gaps.
 
-    The metric ``npss`` (normalised power spectrum similarity). A sequence is a run of hidden
-    entries of one output, four frames or longer. Its power spectrum is divided by its sum, and
-    ``Σ_f |F̂(f) − F(f)|`` compares the cumulative spectra (the earth mover's distance). The mean
-    over sequences is weighted by the true power, in which a constant level counts too.
-    Lower is better; in units of the lowest frequency. Phases do not matter.
+    A sequence is a run of hidden entries of one output, four frames or longer. Its power spectrum
+    is divided by its sum, and ``Σ_f |F̂(f) − F(f)|`` compares the cumulative spectra (the earth
+    mover's distance). The mean over sequences is weighted by the true power, in which a constant
+    level counts too. Phases do not matter.
 
     Parameters
     ----------
@@ -40,11 +49,6 @@ def imputed_spectrum(outcome: Imputation) -> Score:
     -------
     Score
         NaN if no run is long enough, or none has any power. Without parts.
-
-    Raises
-    ------
-    ValueError
-        If shapes disagree, nothing is hidden, or a hidden entry has no finite truth or mean.
 
     Warnings
     --------
@@ -90,19 +94,30 @@ def imputed_spectrum(outcome: Imputation) -> Score:
     2.0
     """
     distances, powers = [], []
-    for run in _runs(hidden_entries(outcome), outcome.poses.starts):
+    for run in _runs(outcome.hidden, outcome.poses.starts):
         power, (truth, mean) = _spectra(np.stack([outcome.truth[run], outcome.mean[run]]))
         distances.append(np.abs(mean - truth).sum(axis=0))
         powers.append(power[0])
     return Score(_weighted_mean(np.concatenate([[], *distances]), np.concatenate([[], *powers])))
 
 
-def sampled_spectrum(outcome: Synthesis) -> Score:
+@metric(
+    title="Normalised power spectrum similarity of samples (NPSS)",
+    direction=Direction.LOWER,
+    sentence=(
+        "Distance of the power spectra of samples and references, strong channels weighing more; "
+        "a sample need not be in step."
+    ),
+    unit="steps of frequency",
+    range="0 to ∞",
+    source="Gopalakrishnan et al. 2019",
+    defined=has_poses,
+)
+def sample_npss(outcome: Synthesis) -> Score:
     r"""Return the distance of the power spectra of samples and references.
 
-    The metric ``sample_npss``: that of `npss`, of every output of every sample with the
-    same output of every reference, weighted by the power of the reference. Lower is better; in
-    units of the lowest frequency. A sample need not be in step with a reference.
+    It is that of `npss`, of every output of every sample with the same output of every reference,
+    weighted by the power of the reference. A sample need not be in step with a reference.
 
     Parameters
     ----------
@@ -113,11 +128,6 @@ def sampled_spectrum(outcome: Synthesis) -> Score:
     -------
     Score
         NaN if no reference has any power. With part ``"sample"`` (S,).
-
-    Raises
-    ------
-    ValueError
-        If shapes disagree, there is no sample or no reference, or a value is not finite.
 
     Warnings
     --------
@@ -146,7 +156,6 @@ def sampled_spectrum(outcome: Synthesis) -> Score:
     >>> round(sample_npss(outcome).value, 6)
     2.0
     """
-    check_synthesis(outcome)
     powers, references = _spectra(outcome.references)
     _, samples = _spectra(outcome.samples)
     by_sample = np.array(
@@ -185,35 +194,3 @@ def _spectra(values: Array) -> tuple[Array, Array]:
 def _weighted_mean(values: Array, weights: Array) -> float:
     total = float(weights.sum())
     return float((values * weights).sum() / total) if total > 0.0 else float("nan")
-
-
-npss = Metric(
-    "npss",
-    "Normalised power spectrum similarity (NPSS)",
-    Direction.LOWER,
-    Imputation,
-    imputed_spectrum,
-    defined=has_poses,
-    sentence=(
-        "Distance of the power spectra of filled and true gaps, strong channels weighing more; "
-        "phases do not matter."
-    ),
-    unit="steps of frequency",
-    range="0 to ∞",
-    source="Gopalakrishnan et al. 2019",
-)
-sample_npss = Metric(
-    "sample_npss",
-    "Normalised power spectrum similarity of samples (NPSS)",
-    Direction.LOWER,
-    Synthesis,
-    sampled_spectrum,
-    defined=has_poses,
-    sentence=(
-        "Distance of the power spectra of samples and references, strong channels weighing more; "
-        "a sample need not be in step."
-    ),
-    unit="steps of frequency",
-    range="0 to ∞",
-    source="Gopalakrishnan et al. 2019",
-)

@@ -86,7 +86,7 @@ def check_metric(metric: Metric[Any]) -> None:
     ConformanceError
         At the first thing that is wrong.
     """
-    advice = "wrap the function in a Metric with a name and a direction"
+    advice = "declare the function with @metric(title=..., direction=...)"
     require(isinstance(metric, Metric), "a mocapbench.metrics.Metric", repr(metric), advice)
     with raised_by(f"metric {metric.name}", "it scores an outcome"):
         _check_declaration(metric)
@@ -107,7 +107,7 @@ def _check_declaration(metric: Metric[Any]) -> None:
 def _plain(metric: Metric[Any]) -> Any:
     """Return the first outcome that the metric is defined for."""
     defined = next(filter(metric.applies, OUTCOMES[metric.outcome]), None)
-    advice = "let Metric.defined leave out only outcomes that lack what the metric needs"
+    advice = "let `defined` leave out only outcomes that lack what the metric needs"
     require(defined is not None, "a metric that is defined for a plain outcome", "none", advice)
     return defined
 

@@ -62,9 +62,7 @@ def documented(full_name: str, value: Any) -> list[str]:
     """Return the lines that document a constant, a type or a metric."""
     package, _, name = full_name.rpartition(".")
     if isinstance(value, Metric):
-        statistic = value.statistic
-        function = statistic.func if isinstance(statistic, functools.partial) else statistic
-        return (inspect.getdoc(function) or "").splitlines()
+        return inspect.cleandoc(value.__doc__ or "").splitlines()
     analyzer = ModuleAnalyzer.for_module(defining_modules(package)[name])
     return analyzer.find_attr_docs().get(("", name), [])
 

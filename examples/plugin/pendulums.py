@@ -7,7 +7,7 @@ import numpy as np
 from mocapbench.baselines import FrameImputer, Inductive, Prediction
 from mocapbench.benchmark import Case, GapError, ImputeProblem, Profile, Task, hide_frames
 from mocapbench.datasets import Library, Recording
-from mocapbench.metrics import Direction, Imputation, Metric, Score
+from mocapbench.metrics import Direction, Imputation, Score, metric
 from mocapbench.reports import TaskPage
 
 LENGTHS = {"short": 0.5, "middle": 1.0, "long": 2.0}
@@ -57,7 +57,13 @@ def pendulum_problem(key, seeds, archive):
     return ImputeProblem.of_one(held_out, hidden, tuple(pendulums.values()), seen_in_fit=False)
 
 
-def worst_error(outcome):
+@metric(
+    title="Worst error",
+    direction=Direction.LOWER,
+    sentence="Largest difference of prediction and truth over all hidden entries.",
+    unit="that of the data",
+)
+def worst_error(outcome: Imputation):
     """Return the largest |y − μ| over all hidden entries, in the channels' own units."""
     return Score(float(np.abs(outcome.truth - outcome.mean)[outcome.hidden].max()))
 
@@ -80,17 +86,8 @@ PENDULUMS = Task(
         figures=(GapError(),),
     ),
 )
-WORST_ERROR = Metric(
-    "worst_error",
-    "Worst error",
-    Direction.LOWER,
-    Imputation,
-    worst_error,
-    sentence="Largest difference of prediction and truth over all hidden entries.",
-    unit="that of the data",
-)
 
 LIBRARIES = {"pendulums": Pendulums}
 MODELS = {"linear-dynamics": LinearDynamics}
-METRICS = {"worst_error": WORST_ERROR}
+METRICS = {"worst_error": worst_error}
 TASKS = {"pendulums": PENDULUMS}

@@ -29,7 +29,8 @@ class Clustering:
     Raises
     ------
     ValueError
-        If labels are not whole numbers.
+        If labels are not whole numbers, there is no recording, or not one class and one cluster for
+        each.
     """
 
     truth: NDArray[Any]
@@ -42,4 +43,10 @@ class Clustering:
                 f"expected labels to be the whole number of a cluster for each recording, "
                 f"got {self.labels!r}"
             )
-        lock_fields(self, truth=np.asarray(self.truth), labels=labels)
+        truth = np.asarray(self.truth)
+        if truth.ndim != 1 or not len(truth) or truth.shape != labels.shape:
+            raise ValueError(
+                "expected one class and one cluster for each of one or more recordings, "
+                f"got shapes {truth.shape} and {labels.shape}"
+            )
+        lock_fields(self, truth=truth, labels=labels)

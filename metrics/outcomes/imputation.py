@@ -48,7 +48,9 @@ class Imputation:
     ------
     ValueError
         If ``hidden`` is not boolean, other fields are not real numbers, or ``units`` is not a
-        sequence of strings; on access to `poses`, if the outcome has no ``place_joints``.
+        sequence of strings; if shapes disagree, nothing is hidden, or a hidden entry has no finite
+        truth, no finite mean, or a variance that is not positive and finite; on access to `poses`,
+        if the outcome has no ``place_joints``.
     """
 
     truth: Array
@@ -70,7 +72,28 @@ class Imputation:
                 f"expected hidden to be True or False for each entry, got numbers of {mask.dtype}"
             )
         lock_fields(self, hidden=mask)
+        self._check_shapes()
         self._check_units()
+        self._check_hidden_entries()
+
+    def _check_shapes(self) -> None:
+        shape = self.truth.shape
+        if len(shape) != 2:
+            raise ValueError(f"expected truth of shape (frames, outputs), got {shape}")
+        for name, expected in (
+            ("mean", shape),
+            ("variance", shape),
+            ("hidden", shape),
+            ("visible_mean", shape[1:]),
+            ("visible_variance", shape[1:]),
+            ("scales", shape[1:]),
+        ):
+            array = getattr(self, name)
+            if array is not None and array.shape != expected:
+                raise ValueError(
+                    f"expected {name} of shape {expected} to match truth of shape {shape}, "
+                    f"got {array.shape}"
+                )
 
     def _check_units(self) -> None:
         # A single string would be taken as one unit per letter.
@@ -80,6 +103,28 @@ class Imputation:
             raise ValueError(
                 f"expected units to be a sequence of one string per output, got {units!r}"
             )
+        if len(self.units) not in (0, self.truth.shape[1]):
+            raise ValueError(
+                f"expected no units or one for each of {self.truth.shape[1]} outputs, "
+                f"got {self.units!r}"
+            )
+
+    def _check_hidden_entries(self) -> None:
+        if not self.hidden.any():
+            raise ValueError("expected at least one hidden entry to score, got none: hide some")
+        for name, values in (("truth", self.truth), ("mean", self.mean)):
+            bad = int((~np.isfinite(values[self.hidden])).sum())
+            if bad:
+                raise ValueError(
+                    f"expected a finite {name} at hidden entries, got {bad} that are not"
+                )
+        if self.variance is not None:
+            variance = self.variance[self.hidden]
+            if not ((variance > 0) & np.isfinite(variance)).all():
+                raise ValueError(
+                    "expected positive, finite variances at hidden entries, "
+                    f"got values from {variance.min():g} to {variance.max():g}"
+                )
 
     @cached_property
     def poses(self) -> ImputedPoses:

@@ -31,7 +31,8 @@ class Recovery:
     Raises
     ------
     ValueError
-        If covariances are not a mapping of layers to real numbers, or the noise is not a number.
+        If covariances are not a mapping of layers to real numbers, an estimated layer has no true
+        covariance or one that is not square and of the same size, or the noise is not a number.
     """
 
     truth: Mapping[str, Array]
@@ -50,9 +51,24 @@ class Recovery:
                 for layer, matrix in layers.items()
             }
             object.__setattr__(self, name, MappingProxyType(matrices))
+        self._check_layers()
         noise: object = self.noise
         if not isinstance(noise, Real):
             raise ValueError(f"expected noise to be a variance, got {noise!r}")
+
+    def _check_layers(self) -> None:
+        for layer, estimate in self.estimate.items():
+            if layer not in self.truth:
+                raise ValueError(
+                    f"expected a covariance of layer {layer!r} among the true ones, "
+                    f"got those of {sorted(self.truth)}"
+                )
+            truth = self.truth[layer]
+            if truth.ndim != 2 or truth.shape != truth.T.shape or truth.shape != estimate.shape:
+                raise ValueError(
+                    f"expected two square matrices of the same size for layer {layer!r}, "
+                    f"got shapes {truth.shape} and {estimate.shape}"
+                )
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return what pickle makes it from: a mapping that is read-only cannot be pickled."""

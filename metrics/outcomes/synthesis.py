@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from mocapbench.metrics.outcomes.arrays import Array, lock_numbers
 from mocapbench.metrics.outcomes.poses import SampledPoses, place
 
@@ -31,7 +33,8 @@ class Synthesis:
     Raises
     ------
     ValueError
-        If samples or references are not real numbers; on access to `poses`, if the outcome has no
+        If samples or references are not real numbers, shapes disagree, there is no sample or no
+        reference, or a value is not finite; on access to `poses`, if the outcome has no
         ``place_joints``.
     """
 
@@ -41,6 +44,15 @@ class Synthesis:
 
     def __post_init__(self) -> None:
         lock_numbers(self, "samples", "references")
+        samples, references = self.samples, self.references
+        same = samples.ndim == references.ndim == 3 and samples.shape[1:] == references.shape[1:]
+        if not same or min(samples.size, references.size) == 0:
+            raise ValueError(
+                "expected at least one sample and one reference with equal (frames, outputs), "
+                f"got shapes {samples.shape} and {references.shape}"
+            )
+        if not (np.isfinite(samples).all() and np.isfinite(references).all()):
+            raise ValueError("expected finite samples and references, got NaN or infinity")
 
     @cached_property
     def poses(self) -> SampledPoses:

@@ -7,49 +7,57 @@ import time
 
 import numpy as np
 
-from mocapbench.metrics import Direction, Imputation, Metric, Score
+from mocapbench.metrics import Direction, Imputation, Score, metric
 
 
-def _sleeps(outcome):
+def _declare(statistic):
+    return metric(title=statistic.__name__, direction=Direction.LOWER)(statistic)
+
+
+@_declare
+def sleeps(outcome: Imputation):
     time.sleep(600)
 
 
-def _hangs(outcome):
+@_declare
+def hangs(outcome: Imputation):
     """Hang where Python takes no note of signals."""
     ctypes.PyDLL(None).sleep(600)
 
 
-def _dies(outcome):
+@_declare
+def dies(outcome: Imputation):
     os._exit(7)
 
 
-def _leaves(outcome):
+@_declare
+def leaves(outcome: Imputation):
     """End the process as if all were well."""
     os._exit(0)
 
 
-def _exits(outcome):
+@_declare
+def exits(outcome: Imputation):
     raise SystemExit(5)
 
 
-def _raises(outcome):
+@_declare
+def raises(outcome: Imputation):
     raise RuntimeError("the metric raised")
 
 
-def _hoards(outcome):
+@_declare
+def hoards(outcome: Imputation):
     return Score(float(np.ones(2**40).sum()))
 
 
-def _litters(outcome):
+@_declare
+def litters(outcome: Imputation):
     subprocess.Popen(["sleep", "602"])
     return Score(1.0)
 
 
-def _metric(name, statistic):
-    return Metric(name, name, Direction.LOWER, Imputation, statistic)
-
-
 METRICS = {
-    statistic.__name__[1:]: _metric(statistic.__name__[1:], statistic)
-    for statistic in (_sleeps, _hangs, _dies, _leaves, _exits, _raises, _hoards, _litters)
+    declared.name: declared
+    for declared in (sleeps, hangs, dies, leaves, exits, raises, hoards, litters)
 }

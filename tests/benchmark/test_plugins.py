@@ -17,7 +17,7 @@ from mocapbench.baselines import FrameImputer
 from mocapbench.baselines.trivial import Trivial
 from mocapbench.benchmark import Case, Profile, Task
 from mocapbench.datasets import CSVFormat, Format, GaitLibrary, Library
-from mocapbench.metrics import Direction, Imputation, Metric, Score
+from mocapbench.metrics import Direction, Imputation, Score, metric
 from mocapbench.reports import TaskPage
 
 
@@ -34,7 +34,11 @@ class Table(CSVFormat):
 
 
 def mine(name):
-    return Metric(name, "Mine", Direction.LOWER, Imputation, lambda outcome: Score(1.0, {}))
+    @metric(name=name, title="Mine", direction=Direction.LOWER)
+    def declared(outcome: Imputation):
+        return Score(1.0, {})
+
+    return declared
 
 
 def task(name):

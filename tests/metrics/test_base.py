@@ -1,4 +1,5 @@
 import dataclasses
+import functools
 import pickle
 from collections.abc import Mapping
 from importlib.metadata import entry_points
@@ -6,7 +7,17 @@ from importlib.metadata import entry_points
 import numpy as np
 import pytest
 
-from mocapbench.metrics import Clustering, Direction, Imputation, Recovery, Synthesis, has_poses
+from mocapbench.metrics import (
+    Clustering,
+    Direction,
+    Imputation,
+    Metric,
+    Recovery,
+    Score,
+    Synthesis,
+    has_poses,
+    metric,
+)
 
 METRICS = [point.load() for point in entry_points(group="mocapbench.metrics")]
 
@@ -66,34 +77,9 @@ def test_metrics_can_be_sent_to_other_processes(metric, outcomes):
 
 
 @pytest.mark.parametrize("metric", [m for m in METRICS if m.needs_variance], ids=lambda m: m.name)
-@pytest.mark.parametrize(
-    ("variance", "message"),
-    [(None, "needs one"), (0.0, "positive"), (-1.0, "positive"), (np.nan, "positive")],
-)
-def test_metrics_of_distributions_need_positive_variances(make, metric, variance, message):
-    with pytest.raises(ValueError, match=message):
-        metric(make([[1.0, 2.0]], 0.0, variance))
-
-
-@pytest.mark.parametrize(
-    "metric", [m for m in METRICS if m.outcome is Imputation], ids=lambda m: m.name
-)
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"hidden": np.zeros((2, 2), dtype=bool)}, "at least one hidden entry"),
-        ({"hidden": np.ones((2, 3), dtype=bool)}, "expected hidden of shape"),
-        ({"visible_mean": np.zeros(3)}, "expected visible_mean of shape"),
-        ({"truth": np.zeros((2, 2, 1))}, "truth of shape"),
-        ({"truth": np.full((2, 2), np.nan)}, "finite truth"),
-        ({"mean": np.inf}, "finite mean"),
-        ({"units": ("deg",)}, "no units or one for each of 2 outputs"),
-    ],
-)
-def test_unsound_outcomes_are_refused(make, metric, changes, message):
-    sound = {"truth": np.zeros((2, 2)), "mean": 0.0, "variance": 1.0}
-    with pytest.raises(ValueError, match=message):
-        metric(make(**(sound | changes)))
+def test_metrics_of_distributions_need_a_variance(make, metric):
+    with pytest.raises(ValueError, match="needs one"):
+        metric(make([[1.0, 2.0]], 0.0, None))
 
 
 @pytest.mark.parametrize(
@@ -127,3 +113,59 @@ def test_other_outcomes_than_that_of_a_metric_are_refused(metric, outcomes):
         expected = f"{metric.name}.*of class {metric.outcome.__name__}, got {type(other).__name__}"
         with pytest.raises(ValueError, match=expected):
             metric(other)
+
+
+@pytest.mark.parametrize("metric", METRICS, ids=lambda m: m.name)
+def test_a_metric_is_documented_as_its_function_is(metric):
+    """`help` shows this, and doctest runs the examples."""
+    function = getattr(metric.statistic, "func", metric.statistic)
+    assert metric.__doc__ == function.__doc__
+    assert metric.__module__ == function.__module__
+
+
+def power_error(outcome: Synthesis, power):
+    return Score(power * float(len(outcome.samples)))
+
+
+def test_a_function_is_declared_under_its_own_name_for_the_outcome_of_its_annotation(outcomes):
+    @metric(title="Count", direction=Direction.HIGHER, unit="samples")
+    def count(outcome: Synthesis):
+        return Score(float(len(outcome.samples)))
+
+    assert isinstance(count, Metric)
+    assert (count.name, count.outcome, count.unit) == ("count", Synthesis, "samples")
+    assert count(outcomes[Synthesis]).value == 3.0
+    assert not count.applies(outcomes[Imputation])
+
+
+def test_a_formula_with_an_argument_makes_a_metric_for_each_value(outcomes):
+    two, three = (
+        metric(name=f"power_{power}", title="Power", direction=Direction.LOWER)(
+            functools.partial(power_error, power=power)
+        )
+        for power in (2, 3)
+    )
+    assert (two.name, two.outcome, three.name) == ("power_2", Synthesis, "power_3")
+    assert three(outcomes[Synthesis]).value == 1.5 * two(outcomes[Synthesis]).value
+
+
+def nothing_said(outcome):
+    return Score(0.0)
+
+
+def unknown_kind(outcome: "Unknown"):  # noqa: F821 - the fault
+    return Score(0.0)
+
+
+def no_parameter():
+    return Score(0.0)
+
+
+@pytest.mark.parametrize(
+    ("function", "got"),
+    [(nothing_said, "none"), (no_parameter, "none"), (unknown_kind, ".*'Unknown' is not defined")],
+)
+def test_a_function_that_does_not_say_its_outcome_is_refused(function, got):
+    expected = f"metric '{function.__name__}': expected the kind of outcome .* got {got}.*; write"
+    with pytest.raises(ValueError, match=expected):
+        metric(title="Mine", direction=Direction.LOWER)(function)

@@ -64,6 +64,7 @@ def test_the_order_of_outputs_does_not_matter(draw, seed, order):
         outcome,
         truth=outcome.truth[:, order],
         mean=outcome.mean[:, order],
+        variance=None,
         hidden=outcome.hidden[:, order],
         visible_variance=outcome.visible_variance[list(order)],
     )
@@ -100,7 +101,7 @@ def test_aggregates_are_means_of_their_parts(draw, seed):
     assert rms_per_frame(outcome).value == pytest.approx(
         np.nanmean(rms_per_frame(outcome).parts["frame"])
     )
-    whole = dataclasses.replace(outcome, hidden=np.ones_like(outcome.hidden))
+    whole = dataclasses.replace(outcome, variance=None, hidden=np.ones_like(outcome.hidden))
     for metric in (mse, smse_pooled):
         assert metric(whole).value == pytest.approx(metric(whole).parts["output"].mean())
 

@@ -76,14 +76,14 @@ def test_metrics_of_a_layer_need_its_estimate():
 
 def test_malformed_recoveries_are_refused():
     with pytest.raises(ValueError, match=r"square matrices .* got shapes \(2, 2\) and \(3, 3\)"):
-        relative_frobenius(_recovery(np.eye(2), np.eye(3)), "child")
+        _recovery(np.eye(2), np.eye(3))
+    with pytest.raises(ValueError, match=r"layer 'child' among the true .* \['parent'\]"):
+        Recovery({"parent": np.eye(2)}, {"child": np.eye(2)}, NOISE)
     with pytest.raises(ValueError, match="positive variance of the noise, got 0"):
         log_det_divergence(_recovery(np.eye(2), np.eye(2), noise=0.0), "child")
 
 
 def test_a_layer_without_an_estimate_is_named():
-    outcome = Recovery({"parent": np.eye(2)}, {"child": np.eye(2)}, NOISE)
+    outcome = _recovery(np.eye(2), np.eye(2))
     with pytest.raises(ValueError, match=r"layer 'parent' among the estimated .* \['child'\]"):
         frobenius_parent(outcome)
-    with pytest.raises(ValueError, match=r"layer 'child' among the true .* \['parent'\]"):
-        logdet_child(outcome)

@@ -56,7 +56,7 @@ def test_names_in_docstrings_of_ours_are_links_and_in_those_of_others_text():
 
 
 def test_the_parts_of_docstrings():
-    model, metric = described_class(GPDM), described_function(mse.statistic)
+    model, metric = described_class(GPDM), described_function(mse)
     assert model.idea.startswith("Poses and their dynamics")
     assert "k_Y" in model.formula
     assert ":doc:`/gpdm`" in model.formula

@@ -77,9 +77,8 @@ def described_function(described: Any) -> Described:
     Parameters
     ----------
     described : callable
-        Arguments may be bound to it.
     """
-    parts = _parts(FunctionDoc(getattr(described, "func", described)))
+    parts = _parts(FunctionDoc(described))
     returned = parts.idea.removeprefix("Return ")
     return replace(parts, idea=returned[:1].upper() + returned[1:])
 

@@ -20,7 +20,7 @@ def metric_page(name: str) -> Mapping[str, Any]:
         "metric": metric,
         "better": metric_info(name).better,
         "outcome": metric.outcome.__name__,
-        "text": described_function(metric.statistic),
+        "text": described_function(metric),
         "scored_by": {task: page for task, page in pages.items() if page.metrics[0] == name},
         "shown_by": {task: page for task, page in pages.items() if name in page.metrics[1:]},
     }

@@ -32,14 +32,15 @@ class Mine(Trivial):
 MODELS = {"mine": Mine}
 """
 METRIC = """\
-from mocapbench.metrics import Direction, Imputation, Metric, Score
+from mocapbench.metrics import Direction, Imputation, Score, metric
 
 
-def _worst(outcome):
+@metric(title="Worst", direction=Direction.LOWER)
+def worst(outcome: Imputation):
     return Score(1.0, {})
 
 
-METRICS = {"worst": Metric("worst", "Worst", Direction.LOWER, Imputation, _worst)}
+METRICS = {"worst": worst}
 """
 TASK = """\
 import numpy as np

@@ -2,6 +2,7 @@
 
 import math
 import resource
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from mocapbench.benchmark.runs.job import Work, WorkerConfig
 from mocapbench.benchmark.runs.plan import plan
 from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
-from mocapbench.metrics import Direction, Imputation, Metric, Score
+from mocapbench.metrics import Score
 
 CONFIG = WorkerConfig(None, (), 600.0, resource.RLIM_INFINITY, 1, {})
 
@@ -85,7 +86,7 @@ def record(monkeypatch):
 
     def record(**fields):
         fields = {"statistic": _nothing, **fields}
-        metric = Metric("mine", "Mine", Direction.LOWER, Imputation, **fields)
+        metric = replace(METRICS.get("mse"), name="mine", title="Mine", **fields)
         monkeypatch.setattr(METRICS, "_added", {**METRICS._added, "mine": metric})
         task, archive = "toy-interpolation-1", archive_at(None)
         request = Request("smoke", (task,), ("trivial",), metrics=("mine",), folds=1)
@@ -134,7 +135,7 @@ def job_record(monkeypatch):
 
     def job_record(**statistics):
         added = {
-            name: Metric(name, name, Direction.LOWER, Imputation, statistic)
+            name: replace(METRICS.get("mse"), name=name, title=name, statistic=statistic)
             for name, statistic in statistics.items()
         }
         monkeypatch.setattr(METRICS, "_added", {**METRICS._added, **added})

@@ -350,7 +350,7 @@ from mocapbench.baselines.trivial import Trivial
 from mocapbench.benchmark import Case, ImputeProblem, Profile, Task, hide_frames
 from mocapbench.baselines import FrameImputer
 from mocapbench.datasets import Library, Recording
-from mocapbench.metrics import Direction, Imputation, Metric, Score
+from mocapbench.metrics import Direction, Imputation, Score, metric
 from mocapbench.reports import TaskPage
 
 
@@ -374,13 +374,14 @@ def gap(seeds, archive):
     return ImputeProblem.of_one(archive.recording("waves:a"), hide_frames(10, 20, 30, 1))
 
 
-def _worst(outcome):
+@metric(title="Worst", direction=Direction.LOWER)
+def worst(outcome: Imputation):
     return Score(1.0, {})
 
 
 MODELS = {"mine": Mine}
 LIBRARIES = {"waves": Waves}
-METRICS = {"worst": Metric("worst", "Worst", Direction.LOWER, Imputation, _worst)}
+METRICS = {"worst": worst}
 TASKS = {
     "waves": Task(
         name="waves",

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocapbench.benchmark.testing import ConformanceError, check_metric
-from mocapbench.metrics import Direction, Imputation, Metric, Score
+from mocapbench.metrics import Direction, Imputation, Score, metric
 
 
 def _value(outcome):
@@ -70,11 +70,14 @@ def _in_place(outcome):
     return Score(float(errors[outcome.hidden].mean()))
 
 
-GOOD = Metric("m", "M", Direction.LOWER, Imputation, _value)
+@metric(title="M", direction=Direction.LOWER)
+def m(outcome: Imputation):
+    """Return one."""
+    return Score(1.0)
 
 
 def test_a_metric_that_conforms_passes():
-    check_metric(GOOD)
+    check_metric(m)
 
 
 @pytest.mark.parametrize(
@@ -95,4 +98,4 @@ def test_a_metric_that_conforms_passes():
 )
 def test_the_fault_of_a_metric_is_named(changes, complaint):
     with pytest.raises(ConformanceError, match=rf"^metric m: .*{complaint}"):
-        check_metric(replace(GOOD, **changes))
+        check_metric(replace(m, **changes))

@@ -98,3 +98,33 @@ def test_a_mask_of_numbers_is_refused(make):
     """Zeros and ones would be taken as the numbers of frames."""
     with pytest.raises(ValueError, match=r"expected hidden to be True or False .* of int64"):
         make(np.zeros((2, 2)), 1.0, hidden=[[0, 1], [1, 0]])
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"hidden": np.zeros((2, 2), dtype=bool)}, "at least one hidden entry"),
+        ({"hidden": np.ones((2, 3), dtype=bool)}, "expected hidden of shape"),
+        ({"visible_mean": np.zeros(3)}, "expected visible_mean of shape"),
+        ({"visible_variance": np.zeros(3)}, "expected visible_variance of shape"),
+        ({"truth": np.zeros((2, 2, 1))}, "truth of shape"),
+        ({"truth": np.full((2, 2), np.nan)}, "finite truth"),
+        ({"mean": np.inf}, "finite mean"),
+        ({"variance": 0.0}, "positive, finite variances .* from 0 to 0"),
+        ({"variance": -1.0}, "positive, finite variances .* from -1 to -1"),
+        ({"variance": np.nan}, "positive, finite variances"),
+        ({"variance": np.inf}, "positive, finite variances"),
+        ({"units": ("deg",)}, "no units or one for each of 2 outputs"),
+    ],
+)
+def test_an_unsound_imputation_is_refused(make, changes, message):
+    sound = {"truth": np.zeros((2, 2)), "mean": 0.0, "variance": 1.0}
+    assert make(**sound)
+    with pytest.raises(ValueError, match=message):
+        make(**(sound | changes))
+
+
+def test_what_is_visible_needs_no_value(make):
+    hidden = np.array([[True, False]])
+    unknown = np.array([[1.0, np.nan]])
+    assert make(unknown, unknown, unknown, hidden).hidden.sum() == 1
