@@ -20,12 +20,11 @@ from mocapbench.baselines.common.gaps import hidden_frames, runs, stretches
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
+from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["AlignedWindow"]
 
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 _SCALES = np.arange(75, 136, 5) / 100
 _N_CONTEXT = 3

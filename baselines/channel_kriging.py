@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.common.checks import check_recordings, pool
 from mocapbench.baselines.common.gaps import hidden_together, runs
@@ -22,12 +21,10 @@ from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.baselines.rehearsal.checkable import OneByOne
 from mocapbench.baselines.rehearsal.rehearsing import rehearsed
+from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import Recording
 
 __all__ = ["ChannelKriging"]
-
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 
 class ChannelKriging(OneByOne, Imputer, Inductive):

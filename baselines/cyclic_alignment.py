@@ -18,7 +18,6 @@ from mocapbench.baselines.alignment.fitting import EMSettings, restarts
 from mocapbench.baselines.alignment.inference import corrected, refine
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.sequences import Array
 from mocapbench.baselines.alignment.synthesis import blended, draw_sequences
 from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.validation import (
@@ -34,8 +33,9 @@ from mocapbench.baselines.protocols import (
 )
 from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.baselines.rehearsal.widening import widened
+from mocapbench.basics.arrays import Array
+from mocapbench.basics.numbers import real_numbers
 from mocapbench.datasets import FrameByChannel, Frames, Recording
-from mocapbench.datasets.recording import numbers
 
 __all__ = ["CyclicAlignment"]
 
@@ -254,7 +254,7 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
             If the weights are not (N, n_styles), are negative, or a row's sum is not 1.
         """
         check_is_fitted(self)
-        return self._unscaled(blended(self.state_, numbers("weights", weights)))
+        return self._unscaled(blended(self.state_, real_numbers("weights", weights)))
 
     def _hyperparameters(self) -> Hyperparameters:
         return Hyperparameters(self.regularisation, PRIORS[self.prior])

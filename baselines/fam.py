@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.functional.basis import Array
 from mocapbench.baselines.functional.components import infer_scores, principal_axes
 from mocapbench.baselines.functional.cycles import Cycles
 from mocapbench.baselines.functional.fitting import fit_components, start
@@ -24,6 +23,7 @@ from mocapbench.baselines.functional.validation import check_settings
 from mocapbench.baselines.protocols import Aligner, Imputer, Inductive, Prediction, StatePath
 from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning
 from mocapbench.baselines.rehearsal.widening import widened
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["FAM"]

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.alignment.period import cycle_length
 from mocapbench.baselines.alignment.sequences import Sequences
@@ -16,11 +15,10 @@ from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.common.prototypes import grouped
 from mocapbench.baselines.common.recordings import visible_moments
 from mocapbench.baselines.protocols import Clusterer
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["KMeans"]
-
-Array = NDArray[np.float64]
 
 
 class KMeans(Clusterer):

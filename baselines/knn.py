@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.impute import KNNImputer
 from sklearn.neighbors import NearestNeighbors
 from sklearn.utils.validation import check_is_fitted
@@ -18,11 +17,11 @@ from mocapbench.baselines.common.recordings import places_by_name, stack, visibl
 from mocapbench.baselines.common.transitions import Steps, fill_gap
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["KNN"]
 
-Array = NDArray[np.float64]
 
 TIE = 1e-6
 """By how much of the spread of times recordings that are equally far in time differ."""

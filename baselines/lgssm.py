@@ -17,8 +17,8 @@ from mocapbench.baselines.protocols import Clusterer
 from mocapbench.baselines.state_space.mixture import Mixture, classification_em, seeded
 from mocapbench.baselines.state_space.model import PRIORS
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.regression import Array
 from mocapbench.baselines.state_space.start import initial_states
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["LGSSM"]

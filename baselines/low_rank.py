@@ -17,11 +17,11 @@ from mocapbench.baselines.common.validation import check_count, check_positive, 
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning
 from mocapbench.baselines.rehearsal.widening import widened
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["LowRank"]
 
-Array = NDArray[np.float64]
 
 _ENTRIES_PER_LOADING = 10
 """Visible entries that a loading needs: fewer do not determine it (a rule of thumb)."""

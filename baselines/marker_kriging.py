@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings, pool
@@ -22,8 +21,6 @@ from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spati
 from mocapbench.datasets import Recording
 
 __all__ = ["MarkerKriging"]
-
-Array = NDArray[np.float64]
 
 
 class MarkerKriging(Imputer, Inductive, Spatial):

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.metrics.pairwise import nan_euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
@@ -16,12 +15,10 @@ from mocapbench.baselines.common.pose_units import pose_factors
 from mocapbench.baselines.common.recordings import stack
 from mocapbench.baselines.common.validation import check_not_negative
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["NN"]
-
-
-Array = NDArray[np.float64]
 
 
 class NN(Imputer, Inductive):

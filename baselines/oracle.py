@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from sklearn.utils.validation import check_is_fitted
 
@@ -29,13 +28,11 @@ from mocapbench.baselines.protocols import (
     Synthesiser,
     Trended,
 )
+from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Frames, Mask, Recording, ToyProcess
 from mocapbench.datasets.process import draw_gaussian
 
 __all__ = ["Oracle"]
-
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)

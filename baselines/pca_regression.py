@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings, pool
@@ -14,12 +13,11 @@ from mocapbench.baselines.common.gaps import frames_alike
 from mocapbench.baselines.common.own_means import OwnMeans
 from mocapbench.baselines.common.validation import check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
+from mocapbench.basics.arrays import Array, Mask
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["PCARegression"]
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 _FRAMES_PER_COMPONENT = 10
 """Complete frames that a component needs: fewer determine no direction (a rule of thumb)."""

@@ -34,11 +34,11 @@ from mocapbench.baselines.kriging.paths import MatchedPaths
 from mocapbench.baselines.kriging.symmetry import symmetries
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["PoseKriging"]
 
-Array = NDArray[np.float64]
 
 _CONSTANT, _DRIFT, _NOISE = 10.0, 1.0, 0.05
 """Prior variances of the residual's constant, its drift in time and its noise, up to scale."""

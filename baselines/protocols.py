@@ -36,8 +36,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from sklearn.base import BaseEstimator
 
+from mocapbench.basics.numbers import real_numbers
 from mocapbench.datasets import FrameByChannel, Frames, Recording, ToyProcess
-from mocapbench.datasets.recording import numbers
 
 __all__ = [
     "Aligner",
@@ -109,13 +109,13 @@ class Prediction:
     variance: FrameByChannel | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "mean", numbers("the mean of a prediction", self.mean))
+        object.__setattr__(self, "mean", real_numbers("the mean of a prediction", self.mean))
         if self.mean.ndim != 2:
             raise ValueError(
                 f"expected a mean of shape (frames, channels), got shape {self.mean.shape}"
             )
         if self.variance is not None:
-            variance = numbers("the variance of a prediction", self.variance)
+            variance = real_numbers("the variance of a prediction", self.variance)
             object.__setattr__(self, "variance", variance)
             self._check_variance(variance)
 
@@ -163,7 +163,7 @@ class Prediction:
 
 def _fitting(what: str, given: ArrayLike, recording: Recording) -> NDArray[np.float64]:
     """Return numbers that broadcast to the shape (N, D) of a recording."""
-    values, shape = numbers(f"the {what} of a prediction", given), recording.values.shape
+    values, shape = real_numbers(f"the {what} of a prediction", given), recording.values.shape
     sizes = zip(values.shape[::-1], shape[::-1], strict=False)
     if values.ndim > 2 or any(size not in (1, full) for size, full in sizes):
         raise ValueError(

@@ -23,11 +23,11 @@ from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.interpolation import PchipImputer
 from mocapbench.baselines.kriging.local_frames import LocalFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spatial
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["RigidBody"]
 
-Array = NDArray[np.float64]
 Rotations = Callable[[Array, Array, Array], Array]
 
 _BESIDE = 15

@@ -1,65 +1,22 @@
-"""Files that are written whole or not at all."""
+"""Folders to write to, and what errors of the system say."""
 
 from __future__ import annotations
 
 import os
-import re
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import IO
 
+from mocapbench.basics.whole_files import target_of
 from mocapbench.benchmark.errors import UsageError
 
 __all__ = [
     "ENTRIES",
-    "atomic_write",
     "is_writable",
     "require_writable_folder",
-    "target_of",
     "words_of",
-    "write_bytes",
-    "write_text",
 ]
 
 ENTRIES = ".entries.csv"
 """How the name of a table of filled entries ends, which `mocapbench fill` writes beside a file."""
-
-
-_READABLE = 0o644
-_SUFFIX = ".tmp"
-_TEMPORARY = re.compile(r"\.(?P<target>.+)\.[a-z0-9_]{8}\.tmp")
-"""The names that `atomic_write` gives."""
-
-
-@contextmanager
-def atomic_write(path: Path) -> Iterator[IO[bytes]]:
-    """Open a temporary file beside ``path`` that takes its name only when all is written."""
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=_SUFFIX)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            yield file
-        Path(temporary).chmod(_READABLE)  # temporary files are their owner's alone
-        Path(temporary).replace(path)
-    except OSError as error:
-        Path(temporary).unlink(missing_ok=True)
-        error.filename = error.filename or str(path)  # which errors of writing lack
-        raise
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write ``text`` as UTF-8, whole or not at all."""
-    write_bytes(path, text.encode())
-
-
-def write_bytes(path: Path, content: bytes) -> None:
-    """Write ``content`` whole or not at all."""
-    with atomic_write(path) as file:
-        file.write(content)
 
 
 def is_writable(folder: Path) -> bool:
@@ -91,12 +48,3 @@ def words_of(error: OSError) -> str:
     path = Path(error.filename)
     target = target_of(path)  # people know the file by this name
     return f"{path.with_name(target) if target else path}: {said}"
-
-
-def target_of(temporary: Path) -> str:
-    """Return the name that `atomic_write` meant a file for; nothing if the file is not its own.
-
-    Such a file is being written at this moment, or a process was killed while it wrote.
-    """
-    named = _TEMPORARY.fullmatch(temporary.name)
-    return named["target"] if named else ""

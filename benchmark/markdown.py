@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from mocapbench.reports.printable import printable
+from mocapbench.basics.words import printable
 
 __all__ = ["escape", "table_lines"]
 

@@ -9,8 +9,8 @@ import requests
 from requests.adapters import HTTPAdapter
 from urllib3.util.retry import Retry
 
+from mocapbench.basics.whole_files import stage_file
 from mocapbench.datasets.errors import FetchError, ServerUnreachable
-from mocapbench.datasets.formats.whole import written_whole
 
 __all__ = ["Downloader"]
 
@@ -54,7 +54,7 @@ class Downloader:
         check(content, url)
         file = self.folder / path
         file.parent.mkdir(parents=True, exist_ok=True)
-        with written_whole(file) as part:
+        with stage_file(file) as part:
             part.write_bytes(content)
 
     def _get(self, url: str) -> bytes:

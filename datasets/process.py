@@ -11,13 +11,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets.recording import Frames, Recording
 
 __all__ = ["Layer", "ToyProcess", "Weights", "draw_gaussian", "normal_weights", "uniform_weights"]
 
-Array = NDArray[np.float64]
 
 Weights = Callable[[np.random.Generator, tuple[int, ...]], Array]
 """From a random generator and a shape to the entries of the factors W."""

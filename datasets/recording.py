@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["FrameByChannel", "Frames", "Mask", "Recording", "numbers"]
+from mocapbench.basics.numbers import real_numbers
+
+__all__ = ["FrameByChannel", "Frames", "Mask", "Recording"]
 
 Frames = NDArray[np.float64]
 """(N,) one value per frame."""
@@ -17,26 +19,6 @@ FrameByChannel = NDArray[np.float64]
 """(N, D) one row per frame, one column per channel."""
 Mask = NDArray[np.bool_]
 """(N, D) True or False for each entry of a recording."""
-
-
-def numbers(what: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Return ``values`` as an array of floats, NaN for None.
-
-    Raises
-    ------
-    ValueError
-        If they are complex, text or dates, or rows differ in length; ``what`` names them.
-    """
-    try:
-        array = np.asarray(values)
-        if array.dtype == object and any(isinstance(item, str) for item in array.flat):
-            raise TypeError("text among them")
-        if array.dtype.kind in "biufO":
-            return np.asarray(array, dtype=np.float64)
-        got = f"an array of {array.dtype}"
-    except (TypeError, ValueError) as error:
-        got = f"others: {error}"
-    raise ValueError(f"expected {what} to be real numbers, in rows of the same length, got {got}")
 
 
 def _frozen(copy: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -116,7 +98,7 @@ class Recording:
         self._validate()
 
     def _numbers(self, field: str, values: ArrayLike) -> NDArray[np.float64]:
-        return _frozen(numbers(f"{field} of recording {self.name!r}", values))
+        return _frozen(real_numbers(f"{field} of recording {self.name!r}", values))
 
     def _names(self, field: str, names: str | Sequence[str]) -> tuple[str, ...]:
         # A single string would be taken as one name per letter.

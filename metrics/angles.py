@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction, Score, metric
 from mocapbench.metrics.entries import mean_over
 from mocapbench.metrics.outcomes.imputation import Imputation
@@ -19,8 +20,6 @@ __all__ = [
     "cumulative_scaled_error",
     "rms_angle",
 ]
-
-Array = NDArray[np.float64]
 
 
 def _has_scales(outcome: Imputation) -> bool:

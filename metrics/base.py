@@ -9,17 +9,13 @@ from enum import Enum
 from functools import partial
 from typing import Any, Generic, TypeVar, cast
 
-import numpy as np
-from numpy.typing import NDArray
-
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.outcomes.clustering import Clustering
 from mocapbench.metrics.outcomes.imputation import Imputation
 from mocapbench.metrics.outcomes.recovery import Recovery
 from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = ["Direction", "Metric", "Score", "has_poses", "metric"]
-
-Array = NDArray[np.float64]
 
 
 class Direction(Enum):

@@ -8,9 +8,9 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction, Metric, Score, metric
 from mocapbench.metrics.entries import average, deviations
 from mocapbench.metrics.outcomes.imputation import Imputation
@@ -26,7 +26,6 @@ __all__ = [
     "sharpness",
 ]
 
-Array = NDArray[np.float64]
 
 _PIT_BINS = 10
 

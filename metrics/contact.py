@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction, Score, has_poses, metric
 from mocapbench.metrics.entries import mean_over
 from mocapbench.metrics.frames import runs_of_frames
@@ -13,7 +14,6 @@ from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = ["foot_skate", "sample_foot_skate"]
 
-Array = NDArray[np.float64]
 
 CONTACT_HEIGHT = 5.0
 """Centimetres above its lowest place below which a true foot may stand."""

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfft
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = [
@@ -20,7 +21,6 @@ __all__ = [
     "linear_correlation",
 ]
 
-Array = NDArray[np.float64]
 SampleByReferenceByOutput = NDArray[np.float64]
 """(S, M, D) similarities; NaN in every entry of an output that is left out."""
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array, Mask
 from mocapbench.metrics.base import Score
 from mocapbench.metrics.outcomes.imputation import Imputation
 
@@ -16,8 +16,6 @@ __all__ = [
     "variance_over",
 ]
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 DEGENERATE = 1e-12
 """An output whose variance is below this is left out of metrics that divide by it."""

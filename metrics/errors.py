@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction, Score, metric
 from mocapbench.metrics.entries import (
     DEGENERATE,
@@ -19,8 +19,6 @@ __all__ = [
     "smse",
     "smse_pooled",
 ]
-
-Array = NDArray[np.float64]
 
 
 def _squared_error(outcome: Imputation) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction, Score, has_poses, metric
 from mocapbench.metrics.frames import runs_of_frames
 from mocapbench.metrics.outcomes.imputation import Imputation
@@ -12,7 +13,6 @@ from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = ["jerk_ratio", "sample_jerk_ratio"]
 
-Array = NDArray[np.float64]
 
 _WIDTH = 4
 """Frames of a third difference."""

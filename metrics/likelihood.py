@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction, Score, metric
 from mocapbench.metrics.entries import DEGENERATE, average, deviations
 from mocapbench.metrics.outcomes.imputation import Imputation
 
 __all__ = ["msll"]
-
-Array = NDArray[np.float64]
 
 
 def _log_loss(values: Array, mean: Array, variance: Array) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array, Mask
 from mocapbench.metrics.base import Direction, Score, has_poses, metric
 from mocapbench.metrics.entries import mean_over
 from mocapbench.metrics.outcomes.imputation import Imputation
@@ -14,9 +15,6 @@ __all__ = [
     "mpjpe",
     "mpjpe_global",
 ]
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 def _are_positions(outcome: Imputation) -> bool:

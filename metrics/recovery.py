@@ -9,9 +9,9 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction, Metric, Score, metric
 from mocapbench.metrics.outcomes.recovery import Recovery
 
@@ -23,8 +23,6 @@ __all__ = [
     "logdet_parent",
     "relative_frobenius",
 ]
-
-Array = NDArray[np.float64]
 
 
 def relative_frobenius(outcome: Recovery, layer: str) -> Score:

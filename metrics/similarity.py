@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction, Score, metric
 from mocapbench.metrics.correlation import (
     SampleByReferenceByOutput,
@@ -20,8 +20,6 @@ __all__ = [
     "mlc_best",
     "variance_ratio",
 ]
-
-Array = NDArray[np.float64]
 
 
 @metric(

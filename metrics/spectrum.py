@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import fft
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction, Score, has_poses, metric
 from mocapbench.metrics.outcomes.imputation import Imputation
 from mocapbench.metrics.outcomes.synthesis import Synthesis
 
 __all__ = ["npss", "sample_npss"]
 
-Array = NDArray[np.float64]
 
 SHORTEST = 4
 """Frames of the shortest run whose spectrum is compared."""

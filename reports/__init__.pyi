@@ -34,7 +34,6 @@ from .slopes.values import (
     Unpaired,
 )
 from .spreadsheet import csv_text
-from .text import counted, listed
 
 __all__ = [
     "Band",
@@ -71,9 +70,7 @@ __all__ = [
     "TaskLayout",
     "TaskPage",
     "Unpaired",
-    "counted",
     "csv_text",
-    "listed",
     "render",
     "render_changes",
     "render_filled",

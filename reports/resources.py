@@ -8,8 +8,8 @@ from importlib.resources import files
 from jinja2 import Environment, FunctionLoader, StrictUndefined, Template
 from markupsafe import Markup
 
-from mocapbench.reports.printable import printable
-from mocapbench.reports.text import counted, slug
+from mocapbench.basics.words import counted, printable
+from mocapbench.reports.text import slug
 
 __all__ = ["scripts", "styles", "template"]
 

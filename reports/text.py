@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from itertools import count
 from urllib.parse import quote
 
@@ -14,9 +14,7 @@ __all__ = [
     "MINUS",
     "apart",
     "cell_anchor",
-    "counted",
     "decimals",
-    "listed",
     "number",
     "plus_minus",
     "slug",
@@ -35,13 +33,6 @@ def slug(*names: str) -> str:
 def cell_anchor(task: str, case: str, label: str) -> str:
     """Return the address on the page of what is known of one cell, without the ``#``."""
     return "cell=" + "/".join(quote(name, safe="") for name in (task, case, label))
-
-
-def listed(names: Sequence[str], most: int) -> str:
-    """Return one or more names in a row, the first ``most`` of them: "a, b and 3 more"."""
-    more = len(names) - most
-    *others, last = [*names[:most], f"{more} more"] if more > 0 else names
-    return f"{', '.join(others)} and {last}" if others else last
 
 
 def decimals(values: Iterable[float]) -> int:
@@ -73,8 +64,3 @@ def apart(first: float, second: float, places: int) -> int:
 def plus_minus(spread: float | None, places: int) -> str:
     """Return the number after ±, empty where there is no spread."""
     return "" if spread is None else number(spread, places)
-
-
-def counted(count: int, noun: str, plural: str = "") -> str:
-    """Return a count with its noun: "1 case", "2 cases"; an irregular ``plural`` is named."""
-    return f"{count} {noun}" if count == 1 else f"{count} {plural or f'{noun}s'}"

@@ -21,7 +21,7 @@ def _module_names():
     Each part of the package is walked from its own path: in an editable install its folder is not
     below that of `mocapbench`.
     """
-    for part in ("datasets", "metrics", "baselines", "reports", "benchmark"):
+    for part in ("basics", "datasets", "metrics", "baselines", "reports", "benchmark"):
         package = importlib.import_module(f"mocapbench.{part}")
         yield package.__name__
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):

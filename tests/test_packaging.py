@@ -58,7 +58,11 @@ def test_every_folder_with_modules_is_packaged():
         for top in FOLDERS
         for path in (ROOT / top).rglob("__init__.py")
     }
-    assert {"mocapbench", *found} == set(PROJECT["tool"]["setuptools"]["packages"])
+    ground = {
+        ".".join(path.parent.relative_to(ROOT / "src").parts)
+        for path in (ROOT / "src").rglob("__init__.py")
+    }
+    assert {*ground, *found} == set(PROJECT["tool"]["setuptools"]["packages"])
 
 
 def test_every_public_module_says_what_is_public():

@@ -11,7 +11,8 @@ from scipy.special import entr
 
 from mocapbench.baselines.alignment.expectations import distance, log_likelihood, roughness
 from mocapbench.baselines.alignment.model import CycleParameters, Hyperparameters, State
-from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.basics.arrays import Array
 
 __all__ = ["bound", "sequence_bounds"]
 

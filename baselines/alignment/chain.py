@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.alignment.sequences import Array
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Paths", "forward_backward", "viterbi"]
 

@@ -13,7 +13,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.alignment.inference import infer
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.period import default_states
-from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.start import best_paths
 from mocapbench.baselines.alignment.validation import check_settings
 from mocapbench.baselines.common.ascent import Ascent
@@ -21,6 +21,7 @@ from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.protocols import Aligner, StatePath
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["CycleAligner"]

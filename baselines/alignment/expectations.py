@@ -10,7 +10,8 @@ import numpy as np
 
 from mocapbench.baselines.alignment.model import State
 from mocapbench.baselines.alignment.ring import Ring
-from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.basics.arrays import Array
 
 __all__ = ["distance", "emission", "log_likelihood", "moments", "residuals", "roughness"]
 

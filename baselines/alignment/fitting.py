@@ -13,7 +13,7 @@ import numpy as np
 from mocapbench.baselines.alignment.em import Update, expectation_maximisation
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.ring import Ring
-from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.start import GROUPINGS, first_cycle, start
 from mocapbench.baselines.alignment.updates import (
     update_closeness,
@@ -27,6 +27,7 @@ from mocapbench.baselines.alignment.updates import (
     update_weights,
 )
 from mocapbench.baselines.common.ascent import Ascent
+from mocapbench.basics.arrays import Array
 
 __all__ = ["EMSettings", "random_cycle", "random_start", "restarts", "run", "split"]
 

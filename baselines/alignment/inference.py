@@ -19,7 +19,7 @@ from mocapbench.baselines.alignment.bound import sequence_bounds
 from mocapbench.baselines.alignment.em import Update, expectation_maximisation
 from mocapbench.baselines.alignment.fitting import EMSettings, run
 from mocapbench.baselines.alignment.model import Hyperparameters, State
-from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.updates import (
     update_cycles,
     update_jumps,
@@ -28,6 +28,7 @@ from mocapbench.baselines.alignment.updates import (
     update_precisions,
 )
 from mocapbench.baselines.common.gaps import frames_alike
+from mocapbench.basics.arrays import Array
 
 __all__ = ["corrected", "error_correlation", "infer", "refine"]
 

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from mocapbench.baselines.alignment.chain import Paths
 from mocapbench.baselines.alignment.priors import CyclePrior
 from mocapbench.baselines.alignment.ring import Ring
-from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.basics.arrays import Array
 
 __all__ = ["CycleParameters", "Evidence", "Hyperparameters", "State"]
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.basics.arrays import Array
 
 __all__ = ["autocorrelation", "cycle_length", "default_states"]
 

@@ -16,7 +16,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 from scipy.optimize import brentq
 
-from mocapbench.baselines.alignment.sequences import Array
+from mocapbench.basics.arrays import Array
 
 __all__ = ["PRIORS", "CentredPrior", "CyclePrior", "NormalisedPrior", "PaperPrior"]
 

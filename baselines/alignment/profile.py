@@ -18,10 +18,11 @@ from mocapbench.baselines.alignment.bound import sequence_bounds
 from mocapbench.baselines.alignment.em import expectation_maximisation
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.ring import Ring
-from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.start import start
 from mocapbench.baselines.alignment.updates import update_jumps, update_paths, update_precisions
 from mocapbench.baselines.common.ascent import Ascent
+from mocapbench.basics.arrays import Array
 
 __all__ = ["fit_profile", "penalised_likelihood", "update_trace"]
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines.alignment.sequences import Array
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Elimination", "Ring", "eliminate", "solve"]
 

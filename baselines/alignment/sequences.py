@@ -10,9 +10,9 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Array", "Sequences"]
+from mocapbench.basics.arrays import Array
 
-Array = NDArray[np.float64]
+__all__ = ["Sequences"]
 
 
 @dataclass(frozen=True)

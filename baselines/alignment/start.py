@@ -17,10 +17,11 @@ from mocapbench.baselines.alignment.chain import Paths, viterbi
 from mocapbench.baselines.alignment.expectations import emission
 from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hyperparameters, State
 from mocapbench.baselines.alignment.ring import Ring
-from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.updates import update_paths
 from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.common.prototypes import grouped, of_unit_variance, tempi
+from mocapbench.basics.arrays import Array
 
 __all__ = [
     "GROUPINGS",

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.alignment import ring
 from mocapbench.baselines.alignment.model import State
-from mocapbench.baselines.alignment.sequences import Array
+from mocapbench.basics.arrays import Array
 
 __all__ = ["blended", "draw_cycles", "draw_path", "draw_sequences"]
 

@@ -25,7 +25,8 @@ from mocapbench.baselines.alignment.expectations import (
     roughness,
 )
 from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hyperparameters, State
-from mocapbench.baselines.alignment.sequences import Array, Sequences
+from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.basics.arrays import Array
 
 __all__ = [
     "update_closeness",

@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from mocapbench.baselines.choosing.panel import CandidatePanel
 from mocapbench.baselines.choosing.parts import EVERYTHING, GAPS, Part
@@ -18,11 +17,11 @@ from mocapbench.baselines.common.scaling import unit_scales
 from mocapbench.baselines.rehearsal.lost_channels import lost_trials
 from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
 from mocapbench.baselines.rehearsal.trials import trial_masks
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["Products", "Rehearsals"]
 
-Array = NDArray[np.float64]
 Products = pd.DataFrame
 """(C, C) mean products of the errors of models, by name, in units of the channels' scales.
 

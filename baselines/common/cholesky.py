@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.lapack import potrf, potri
+from mocapbench.basics.arrays import Array
 
 __all__ = ["invert", "mirror"]
-
-Array = NDArray[np.float64]
 
 
 def invert(matrix: Array) -> float:

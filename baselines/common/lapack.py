@@ -10,13 +10,11 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Callable
 
-import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import cython_lapack
 
-__all__ = ["potrf", "potri"]
+from mocapbench.basics.arrays import Array
 
-Array = NDArray[np.float64]
+__all__ = ["potrf", "potri"]
 
 
 def _routine(capsule: object) -> Callable[[Array], int]:

@@ -10,16 +10,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.common.checks import check_known
 from mocapbench.baselines.common.recordings import visible_moments
 from mocapbench.baselines.common.scaling import is_constant
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["OwnMeans"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,14 +15,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.protocols import Prediction
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["from_pose_units", "in_pose_units", "pose_factors"]
 
-Array = NDArray[np.float64]
 
 _CENTIMETRES = 2.54 / 0.45
 """In the unit of length of the CMU database's skeletons."""

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.cluster import KMeans
 
-__all__ = ["cluster_cycles", "grouped", "of_unit_variance", "tempi"]
+from mocapbench.basics.arrays import Array
 
-Array = NDArray[np.float64]
+__all__ = ["cluster_cycles", "grouped", "of_unit_variance", "tempi"]
 
 
 def cluster_cycles(

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = [
@@ -15,8 +16,6 @@ __all__ = [
     "stack",
     "visible_moments",
 ]
-
-Array = NDArray[np.float64]
 
 
 def by_name(recordings: Sequence[Recording]) -> tuple[Recording, ...]:

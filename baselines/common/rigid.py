@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mocapbench.basics.arrays import Array
 
 __all__ = ["FEWEST", "least_rotations", "rotations", "spans_a_body", "steadiness"]
 
-Array = NDArray[np.float64]
 
 FEWEST = 3
 """Markers that a rotation needs."""

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.common.checks import check_spread, check_visible
 from mocapbench.baselines.common.recordings import visible_moments
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["Standardisation", "is_constant", "unit_scales"]
 
-Array = NDArray[np.float64]
 
 _CONSTANT = 1e-12
 """Relative standard deviation below which an output counts as constant: it is rounding error."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mocapbench.basics.arrays import Array
 
 __all__ = ["oriented"]
 
-Array = NDArray[np.float64]
 
 _AS_LARGE = 1.0 - 1e-8
 

@@ -11,13 +11,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel
 
 __all__ = ["fill_gap", "least_squares_path"]
 
-Array = NDArray[np.float64]
 Steps = Callable[[FrameByChannel], Array]
 """From frames (n, D) to the step (n, D) expected from each."""
 

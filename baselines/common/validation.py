@@ -9,8 +9,8 @@ from typing import TypeGuard
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mocapbench.basics.numbers import real_numbers
 from mocapbench.datasets import Frames
-from mocapbench.datasets.recording import numbers
 
 __all__ = [
     "check_choice",
@@ -76,7 +76,7 @@ def check_times(times: ArrayLike, *, increasing: bool = False) -> Frames:
     ValueError
         If there is none, they are not finite numbers, or do not increase where they should.
     """
-    checked = numbers("times", times)
+    checked = real_numbers("times", times)
     if checked.ndim != 1 or not checked.size:
         raise ValueError(f"expected one or more times of shape (N,), got shape {checked.shape}")
     if not np.isfinite(checked).all():

@@ -8,11 +8,11 @@ equal at both ends of a cycle.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["Array", "fourier", "norms", "roughness", "shift_matrices"]
+from mocapbench.basics.arrays import Array
 
-Array = NDArray[np.float64]
+__all__ = ["fourier", "norms", "roughness", "shift_matrices"]
+
 
 _FLAT = 1e-6  # weight of the constant: one that no entry determines is 0, the channel's mean
 

@@ -14,8 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines.functional.basis import Array, norms, roughness
+from mocapbench.baselines.functional.basis import norms, roughness
 from mocapbench.baselines.functional.statistics import CurveStatistics
+from mocapbench.basics.arrays import Array
 
 __all__ = [
     "LEAST_NOISE",

@@ -9,8 +9,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.functional.basis import Array
 from mocapbench.baselines.functional.statistics import CurveStatistics
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["Cycles"]

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 
 from mocapbench.baselines.common.ascent import Ascent, ascend
-from mocapbench.baselines.functional.basis import Array, norms, roughness
+from mocapbench.baselines.functional.basis import norms, roughness
 from mocapbench.baselines.functional.components import (
     LEAST_NOISE,
     Components,
@@ -18,6 +18,7 @@ from mocapbench.baselines.functional.components import (
     update,
 )
 from mocapbench.baselines.functional.statistics import CurveStatistics
+from mocapbench.basics.arrays import Array
 
 __all__ = ["ComponentFit", "fit_components", "start"]
 

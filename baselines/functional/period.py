@@ -11,7 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from mocapbench.baselines.functional.basis import Array, fourier, roughness
+from mocapbench.baselines.functional.basis import fourier, roughness
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["complete_blocks", "cycle_periods", "elapsed", "frame_step", "signal_to_noise"]

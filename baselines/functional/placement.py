@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from mocapbench.baselines.functional.basis import Array
 from mocapbench.baselines.functional.period import elapsed
 from mocapbench.baselines.functional.shifts import SHIFTS, prediction_errors
 from mocapbench.baselines.functional.statistics import CurveStatistics
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["place"]

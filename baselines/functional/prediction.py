@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mocapbench.baselines.functional.basis import Array, fourier
+from mocapbench.baselines.functional.basis import fourier
 from mocapbench.baselines.functional.components import Components, Scores
 from mocapbench.baselines.functional.cycles import Cycles
+from mocapbench.basics.arrays import Array
 
 __all__ = ["cycle_moments", "prototypes", "sampled"]
 

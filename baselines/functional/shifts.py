@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.functional.basis import Array, roughness, shift_matrices
+from mocapbench.baselines.functional.basis import roughness, shift_matrices
 from mocapbench.baselines.functional.statistics import CurveStatistics
+from mocapbench.basics.arrays import Array
 
 __all__ = [
     "SHIFTS",

@@ -9,7 +9,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.functional.basis import Array, fourier
+from mocapbench.baselines.functional.basis import fourier
+from mocapbench.basics.arrays import Array
 
 __all__ = ["CurveStatistics"]
 

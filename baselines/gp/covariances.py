@@ -7,7 +7,6 @@ from contextlib import contextmanager
 
 import numpy as np
 from joblib import effective_n_jobs
-from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.scaling import Standardisation
@@ -17,11 +16,10 @@ from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.reduction.tree import Tree
 from mocapbench.baselines.gp.threads import thread_mapper
 from mocapbench.baselines.protocols import Coregionalised
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Frames
 
 __all__ = ["LearntCovariances"]
-
-Array = NDArray[np.float64]
 
 
 class LearntCovariances(Coregionalised):

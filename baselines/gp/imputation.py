@@ -6,7 +6,6 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.common.validation import check_count, check_seed, check_times
 from mocapbench.baselines.gp.conditioned import Conditioned
@@ -15,11 +14,10 @@ from mocapbench.baselines.gp.posterior.fitted import FittedProcess
 from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
 from mocapbench.baselines.protocols import Prediction, SampleByFrameByChannel
 from mocapbench.baselines.rehearsal.left_out import LeftOut
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["RecordingPosterior"]
-
-Array = NDArray[np.float64]
 
 
 class RecordingPosterior(LearntCovariances, Conditioned):

@@ -23,16 +23,15 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize
 
 from mocapbench.baselines.common.recordings import visible_moments
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["REGISTRATIONS", "Clock", "Registered", "affine"]
 
-Array = NDArray[np.float64]
 
 SHIFTS = np.linspace(-0.3, 0.3, 25)
 """Shifts a that are tried first, in spans of the reference."""

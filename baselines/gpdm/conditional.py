@@ -16,10 +16,9 @@ from mocapbench.baselines.gpdm.descent import descend
 from mocapbench.baselines.gpdm.dynamics import ConditionedDynamics
 from mocapbench.baselines.gpdm.posterior import JointPosterior, PointEstimate
 from mocapbench.baselines.gpdm.process import ConditionedProcess
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Conditional", "Query"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

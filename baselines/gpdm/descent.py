@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize
+
+from mocapbench.basics.arrays import Array
 
 __all__ = ["descend"]
 
-Array = NDArray[np.float64]
 ValueAndGradients = tuple[float, Sequence[Array]]
 
 

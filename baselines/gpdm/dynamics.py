@@ -15,14 +15,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gpdm.process import ConditionedProcess, Process
+from mocapbench.basics.arrays import Array, Index
 
 __all__ = ["ConditionedDynamics", "Dynamics", "Markov", "Static"]
-
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 
 class ConditionedDynamics(ABC):

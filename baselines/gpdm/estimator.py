@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_recordings
@@ -35,11 +34,10 @@ from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import Embedded, FrameImputer, Inductive, Prediction
 from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning
 from mocapbench.baselines.rehearsal.widening import widened
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["LatentVariableModel"]
-
-Array = NDArray[np.float64]
 
 
 class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedded):

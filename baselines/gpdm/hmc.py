@@ -10,11 +10,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mocapbench.basics.arrays import Array
 
 __all__ = ["HybridMonteCarlo"]
 
-Array = NDArray[np.float64]
 Potential = Callable[[Array], tuple[float, Array]]
 
 # At equilibrium p ln 1.1 = (1 − p) ln(1/0.8): an acceptance rate p of 0.70, where the paper asks

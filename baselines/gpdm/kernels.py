@@ -19,11 +19,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mocapbench.basics.arrays import Array
 
 __all__ = ["LatentKernel", "LinearKernel", "Pullback", "RBFKernel", "ScaledKernel", "SumKernel"]
 
-Array = NDArray[np.float64]
 Pullback = Callable[[Array], tuple[Array, Array, Array]]
 
 

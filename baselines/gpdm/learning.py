@@ -14,14 +14,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gpdm.descent import descend
 from mocapbench.baselines.gpdm.posterior import JointPosterior, PointEstimate
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Balanced", "FixedDynamics", "Learning", "MaximumAPosteriori", "with_best_scales"]
-
-Array = NDArray[np.float64]
 
 
 class Learning(ABC):

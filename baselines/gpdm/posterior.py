@@ -9,14 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gpdm.dynamics import Dynamics
 from mocapbench.baselines.gpdm.process import Process, invert
+from mocapbench.basics.arrays import Array
 
 __all__ = ["JointPosterior", "PointEstimate", "PosteriorGradients"]
 
-Array = NDArray[np.float64]
 
 KAPPA = 1e3
 """The standard deviation κ of the half-normal prior of the scales, GPDM eq. (13)."""

@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 from mocapbench.baselines.common.cholesky import mirror
 from mocapbench.baselines.common.lapack import potrf, potri
 from mocapbench.baselines.gpdm.kernels import LatentKernel
+from mocapbench.basics.arrays import Array
 
 __all__ = ["ConditionedProcess", "Process", "ProcessGradients", "invert"]
 
-Array = NDArray[np.float64]
 Moments = tuple[Array, Array, Callable[[Array, Array], Array]]
 
 _NOISE_PRECISION = float(np.e)

@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.gpdm.dynamics import ConditionedDynamics
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
+from mocapbench.basics.arrays import Array
 
 __all__ = ["fair_trajectories", "mean_trajectory", "roll_out"]
-
-Array = NDArray[np.float64]
 
 
 def roll_out(dynamics: ConditionedDynamics, x: Array, frames: NDArray[np.intp]) -> Array:

@@ -13,11 +13,11 @@ from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.gaps import complete_stretches
 from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.signs import oriented
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["TrainingSequences", "whitened_components"]
 
-Array = NDArray[np.float64]
 
 _CONSTANT = 1e-9
 """A channel is constant if its range is at most this fraction of its largest absolute value."""

@@ -12,16 +12,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.metrics.pairwise import euclidean_distances
 
 from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.gpdm.conditional import Conditional, Query
 from mocapbench.baselines.gpdm.rollout import roll_out
+from mocapbench.basics.arrays import Array
 
 __all__ = ["STARTS", "linear", "mean_prediction", "viterbi", "window"]
 
-Array = NDArray[np.float64]
 Start = Callable[[Conditional, Query], Array]
 
 _MIN_OVERLAP = 8

@@ -18,11 +18,11 @@ from mocapbench.baselines.gpdm.estimator import LatentVariableModel
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
 from mocapbench.baselines.gpdm.rollout import fair_trajectories, mean_trajectory
 from mocapbench.baselines.protocols import Dynamical, SampleByFrameByChannel, Synthesiser
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["DynamicalModel"]
 
-Array = NDArray[np.float64]
 
 _MOST_FRAMES = 10_000
 """A covariance of as many takes 0.8 GB."""

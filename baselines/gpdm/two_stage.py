@@ -10,16 +10,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gpdm.descent import descend
 from mocapbench.baselines.gpdm.hmc import HybridMonteCarlo
 from mocapbench.baselines.gpdm.learning import Learning
 from mocapbench.baselines.gpdm.posterior import JointPosterior, PointEstimate
+from mocapbench.basics.arrays import Array
 
 __all__ = ["TwoStage"]
 
-Array = NDArray[np.float64]
 
 _TO_MODE = 100
 """Iterations of L-BFGS towards a mode, where each chain starts (GPDM footnote 9)."""

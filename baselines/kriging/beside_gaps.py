@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.common.gaps import hidden_together, runs
 from mocapbench.baselines.kriging.own_course import own_course
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Mask
 
 __all__ = ["courses"]
 
-Array = NDArray[np.float64]
 
 _BESIDE = 100
 """Frames on both sides of a gap from which it is filled."""

@@ -20,15 +20,13 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.metrics.pairwise import euclidean_distances
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
+from mocapbench.basics.arrays import Array, Index
 
 __all__ = ["TYPICAL", "ChannelPairs", "DescribedFrames"]
 
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 TYPICAL: Array = np.log([1.0, 0.25, 0.3, 0.3, 8.0, 0.2])
 """Medians of the priors: of ℓ, √β, √α, √γ, τ in frames, and √ε."""

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.kriging.channel_pairs import TYPICAL, ChannelPairs, DescribedFrames
 from mocapbench.baselines.kriging.learning import (
@@ -17,11 +16,10 @@ from mocapbench.baselines.kriging.learning import (
     stretch_numbers,
 )
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
+from mocapbench.basics.arrays import Array
 
 __all__ = ["ChannelProcess"]
 
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 _LEARNT = 150
 """Frames of the recording to fill, and of all others, from which parameters are learnt."""

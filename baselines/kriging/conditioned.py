@@ -18,10 +18,9 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from mocapbench.baselines.kriging.student import student_variance
+from mocapbench.basics.arrays import Array
 
 __all__ = ["ConditionedFrames"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,7 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import Bounds, minimize
 
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
+from mocapbench.basics.arrays import Array, Index
 
 __all__ = [
     "Pairs",
@@ -22,8 +23,6 @@ __all__ = [
     "stretch_numbers",
 ]
 
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 _WIDTH = 4.0
 """Most deviations of a logarithm from its prior median."""

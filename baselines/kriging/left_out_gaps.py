@@ -26,10 +26,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.cholesky import invert
+from mocapbench.basics.arrays import Array
 
 __all__ = ["LeftOutGaps"]
 
-Array = NDArray[np.float64]
 
 _TINY = float(np.finfo(np.float64).tiny)
 

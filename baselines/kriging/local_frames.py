@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.rigid import least_rotations, rotations, spans_a_body
+from mocapbench.basics.arrays import Array
 
 __all__ = ["LocalFrames"]
 
-Array = NDArray[np.float64]
 
 _ROUNDS = 3
 """Times that the mean shape is fitted anew; it hardly moves after the first."""

@@ -7,17 +7,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.common.rigid import FEWEST
 from mocapbench.baselines.kriging.learning import evenly, some_of_both
 from mocapbench.baselines.kriging.local_frames import LocalFrames
 from mocapbench.baselines.kriging.marker_process import MarkerFrames, MarkerProcess
+from mocapbench.basics.arrays import Array, Index
 
 __all__ = ["MarkerGap", "Track"]
 
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 _BESIDE = 30
 """Frames on both sides of a gap that all count."""

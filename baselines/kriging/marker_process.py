@@ -28,11 +28,10 @@ from mocapbench.baselines.gp.prior.kernels import Matern32
 from mocapbench.baselines.kriging.learning import best_predicting, noisy, predicted, stretch_numbers
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 from mocapbench.baselines.kriging.student import student_variance
+from mocapbench.basics.arrays import Array, Index
 
 __all__ = ["FramePairs", "MarkerFrames", "MarkerProcess"]
 
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 _TYPICAL: Array = np.log([2.0, 0.3, 0.25, 0.05])
 """Medians of the priors: ℓ where shapes have variance 1, a, τ in seconds, and ε."""

@@ -8,15 +8,14 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.common.gaps import hidden_frames
 from mocapbench.baselines.pose_viterbi import PoseViterbi
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["MatchedPaths"]
 
-Array = NDArray[np.float64]
 
 _EXACT = 1e-12
 """Error of a path, as a fraction of the largest, below which it counts as exact."""

@@ -7,17 +7,15 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.linear_model import Ridge
 
 from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.common.recordings import stack
+from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["StackedFrames"]
 
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 _BESIDE = np.array([-8, -4, 0, 4, 8])
 """The frames by which a frame is compared with others: those at these distances from it."""

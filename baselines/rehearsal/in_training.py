@@ -5,18 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.base import clone
 
 from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.baselines.rehearsal.ratios import squared_ratios
 from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
 from mocapbench.baselines.rehearsal.trials import remoteness
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["ratios_in_training"]
-
-Array = NDArray[np.float64]
 
 
 def ratios_in_training(

@@ -21,17 +21,16 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.common.gaps import distances
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.baselines.rehearsal.ratios import mean_ratios
 from mocapbench.baselines.rehearsal.variance_check import STEEPEST
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["LeftOut", "side_by_side"]
 
-Array = NDArray[np.float64]
 
 _RESOLVED = 1e-11
 """In standard units, the β (β − v) above which an entry counts: below, rounding of v may decide.

@@ -21,11 +21,11 @@ from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.baselines.rehearsal.in_training import ratios_in_training
 from mocapbench.baselines.rehearsal.ratios import mean_ratios, squared_ratios
 from mocapbench.baselines.rehearsal.trials import spread_evenly
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["lost_trials", "with_lost_channels"]
 
-Array = NDArray[np.float64]
 
 _TINY = np.finfo(np.float64).tiny
 

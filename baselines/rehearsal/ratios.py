@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.protocols import Prediction
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["LEAST", "geometric_ratios", "mean_ratios", "squared_ratios"]
 
-Array = NDArray[np.float64]
 
 LEAST = 0.01
 """The least factor: where nothing varies, trials err nowhere, and doubt would vanish."""

@@ -16,18 +16,17 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.baselines.rehearsal.in_training import ratios_in_training
 from mocapbench.baselines.rehearsal.ratios import LEAST, mean_ratios
 from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["rehearsed"]
 
-Array = NDArray[np.float64]
 
 _TINY = np.finfo(np.float64).tiny
 

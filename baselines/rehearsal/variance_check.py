@@ -31,11 +31,11 @@ from mocapbench.baselines.rehearsal.trials import (
     remoteness,
     trial_masks,
 )
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["STEEPEST", "VarianceCheck"]
 
-Array = NDArray[np.float64]
 Distances = NDArray[np.intp]
 
 _TINY = np.finfo(np.float64).tiny

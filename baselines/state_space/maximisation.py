@@ -14,8 +14,9 @@ import numpy as np
 
 from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.regression import Array, Regression, Sums
+from mocapbench.baselines.state_space.regression import Regression, Sums
 from mocapbench.baselines.state_space.smoothing import Smoothed
+from mocapbench.basics.arrays import Array
 
 __all__ = ["maximised"]
 

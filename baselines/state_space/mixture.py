@@ -22,9 +22,9 @@ from mocapbench.baselines.state_space.filtering import filtered
 from mocapbench.baselines.state_space.maximisation import maximised
 from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.regression import Array
 from mocapbench.baselines.state_space.smoothing import smoothed
 from mocapbench.baselines.state_space.start import start
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Mixture", "classification_em", "seeded"]
 

@@ -7,7 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from mocapbench.baselines.state_space.regression import Array, Prior, Regression
+from mocapbench.baselines.state_space.regression import Prior, Regression
+from mocapbench.basics.arrays import Array
 
 __all__ = ["PRIORS", "Priors", "StateSpaceParameters"]
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.common.gaps import interpolated
-from mocapbench.baselines.state_space.regression import Array
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Observations"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines.state_space.model import StateSpaceParameters
-from mocapbench.baselines.state_space.regression import Array
 from mocapbench.baselines.state_space.smoothing import Smoothed
+from mocapbench.basics.arrays import Array
 
 __all__ = ["drawn", "moments"]
 

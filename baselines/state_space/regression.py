@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Array", "Prior", "Regression", "Sums", "transposed"]
+from mocapbench.basics.arrays import Array
 
-Array = NDArray[np.float64]
+__all__ = ["Prior", "Regression", "Sums", "transposed"]
 
 
 @dataclass(frozen=True)

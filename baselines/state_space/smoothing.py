@@ -17,7 +17,8 @@ import numpy as np
 from mocapbench.baselines.state_space.filtering import Filtered, filtered, recurrence
 from mocapbench.baselines.state_space.model import StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.regression import Array, transposed
+from mocapbench.baselines.state_space.regression import transposed
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Smoothed", "smoothed"]
 

@@ -18,8 +18,8 @@ from mocapbench.baselines.common.signs import oriented
 from mocapbench.baselines.state_space.maximisation import maximised
 from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.regression import Array
 from mocapbench.baselines.state_space.smoothing import Smoothed
+from mocapbench.basics.arrays import Array
 
 __all__ = ["initial_states", "start"]
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mocapbench import benchmark as bench
+from mocapbench.basics.whole_files import write_bytes, write_text
 from mocapbench.benchmark import gate
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
@@ -19,7 +20,6 @@ from mocapbench.benchmark.cli.options import (
     show_left_out,
 )
 from mocapbench.benchmark.errors import ExitCode, UsageError
-from mocapbench.benchmark.files import write_bytes, write_text
 from mocapbench.benchmark.gate.environment import Environment
 
 if TYPE_CHECKING:

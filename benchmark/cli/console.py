@@ -9,7 +9,7 @@ from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
 from rich.text import Text
 
-from mocapbench.reports.printable import printable
+from mocapbench.basics.words import printable
 
 __all__ = ["LiteralConsole"]
 

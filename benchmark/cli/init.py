@@ -9,11 +9,11 @@ from typing import Annotated
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench import reports
+from mocapbench.basics.whole_files import write_text
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins, require_writable
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import write_text
 
 __all__ = ["app"]
 
@@ -44,7 +44,7 @@ def init(
     write_text(task_file, draft.text)
     for reason in draft.left_out:
         console.print(f"left out: {reason}", soft_wrap=True, highlight=False)
-    count = reports.counted(len(draft.tests), "recording")
+    count = counted(len(draft.tests), "recording")
     console.print(f"{task_file}: a task on {count} of {recordings}")
     command = shlex.join(
         [

@@ -10,6 +10,7 @@ import typer
 
 from mocapbench import benchmark as bench
 from mocapbench import reports
+from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark import comparison
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import (
@@ -24,7 +25,6 @@ from mocapbench.benchmark.cli.options import (
     show_left_out,
 )
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import write_text
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Record, Store

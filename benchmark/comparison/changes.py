@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.comparison.fact_changes import (
     changed_parameters,
     changed_provenance,
@@ -20,7 +21,7 @@ from mocapbench.benchmark.results.bundle import metric_info
 from mocapbench.benchmark.results.shown_metrics import shown_metrics
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
-from mocapbench.reports import ComparedTask, Ending, RunChanges, Unpaired, counted
+from mocapbench.reports import ComparedTask, Ending, RunChanges, Unpaired
 
 __all__ = ["run_changes"]
 

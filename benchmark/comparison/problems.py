@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.results.origins import recordings
 from mocapbench.benchmark.runs.record import Record
-from mocapbench.reports.text import counted
 
 __all__ = ["differences", "require_same_problems"]
 

@@ -6,18 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from sklearn.decomposition import PCA
 
 from mocapbench.baselines import StatePath
+from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.cluster import ClusterProblem, Clusters
 from mocapbench.benchmark.problems.cycle import Alignment
 from mocapbench.reports import Curve, Illustration, Panel
 
 __all__ = ["Alignments"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mocapbench.basics.words import counted, listed
 from mocapbench.benchmark.filling.edges import jumps
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.requests.names import marker_names
 from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.benchmark.filling.requests.zeros import zeros_caution
-from mocapbench.reports import counted, listed
 
 __all__ = ["cautions"]
 

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["FilledEntries", "GapQuestion", "with_channels", "without_unseen"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

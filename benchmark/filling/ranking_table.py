@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.trials.comparison import Choice
-from mocapbench.reports import RankedModel, counted
+from mocapbench.reports import RankedModel
 
 __all__ = ["left_out", "ranked", "units"]
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from mocapbench.basics.words import counted, listed
 from mocapbench.benchmark.errors import first_of
 from mocapbench.benchmark.filling.requests.names import marker_names
 from mocapbench.benchmark.filling.requests.request import FillRequest
-from mocapbench.reports import counted, listed
 
 __all__ = ["remaining"]
 

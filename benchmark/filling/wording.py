@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from mocapbench.basics.words import counted, listed
 from mocapbench.benchmark.filling.cautions import cautions
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.remaining import remaining
 from mocapbench.benchmark.filling.trials.comparison import Choice
 from mocapbench.benchmark.filling.trials.ranking import Ranking
-from mocapbench.reports import counted, listed
 
 __all__ = ["headline", "remarks", "verdict"]
 

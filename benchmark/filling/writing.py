@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import ENTRIES, require_writable_folder, write_text
+from mocapbench.benchmark.files import ENTRIES, require_writable_folder
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.reports import csv_text
 

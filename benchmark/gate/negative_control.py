@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from rich.console import Console
 from rich.table import Table
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.results.bundle import bundle
 from mocapbench.benchmark.runs.record import Record
@@ -18,7 +19,6 @@ from mocapbench.reports.analysis.negative_control_result import (
     NegativeControlResult,
 )
 from mocapbench.reports.analysis.results import task_results
-from mocapbench.reports.text import counted
 
 __all__ = ["check_controls"]
 

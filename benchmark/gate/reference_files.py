@@ -16,8 +16,9 @@ from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
+from mocapbench.basics.whole_files import write_text
+from mocapbench.basics.words import printable
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import write_text
 from mocapbench.benchmark.gate.reference import (
     COLUMNS,
     ENVIRONMENT,
@@ -31,7 +32,6 @@ from mocapbench.benchmark.gate.reference import (
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
-from mocapbench.reports.printable import printable
 from mocapbench.reports.spreadsheet import guarded, unguarded
 
 __all__ = ["read_reference", "write_reference"]

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.gate.reference import Reference
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.runs.store import Store
-from mocapbench.reports import counted
 
 __all__ = ["require_updatable"]
 

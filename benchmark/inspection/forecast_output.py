@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.inspection.explanation import Step
 from mocapbench.benchmark.inspection.fit_seconds import MEASURED
 from mocapbench.benchmark.inspection.forecast import Forecast
 from mocapbench.benchmark.inspection.work import Basis
 from mocapbench.benchmark.runs.job import Job
-from mocapbench.reports.text import counted
 
 __all__ = ["forecast_lines", "lacking", "lacking_line"]
 

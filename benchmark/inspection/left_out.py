@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.directory.plan_file import planned_jobs
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
-from mocapbench.reports import counted
 
 __all__ = ["left_out_lines"]
 

@@ -8,12 +8,12 @@ from datetime import UTC, datetime
 
 from rich.table import Column, Table
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.inspection.changes import Change, in_words
 from mocapbench.benchmark.inspection.explanation import Explanation, Step
 from mocapbench.benchmark.inspection.state import RunState, TaskState
 from mocapbench.benchmark.runs import progress
 from mocapbench.benchmark.runs.key_parts import DIGEST
-from mocapbench.reports.text import counted
 
 __all__ = ["explanation_table", "state_lines", "state_table"]
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from rich.table import Column, Table
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.inspection.explanation import explain
 from mocapbench.benchmark.inspection.forecast import forecast
 from mocapbench.benchmark.inspection.forecast_output import (
@@ -16,7 +17,6 @@ from mocapbench.benchmark.inspection.forecast_output import (
     lacking_line,
 )
 from mocapbench.benchmark.runs.job import Job
-from mocapbench.reports.text import counted
 
 __all__ = ["forecast_text", "plan_table"]
 

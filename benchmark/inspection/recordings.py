@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from mocapbench.basics.words import counted
 from mocapbench.datasets import RecordingStatus, named_folders
-from mocapbench.reports.text import counted
 
 __all__ = ["DataRequest", "data_totals", "next_data_step"]
 

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
 from typing import NamedTuple
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.inspection.fit_seconds import alike, of_records, typical
 from mocapbench.benchmark.runs.execution.durations import Durations
 from mocapbench.benchmark.runs.progress import in_words
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.address import Address
-from mocapbench.reports.text import counted
 
 __all__ = ["Basis", "ExpectedWork", "work_of"]
 

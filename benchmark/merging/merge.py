@@ -9,8 +9,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from mocapbench.basics.whole_files import write_bytes
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import write_bytes
 from mocapbench.benchmark.merging.plans import unite_plans
 from mocapbench.benchmark.merging.records import unite_fits, unite_records
 from mocapbench.benchmark.merging.sources import read_source

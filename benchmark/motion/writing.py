@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from mocapbench.basics.whole_files import write_bytes
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import require_writable_folder, write_bytes
+from mocapbench.benchmark.files import require_writable_folder
 from mocapbench.benchmark.motion.gif import gif_bytes
 from mocapbench.benchmark.motion.joint_angles import amc_text, bvh_text
 from mocapbench.benchmark.motion.made import EntrantMotion

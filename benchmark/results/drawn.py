@@ -15,7 +15,7 @@ from mocapbench.benchmark.task_files.task_file import TaskFile
 
 __all__ = ["last_drawn", "stamp"]
 
-_PARTS = ("datasets", "metrics", "baselines", "reports", "benchmark")
+_PARTS = ("basics", "datasets", "metrics", "baselines", "reports", "benchmark")
 
 
 def stamp(

@@ -25,8 +25,13 @@ from mocapbench.metrics import Metric
 
 __all__ = ["fit_contents", "key_of", "metric_contents", "score_contents", "training_contents"]
 
-_FITTING = ("mocapbench.datasets", "mocapbench.baselines", "mocapbench.benchmark")
-_SCORING = ("mocapbench.metrics",)
+_FITTING = (
+    "mocapbench.basics",
+    "mocapbench.datasets",
+    "mocapbench.baselines",
+    "mocapbench.benchmark",
+)
+_SCORING = ("mocapbench.basics", "mocapbench.metrics")
 _LIBRARIES = ("numpy", "scipy", "scikit-learn")
 
 

@@ -12,8 +12,8 @@ from typing import Any, Self
 
 import orjson
 
+from mocapbench.basics.words import printable
 from mocapbench.benchmark.tasks.address import Address
-from mocapbench.reports.printable import printable
 
 __all__ = ["Record", "RecordError", "Status"]
 

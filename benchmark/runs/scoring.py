@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.messages import reason, traceback_of
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.registry import METRICS
@@ -17,7 +18,6 @@ from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.score_values import fault_of_score
 from mocapbench.metrics import Metric, Score
-from mocapbench.reports.text import counted
 
 __all__ = ["Scoring", "scoring"]
 

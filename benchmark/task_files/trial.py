@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocapbench.baselines.common.markers import markers_of
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
@@ -28,7 +29,6 @@ from mocapbench.datasets import (
     Recording,
     RecordingUnavailable,
 )
-from mocapbench.reports import counted
 
 __all__ = ["RecordingFacts", "TrialRun"]
 

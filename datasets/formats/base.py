@@ -12,11 +12,11 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
+from mocapbench.basics.whole_files import stage_file
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.formats.errors import FormatError, MissingExtraError
 from mocapbench.datasets.formats.memory import check_fits
 from mocapbench.datasets.formats.turns import unwrapped, wrapped
-from mocapbench.datasets.formats.whole import written_whole
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["Extra", "Format"]
@@ -183,7 +183,7 @@ class Format(ABC):
             filled.visible
         )
         values = wrapped(filled.values, raw.hide(new), new)
-        with _plain_errors(path), written_whole(path) as temporary:
+        with _plain_errors(path), stage_file(path) as temporary:
             self.save(temporary, values, new, like)
 
     def _raw(self, path: Path, rate: float | None) -> Recording:

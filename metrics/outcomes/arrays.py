@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-__all__ = ["Array", "lock_fields", "lock_numbers", "read_only", "real_numbers"]
+from mocapbench.basics.numbers import real_numbers
 
-Array = NDArray[np.float64]
+__all__ = ["lock_fields", "lock_numbers", "read_only"]
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
@@ -33,17 +33,3 @@ def lock_numbers(outcome: object, *fields: str) -> None:
     kind = type(outcome).__name__
     numbers = {name: real_numbers(f"{name} of {kind}", getattr(outcome, name)) for name in fields}
     lock_fields(outcome, **numbers)
-
-
-def real_numbers(what: str, values: ArrayLike) -> Array:
-    """Return ``values`` as floats, or say that they are text, complex or ragged."""
-    try:
-        array = np.asarray(values)
-        if array.dtype == object and any(isinstance(item, str) for item in array.flat):
-            raise TypeError("text among them")
-        if array.dtype.kind in "biufO":
-            return np.asarray(array, dtype=np.float64)
-        got = f"an array of {array.dtype}"
-    except (TypeError, ValueError) as error:
-        got = f"others: {error}"
-    raise ValueError(f"expected {what} to be real numbers, in rows of the same length, got {got}")

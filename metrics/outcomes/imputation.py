@@ -9,7 +9,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.metrics.outcomes.arrays import Array, lock_fields, lock_numbers
+from mocapbench.basics.arrays import Array
+from mocapbench.metrics.outcomes.arrays import lock_fields, lock_numbers
 from mocapbench.metrics.outcomes.poses import ImputedPoses, place
 
 __all__ = ["Imputation"]

@@ -9,12 +9,12 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Mask
 from mocapbench.metrics.outcomes.arrays import lock_fields
 
 __all__ = ["ImputedPoses", "SampledPoses", "place"]
 
 Positions = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)

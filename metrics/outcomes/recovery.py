@@ -8,7 +8,9 @@ from numbers import Real
 from types import MappingProxyType
 from typing import Any
 
-from mocapbench.metrics.outcomes.arrays import Array, read_only, real_numbers
+from mocapbench.basics.arrays import Array
+from mocapbench.basics.numbers import real_numbers
+from mocapbench.metrics.outcomes.arrays import read_only
 
 __all__ = ["Recovery"]
 

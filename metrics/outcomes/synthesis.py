@@ -8,7 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from mocapbench.metrics.outcomes.arrays import Array, lock_numbers
+from mocapbench.basics.arrays import Array
+from mocapbench.metrics.outcomes.arrays import lock_numbers
 from mocapbench.metrics.outcomes.poses import SampledPoses, place
 
 __all__ = ["Synthesis"]

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.statistics.differences import mean_interval, mean_of, t_test
-from mocapbench.metrics.statistics.means import Array, too_few
+from mocapbench.metrics.statistics.means import too_few
 from mocapbench.metrics.statistics.posterior import correlated_t_test
 from mocapbench.metrics.statistics.signed_ranks import signed_rank_test
 

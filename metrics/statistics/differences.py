@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mocapbench.metrics.statistics.means import Array, UnitMeans, unit_means
+from mocapbench.basics.arrays import Array
+from mocapbench.metrics.statistics.means import UnitMeans, unit_means
 
 __all__ = [
     "ALPHA",

@@ -15,8 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.statistics.differences import ALPHA, holm
-from mocapbench.metrics.statistics.means import Array, UnitMeans, unit_means
+from mocapbench.metrics.statistics.means import UnitMeans, unit_means
 
 __all__ = ["HolmTests", "holm_tests", "holm_tests_of_means"]
 

@@ -30,14 +30,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
+from mocapbench.basics.arrays import Array
+
 __all__ = ["FEWEST_UNITS", "UnitMeans", "too_few", "unit_means"]
 
 FEWEST_UNITS = 5
 """With fewer independent units no difference is tested: not to find one would say nothing."""
 
 _ROUNDING = 1e-9
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

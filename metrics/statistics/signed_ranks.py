@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import stats
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.statistics.differences import validated
-from mocapbench.metrics.statistics.means import Array
 
 __all__ = ["least_signed_rank_p", "signed_rank_test"]
 

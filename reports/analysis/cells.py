@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from mocapbench.reports.analysis.grid import Array, linear_losses
+from mocapbench.basics.arrays import Array
+from mocapbench.reports.analysis.grid import linear_losses
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.units import unit_kind, unit_names, unit_weights
 from mocapbench.reports.bundle.layout import CaseLayout

@@ -15,9 +15,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.statistics import ALPHA, UnitMeans, holm_tests_of_means, unit_means
 from mocapbench.reports.analysis.cells import Cells
-from mocapbench.reports.analysis.grid import Array
 
 __all__ = ["PairContrast", "contrasts"]
 

@@ -8,10 +8,11 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 from scipy.sparse import csr_array
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.entries import mean_over
 from mocapbench.metrics.statistics import ALPHA, UnitMeans, unit_means
 from mocapbench.reports.analysis.fold_mean import FoldMean
-from mocapbench.reports.analysis.grid import Array, Grid
+from mocapbench.reports.analysis.grid import Grid
 from mocapbench.reports.analysis.units import unit_names
 from mocapbench.reports.bundle.layout import CaseLayout
 

@@ -7,14 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.bundle.metric_info import MetricInfo
 
-__all__ = ["Array", "Grid", "linear_losses"]
-
-Array = NDArray[np.float64]
+__all__ = ["Grid", "linear_losses"]
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,12 +16,12 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
+from mocapbench.basics.words import counted
 from mocapbench.metrics.statistics import FEWEST_UNITS, holm_tests_of_means, unit_means
 from mocapbench.reports.analysis.cells import Cells, cells
-from mocapbench.reports.analysis.grid import Array
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.text import counted
 
 __all__ = ["MOST_LEVEL", "Place", "Standing", "level_with_best", "standings", "too_few_units"]
 

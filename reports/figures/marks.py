@@ -10,8 +10,8 @@ from collections.abc import Iterable
 
 import numpy as np
 from markupsafe import Markup, escape
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.reports.figures.paths import coordinate, outline, segments
 from mocapbench.reports.figures.styles import DrawingStyle
 
@@ -30,7 +30,6 @@ __all__ = [
     "vertical",
 ]
 
-Array = NDArray[np.float64]
 
 PHONE = 400.0
 """Wider drawings, in pixels, do not shrink to the width of a phone; they scroll."""

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mocapbench.basics.arrays import Array
 
 __all__ = ["coordinate", "outline", "segments"]
-
-Array = NDArray[np.float64]
 
 
 def coordinate(value: float) -> str:

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mocapbench.basics.arrays import Array
 
 __all__ = ["LinearScale", "LogScale", "Scale"]
 
-Array = NDArray[np.float64]
 
 _ROUND = (1.0, 2.0, 5.0, 10.0)
 _LOG_TICKS = (((1, 2, 5), 1), ((1, 3), 1), *(((1,), every) for every in (1, 2, 3, 5, 10, 20, 50)))

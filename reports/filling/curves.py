@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from markupsafe import Markup
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
+from mocapbench.basics.words import counted, printable
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes
 from mocapbench.reports.figures.fitting import linear
 from mocapbench.reports.figures.legend import key
@@ -14,8 +15,6 @@ from mocapbench.reports.figures.pictures.thinning import thinned
 from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
 from mocapbench.reports.figures.svg_figure import Key
 from mocapbench.reports.filling.values import FILLED_FRAMES, FilledCurve
-from mocapbench.reports.printable import printable
-from mocapbench.reports.text import counted
 
 __all__ = ["MOTION_STYLES", "draw_curve", "legend"]
 
@@ -24,8 +23,6 @@ FILLED = DrawingStyle("h0", 1)
 MOTION_STYLES = {FILLED_FRAMES: FILLED}
 """Of the figures of a motion; those in the file are drawn as the truth is everywhere."""
 _WITHIN_95 = 1.96
-
-Array = NDArray[np.float64]
 
 
 def draw_curve(curve: FilledCurve) -> Markup:

@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from mocapbench.basics.arrays import Array
 from mocapbench.reports.bundle.panels import Panel
 
 __all__ = ["FILLED_FRAMES", "GIVEN_FRAMES", "FilledCurve", "FilledPage", "RankedModel"]
 
 FILLED_FRAMES, GIVEN_FRAMES = "filled", "in the file"
 """The groups of the figures of a motion: with filled entries, and without."""
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

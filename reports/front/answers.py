@@ -6,12 +6,12 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Place, standings
 from mocapbench.reports.bundle.questions import QUESTIONS, Question
 from mocapbench.reports.front.board_cells import first_metric
 from mocapbench.reports.front.findings import RankedTask, TaskFinding
-from mocapbench.reports.text import counted
 
 __all__ = ["TESTED", "QuestionAnswer", "answers"]
 

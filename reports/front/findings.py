@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from mocapbench.basics.words import listed
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import MOST_LEVEL, Place, Standing, level_with_best
 from mocapbench.reports.front.board_cells import (
@@ -15,7 +16,7 @@ from mocapbench.reports.front.board_cells import (
     is_generated,
     reference_of,
 )
-from mocapbench.reports.text import apart, listed, number, slug
+from mocapbench.reports.text import apart, number, slug
 
 __all__ = ["RankedTask", "TaskFinding"]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from mocapbench.basics.words import counted
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
@@ -13,7 +14,7 @@ from mocapbench.reports.bundle.questions import question
 from mocapbench.reports.front.board import BoardCell, BoardColumn, BoardRow, Scoreboard
 from mocapbench.reports.front.board_cells import board_cells, first_metric, is_generated
 from mocapbench.reports.front.failed_cells import failed_cells
-from mocapbench.reports.text import counted, slug
+from mocapbench.reports.text import slug
 
 __all__ = ["scoreboard"]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.bundle import STATUSES, Bundle
-from mocapbench.reports.text import counted
 
 __all__ = ["trust"]
 

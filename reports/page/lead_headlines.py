@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mocapbench.basics.words import listed
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import (
     MOST_LEVEL,
@@ -11,7 +12,6 @@ from mocapbench.reports.analysis.standings import (
     standings,
 )
 from mocapbench.reports.page.headline import Headline, cases_phrase, same_places
-from mocapbench.reports.text import listed
 
 __all__ = ["lead_headlines"]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
-from mocapbench.reports.text import counted
 
 __all__ = ["basis"]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.styles import DrawingStyle
@@ -12,7 +13,7 @@ from mocapbench.reports.scores.drawing import Drawing
 from mocapbench.reports.scores.published import published_rows
 from mocapbench.reports.scores.rows import Rows
 from mocapbench.reports.scores.table import CaseHead, ScoreRow, ScoreTable
-from mocapbench.reports.text import FEWEST_DECIMALS, counted, slug
+from mocapbench.reports.text import FEWEST_DECIMALS, slug
 
 __all__ = ["score_table"]
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.troubles import DATA_MISSING, Trouble
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.scores.table import NO_SCORE, ScoreCell
-from mocapbench.reports.text import cell_anchor, counted, number
+from mocapbench.reports.text import cell_anchor, number
 
 __all__ = ["score_cell"]
 

@@ -11,6 +11,7 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.units import unit_names
@@ -18,7 +19,6 @@ from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.scale import Scale
 from mocapbench.reports.figures.strip import strip, strip_axis, strip_scale
 from mocapbench.reports.figures.styles import DrawingStyle
-from mocapbench.reports.text import counted
 
 __all__ = ["Drawing"]
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.resources import styles, template
 from mocapbench.reports.slopes.chart import slope_chart
 from mocapbench.reports.slopes.values import ChangeVerdict, ComparedTask, RunChanges, ScoreChange
-from mocapbench.reports.text import MINUS, counted
+from mocapbench.reports.text import MINUS
 
 __all__ = ["render_changes"]
 

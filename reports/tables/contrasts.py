@@ -7,11 +7,12 @@ from itertools import combinations
 
 import numpy as np
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.contrasts import PairContrast, contrasts
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
-from mocapbench.reports.text import counted, decimals, number, slug
+from mocapbench.reports.text import decimals, number, slug
 
 __all__ = ["contrast_table"]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.negative_control import (
     ENOUGH_CELLS,
     LEAST_VARIANCE_RATIO,
@@ -17,7 +18,7 @@ from mocapbench.reports.analysis.negative_control_result import (
 )
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.tables.base import ABSENT, Cell, Table, headings
-from mocapbench.reports.text import counted, number, plus_minus, slug
+from mocapbench.reports.text import number, plus_minus, slug
 
 __all__ = ["negative_control_table"]
 

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.reports.text import apart, counted, decimals, number, slug
+from mocapbench.reports.text import apart, decimals, number, slug
 
 
 @pytest.mark.parametrize(
@@ -31,18 +31,6 @@ def test_two_values_are_written_apart_with_no_more_digits_than_that_takes(value,
     assert number(value, found) != number(value + more, found)
     assert found == places or number(value, found - 1) == number(value + more, found - 1)
     assert apart(value, value, places) == places
-
-
-@pytest.mark.parametrize(
-    ("count", "text"), [(0, "0 cases"), (1, "1 case"), (2, "2 cases"), (21, "21 cases")]
-)
-def test_the_noun_follows_its_count(count, text):
-    assert counted(count, "case") == text
-
-
-def test_an_irregular_plural_is_named():
-    texts = [counted(count, "entry", "entries") for count in (0, 1, 2)]
-    assert texts == ["0 entries", "1 entry", "2 entries"]
 
 
 def test_there_is_no_negative_zero():

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.gp.planner import with_mapper
@@ -20,11 +19,10 @@ from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
 from mocapbench.baselines.gp.solvers.solver import Solver
 from mocapbench.baselines.gp.threads import Mapper
 from mocapbench.baselines.protocols import SampleByFrameByChannel
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Frames
 
 __all__ = ["FittedProcess"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

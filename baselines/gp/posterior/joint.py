@@ -18,16 +18,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.posterior.term import TermInference
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
 from mocapbench.baselines.gp.solvers.solver import Solver
+from mocapbench.basics.arrays import Array
 
 __all__ = ["draw_curves", "joint_covariance"]
-
-Array = NDArray[np.float64]
 
 
 def joint_covariance(

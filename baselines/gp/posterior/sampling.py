@@ -8,14 +8,13 @@ and :math:`k_q = L L^\top`. A draw is white noise multiplied by L in time and by
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import LayerParameters
+from mocapbench.basics.arrays import Array
 
 __all__ = ["draw_layer"]
 
-Array = NDArray[np.float64]
 
 JITTER = 1e-10
 """Variance added to a kernel matrix, relative to the kernel's. Rounding leaves the smallest

@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.posterior.sampling import draw_layer
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.solvers.solver import Solver
+from mocapbench.basics.arrays import Array
 
 __all__ = ["TermInference"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

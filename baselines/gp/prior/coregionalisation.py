@@ -12,11 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Coregionalisation"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,11 +13,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mocapbench.basics.arrays import Array
 
 __all__ = ["KERNELS", "RBF", "Matern12", "Matern32", "Matern52", "StationaryKernel"]
-
-Array = NDArray[np.float64]
 
 
 class StationaryKernel(ABC):

@@ -29,14 +29,13 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import factorial, gammainc
 
 from mocapbench.baselines.gp.prior.kernels import Matern12, Matern32, Matern52, StationaryKernel
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Steps", "is_markov", "state_order", "steps"]
 
-Array = NDArray[np.float64]
 
 _COUPLINGS: Mapping[type[StationaryKernel], tuple[float, ...]] = MappingProxyType(
     {Matern12: (), Matern32: (1.0,), Matern52: (np.sqrt(1.0 / 3.0), np.sqrt(8.0 / 3.0))}

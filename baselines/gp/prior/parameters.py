@@ -13,14 +13,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
+from mocapbench.basics.arrays import Array
 
 __all__ = ["CHILD", "PARENT", "LayerParameters", "Parameters"]
 
-Array = NDArray[np.float64]
 
 PARENT = "parent"
 """Name of the layer g, the draw of which all replicates share."""

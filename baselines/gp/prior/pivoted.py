@@ -12,14 +12,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import lapack, solve_triangular
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
+from mocapbench.basics.arrays import Array
 
 __all__ = ["PivotedRoot"]
 
-Array = NDArray[np.float64]
 
 TOLERANCE = 1e-14
 """What is left out counts in proportion to the noise, which may be 1e-6, once for every entry that

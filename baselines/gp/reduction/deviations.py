@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.reduction.shapes import Shape
 from mocapbench.baselines.gp.solvers.block import Block
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Deviations"]
-
-Array = NDArray[np.float64]
 
 
 class Deviations:

@@ -12,16 +12,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.reduction.tree import Node
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.solvers.solver import Solver
+from mocapbench.basics.arrays import Array
 
 __all__ = ["PosteriorTerm", "Reduction"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,12 +15,10 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import Recording
 
 __all__ = ["Pattern", "Replicates"]
-
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from mocapbench.baselines.gp.solvers.block import Block
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Shape", "shape_above"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

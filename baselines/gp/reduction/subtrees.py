@@ -11,17 +11,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.reduction.deviations import Deviations
 from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm
 from mocapbench.baselines.gp.reduction.shapes import Shape
 from mocapbench.baselines.gp.reduction.tree import Node
 from mocapbench.baselines.gp.solvers.block import Target
+from mocapbench.basics.arrays import Array
 
 __all__ = ["NodeCurve", "Subtree", "mean_of", "parent_of"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

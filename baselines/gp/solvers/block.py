@@ -24,10 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.solvers.entries import Entries
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Block", "Target"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

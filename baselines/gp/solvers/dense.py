@@ -11,7 +11,6 @@ from __future__ import annotations
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import lapack, solve_triangular
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
@@ -24,10 +23,10 @@ from mocapbench.baselines.gp.solvers.dense_covariance import (
     unit_spans,
 )
 from mocapbench.baselines.gp.solvers.solver import BlockPosterior, Solver
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Dense"]
 
-Array = NDArray[np.float64]
 
 OVERHEAD = 1.5e7
 """Cost of a block apart from its factorisation, in operations (about a millisecond)."""

@@ -17,10 +17,10 @@ from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
+from mocapbench.basics.arrays import Array
 
 __all__ = ["GridIndex", "adjoint_of", "factorise", "sum_over_units", "unit_spans"]
 
-Array = NDArray[np.float64]
 
 GridIndex = slice | NDArray[np.intp]
 """Visible entries of a unit's (D, N) grid; a slice where all are visible, which spares copies."""

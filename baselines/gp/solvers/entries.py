@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
+
 __all__ = ["AllSites", "Entries", "SomeSites"]
 
-Array = NDArray[np.float64]
 
 CHUNK = 2**18
 """Largest number of entries in the matrices of one chunk of outputs: two megabytes."""

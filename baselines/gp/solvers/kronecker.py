@@ -11,17 +11,16 @@ from __future__ import annotations
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.solvers.kronecker_basis import KroneckerBasis, is_kronecker
 from mocapbench.baselines.gp.solvers.solver import BlockPosterior, Solver
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Kronecker"]
 
-Array = NDArray[np.float64]
 
 OVERHEAD = 8e6
 """Cost of a block apart from its matrix products, in operations (about half a millisecond)."""

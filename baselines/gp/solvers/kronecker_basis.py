@@ -17,15 +17,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.block import Block
+from mocapbench.basics.arrays import Array
 
 __all__ = ["KroneckerBasis", "is_kronecker"]
-
-Array = NDArray[np.float64]
 
 
 def is_kronecker(block: Block, parameters: Parameters) -> bool:

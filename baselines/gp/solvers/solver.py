@@ -22,16 +22,14 @@ from contextlib import contextmanager
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.threads import Mapper
+from mocapbench.basics.arrays import Array
 
 __all__ = ["BlockPosterior", "SingularCovarianceError", "Solver", "refuse_singular"]
-
-Array = NDArray[np.float64]
 
 
 class SingularCovarianceError(np.linalg.LinAlgError):

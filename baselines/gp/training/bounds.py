@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
+from mocapbench.basics.arrays import Array
 
 __all__ = ["bounds"]
 
-Array = NDArray[np.float64]
 
 MIN_NOISE, MAX_NOISE = 1e-6, 10.0
 MAX_LOADING = 30.0

@@ -13,13 +13,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Coordinates"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,6 @@ from functools import partial
 from time import perf_counter
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import Bounds, minimize
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
@@ -27,10 +26,10 @@ from mocapbench.baselines.gp.training.search import (
     SearchSpace,
     Training,
 )
+from mocapbench.basics.arrays import Array
 
 __all__ = ["maximise"]
 
-Array = NDArray[np.float64]
 
 MEMORY = 200
 """Steps that L-BFGS-B remembers, if there are as many parameters. On walking this takes a third of

@@ -8,14 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
+from mocapbench.basics.arrays import Array
 
 __all__ = ["layer_curves", "noise_variance", "shared_lengthscale"]
 
-Array = NDArray[np.float64]
 
 NOISE_RANGE = 1e-3, 1e-1
 """Least and largest noise variance that a search starts from."""

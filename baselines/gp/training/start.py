@@ -14,7 +14,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.common.signs import oriented
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
@@ -26,10 +25,10 @@ from mocapbench.baselines.gp.training.moments import (
     noise_variance,
     shared_lengthscale,
 )
+from mocapbench.basics.arrays import Array
 
 __all__ = ["data_driven", "perturbed", "starts"]
 
-Array = NDArray[np.float64]
 
 KAPPA_SHARE = 0.1
 """Share of a layer's variance that κ starts with."""

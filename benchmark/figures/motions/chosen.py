@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.figures.solved import Solved
-from mocapbench.reports import counted
 
 __all__ = ["Chosen", "chosen"]
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.errors import UsageError, first_of
 from mocapbench.benchmark.filling.requests.names import marker_names
 from mocapbench.benchmark.filling.requests.zeros import zeros_caution
 from mocapbench.datasets import Recording
-from mocapbench.reports import counted
 
 __all__ = ["NothingToFillError", "no_gap", "nothing_known"]
 

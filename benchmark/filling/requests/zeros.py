@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines.common.markers import markers_of
+from mocapbench.basics.words import counted, listed
 from mocapbench.datasets import Recording
-from mocapbench.reports import counted, listed
 
 __all__ = ["zeros_caution"]
 

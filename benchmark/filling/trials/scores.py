@@ -10,12 +10,12 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.filling.question import FilledEntries
 from mocapbench.benchmark.filling.trials.trial import Trial
 
 __all__ = ["TrialScores", "held_errors", "scores_of", "weights_of"]
 
-Array = NDArray[np.float64]
 
 _LEAST = 1e-9
 """Errors, relative to those of holding, below which models are equally good but for rounding."""

@@ -12,7 +12,7 @@ from mocapbench.benchmark.runs.source_code.folders import folders_digest
 __all__ = ["difference", "installation"]
 
 _LIBRARIES = ("mocapbench", "numpy", "scipy", "scikit-learn")
-_PARTS = ("datasets", "metrics", "baselines", "benchmark")
+_PARTS = ("basics", "datasets", "metrics", "baselines", "benchmark")
 _SOURCE = "source code of mocapbench"
 
 

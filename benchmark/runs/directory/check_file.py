@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mocapbench.benchmark.files import write_text
+from mocapbench.basics.whole_files import write_text
 
 __all__ = ["CHECK", "read_check", "write_check"]
 

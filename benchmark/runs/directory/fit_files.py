@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.basics.whole_files import atomic_write
 from mocapbench.benchmark.runs.directory.files_by_key import FilesByKey
 from mocapbench.benchmark.runs.fitting.fit import Fit
 

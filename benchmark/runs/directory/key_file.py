@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from mocapbench.benchmark.files import write_text
+from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark.tasks.address import Address
 
 __all__ = ["KEYS", "KeyEntry", "read_keys", "write_keys"]

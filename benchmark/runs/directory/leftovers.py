@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mocapbench.benchmark.files import target_of
+from mocapbench.basics.whole_files import target_of
 from mocapbench.benchmark.runs.directory.fit_files import PREDICTIONS
 from mocapbench.benchmark.runs.directory.key_file import KEYS
 from mocapbench.benchmark.runs.directory.plan_file import PLAN

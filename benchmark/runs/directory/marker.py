@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import write_text
 
 __all__ = ["is_run", "mark", "require_run", "require_usable"]
 

@@ -12,8 +12,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import write_text
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.address import Address

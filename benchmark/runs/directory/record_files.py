@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from mocapbench.benchmark.files import write_text
+from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.directory.files_by_key import FilesByKey
 from mocapbench.benchmark.runs.record import Record, RecordError

@@ -12,7 +12,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
-from mocapbench.benchmark.files import atomic_write, write_bytes
+from mocapbench.basics.whole_files import atomic_write, write_bytes
 from mocapbench.benchmark.messages import reason
 from mocapbench.datasets import Archive, Library, Recording, Skeleton, SkeletonUnavailable
 

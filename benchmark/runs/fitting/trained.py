@@ -13,7 +13,7 @@ from typing import Any, Self
 
 import joblib
 
-from mocapbench.benchmark.files import atomic_write
+from mocapbench.basics.whole_files import atomic_write
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.runs.fitting.solve import FitCosts, Fitted

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mocapbench.basics.words import counted
 from mocapbench.benchmark.problems.cluster import ClusterProblem
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.recover import RecoverProblem
@@ -18,7 +19,6 @@ from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
-from mocapbench.reports.text import counted
 
 __all__ = ["Group", "Posed", "posed", "recordings"]
 

@@ -14,13 +14,14 @@ import numpy as np
 from markupsafe import Markup, escape
 from numpy.typing import NDArray
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.bundle.heat_maps import HeatMap, HeatMaps
 from mocapbench.reports.figures.axes import panels
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import horizontal, rectangle, squares, svg, text, vertical
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
-from mocapbench.reports.text import MINUS, counted, number
+from mocapbench.reports.text import MINUS, number
 
 __all__ = ["MOST_WRITTEN", "draw", "levels_of"]
 

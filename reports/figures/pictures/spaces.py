@@ -10,6 +10,8 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
+from mocapbench.basics.words import counted
 from mocapbench.reports.bundle.spaces import Path3D, Space
 from mocapbench.reports.figures.axes import WIDTH, panels
 from mocapbench.reports.figures.legend import key, line_keys
@@ -17,7 +19,6 @@ from mocapbench.reports.figures.marks import dot, group, polyline, svg, text
 from mocapbench.reports.figures.pictures.thinning import thinned
 from mocapbench.reports.figures.styles import DrawingStyle, group_styles
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
-from mocapbench.reports.text import counted
 
 __all__ = ["draw", "projection"]
 
@@ -30,7 +31,6 @@ CLOUD = range(5, 9)
 """The levels of the cloud."""
 _REACH = 32767
 
-Array = NDArray[np.float64]
 Styles = Mapping[str, DrawingStyle]
 
 

@@ -7,9 +7,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
+
 __all__ = ["TOLERANCE", "thinned"]
 
-Array = NDArray[np.float64]
 
 TOLERANCE = 0.4
 """The largest distance of a point from the line, in pixels.

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from markupsafe import Markup
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
@@ -18,7 +19,6 @@ from mocapbench.reports.figures.scores.fold_values import FoldValues, fold_value
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
-from mocapbench.reports.text import counted
 
 __all__ = ["dot_plot"]
 

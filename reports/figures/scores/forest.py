@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.published.comparisons import Comparison
 from mocapbench.reports.analysis.published.verdicts import PublishedVerdict
 from mocapbench.reports.analysis.results import TaskResults
@@ -18,7 +19,6 @@ from mocapbench.reports.figures.scale import LogScale, Scale
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
-from mocapbench.reports.text import counted
 
 __all__ = ["forest"]
 

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 from markupsafe import Markup
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.error_parts import ErrorParts
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
@@ -17,13 +18,10 @@ from mocapbench.reports.figures.marks import band, group, polyline
 from mocapbench.reports.figures.scores.best import CHOICE, best_labels
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
-from mocapbench.reports.text import counted
 
 __all__ = ["gap_error"]
 
 HEIGHT, N_BEST = 220.0, 5
-
-Array = NDArray[np.float64]
 
 
 def gap_error(

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 from markupsafe import Markup
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.metrics.entries import mean_over
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.error_parts import ErrorParts, RestPose
@@ -24,8 +24,6 @@ WIDTH, HEIGHT, TOP, EDGE = 230.0, 240.0, 36.0, 16.0
 N_BEST, LARGEST = 3, 13.0
 """How many models, and the radius of the largest error, in pixels."""
 METRIC = "mpjpe"
-
-Array = NDArray[np.float64]
 
 
 def joint_errors(

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.case_means import case_means
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
@@ -17,7 +18,6 @@ from mocapbench.reports.figures.scale import LogScale, Scale
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
-from mocapbench.reports.text import counted
 
 __all__ = ["ranking"]
 

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 
 from markupsafe import Markup
 
+from mocapbench.basics.words import counted
 from mocapbench.reports.analysis.ranks import Ranks
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
@@ -18,7 +19,6 @@ from mocapbench.reports.figures.scale import LinearScale
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
-from mocapbench.reports.text import counted
 
 __all__ = ["rank_figure"]
 

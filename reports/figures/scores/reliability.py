@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from markupsafe import Markup
 
+from mocapbench.basics.words import counted
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
@@ -16,7 +17,6 @@ from mocapbench.reports.figures.scale import LinearScale
 from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.figures.styles import DrawingStyle
 from mocapbench.reports.figures.svg_figure import SvgFigure
-from mocapbench.reports.text import counted
 
 __all__ = ["reliability"]
 

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from mocapbench.basics.whole_files import atomic_write
 from mocapbench.benchmark.cli.failures import explain, show_warning
 from mocapbench.benchmark.errors import ExitCode
-from mocapbench.benchmark.files import atomic_write
 from mocapbench.datasets import TruncatedFrameWarning
 
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from mocapbench.basics.whole_files import write_bytes
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import write_bytes
 from mocapbench.benchmark.merging import merge as module
 from mocapbench.benchmark.merging.merge import merge
 from mocapbench.benchmark.runs.record import Status

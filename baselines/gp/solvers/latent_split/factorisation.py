@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.common.cholesky import invert
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
@@ -20,10 +19,9 @@ from mocapbench.baselines.gp.solvers.latent_split.independent_parts import Indep
 from mocapbench.baselines.gp.solvers.latent_split.latents import Latents
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
 from mocapbench.baselines.gp.threads import Mapper
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Factorisation"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

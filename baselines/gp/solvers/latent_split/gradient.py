@@ -27,15 +27,13 @@ the sum being over the latent functions of the component. The last line uses
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.latent_split.factorisation import Factorisation, project
 from mocapbench.baselines.gp.threads import Mapper
+from mocapbench.basics.arrays import Array
 
 __all__ = ["split_gradient"]
-
-Array = NDArray[np.float64]
 
 
 def split_gradient(split: Factorisation, mapper: Mapper) -> Parameters:

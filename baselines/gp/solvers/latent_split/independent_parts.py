@@ -12,7 +12,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.common.cholesky import invert
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
@@ -21,10 +20,9 @@ from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
 from mocapbench.baselines.gp.threads import Mapper
+from mocapbench.basics.arrays import Array
 
 __all__ = ["IndependentParts"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

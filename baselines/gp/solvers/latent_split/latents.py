@@ -18,10 +18,9 @@ from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.prior.pivoted import PivotedRoot
 from mocapbench.baselines.gp.solvers.block import Block, Target
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Column", "Latent", "Latents"]
-
-Array = NDArray[np.float64]
 
 
 class Column(NamedTuple):

@@ -27,17 +27,16 @@ from __future__ import annotations
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.solvers.latent_split.factorisation import Factorisation
 from mocapbench.baselines.gp.solvers.latent_split.gradient import split_gradient
 from mocapbench.baselines.gp.solvers.solver import BlockPosterior, Solver
+from mocapbench.basics.arrays import Array
 
 __all__ = ["LatentSplit"]
 
-Array = NDArray[np.float64]
 
 OVERHEAD = 6e7
 """Cost of a block apart from its factorisations, in operations (about four milliseconds)."""

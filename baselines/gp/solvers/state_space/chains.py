@@ -12,14 +12,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
+from mocapbench.basics.arrays import Array
 
 __all__ = ["Chains"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,10 +24,9 @@ from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
 from mocapbench.baselines.gp.solvers.state_space.model import StateModel
+from mocapbench.basics.arrays import Array
 
 __all__ = ["FilterPass", "FilteredState", "Innovation"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

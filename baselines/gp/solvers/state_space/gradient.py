@@ -23,16 +23,14 @@ Biometrika 79.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.state_space.filter import FilteredState, FilterPass
 from mocapbench.baselines.gp.solvers.state_space.model import StateModel
 from mocapbench.baselines.gp.solvers.state_space.smoother import BackwardMessage, backward_pass
+from mocapbench.basics.arrays import Array
 
 __all__ = ["state_gradient"]
-
-Array = NDArray[np.float64]
 
 
 def state_gradient(filtered: FilterPass) -> Parameters:

@@ -9,17 +9,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.markov import Steps, state_order, steps
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.state_space.chains import Chains
+from mocapbench.basics.arrays import Array
 
 __all__ = ["StateModel"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,14 +25,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.solvers.state_space.filter import FilterPass, Innovation
 from mocapbench.baselines.gp.solvers.state_space.model import StateModel
+from mocapbench.basics.arrays import Array
 
 __all__ = ["BackwardMessage", "SmoothingStep", "backward_pass"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,6 @@ from __future__ import annotations
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.markov import is_markov
 from mocapbench.baselines.gp.prior.parameters import Parameters
@@ -23,10 +22,10 @@ from mocapbench.baselines.gp.solvers.state_space.filter import FilterPass
 from mocapbench.baselines.gp.solvers.state_space.gradient import state_gradient
 from mocapbench.baselines.gp.solvers.state_space.model import StateModel
 from mocapbench.baselines.gp.solvers.state_space.smoother import BackwardMessage, backward_pass
+from mocapbench.basics.arrays import Array
 
 __all__ = ["StateSpace"]
 
-Array = NDArray[np.float64]
 
 OVERHEAD = 2e6
 """Cost of a frame apart from its matrix products, in operations (about 0.13 milliseconds)."""

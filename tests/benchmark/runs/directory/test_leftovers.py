@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.files import atomic_write, target_of
+from mocapbench.basics.whole_files import atomic_write, target_of
 from mocapbench.benchmark.runs.store import Store
 
 DIE_WHILE_WRITING = (
     "import os, sys\n"
     "from pathlib import Path\n"
-    "from mocapbench.benchmark.files import atomic_write\n"
+    "from mocapbench.basics.whole_files import atomic_write\n"
     "with atomic_write(Path(sys.argv[1])) as file:\n"
     "    file.write(b'half')\n"
     "    file.flush()\n"

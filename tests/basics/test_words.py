@@ -1,4 +1,4 @@
-"""What is left of a text shows; nothing of it is obeyed."""
+"""Counts follow their nouns; what is left of a text shows, and nothing of it is obeyed."""
 
 import unicodedata
 
@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.reports.printable import printable
+from mocapbench.basics.words import counted, listed, printable
 
 BIDIRECTIONAL = {"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"}
 MARKS = "\N{LEFT-TO-RIGHT MARK}\N{RIGHT-TO-LEFT MARK}\N{ARABIC LETTER MARK}"
@@ -66,3 +66,29 @@ def test_of_an_escape_sequence_nothing_is_left(sequence):
 
 def test_a_sequence_without_an_end_hides_nothing():
     assert printable("\x1b]8;;http://elsewhere\nthe message") == "8;;http://elsewhere\nthe message"
+
+
+@pytest.mark.parametrize(
+    ("count", "text"), [(0, "0 cases"), (1, "1 case"), (2, "2 cases"), (21, "21 cases")]
+)
+def test_the_noun_follows_its_count(count, text):
+    assert counted(count, "case") == text
+
+
+def test_an_irregular_plural_is_named():
+    texts = [counted(count, "entry", "entries") for count in (0, 1, 2)]
+    assert texts == ["0 entries", "1 entry", "2 entries"]
+
+
+@pytest.mark.parametrize(
+    ("names", "text"),
+    [
+        (["a"], "a"),
+        (["a", "b"], "a and b"),
+        (["a", "b", "c"], "a, b and c"),
+        (["a", "b", "c", "d"], "a, b, c and 1 more"),
+        (["a", "b", "c", "d", "e"], "a, b, c and 2 more"),
+    ],
+)
+def test_names_stand_in_a_row_and_what_is_too_many_is_counted(names, text):
+    assert listed(names, 3) == text

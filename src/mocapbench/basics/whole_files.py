@@ -1,0 +1,65 @@
+"""Files that are written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO
+
+__all__ = ["atomic_write", "stage_file", "target_of", "write_bytes", "write_text"]
+
+_READABLE = 0o644
+_SUFFIX = ".tmp"
+_TEMPORARY = re.compile(r"\.(?P<target>.+)\.[a-z0-9_]{8}\.tmp")
+"""The names that `stage_file` gives."""
+
+
+@contextmanager
+def stage_file(path: Path) -> Iterator[Path]:
+    """Yield an empty file beside ``path``, which takes its name if nothing goes wrong.
+
+    A process that is killed leaves no part of the file under its name.
+    """
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=_SUFFIX)
+    os.close(handle)
+    temporary = Path(name)
+    try:
+        yield temporary
+        temporary.chmod(_READABLE)  # temporary files are their owner's alone
+        temporary.replace(path)
+    except OSError as error:
+        error.filename = error.filename or str(path)  # which errors of writing lack
+        raise
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+@contextmanager
+def atomic_write(path: Path) -> Iterator[IO[bytes]]:
+    """Open a file that takes the name ``path`` only when all is written."""
+    with stage_file(path) as temporary, temporary.open("wb") as file:
+        yield file
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write ``text`` as UTF-8, whole or not at all."""
+    write_bytes(path, text.encode())
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write ``content`` whole or not at all."""
+    with atomic_write(path) as file:
+        file.write(content)
+
+
+def target_of(temporary: Path) -> str:
+    """Return the name that `stage_file` meant a file for; nothing if the file is not its own.
+
+    Such a file is being written at this moment, or a process was killed while it wrote.
+    """
+    named = _TEMPORARY.fullmatch(temporary.name)
+    return named["target"] if named else ""
