@@ -17,9 +17,9 @@ from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
+from mocapbench.baselines.common.angle_wrapping import mean_directions, turns_away
 from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.gaps import visible_frames, with_steps
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
@@ -28,7 +28,7 @@ from mocapbench.baselines.common.validation import (
     check_positive,
     check_share,
 )
-from mocapbench.baselines.kriging.conditioned import ConditionedFrames
+from mocapbench.baselines.kriging.mirrored_residuals import MirroredResiduals, images_of
 from mocapbench.baselines.kriging.own_course import own_course
 from mocapbench.baselines.kriging.paths import MatchedPaths
 from mocapbench.baselines.kriging.symmetry import symmetries
@@ -40,8 +40,6 @@ from mocapbench.datasets import FrameByChannel, Recording
 __all__ = ["PoseKriging"]
 
 
-_CONSTANT, _DRIFT, _NOISE = 10.0, 1.0, 0.05
-"""Prior variances of the residual's constant, its drift in time and its noise, up to scale."""
 _LEAST_VARIANCE = 1e-12
 """Least scale of a channel's residual, as a fraction of the total variance in training."""
 
@@ -49,18 +47,22 @@ _LEAST_VARIANCE = 1e-12
 class PoseKriging(FrameImputer, Inductive):
     r"""Fill frames from matched training recordings, corrected by a Gaussian process.
 
-    Training recording k contributes the poses :math:`m_k(t)` of its cheapest path. A first path
-    gives the subject's offset; it is subtracted before the path is found again. The poses are
-    averaged to :math:`m(t)` with weights :math:`w_k \propto \exp(-e_k / \min_j e_j)`, where
-    :math:`e_k` is the variance of the residual at visible frames. The conditional mean of a
-    Gaussian process then corrects it: each channel of :math:`y - m` has covariance
-    :math:`\sigma_d^2 (10 + e^{-|t - t'| / \tau} + v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2 S} + 0.05\,
-    \delta)`, with S the total variance of training frames.
+    Training recording k contributes the poses :math:`m_k(t)` of its cheapest path, the subject's
+    offset from it taken out: first the difference of means, then the mean residual of a path,
+    twice. The poses are averaged to :math:`m(t)` with weights :math:`w_k \propto \exp(-e_k / \min_j
+    e_j)`, where :math:`e_k` is the variance of the residual at visible frames. The conditional mean
+    of a Gaussian process then corrects it: each channel of :math:`y - m` is a constant, about which
+    nothing is known before, plus a process of covariance :math:`\sigma_d^2 (e^{-|t - t'| / \tau} +
+    v\, e^{-\|m(t) - m(t')\|^2 / 2 h^2 S} + 0.05\, \delta)`, with S the total variance of training
+    frames, each recording's about its mean. A constant that is added to a channel in the middle of
+    the body, or whole turns that are added to any angle, are therefore added to the fill, and
+    change nothing else.
 
-    If the training motion looks like its own mirror image, the mirror image of
-    each recording is a further one, and the residuals of a mirrored recording count as further
-    observations at the mirrored poses. The constant and the part that depends on pose correlate
-    between a channel and its mirror image by ``symmetry``.
+    If the training motion looks like its own mirror image, the mirror image of each recording is a
+    further one, and the residuals of a mirrored recording count as further observations at the
+    mirrored poses. The part that depends on pose correlates between a channel and its mirror image
+    by ``symmetry``, and so do the constants of two channels that change sides; a constant that they
+    have in common is free, half their difference has the variance :math:`10 (1 - \text{symmetry})`.
 
     The predictive variance is that of this process, with the scale :math:`\sigma_d^2` integrated
     out, plus the doubt about the path. Each path, corrected in the same way, is a prediction
@@ -99,6 +101,8 @@ class PoseKriging(FrameImputer, Inductive):
     ----------
     channels_, units_ : tuple of D str
         The channels of the recordings given to `fit`, and their units.
+    directions_ : ndarray of shape (D,)
+        The circular mean of each angle in training; 0 for channels that are no angles.
     symmetries_ : tuple of Image
         The motion itself, and its mirror image where training looks like it.
     names_ : tuple of str
@@ -107,12 +111,13 @@ class PoseKriging(FrameImputer, Inductive):
         One for each symmetry and each of these, in the units in which they are compared. A
         recording that is filled is not matched with itself.
     total_variance_ : float
-        The sum S of the channels' variances in training, in the units in which they are compared.
+        The sum S of the channels' variances in training, each recording's and its image's about
+        their means, in the units in which they are compared.
 
     References
     ----------
     Not from a publication. The Gaussian-process regression is that of C. E. Rasmussen and C. K. I.
-    Williams (2006), Gaussian Processes for Machine Learning, MIT Press, eq. (2.25) and (2.26); the
+    Williams (2006), Gaussian Processes for Machine Learning, MIT Press, eq. (2.41) and (2.42); the
     task is that of J. M. Wang, D. J. Fleet and A. Hertzmann (2008), Gaussian Process Dynamical
     Models for Human Motion, IEEE TPAMI 30(2), Table 2.
 
@@ -171,7 +176,8 @@ class PoseKriging(FrameImputer, Inductive):
         check_share("least_explained", self.least_explained)
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        usable = list(map(in_pose_units, with_steps(checked)))
+        self.directions_ = mean_directions(checked)
+        usable = [in_pose_units(self._without_turns(one)) for one in with_steps(checked)]
         self.names_ = tuple(recording.name for recording in usable)
         self.symmetries_ = symmetries(usable)
         self.matchers_ = [
@@ -179,7 +185,10 @@ class PoseKriging(FrameImputer, Inductive):
             for image in self.symmetries_
             for recording in usable
         ]
-        frames = np.concatenate([matcher.frames_ for matcher in self.matchers_])
+        # Where each training body faces says nothing of how much a motion moves.
+        frames = np.concatenate(
+            [each.frames_ - each.frames_.mean(axis=0) for each in self.matchers_]
+        )
         self.total_variance_ = float(frames.var(axis=0).sum()) or 1.0
         return self
 
@@ -193,57 +202,65 @@ class PoseKriging(FrameImputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
-        return [
-            from_pose_units(recording, *self._filled(in_pose_units(recording)))
-            for recording in recordings
-        ]
+        return [self._predict(recording) for recording in recordings]
 
-    def _filled(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
+    def _without_turns(self, recording: Recording) -> Recording:
+        away = turns_away(recording, self.directions_)
+        return recording.with_values(recording.values - away)
+
+    def _predict(self, recording: Recording) -> Prediction:
+        away = turns_away(recording, self.directions_)
+        near = recording.with_values(recording.values - away)
+        found = from_pose_units(near, *self._fill_frames(in_pose_units(near)))
+        return Prediction.around(recording, found.mean + away, found.variance)
+
+    def _fill_frames(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the mean and variance (N, D) of all frames given the visible ones."""
-        visible, least = visible_frames(recording), _LEAST_VARIANCE * self.total_variance_
         others = self._matchers_of_others(recording.name)
         if not others:
-            return self._own_course(recording, visible)
+            return self._own_course(recording)
         paths = MatchedPaths.of(recording, others)
         if paths.explained < self.least_explained:
-            return self._own_course(recording, visible)
-        every = np.tile(visible, len(self.symmetries_))
-        given = ConditionedFrames(self._covariance(paths.mean), _NOISE, every)
-        residuals = [self._images(recording.values - path)[every] for path in paths.paths]
-        residual = np.tensordot(paths.weights, residuals, axes=1)
-        n_frames = len(visible)
-        corrected = paths.paths + [given.mean(each)[:n_frames] for each in residuals]
-        scales = given.doubt_of_scale * given.scales(residual, least)
-        variance = np.outer(given.variance[:n_frames], scales) + paths.doubt(corrected)
-        return np.tensordot(paths.weights, corrected, axes=1), variance
+            return self._own_course(recording)
+        return self._correct_paths(recording, paths)
 
-    def _own_course(
-        self, recording: Recording, visible: NDArray[np.bool_]
+    def _correct_paths(
+        self, recording: Recording, paths: MatchedPaths
     ) -> tuple[FrameByChannel, FrameByChannel]:
+        """Return the mean and variance (N, D) of the paths, corrected by their residuals."""
+        visible, n_frames = visible_frames(recording), len(recording.times)
+        seen = np.tile(visible, len(self.symmetries_))
+        residuals = [recording.values - path for path in paths.paths]
+        residuals = np.array([images_of(each, self.symmetries_)[seen] for each in residuals])
+        corrected, variance = paths.paths.copy(), np.empty(recording.values.shape)
+        for channels, given in self._residuals().given(paths.mean, visible):
+            those = residuals[:, :, channels]
+            corrected[:, :, channels] += [given.mean(each)[:n_frames] for each in those]
+            scales = given.scales(np.tensordot(paths.weights, those, axes=1), self._least(visible))
+            variance[:, channels] = np.outer(given.variance[:n_frames], scales)
+            variance[:, channels] *= given.doubt_of_scale
+        mean = np.tensordot(paths.weights, corrected, axes=1)
+        return mean, variance + paths.doubt(corrected)
+
+    def _residuals(self) -> MirroredResiduals:
+        return MirroredResiduals(
+            self.symmetries_,
+            self.pose_lengthscale**2 * self.total_variance_,
+            self.pose_variance,
+            self.time_lengthscale,
+            self.symmetry,
+        )
+
+    def _own_course(self, recording: Recording) -> tuple[FrameByChannel, FrameByChannel]:
+        visible = visible_frames(recording)
+        return own_course(recording.values, visible, self._least(visible))
+
+    def _least(self, visible: NDArray[np.bool_]) -> float:
+        """Return the least scale of a channel."""
         # One frame tells nothing of how far channels go: no further than in all of training.
-        least = _LEAST_VARIANCE if visible.sum() > 1 else 1.0
-        return own_course(recording.values, visible, least * self.total_variance_)
+        return (_LEAST_VARIANCE if visible.sum() > 1 else 1.0) * self.total_variance_
 
     def _matchers_of_others(self, name: str) -> list[PoseViterbi]:
         """Leave out the recording to fill: its path through itself would seem free of error."""
         pairs = zip(cycle(self.names_), self.matchers_, strict=False)
         return [matcher for other, matcher in pairs if other != name]
-
-    def _images(self, frames: FrameByChannel) -> FrameByChannel:
-        """Return the frames' images under all symmetries, one below the other."""
-        return np.concatenate([image.of(frames) for image in self.symmetries_])
-
-    def _covariance(self, matched: FrameByChannel) -> Array:
-        """Return the prior covariance of a channel's residual without noise, up to scale.
-
-        It is that of the images of all frames, one symmetry after the other.
-        """
-        n_frames, n_images = len(matched), len(self.symmetries_)
-        times = np.arange(n_frames)
-        drift = np.exp(-np.abs(np.subtract.outer(times, times)) / self.time_lengthscale)
-        distances = euclidean_distances(self._images(matched), squared=True) / self.total_variance_
-        poses = np.exp(-0.5 * distances / self.pose_lengthscale**2)
-        alike = np.where(np.eye(n_images, dtype=bool), 1.0, self.symmetry)
-        shared = np.kron(alike, np.ones((n_frames, n_frames)))
-        within = np.kron(np.eye(n_images), drift)
-        return np.asarray(shared * (_CONSTANT + self.pose_variance * poses) + _DRIFT * within)

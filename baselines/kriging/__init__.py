@@ -4,7 +4,8 @@ Whole frames:
 
 * `conditioned`: a process given its values at visible frames; `student`: how much wider a scale
   that is inferred makes it; `own_course`: one over time alone; `beside_gaps`: gaps filled by it;
-* `paths`: training recordings matched with a new one; `symmetry`: the mirror image of a motion.
+* `paths`: training recordings matched with a new one; `symmetry`: the mirror image of a motion;
+  `mirrored_residuals`: the processes of what a path leaves unexplained, and of its mirror image.
 
 Processes whose parameters predict best what is left out:
 

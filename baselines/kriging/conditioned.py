@@ -1,10 +1,13 @@
 r"""A Gaussian process over frames, given its values at some of them.
 
-All channels share the covariance up to a scale, :math:`\sigma_d^2 K`. With the prior
-:math:`p(\sigma_d^2) \propto 1 / \sigma_d^2` the scale is integrated out: the prediction of a
-channel is a Student t with n degrees of freedom, n being the number of visible frames. Its
-variance is
-:math:`n / (n - 2)` times that with the maximum-likelihood scale :math:`r^\top K^{-1} r / n`.
+All channels share the covariance up to a scale, :math:`\sigma_d^2 K`, and a trend :math:`H \beta_d`
+with p coefficients, about which nothing is known before: :math:`p(\beta_d) \propto 1`. Whatever the
+columns of H can express, added to a channel, is therefore added to its mean and changes nothing
+else (universal kriging; C. E. Rasmussen and C. K. I. Williams 2006, *Gaussian Processes for Machine
+Learning*, eq. 2.41 and 2.42). With the prior :math:`p(\sigma_d^2) \propto 1 / \sigma_d^2` the scale
+is integrated out: the prediction of a channel is a Student t with ν = n − p degrees of freedom, n
+being the number of visible frames. Its variance is ν / (ν − 2) times that with the scale :math:`(r
+- H \beta)^\top K^{-1} (r - H \beta) / \nu`.
 """
 
 from __future__ import annotations
@@ -35,11 +38,14 @@ class ConditionedFrames:
         Variance of the noise, up to the same scale; positive.
     visible : ndarray of bool, shape (N,)
         Which frames are visible; at least one.
+    trend : ndarray of shape (N, p)
+        The columns of H, linearly independent at visible frames; p may be 0.
     """
 
     prior: Array
     noise: float
     visible: NDArray[np.bool_]
+    trend: Array
 
     @cached_property
     def _factor(self) -> tuple[Array, Any]:
@@ -47,21 +53,49 @@ class ConditionedFrames:
         among = self.prior[np.ix_(self.visible, self.visible)]
         return cho_factor(among + self.noise * np.eye(n_visible), lower=True)
 
+    @cached_property
+    def _trend_dual(self) -> Array:
+        """(n, p) K⁻¹H at the visible frames."""
+        return np.asarray(cho_solve(self._factor, self.trend[self.visible]))
+
+    @cached_property
+    def _trend_precision(self) -> Array:
+        """(p, p) HᵀK⁻¹H."""
+        return np.asarray(self.trend[self.visible].T @ self._trend_dual)
+
+    def _coefficients(self, residuals: Array) -> Array:
+        """Return β = (HᵀK⁻¹H)⁻¹HᵀK⁻¹r of each channel (p, D)."""
+        return np.linalg.solve(self._trend_precision, self._trend_dual.T @ residuals)
+
+    def _dual(self, residuals: Array) -> Array:
+        """Return K⁻¹(r − Hβ) of each channel (n, D)."""
+        beside = residuals - self.trend[self.visible] @ self._coefficients(residuals)
+        return np.asarray(cho_solve(self._factor, beside))
+
     def mean(self, residuals: Array) -> Array:
         """Return the mean (N, D) given residuals (n, D) at the visible frames."""
-        return np.asarray(self.prior[:, self.visible] @ cho_solve(self._factor, residuals))
+        trend = self.trend @ self._coefficients(residuals)
+        return np.asarray(trend + self.prior[:, self.visible] @ self._dual(residuals))
 
     @cached_property
     def variance(self) -> Array:
-        """(N,) variance of each frame, noise included, up to scale."""
+        """(N,) variance of each frame, noise and doubt about the trend included, up to scale."""
         cross = self.prior[:, self.visible]
         explained = (cross * cho_solve(self._factor, cross.T).T).sum(axis=1)
-        return np.asarray(np.diagonal(self.prior) + self.noise - explained)
+        # R = H* − K*K⁻¹H: what the visible frames leave open of the trend.
+        open_trend = self.trend - cross @ self._trend_dual
+        doubt = (open_trend * np.linalg.solve(self._trend_precision, open_trend.T).T).sum(axis=1)
+        return np.asarray(np.diagonal(self.prior) + self.noise - explained + doubt)
+
+    @property
+    def _freedom(self) -> int:
+        return int(self.visible.sum()) - self.trend.shape[1]
 
     def scales(self, residuals: Array, least: float) -> Array:
-        """Return the maximum-likelihood scale of each channel (D,), at least ``least``."""
-        dual = cho_solve(self._factor, residuals)
-        return np.asarray(np.maximum((residuals * dual).mean(axis=0), least))
+        """Return the scale of each channel (D,), at least ``least``."""
+        # rᵀK⁻¹(r − Hβ) is the same quadratic form, since HᵀK⁻¹(r − Hβ) = 0.
+        quadratic = (residuals * self._dual(residuals)).sum(axis=0)
+        return np.asarray(np.maximum(quadratic / max(self._freedom, 1), least))
 
     def log_evidence(self, scales: Array) -> Array:
         """Return the log-density of each channel (D,), its scale integrated out, up to a constant.
@@ -72,9 +106,10 @@ class ConditionedFrames:
             As `scales` returns them.
         """
         half_log_determinant = np.log(np.diagonal(self._factor[0])).sum()
-        return np.asarray(-0.5 * self.visible.sum() * np.log(scales) - half_log_determinant)
+        half_log_determinant += 0.5 * np.linalg.slogdet(self._trend_precision)[1]
+        return np.asarray(-0.5 * self._freedom * np.log(scales) - half_log_determinant)
 
     @property
     def doubt_of_scale(self) -> float:
-        """By what the variance grows because the scale is inferred: n / (n − 2) if n > 2."""
-        return student_variance(int(self.visible.sum()))
+        """By what the variance grows because the scale is inferred: ν / (ν − 2) if ν > 2."""
+        return student_variance(self._freedom)

@@ -52,7 +52,7 @@ def _with(
     """Return mean and variance (N, D) with one lengthscale, and its evidence (D,)."""
     times = np.arange(len(visible), dtype=np.float64)
     course = Matern32().value(np.subtract.outer(times, times), float(lengthscale))
-    given = ConditionedFrames(_CONSTANT + course, _NOISE, visible)
+    given = ConditionedFrames(_CONSTANT + course, _NOISE, visible, np.empty((len(times), 0)))
     scales = given.scales(residuals, least)
     variance = given.doubt_of_scale * np.outer(given.variance, scales)
     return given.mean(residuals), variance, given.log_evidence(scales)

@@ -9,7 +9,7 @@ from typing import Self
 
 import numpy as np
 
-from mocapbench.baselines.common.gaps import hidden_frames
+from mocapbench.baselines.common.gaps import visible_frames
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
@@ -17,6 +17,9 @@ from mocapbench.datasets import FrameByChannel, Recording
 __all__ = ["MatchedPaths"]
 
 
+_ROUNDS = 2
+"""How often a subject's offset is inferred from the path that the offset before it gave. A third
+time changes errors by .1 %, the first by 2 %, each training walker of `missing-frames` left out."""
 _EXACT = 1e-12
 """Error of a path, as a fraction of the largest, below which it counts as exact."""
 
@@ -42,7 +45,7 @@ class MatchedPaths:
     @classmethod
     def of(cls, recording: Recording, matchers: Sequence[PoseViterbi]) -> Self:
         """Match a recording with each matcher's frames, the subject's offset taken out before."""
-        visible = ~hidden_frames(recording)
+        visible = visible_frames(recording)
         paths = np.array([_path(recording, matcher) for matcher in matchers])
         errors = (recording.values - paths)[:, visible].var(axis=1).sum(axis=1)
         return cls(paths, errors, float(recording.values[visible].var(axis=0).sum()))
@@ -88,5 +91,12 @@ class MatchedPaths:
 
 
 def _path(recording: Recording, matcher: PoseViterbi) -> FrameByChannel:
-    moved = recording.with_values(recording.values - matcher.residual(recording))
-    return matcher.match(moved)
+    """Return the path (N, D) that does not depend on a constant added to the recording.
+
+    The subject's offset is first taken to be the difference of means, then the mean residual.
+    """
+    visible = visible_frames(recording)
+    offset = recording.values[visible].mean(axis=0) - matcher.frames_.mean(axis=0)
+    for _ in range(_ROUNDS):
+        offset = offset + matcher.residual(recording.with_values(recording.values - offset))
+    return matcher.match(recording.with_values(recording.values - offset))

@@ -51,6 +51,11 @@ class Image:
         """Return the map that changes nothing."""
         return cls(np.arange(n_channels), np.ones(n_channels))
 
+    @property
+    def kept(self) -> NDArray[np.bool_]:
+        """(D,) which channels stay in place: those in the middle of the body."""
+        return self.order == np.arange(len(self.order))
+
     def of(self, frames: FrameByChannel) -> FrameByChannel:
         """Return the image of frames (N, D)."""
         return np.asarray(frames[:, self.order] * self.signs)

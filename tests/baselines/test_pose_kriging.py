@@ -4,7 +4,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from samples import gap
 
-from mocapbench.baselines.kriging.conditioned import ConditionedFrames
 from mocapbench.baselines.kriging.own_course import own_course
 from mocapbench.baselines.kriging.paths import MatchedPaths
 from mocapbench.baselines.pose_kriging import PoseKriging
@@ -76,19 +75,82 @@ def test_of_one_visible_frame_nothing_is_sure():
     assert errors.max() < 3.0
 
 
-def test_the_fill_moves_with_a_constant_offset():
+@settings(max_examples=25, deadline=None)
+@given(st.lists(st.floats(-1000.0, 1000.0), min_size=3, max_size=3), st.integers(0, 28))
+def test_a_constant_added_to_a_recording_is_added_to_its_fill(offsets, first):
     model = PoseKriging().fit(TRAINING)
-    truth = walk("new", 5, 40)
-    (here,) = model.impute([gap(truth, 8, 20)])
-    (there,) = model.impute([gap(truth.with_values(truth.values + 0.01), 8, 20)])
-    np.testing.assert_allclose(there.mean - here.mean, 0.01, atol=2e-3)
+    truth = walk("new", 5, 40, style=0.1)
+    (here,) = model.impute([gap(truth, first, first + 12)])
+    (there,) = model.impute([gap(truth.with_values(truth.values + offsets), first, first + 12)])
+    hidden = slice(first, first + 12)
+    np.testing.assert_allclose(there.mean - offsets, here.mean, atol=1e-7)
+    np.testing.assert_allclose(there.variance[hidden], here.variance[hidden], rtol=1e-6)
+
+
+def limping(name, start, n_frames, style):
+    """Return a walk on two legs, which take turns; ``style`` is what both do alike."""
+    phases = STEP * (start + np.arange(n_frames)), STEP * (start + 10.15 + np.arange(n_frames))
+    legs = [[np.sin(p) + style * np.exp(2 * np.cos(p - 1)), np.cos(p)] for p in phases]
+    values = np.column_stack(legs[0] + legs[1])
+    channels = ("lfemur.rx", "ltibia.rx", "rfemur.rx", "rtibia.rx")
+    return Recording(name, np.arange(n_frames) / 30, values, channels, ("deg",) * 4)
+
+
+def facing(name, start, n_frames, style=0.0):
+    """Return a walk with angles in the middle of the body, whose signs the mirror changes."""
+    angle = STEP * (start + np.arange(n_frames))
+    middle = np.column_stack([0.3 * np.sin(angle), 0.2 * np.sin(angle + 1.0)])
+    legs = limping(name, start, n_frames, style)
+    channels = ("root.ry", "root.rz", *legs.channels)
+    return Recording(name, legs.times, np.hstack([middle, legs.values]), channels, ("deg",) * 6)
+
+
+FACING = [facing("one", 0, 50), facing("two", 3, 45)]
+
+
+@pytest.mark.parametrize("turns", [{"root.rz": 360.0}, {"root.ry": 180.0, "root.rz": 77.0}])
+@pytest.mark.parametrize("among", ["test", "training"])
+def test_where_a_body_faces_changes_nothing_though_the_mirror_flips_its_sign(turns, among):
+    truth = facing("new", 0, 30, 0.15)
+    moved = np.array([turns.get(channel, 0.0) for channel in truth.channels])
+    by = [moved, 0.0] if among == "training" else [0.0, 0.0]
+    training = [one.with_values(one.values + each) for one, each in zip(FACING, by, strict=True)]
+    model, turned = PoseKriging().fit(FACING), PoseKriging().fit(training)
+    assert len(model.symmetries_) == len(turned.symmetries_) == 2
+    moved = moved if among == "test" else np.zeros(6)
+    (here,) = model.impute([gap(truth, 13, 23)])
+    (there,) = turned.impute([gap(truth.with_values(truth.values + moved), 13, 23)])
+    np.testing.assert_allclose(there.mean - moved, here.mean, atol=1e-7)
+    np.testing.assert_allclose(there.variance, here.variance, rtol=1e-6)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.lists(st.integers(-3, 3), min_size=6, max_size=6), st.booleans())
+def test_whole_turns_of_any_angle_change_nothing(turns, in_training):
+    moved = 360.0 * np.array(turns)
+    truth = facing("new", 0, 30, 0.15)
+    (here,) = PoseKriging().fit(FACING).impute([gap(truth, 13, 23)])
+    training = [FACING[0].with_values(FACING[0].values + moved * in_training), FACING[1]]
+    given = gap(truth.with_values(truth.values + moved), 13, 23)
+    (there,) = PoseKriging().fit(training).impute([given])
+    np.testing.assert_allclose(there.mean - moved, here.mean, atol=1e-7)
+
+
+def test_of_one_frame_the_fill_is_as_unsure_as_training_moves():
+    hidden = np.ones((40, 6), dtype=bool)
+    hidden[20] = False
+    truth = facing("new", 0, 40, 0.15)
+    model = PoseKriging().fit(FACING)
+    (prediction,) = model.impute([truth.hide(hidden)])
+    assert (prediction.variance[hidden] >= model.total_variance_ * 0.05).all()
 
 
 def conditional_variance(model, recording, matched):
     """Return the conditional variance of the residuals, the doubt about the path left out."""
     visible = recording.visible[:, 0]
-    process = ConditionedFrames(model._covariance(matched), 0.05, visible)
-    return np.outer(process.variance, process.scales((recording.values - matched)[visible], 0.0))
+    ((_, process),) = model._residuals().given(matched, visible)
+    scales = process.scales((recording.values - matched)[visible], 0.0)
+    return np.outer(process.variance, scales)
 
 
 @settings(max_examples=15, deadline=None)
@@ -107,26 +169,17 @@ def test_the_mean_is_the_weighted_mean_of_what_each_path_predicts():
     model = PoseKriging().fit(TRAINING)
     recording = gap(walk("new", 2, 30, style=0.2), 10, 16)
     paths, visible = MatchedPaths.of(recording, model.matchers_), recording.visible[:, 0]
-    process = ConditionedFrames(model._covariance(paths.mean), 0.05, visible)
+    ((_, process),) = model._residuals().given(paths.mean, visible)
     each = [path + process.mean((recording.values - path)[visible]) for path in paths.paths]
     (prediction,) = model.impute([recording])
     expected = np.average(each, axis=0, weights=paths.weights)
     np.testing.assert_allclose(prediction.mean[~visible], expected[~visible], atol=1e-9)
 
 
-def limping(name, start, n_frames, style):
-    """Return a walk on two legs, which take turns; ``style`` is what both do alike."""
-    phases = STEP * (start + np.arange(n_frames)), STEP * (start + 10.15 + np.arange(n_frames))
-    legs = [[np.sin(p) + style * np.exp(2 * np.cos(p - 1)), np.cos(p)] for p in phases]
-    values = np.column_stack(legs[0] + legs[1])
-    channels = ("lfemur.rx", "ltibia.rx", "rfemur.rx", "rtibia.rx")
-    return Recording(name, np.arange(n_frames) / 30, values, channels, ("deg",) * 4)
-
-
 def test_what_one_leg_does_before_the_gap_tells_what_the_other_does_in_it():
     training = [limping("one", 0, 50, 0.0), limping("two", 3, 45, 0.0)]
     truth = limping("new", 0, 30, 0.15)
-    hidden = slice(13, 23)
+    hidden = slice(10, 22)
     errors = []
     for symmetry in (0.0, 0.8):
         model = PoseKriging(symmetry=symmetry).fit(training)
@@ -138,10 +191,10 @@ def test_what_one_leg_does_before_the_gap_tells_what_the_other_does_in_it():
 
 def test_images_do_not_correlate_without_symmetry():
     model = PoseKriging(symmetry=0.0).fit([limping("one", 0, 50, 0.0)])
-    covariance = model._covariance(limping("new", 0, 20, 0.1).values)
+    covariance = model._residuals().covariance(limping("new", 0, 20, 0.1).values)
     np.testing.assert_array_equal(covariance[:20, 20:], 0.0)
     together = PoseKriging().fit([limping("one", 0, 50, 0.0)])
-    covariance = together._covariance(limping("new", 0, 20, 0.1).values)
+    covariance = together._residuals().covariance(limping("new", 0, 20, 0.1).values)
     assert np.linalg.eigvalsh(covariance).min() > -1e-9
 
 

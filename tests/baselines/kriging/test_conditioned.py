@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -12,7 +14,8 @@ def frames(seed, n=12):
     factor = rng.normal(size=(n, n))
     visible = rng.random(n) < 0.6
     visible[[0, 1, 2]] = True
-    return ConditionedFrames(factor @ factor.T, 0.3, visible), rng.normal(size=(visible.sum(), 3))
+    prior, trend = factor @ factor.T, np.empty((n, 0))
+    return ConditionedFrames(prior, 0.3, visible, trend), rng.normal(size=(visible.sum(), 3))
 
 
 @settings(max_examples=25, deadline=None)
@@ -34,7 +37,7 @@ def test_moments_are_those_of_the_joint_normal(seed):
 def test_evidence_differs_as_the_density_of_a_student_t():
     """Up to a constant, the evidence is −½ ln|K| − n/2 ln rᵀK⁻¹r."""
     (one, residuals), (two, _) = frames(0), frames(0)
-    two = ConditionedFrames(2.0 * two.prior, two.noise, two.visible)
+    two = replace(two, prior=2.0 * two.prior)
 
     def evidence(process):
         among = process.prior[np.ix_(process.visible, process.visible)]
@@ -49,4 +52,43 @@ def test_evidence_differs_as_the_density_of_a_student_t():
 @pytest.mark.parametrize(("n_visible", "factor"), [(1, 3.0), (2, 3.0), (3, 3.0), (12, 1.2)])
 def test_fewer_visible_frames_leave_more_doubt_of_the_scale(n_visible, factor):
     visible = np.arange(20) < n_visible
-    assert ConditionedFrames(np.eye(20), 1.0, visible).doubt_of_scale == pytest.approx(factor)
+    process = ConditionedFrames(np.eye(20), 1.0, visible, np.empty((20, 0)))
+    assert process.doubt_of_scale == pytest.approx(factor)
+
+
+def with_trend(seed, n=12):
+    """Return a process with a constant and a slope, and residuals at its visible frames."""
+    process, residuals = frames(seed, n)
+    return replace(process, trend=np.column_stack([np.ones(n), np.arange(n)])), residuals
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10_000))
+def test_a_free_trend_is_the_limit_of_one_with_a_wide_prior(seed):
+    process, residuals = with_trend(seed)
+    wide = 1e7 * process.trend @ process.trend.T
+    proper = replace(process, prior=process.prior + wide, trend=process.trend[:, :0])
+    np.testing.assert_allclose(process.mean(residuals), proper.mean(residuals), atol=1e-3)
+    np.testing.assert_allclose(process.variance, proper.variance, rtol=1e-3, atol=1e-3)
+    freedom = process.visible.sum() - 2
+    sums = [each.scales(residuals, 1e-300) for each in (process, proper)]
+    np.testing.assert_allclose(
+        sums[0] * max(freedom, 1), sums[1] * process.visible.sum(), rtol=1e-3
+    )
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10_000), st.floats(-1e4, 1e4), st.floats(-1e3, 1e3))
+def test_what_the_trend_can_express_is_added_to_the_mean_and_nothing_else(seed, constant, slope):
+    process, residuals = with_trend(seed)
+    added = (process.trend @ [constant, slope])[:, None]
+    moved = residuals + added[process.visible]
+    np.testing.assert_allclose(process.mean(moved), process.mean(residuals) + added, atol=1e-6)
+    scales = process.scales(residuals, 1e-300)
+    np.testing.assert_allclose(process.scales(moved, 1e-300), scales, rtol=1e-4, atol=1e-6)
+
+
+def test_a_trend_costs_as_many_degrees_of_freedom_as_it_has_coefficients():
+    visible = np.arange(20) < 8
+    process = ConditionedFrames(np.eye(20), 1.0, visible, np.ones((20, 2)) * [1.0, 0.0])
+    assert process.doubt_of_scale == pytest.approx(6.0 / 4.0)
