@@ -67,15 +67,15 @@ class ConditionedFrames:
         """Return β = (HᵀK⁻¹H)⁻¹HᵀK⁻¹r of each channel (p, D)."""
         return np.linalg.solve(self._trend_precision, self._trend_dual.T @ residuals)
 
-    def _dual(self, residuals: Array) -> Array:
-        """Return K⁻¹(r − Hβ) of each channel (n, D)."""
-        beside = residuals - self.trend[self.visible] @ self._coefficients(residuals)
-        return np.asarray(cho_solve(self._factor, beside))
+    def _without_trend(self, residuals: Array) -> Array:
+        """Return r − Hβ of each channel (n, D)."""
+        return np.asarray(residuals - self.trend[self.visible] @ self._coefficients(residuals))
 
     def mean(self, residuals: Array) -> Array:
         """Return the mean (N, D) given residuals (n, D) at the visible frames."""
         trend = self.trend @ self._coefficients(residuals)
-        return np.asarray(trend + self.prior[:, self.visible] @ self._dual(residuals))
+        dual = cho_solve(self._factor, self._without_trend(residuals))
+        return np.asarray(trend + self.prior[:, self.visible] @ dual)
 
     @cached_property
     def variance(self) -> Array:
@@ -93,8 +93,8 @@ class ConditionedFrames:
 
     def scales(self, residuals: Array, least: float) -> Array:
         """Return the scale of each channel (D,), at least ``least``."""
-        # rᵀK⁻¹(r − Hβ) is the same quadratic form, since HᵀK⁻¹(r − Hβ) = 0.
-        quadratic = (residuals * self._dual(residuals)).sum(axis=0)
+        beside = self._without_trend(residuals)
+        quadratic = (beside * cho_solve(self._factor, beside)).sum(axis=0)
         return np.asarray(np.maximum(quadratic / max(self._freedom, 1), least))
 
     def log_evidence(self, scales: Array) -> Array:
