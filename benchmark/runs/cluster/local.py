@@ -6,12 +6,17 @@ import logging
 import signal
 from contextlib import ExitStack
 
+import dask
 from distributed import Client, LocalCluster, Worker, WorkerPlugin
 
 from mocapbench.benchmark.runs.cluster.admission import require_workers
 from mocapbench.benchmark.runs.cluster.site import ClusterSite
+from mocapbench.benchmark.runs.execution.fork_server import environment
+from mocapbench.benchmark.runs.execution.safe_path import SAFE_PATH
 
 __all__ = ["open_site"]
+
+_SAFE = {f"distributed.nanny.pre-spawn-environ.{name}": text for name, text in SAFE_PATH.items()}
 
 
 def open_site(kind: str) -> ClusterSite:
@@ -23,18 +28,24 @@ def open_site(kind: str) -> ClusterSite:
         ``local:N`` for N workers.
     """
     with ExitStack() as held:
-        cluster = LocalCluster(
-            n_workers=int(kind.partition(":")[2]),
+        cluster = held.enter_context(_cluster(int(kind.partition(":")[2])))
+        client = held.enter_context(Client(cluster))
+        client.register_plugin(_Undisturbed())
+        require_workers(client)
+        return ClusterSite(client, held.pop_all())
+
+
+def _cluster(n_workers: int) -> LocalCluster:
+    # The configuration is for workers that are started again, the environment for what else starts.
+    with dask.config.set(_SAFE), environment(SAFE_PATH):
+        return LocalCluster(
+            n_workers=n_workers,
             threads_per_worker=1,
             host="127.0.0.1",
             dashboard_address="127.0.0.1:0",
             memory_limit=0,  # jobs have their own limit, and their processes are not the worker's
             silence_logs=logging.ERROR,
         )
-        client = held.enter_context(Client(held.enter_context(cluster)))
-        client.register_plugin(_Undisturbed())
-        require_workers(client)
-        return ClusterSite(client, held.pop_all())
 
 
 class _Undisturbed(WorkerPlugin):

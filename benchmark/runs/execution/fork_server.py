@@ -5,14 +5,18 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
-from collections.abc import Iterator
+import threading
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from multiprocessing import forkserver, resource_tracker
-from multiprocessing.context import BaseContext
+from multiprocessing.context import BaseContext, ForkServerContext, ForkServerProcess
+from multiprocessing.process import BaseProcess
+from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.runs.execution.safe_path import SAFE_PATH
 
-__all__ = ["UNGUARDED", "fork_server"]
+__all__ = ["UNGUARDED", "environment", "fork_server"]
 
 UNGUARDED = (
     "expected workers to start, got a script that starts the run again in each of them; put what "
@@ -29,6 +33,22 @@ _ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """Workers compute with one thread; a pool of threads that never work would slow every fork."""
 
 
+_ENVIRONMENT_LOCK = threading.Lock()
+
+
+class _Process(ForkServerProcess):
+    """A process forked from our server, which is started again if it has died."""
+
+    @staticmethod
+    def _Popen(process_obj: BaseProcess) -> Any:  # noqa: N802
+        _ensure_running()
+        return ForkServerProcess._Popen(process_obj)
+
+
+class _Context(ForkServerContext):
+    Process = _Process
+
+
 def fork_server() -> BaseContext:
     """Start the server unless it runs, and return the context of processes forked from it.
 
@@ -39,31 +59,31 @@ def fork_server() -> BaseContext:
     UsageError
         If a worker reads a script that starts a run wherever it is read.
     """
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(_PRELOAD)
-    with _environment(_ONE_THREAD), _without_interrupts():
+    try:
         _ensure_running()
-    return context
+    except RuntimeError:  # this process is starting itself, and reads the user's script again
+        raise UsageError(UNGUARDED) from None
+    return _Context()
 
 
 def _ensure_running() -> None:
-    try:
+    multiprocessing.set_forkserver_preload(_PRELOAD)
+    with environment(_ONE_THREAD | SAFE_PATH), _without_interrupts():
         forkserver.ensure_running()
-    except RuntimeError:  # this process is starting itself, and reads the user's script again
-        raise UsageError(UNGUARDED) from None
 
 
 @contextmanager
-def _environment(variables: dict[str, str]) -> Iterator[None]:
+def environment(variables: Mapping[str, str]) -> Iterator[None]:
     """Let processes that start within the context have these environment variables."""
-    before = {name: os.environ[name] for name in variables if name in os.environ}
-    os.environ.update(variables)
-    try:
-        yield
-    finally:
-        for name in variables:
-            del os.environ[name]
-        os.environ.update(before)
+    with _ENVIRONMENT_LOCK:  # pools start workers from threads of theirs
+        before = {name: os.environ[name] for name in variables if name in os.environ}
+        os.environ.update(variables)
+        try:
+            yield
+        finally:
+            for name in variables:
+                del os.environ[name]
+            os.environ.update(before)
 
 
 @contextmanager

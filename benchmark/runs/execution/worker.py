@@ -27,6 +27,7 @@ from mocapbench.benchmark.runs.execution.child import (
     kill_children,
 )
 from mocapbench.benchmark.runs.execution.large_pages import collapse_memory
+from mocapbench.benchmark.runs.execution.safe_path import forget_safe_path
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
 from mocapbench.benchmark.runs.execution.time_limit import TimeLimit
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
@@ -46,6 +47,7 @@ def prepare_worker() -> None:
     # At once when told to, with the child: a worker that winds up holds up the end of a run.
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    forget_safe_path()
     # One BLAS thread, so that results do not depend on how many jobs run at once.
     threadpool_limits(1)
     gc.freeze()  # what the libraries hold lives as long as the worker

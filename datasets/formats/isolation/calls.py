@@ -27,7 +27,9 @@ from mocapbench.datasets.formats.isolation.process import LENGTH
 
 __all__ = ["IsolatedCallError", "call_isolated"]
 
-_COMMAND = (sys.executable, "-m", "mocapbench.datasets.formats.isolation.process")
+# -P, or Python would import from the current folder, where a file of somebody else may be called
+# json.py.
+_COMMAND = (sys.executable, "-P", "-m", "mocapbench.datasets.formats.isolation.process")
 
 
 class IsolatedCallError(Exception):

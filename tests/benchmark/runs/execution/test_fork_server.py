@@ -8,6 +8,7 @@ import time
 
 import psutil
 import pytest
+from hostile_folder import HostileFolder
 from threadpoolctl import threadpool_info
 
 from mocapbench import benchmark as bench
@@ -38,6 +39,30 @@ def test_workers_have_one_thread_and_this_process_keeps_its_environment(monkeypa
     assert {library["num_threads"] for library in libraries} == {1}
     assert asked == "1"
     assert os.environ["OPENBLAS_NUM_THREADS"] == "2"
+
+
+def test_a_server_that_died_is_started_again_and_is_as_the_first(monkeypatch, tmp_path, pool):
+    """It computes with one thread, and runs no file of the folder that it starts in."""
+    hostile = HostileFolder(tmp_path / "sent", tmp_path / "marks")
+    monkeypatch.chdir(hostile.path)
+    server = pool.submit(os.getppid).result()
+    other = WorkerPool(1)  # starts a worker with the first job
+    os.kill(server, signal.SIGKILL)
+    os.waitid(os.P_PID, server, os.WEXITED | os.WNOWAIT)
+    try:
+        assert other.submit(os.getppid).result() != server
+        assert other.submit(os.getenv, "OMP_NUM_THREADS").result() == "1"
+    finally:
+        other.stop()
+    assert hostile.run_files == []
+
+
+def test_programs_that_a_model_starts_find_their_helpers(monkeypatch, tmp_path, pool):
+    (tmp_path / "helper.py").write_text("print('found')")
+    (tmp_path / "script.py").write_text("import helper")
+    words = [sys.executable, str(tmp_path / "script.py")]
+    monkeypatch.delenv("PYTHONSAFEPATH", raising=False)
+    assert pool.submit(subprocess.check_output, words).result() == b"found\n"
 
 
 def test_a_server_that_is_loading_does_not_hear_of_an_interrupt():
