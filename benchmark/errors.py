@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import difflib
+import errno
 from collections.abc import Collection
 from enum import IntEnum
 
-__all__ = ["ExitCode", "UnknownNameError", "UnregisteredNameError", "UsageError", "first_of"]
+__all__ = [
+    "ExitCode",
+    "Interruption",
+    "OutputError",
+    "UnknownNameError",
+    "UnregisteredNameError",
+    "UsageError",
+    "first_of",
+]
 
 
 class ExitCode(IntEnum):
-    """What the process's exit code means."""
+    """What the process's exit code means; from 128 on, it is 128 and the number of a signal."""
 
     OK = 0
     REGRESSION = 1
@@ -19,7 +28,49 @@ class ExitCode(IntEnum):
     NOTHING_RAN = 4
     UNDECIDED = 5
     DEFECT = 70
+    HUNG_UP = 129
     INTERRUPTED = 130
+    CLOSED_PIPE = 141
+    TERMINATED = 143
+
+
+class Interruption(KeyboardInterrupt):
+    """A signal that ends the process, which winds up first.
+
+    Parameters
+    ----------
+    number : int
+        The signal's.
+    """
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.exit_code = ExitCode(128 + number)
+
+
+class OutputError(SystemExit):
+    """Standard output or error that cannot be written to.
+
+    Parameters
+    ----------
+    stream : str
+        What it is called.
+    error : OSError
+        What the system says.
+    """
+
+    def __init__(self, stream: str, error: OSError) -> None:
+        self.exit_code = _CODES_OF_OUTPUT.get(error.errno, ExitCode.USAGE)
+        super().__init__(int(self.exit_code))
+        self._message = f"error: cannot write to {stream}: {error.strerror}; make room for it\n"
+
+    def __str__(self) -> str:
+        """Return what to say of it; nothing where the reader has left."""
+        return self._message if self.exit_code is ExitCode.USAGE else ""
+
+
+_CODES_OF_OUTPUT = {errno.EPIPE: ExitCode.CLOSED_PIPE, errno.EIO: ExitCode.HUNG_UP}
+"""The reader of a pipe has left, or the terminal is gone; of other errors people are to hear."""
 
 
 class UsageError(ValueError):

@@ -9,7 +9,7 @@ from typing import TextIO
 from rich.text import Text
 
 from mocapbench.benchmark.cli.console import LiteralConsole
-from mocapbench.benchmark.errors import ExitCode, UsageError
+from mocapbench.benchmark.errors import ExitCode, Interruption, OutputError, UsageError
 from mocapbench.benchmark.files import words_of
 from mocapbench.datasets import AcclaimError, DigestMismatch, FormatError
 
@@ -72,6 +72,8 @@ def _code_and_message(error: BaseException) -> tuple[ExitCode, str]:
             return ExitCode.USAGE, str(error)
         case OSError():
             return ExitCode.USAGE, f"cannot read or write: {words_of(error)}"
+        case Interruption() | OutputError():
+            return error.exit_code, str(error)
         case KeyboardInterrupt():
             return ExitCode.INTERRUPTED, "interrupted"
         case _:

@@ -17,7 +17,7 @@ from mocapbench import reports
 from mocapbench.benchmark import filling
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
-from mocapbench.benchmark.errors import ExitCode, UsageError
+from mocapbench.benchmark.errors import UsageError
 
 if TYPE_CHECKING:
     from mocapbench.benchmark.filling import Filled, Outputs, Source, Workers
@@ -82,7 +82,7 @@ def fill(
                 _fill(source, model, workers, budget, outputs[source.path], console)
     except KeyboardInterrupt:
         console.print("interrupted; files that were filled are kept, others were not written")
-        raise typer.Exit(ExitCode.INTERRUPTED) from None
+        raise
 
 
 def _fill(

@@ -25,7 +25,6 @@ from mocapbench.benchmark.cli.options import (
 from mocapbench.benchmark.cli.running.about import about
 from mocapbench.benchmark.cli.running.log import require_log, run_log
 from mocapbench.benchmark.cli.running.session import Session
-from mocapbench.benchmark.cli.running.signals import interrupt_at_the_end_of_the_session
 from mocapbench.benchmark.cli.running.wording import downloading, fetching
 from mocapbench.benchmark.errors import UsageError
 
@@ -134,7 +133,6 @@ def run(
         about(planned, request, threads),
         task_files,
     )
-    interrupt_at_the_end_of_the_session()
     with run_log(log_json) as log, site, store.locked():
         store.sweep()
         session = Session(planned, store, config, site, console, log)

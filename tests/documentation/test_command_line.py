@@ -7,7 +7,7 @@ import pytest
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from mocapbench.benchmark.cli.main import COMMANDS, app
+from mocapbench.benchmark.cli.commands import COMMANDS, app
 from mocapbench.benchmark.errors import ExitCode
 
 PAGE = (Path(__file__).parents[2] / "docs" / "command-line.md").read_text(encoding="utf-8")

@@ -12,7 +12,8 @@ from packaging.requirements import Requirement
 from typer.core import TyperGroup
 from typer.main import get_command
 
-from mocapbench.benchmark.cli.main import app, main
+from mocapbench.benchmark.cli.commands import app
+from mocapbench.benchmark.cli.main import main
 from mocapbench.benchmark.registry import REGISTRIES
 
 ROOT = Path(__file__).parents[2]

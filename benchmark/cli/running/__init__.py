@@ -1,1 +1,1 @@
-"""What ``mocapbench run`` does once jobs are planned: signals, the log, jobs, the last lines."""
+"""What ``mocapbench run`` does once jobs are planned: the log, jobs, the last lines."""

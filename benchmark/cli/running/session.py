@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -56,8 +55,6 @@ class Session:
         if not drawn:
             save_plan(provenance=about)
         records = self._records()
-        if records is None:
-            return ExitCode.INTERRUPTED
         self._say_how_it_ended(records)
         stamp = bench.stamp(records, [*self.config.plugins], self.config.task_files)
         if stamp == drawn:
@@ -86,8 +83,8 @@ class Session:
 
         return save_plan
 
-    def _records(self) -> list[Record] | None:
-        """Run the jobs and return their records; None if the run was interrupted."""
+    def _records(self) -> list[Record]:
+        """Run the jobs and return their records; if interrupted, say what becomes of them."""
         try:
             return bench.run(
                 self.planned,
@@ -98,11 +95,8 @@ class Session:
                 log=self.log,
             )
         except KeyboardInterrupt:
-            with suppress(OSError):  # the terminal may have been closed
-                self.console.print(
-                    "interrupted; everything finished is kept, and the same command resumes"
-                )
-            return None
+            self._say("interrupted; everything finished is kept, and the same command resumes")
+            raise
 
     def _write_report(self, records: Sequence[Record], about: dict[str, str]) -> None:
         archive = bench.archive_at(self.config.data_dir)

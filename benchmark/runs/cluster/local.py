@@ -11,8 +11,7 @@ from distributed import Client, LocalCluster, Worker, WorkerPlugin
 
 from mocapbench.benchmark.runs.cluster.admission import require_workers
 from mocapbench.benchmark.runs.cluster.site import ClusterSite
-from mocapbench.benchmark.runs.execution.fork_server import environment
-from mocapbench.benchmark.runs.execution.safe_path import SAFE_PATH
+from mocapbench.benchmark.runs.execution.fork_server import SAFE_PATH, environment
 
 __all__ = ["open_site"]
 

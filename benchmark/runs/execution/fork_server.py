@@ -14,9 +14,8 @@ from multiprocessing.process import BaseProcess
 from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.runs.execution.safe_path import SAFE_PATH
 
-__all__ = ["UNGUARDED", "environment", "fork_server"]
+__all__ = ["SAFE_PATH", "UNGUARDED", "environment", "forget_safe_path", "fork_server"]
 
 UNGUARDED = (
     "expected workers to start, got a script that starts the run again in each of them; put what "
@@ -31,8 +30,12 @@ _PRELOAD = [
 ]
 _ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """Workers compute with one thread; a pool of threads that never work would slow every fork."""
+SAFE_PATH = {"PYTHONSAFEPATH": "mocapbench"}
+"""Has Python start without the current folder on its path.
 
-
+There it looks first for what `multiprocessing` imports, so that a file random.py beside the data
+would be run. Any text has this effect; ours tells who set it.
+"""
 _ENVIRONMENT_LOCK = threading.Lock()
 
 
@@ -84,6 +87,16 @@ def environment(variables: Mapping[str, str]) -> Iterator[None]:
             for name in variables:
                 del os.environ[name]
             os.environ.update(before)
+
+
+def forget_safe_path() -> None:
+    """Let programs that this process starts import from their own folder, unless the user forbids.
+
+    Those of a model do: a script finds its helpers beside it.
+    """
+    for name, value in SAFE_PATH.items():
+        if os.environ.get(name) == value:
+            del os.environ[name]
 
 
 @contextmanager

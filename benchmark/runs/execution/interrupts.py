@@ -11,7 +11,8 @@ from typing import Any
 
 __all__ = ["interrupts_later"]
 
-_ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGALRM)
+"""An alarm brings back a signal that struck where it had to wait."""
 
 
 @contextmanager

@@ -26,8 +26,8 @@ from mocapbench.benchmark.runs.execution.child import (
     die_with_parent,
     kill_children,
 )
+from mocapbench.benchmark.runs.execution.fork_server import forget_safe_path
 from mocapbench.benchmark.runs.execution.large_pages import collapse_memory
-from mocapbench.benchmark.runs.execution.safe_path import forget_safe_path
 from mocapbench.benchmark.runs.execution.spool import Spool, SpooledArchive
 from mocapbench.benchmark.runs.execution.time_limit import TimeLimit
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig

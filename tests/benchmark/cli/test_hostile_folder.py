@@ -106,9 +106,9 @@ if __name__ == "__main__":
     with open_site("local:1") as site:
         (first,) = site._client.run(os.getpid).values()
         site._client.run(kill, on_error="ignore")
-        while first in (found := [*site._client.run(os.getpid, on_error="ignore").values()] or [first]):
-            pass
-        assert found != [first]
+        later = first
+        while later == first:
+            (later,) = [*site._client.run(os.getpid, on_error="ignore").values()] or [first]
 """
 
 

@@ -12,7 +12,8 @@ from typer.main import get_command
 import mocapbench
 from mocapbench.benchmark import gate
 from mocapbench.benchmark.archives import archive_at
-from mocapbench.benchmark.cli.main import COMMANDS, main
+from mocapbench.benchmark.cli.commands import COMMANDS
+from mocapbench.benchmark.cli.main import main
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES, METRICS, MODELS, REGISTRIES, TASKS
 from mocapbench.benchmark.runs.plan import plan

@@ -1,0 +1,1 @@
+"""How a command ends where a signal strikes or its output cannot be written: by which exit code."""
