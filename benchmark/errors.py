@@ -60,7 +60,7 @@ class OutputError(SystemExit):
     """
 
     def __init__(self, stream: str, error: OSError) -> None:
-        self.exit_code = _CODES_OF_OUTPUT.get(error.errno, ExitCode.USAGE)
+        self.exit_code = _CODES_OF_OUTPUT.get(error.errno or 0, ExitCode.USAGE)
         super().__init__(int(self.exit_code))
         self._message = f"error: cannot write to {stream}: {error.strerror}; make room for it\n"
 

@@ -86,7 +86,7 @@ class _Commands(TyperGroup):
             raise UnknownNameError("command", args[0], list(self.commands_by_name))
         return super().resolve_command(ctx, args)
 
-    def invoke(self, ctx: typer.Context) -> Any:
+    def invoke(self, ctx: Any) -> Any:
         """Run the command.
 
         Of the two errors, typer would believe that the terminal was closed, and exit with 1.

@@ -51,8 +51,8 @@ def whole_outputs() -> Iterator[None]:
     _open_missing()
     streams = sys.stdout, sys.stderr
     outputs = _Output(sys.stdout, "standard output"), _Output(sys.stderr, "standard error")
-    for stream in outputs:
-        stream.reconfigure(errors="replace")  # terminals that know ASCII only
+    for output in outputs:
+        output.reconfigure(errors="replace")  # terminals that know ASCII only
     sys.stdout, sys.stderr = cast(tuple[TextIO, TextIO], outputs)
     try:
         with _saying_why(streams[1]):
