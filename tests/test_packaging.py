@@ -26,7 +26,7 @@ BUILD = "import sys; from setuptools import build_meta; build_meta.build_{}(sys.
 
 def test_the_lowest_versions_tested_are_the_lowest_declared():
     extras = METADATA["optional-dependencies"]
-    needed = [*METADATA["dependencies"], *extras["parquet"], *extras["cluster"], *extras["c3d"]]
+    needed = [*METADATA["dependencies"], *extras["parquet"], *extras["cluster"]]
     declared = [line.replace(">=", "==") for line in needed]
     assert (ROOT / "tests" / "lowest.txt").read_text().splitlines() == declared
 

@@ -3,40 +3,36 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.datasets.formats.base import Extra, Format
+from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import even_times, recording_of
 from mocapbench.datasets.formats.errors import FormatError
-from mocapbench.datasets.formats.isolation.calls import IsolatedCallError, call_isolated
-from mocapbench.datasets.formats.markers.c3d_layout import (
-    BLOCK,
-    MOST_FRAMES,
-    C3DLayout,
-    read_layout,
+from mocapbench.datasets.formats.markers.c3d_layout import C3DLayout, find_layout
+from mocapbench.datasets.formats.markers.c3d_parameters import read_parameters
+from mocapbench.datasets.formats.markers.c3d_points import (
+    frame_rate,
+    marker_places,
+    point_labels,
+    warn_of_scales,
 )
 from mocapbench.datasets.formats.markers.channels import marker_channels
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recording
 
 __all__ = ["C3DFormat"]
 
-_READER = "mocapbench.datasets.formats.markers.c3d_points:read_points"
-_SECONDS, _SECONDS_PER_BYTE = 10.0, 1e-6  # 46 MB take 8 s
-_MEMORY = 2**28  # of a small file
-
 
 class C3DFormat(Format):
-    """Positions of markers (.c3d) with residuals, read by ezc3d.
+    """Positions of markers (.c3d) with residuals, in numbers of Intel, DEC or MIPS computers.
 
     The channels are ``LKNE.x``, ``LKNE.y``, ``LKNE.z`` and so on, in the unit that the file states.
     A point is hidden if its residual is negative, a coordinate is NaN, or it is exactly at the
-    origin. Angles, forces and other results of a model of the body are not channels.
+    origin. Angles, forces and other results of a model of the body, as parameters name them, are
+    not channels.
 
     Only the coordinates that are filled are changed, and the residuals of their points, which
     become 0: calculated, not measured. All other bytes stay: residuals, analogue samples, events.
@@ -45,93 +41,47 @@ class C3DFormat(Format):
     """
 
     suffixes = (".c3d",)
-    needs = Extra("ezc3d", "c3d")
     memory_per_byte = 24.0
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""
-        points = _points(path)
-        values = _positions(points)
-        channels = marker_channels(points["labels"][points["is_marker"]].tolist())
-        times = even_times(len(values), rate or _rate(path.name, points))
-        units = [str(points["unit"])] * len(channels)
-        return recording_of(path.name, times, values, channels, units)
+        parameters = read_parameters(path)
+        layout = find_layout(path, parameters)
+        labels = point_labels(parameters, layout.n_points)
+        places = marker_places(parameters, labels)
+        if not len(places):
+            advice = "export the positions of the markers too"
+            raise FormatError(path.name, "positions of markers", "other signals alone", advice)
+        if layout.scale > 0:
+            warn_of_scales(path.name, parameters)
+        values = _visible_positions(layout, layout.points(path, "r")[:, places])
+        channels = marker_channels(labels[place] for place in places)
+        times = even_times(layout.n_frames, rate or frame_rate(path.name, parameters))
+        unit = next(parameters.texts("POINT:UNITS"), "")
+        return recording_of(path.name, times, values, channels, [unit] * len(channels))
 
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's bytes with the new coordinates."""
-        points = _points(like)
-        layout, visible = read_layout(like), _positions(points)
-        # Where each coordinate stands in a frame: x, y and z of a point, then its residual.
-        columns = (4 * np.flatnonzero(points["is_marker"])[:, None] + np.arange(3)).ravel()
+        parameters = read_parameters(like)
+        layout = find_layout(like, parameters)
+        places = marker_places(parameters, point_labels(parameters, layout.n_points))
+        given = layout.points(like, "r")[:, places]
+        new = new & _whole_points(new | ~np.isnan(_visible_positions(layout, given)))
+        stored = _stored(like, layout, values[new])
         shutil.copyfile(like, path)
-        frames = layout.frames(path, len(values))
-        _check_places(like, frames[:, columns] * layout.scale, visible)
-        new = new & _whole_points(new | ~np.isnan(visible))
-        rows, channels = np.nonzero(new)
-        frames[rows, columns[channels]] = _stored(like, layout, values[new])
-        frames[rows, columns[channels - channels % 3] + 3] = 0  # residual: calculated
-        frames.flush()
+        points = layout.points(path, "r+")
+        frames, channels = np.nonzero(new)
+        points[frames, places[channels // 3], channels % 3] = stored
+        points[frames, places[channels // 3], 3] = 0  # residual: calculated, in any format
 
 
-def _points(path: Path) -> Mapping[str, NDArray[Any]]:
-    """Return what `read_points` reads, having seen that the file has all of its frames."""
-    size, layout = path.stat().st_size, read_layout(path)
-    _check_size(path, layout.end(layout.n_frames), size)
-    memory = C3DFormat.memory_per_byte * size + _MEMORY
-    timeout = _SECONDS + _SECONDS_PER_BYTE * size
-    try:
-        points = call_isolated(_READER, str(path.absolute()), timeout=timeout, memory=memory)
-    except IsolatedCallError as error:
-        advice = "export the recording again as C3D"
-        raise FormatError(path.name, "a C3D file that ezc3d reads", str(error), advice) from error
-    if not points["is_marker"].any():
-        advice = "export the positions of the markers too"
-        raise FormatError(path.name, "positions of markers", "other signals alone", advice)
-    _, n_points, n_frames = points["points"].shape
-    if n_points != layout.n_points:
-        expected, got = f"{layout.n_points} points, as its header says", f"{n_points} in POINT:USED"
-        raise FormatError(path.name, expected, got, "export the recording again as C3D")
-    _check_size(path, layout.end(n_frames), size)
-    if n_frames >= MOST_FRAMES and size >= layout.end(n_frames + 1) + BLOCK:
-        advice = "cut the recording into parts, or export it in another format"
-        got = "more, of which ezc3d reads no others"
-        raise FormatError(path.name, f"at most {MOST_FRAMES} frames", got, advice)
-    return points
-
-
-def _check_size(path: Path, needed: int, size: int) -> None:
-    if size < needed:
-        advice = "the file is cut short: copy or export it again"
-        raise FormatError(path.name, f"{needed} bytes, as its header says", f"{size}", advice)
-
-
-def _positions(points: Mapping[str, NDArray[Any]]) -> FrameByChannel:
-    """Return the coordinates of all markers, (N, 3 · markers), NaN where they are not valid."""
-    positions = points["points"][:, points["is_marker"]]  # (3, markers, N)
-    measured = points["residuals"][points["is_marker"]] >= 0
-    valid = measured & np.isfinite(positions).all(axis=0) & (positions != 0).any(axis=0)
-    values = np.where(valid, positions, np.nan)
-    return values.transpose(2, 1, 0).reshape(values.shape[2], -1)
-
-
-def _rate(file: str, points: Mapping[str, NDArray[Any]]) -> float:
-    rate = float(points["rate"])
-    if not (isfinite(rate) and rate > 0):
-        advice = "name the rate in frames per second, such as --rate 100"
-        raise FormatError(file, "a positive frame rate", f"{rate:g}", advice)
-    return rate
-
-
-def _check_places(like: Path, found: FrameByChannel, visible: FrameByChannel) -> None:
-    """Refuse to write where coordinates do not stand as the header says."""
-    seen = ~np.isnan(visible)
-    if not np.allclose(found[seen], visible[seen], rtol=1e-5, atol=0.0):
-        raise FormatError(
-            like.name,
-            "coordinates where the header says that they are",
-            "others",
-            "export the recording again as C3D",
-        )
+def _visible_positions(layout: C3DLayout, points: NDArray[Any]) -> FrameByChannel:
+    """Return the coordinates of points (N, M, 4) as (N, 3 · M), NaN where they are not valid."""
+    positions = layout.decode(points[..., :3])
+    measured = layout.decode(points[..., 3]) >= 0
+    valid = measured & np.isfinite(positions).all(axis=2) & (positions != 0).any(axis=2)
+    positions[~valid] = np.nan
+    return positions.reshape(len(points), -1)
 
 
 def _whole_points(known: Mask) -> Mask:
@@ -140,17 +90,13 @@ def _whole_points(known: Mask) -> Mask:
     return np.repeat(whole, 3, axis=1)
 
 
-def _stored(like: Path, layout: C3DLayout, values: Frames) -> Frames:
+def _stored(like: Path, layout: C3DLayout, values: Frames) -> NDArray[Any]:
     """Return coordinates as the file stores them."""
-    stored = values / layout.scale
-    if layout.dtype.kind != "i":
-        return stored
-    limits = np.iinfo(np.int16)
-    if len(stored) and (stored.min() < limits.min or stored.max() > limits.max):
+    if len(values) and np.abs(values).max() > layout.largest:
         raise FormatError(
             like.name,
-            f"coordinates within ±{limits.max * layout.scale:g}, as the file stores integers",
+            f"coordinates within ±{layout.largest:g}, as the file stores them",
             f"{values[np.abs(values).argmax()]:g}",
             "export the recording as C3D with floating-point numbers",
         )
-    return np.round(stored)
+    return layout.encode(values)

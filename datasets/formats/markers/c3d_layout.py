@@ -1,31 +1,41 @@
-"""Where the coordinates of points stand in a C3D file, to change some and nothing else.
+"""Where the coordinates of points stand in a C3D file, to read all and change some.
 
-The format is described in the C3D File Format User Guide (https://www.c3d.org/docs/C3D_User_Guide.pdf):
-blocks of 512 bytes; a header of 16-bit words; then, frame by frame, four numbers a point (x, y, z,
-and cameras with residual) and the analogue samples, either as 32-bit floats or as 16-bit integers
-that are to be multiplied by a scale.
+Frame by frame stand four numbers a point (x, y, z, and cameras with residual) and the analogue
+samples, as 32-bit floating-point numbers or as 16-bit integers that are to be multiplied by a
+scale. Header and parameters both say how many of them there are, and in files of many programs
+they disagree. What the file has room for decides then: a frame taken too long or too short would
+shift all coordinates of the frames that follow it.
 """
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import product
+from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.markers.c3d_numbers import Processor
+from mocapbench.datasets.formats.markers.c3d_parameters import BLOCK, WORD, C3DParameters
+from mocapbench.datasets.recording import Frames
 
-__all__ = ["BLOCK", "MOST_FRAMES", "C3DLayout", "read_layout"]
+__all__ = ["C3DLayout", "find_layout"]
 
-BLOCK = 512
-"""Bytes."""
-MOST_FRAMES = 65535
-"""What the header can count."""
+_MOST = 0xFFFF
+"""Frames that the header can count."""
+_HEADER = "its header"
+_AGAIN = "export the recording again as C3D"
+_CUT = "the file is cut short: copy or export it again"
+_PIECE = 2**16  # bytes read at once
 
-_MAGIC = 0x50
-_INTEL, _DEC, _MIPS = 84, 85, 86
-_ORDER = {_INTEL: "<", _MIPS: ">"}
+_Claims = dict[float, str]
+"""Each number that is claimed, and where."""
 
 
 @dataclass(frozen=True)
@@ -34,74 +44,261 @@ class C3DLayout:
 
     Parameters
     ----------
+    processor : Processor
     start : int
         Byte of the first frame.
     n_frames : int
-        How many the header counts.
     n_points : int
         Points of a frame.
     n_samples : int
-        Analogue samples of a frame.
-    dtype : dtype
-        Of the numbers.
+        Analogue samples of a frame, of all channels.
     scale : float
-        Which integers are multiplied by; 1 for floats.
+        Which integers are multiplied by; below 0, numbers are floating-point and are not.
     """
 
+    processor: Processor
     start: int
     n_frames: int
     n_points: int
     n_samples: int
-    dtype: np.dtype[Any]
     scale: float
 
     @property
-    def numbers(self) -> int:
-        """Numbers of a frame."""
-        return 4 * self.n_points + self.n_samples
+    def dtype(self) -> np.dtype[Any]:
+        """Of the numbers as stored."""
+        integer = np.dtype(f"{self.processor.order}i2")
+        return self.processor.stored if self.scale < 0 else integer
 
-    def end(self, n_frames: int) -> int:
-        """Return the byte after ``n_frames`` frames."""
-        return self.start + n_frames * self.numbers * self.dtype.itemsize
+    @property
+    def end(self) -> int:
+        """The byte after the last frame."""
+        size = (4 * self.n_points + self.n_samples) * self.dtype.itemsize
+        return self.start + self.n_frames * size
 
-    def frames(self, path: Path, n_frames: int) -> np.memmap[Any, np.dtype[Any]]:
-        """Return the numbers of all frames (N, numbers); changes of them change the file."""
-        shape = (n_frames, self.numbers)
-        return np.memmap(path, self.dtype, mode="r+", offset=self.start, shape=shape)
+    @property
+    def shape(self) -> tuple[int, int, int, bool]:
+        """What decides where a coordinate stands."""
+        return self.start, self.n_points, self.n_samples, self.scale < 0
+
+    @property
+    def largest(self) -> float:
+        """The largest coordinate that can be stored."""
+        limit = float(np.iinfo(np.int16).max) * self.scale
+        return self.processor.largest if self.scale < 0 else limit
+
+    def points(self, path: Path, mode: Literal["r", "r+"]) -> NDArray[Any]:
+        """Return the numbers of the points of all frames (N, points, 4), as stored in the file.
+
+        Changes of them change the file if the mode is ``"r+"``.
+        """
+        shape = (self.n_frames, 4 * self.n_points + self.n_samples)
+        frames = np.memmap(path, self.dtype, mode=mode, offset=self.start, shape=shape)
+        return frames[:, : 4 * self.n_points].reshape(self.n_frames, self.n_points, 4)
+
+    def decode(self, stored: NDArray[Any]) -> NDArray[np.float64]:
+        """Return coordinates from what is stored of them."""
+        if self.scale < 0:
+            return self.processor.decode(stored)
+        return stored * self.scale
+
+    def encode(self, values: Frames) -> NDArray[Any]:
+        """Return what is stored for coordinates up to the largest."""
+        if self.scale < 0:
+            return self.processor.encode(values)
+        return np.round(values / self.scale).astype(np.int16)
 
 
-def read_layout(path: Path) -> C3DLayout:
-    """Return the layout of a C3D file.
+def find_layout(path: Path, parameters: C3DParameters) -> C3DLayout:
+    """Return the layout of a file.
 
-    Parameters
-    ----------
-    path : Path
+    Of what header and parameters claim, those readings are considered that leave less than a block
+    of the file, or zeros. If they agree on what a frame has, it is the one of the fewest frames
+    that leaves nothing but zeros.
 
     Raises
     ------
     FormatError
-        If the header is not that of a C3D file, or the numbers are those of a DEC computer.
+        If the file is shorter than it says, or header and parameters disagree and its size does not
+        decide between them.
     """
-    advice = "export the recording again as C3D"
-    with path.open("rb") as stream:
-        header = stream.read(BLOCK)
-        if len(header) < BLOCK or header[1] != _MAGIC:
-            got = f"{header[:8]!r}" if header else "an empty file"
-            raise FormatError(path.name, "the header of a C3D file", got, advice)
-        stream.seek(max(header[0] - 1, 0) * BLOCK)
-        parameters = stream.read(4)
-    processor = parameters[3] if len(parameters) == 4 else 0
-    if processor not in _ORDER:
-        got = "those of a DEC computer" if processor == _DEC else f"the type {processor}"
-        raise FormatError(path.name, "numbers of Intel or MIPS computers", got, advice)
-    return _layout(header, _ORDER[processor])
+    claims, size = _claims(parameters), path.stat().st_size
+    layouts = [_layout(parameters.processor, claimed) for claimed in product(*claims.values())]
+    if not layouts:
+        raise FormatError(path.name, "a scale of coordinates in its header", "none", _AGAIN)
+    start = min(layout.start for layout in layouts)
+    stop = _stop(parameters, start, size)
+    whole = [layout for layout in layouts if layout.end <= stop]
+    if not whole:
+        needed = min(layout.end for layout in layouts)
+        raise FormatError(path.name, f"{needed} bytes, as its header says", f"{size}", _CUT)
+    used = _last_byte(path, start, stop)
+    kept = [layout for layout in whole if used <= layout.end or stop < layout.end + BLOCK]
+    covering = [layout for layout in kept if used <= layout.end]
+    if _n_shapes(kept) != 1 or (_n_shapes(layouts) > 1 and not covering):
+        return _undisputed(path.name, claims, layouts, size)
+    return min(covering, key=lambda layout: layout.n_frames, default=kept[0])
 
 
-def _layout(header: bytes, order: str) -> C3DLayout:
-    words = np.frombuffer(header, f"{order}u2")
-    scale = float(np.frombuffer(header[12:16], f"{order}f4")[0])
-    stored = np.dtype(f"{order}f4" if scale < 0 else f"{order}i2")
-    start = max(int(words[8]) - 1, 0) * BLOCK
-    n_frames = max(int(words[4]) - int(words[3]) + 1, 0)
-    factor = 1.0 if scale < 0 else scale
-    return C3DLayout(start, n_frames, int(words[1]), int(words[2]), stored, factor)
+def _n_shapes(layouts: Iterable[C3DLayout]) -> int:
+    return len({layout.shape for layout in layouts})
+
+
+def _stop(parameters: C3DParameters, start: int, size: int) -> int:
+    """Return the byte at which what follows the frames begins: parameters, rotations or nothing."""
+    rotations = [(int(n) - 1) * BLOCK for _, n in _named(parameters, "ROTATION:DATA_START")]
+    return min(
+        stop for stop in (size, parameters.start, *rotations) if stop > start or stop == size
+    )
+
+
+def _undisputed(
+    file: str, claims: dict[str, _Claims], layouts: list[C3DLayout], size: int
+) -> C3DLayout:
+    """Return the only layout that is claimed, with a warning that the file does not end with it.
+
+    Raises
+    ------
+    FormatError
+        If there are more, or more frames than can be counted.
+    """
+    disputed = [
+        f"{what}: " + ", ".join(f"{number:g} in {where}" for number, where in found.items())
+        for what, found in claims.items()
+        if len(found) > 1
+    ]
+    if disputed:
+        expected = f"header and parameters that agree, or of which one fits the file's {size} bytes"
+        raise FormatError(file, expected, "; ".join(disputed), _AGAIN)
+    if layouts[0].n_frames == _MOST:
+        raise _uncounted(file)
+    warnings.warn(
+        f"{file}: expected no more than {layouts[0].end} bytes, as its header says, got {size}; "
+        "what follows is left alone: if positions jump from frame to frame, export the file again",
+        stacklevel=2,
+    )
+    return layouts[0]
+
+
+def _last_byte(path: Path, start: int, stop: int) -> int:
+    """Return the byte after the last one between ``start`` and ``stop`` that is not 0."""
+    for first in range(stop - _PIECE, start - _PIECE, -_PIECE):
+        with path.open("rb") as stream:
+            stream.seek(max(first, start))
+            used = len(stream.read(first + _PIECE - max(first, start)).rstrip(b"\0"))
+        if used:
+            return max(first, start) + used
+    return start
+
+
+def _claims(parameters: C3DParameters) -> dict[str, _Claims]:
+    """Return what header and parameters say of each part of a layout, the preferred one first."""
+    return {
+        "data from block": _starts(parameters),
+        "frames": _frame_counts(parameters),
+        "points": _point_counts(parameters),
+        "analogue numbers a frame": _sample_counts(parameters),
+        "scale": _scales(parameters),
+    }
+
+
+def _layout(processor: Processor, claimed: tuple[float, ...]) -> C3DLayout:
+    block, n_frames, n_points, n_samples = map(int, claimed[:-1])
+    return C3DLayout(processor, (block - 1) * BLOCK, n_frames, n_points, n_samples, claimed[-1])
+
+
+def _starts(parameters: C3DParameters) -> _Claims:
+    """Return the blocks at which data may begin; behind the parameters if none is named."""
+    named = [(_HEADER, parameters.header_word(9)), *_named(parameters, "POINT:DATA_START")]
+    claims = _first_of_each((block, where) for where, block in named if block >= 2)
+    return claims or {parameters.stop // BLOCK + 1: "the length of its parameters"}
+
+
+def _frame_counts(parameters: C3DParameters) -> _Claims:
+    """Return how many frames there may be.
+
+    The header counts in 16 bits, in which numbers of frames beyond 65,535 are lost or wrap around.
+    Parameters have more: a floating-point number, or two words, the low one first.
+    """
+    first, last = parameters.header_word(4), parameters.header_word(5)
+    named = [
+        *_named(parameters, "POINT:LONG_FRAMES"),
+        *_field_span(parameters),
+        (_HEADER, (last - first) % (_MOST + 1) + 1),
+        *_named(parameters, "POINT:FRAMES"),
+    ]
+    return _first_of_each((frames, where) for where, frames in named if frames >= 1)
+
+
+def _field_span(parameters: C3DParameters) -> list[tuple[str, float]]:
+    """Return the number of frames from the first to the last field of a trial."""
+    first, last = (
+        [number for _, number in _named(parameters, f"TRIAL:ACTUAL_{end}_FIELD")]
+        for end in ("START", "END")
+    )
+    spans = [last[0] - first[0] + 1] if first and last else []
+    return [("TRIAL:ACTUAL_START_FIELD and ACTUAL_END_FIELD", span) for span in spans]
+
+
+def _point_counts(parameters: C3DParameters) -> _Claims:
+    named = [(_HEADER, parameters.header_word(2)), *_named(parameters, "POINT:USED")]
+    return _first_of_each((points, where) for where, points in named)
+
+
+def _sample_counts(parameters: C3DParameters) -> _Claims:
+    """Return how many analogue numbers a frame may have: channels times samples of each."""
+    total, each = (float(parameters.header_word(number)) for number in (3, 10))
+    products = [
+        (channels * each, f"{name} and {_HEADER}")
+        for name, channels in _named(parameters, "ANALOG:USED")
+    ]
+    return _first_of_each([(total, _HEADER), *products, *_rated_counts(parameters).items()])
+
+
+def _rated_counts(parameters: C3DParameters) -> _Claims:
+    """Return how many analogue numbers a frame has by the rates of the parameters."""
+    names = ("ANALOG:USED", "ANALOG:RATE", "POINT:RATE")
+    stated = [number for name in names for _, number in _named(parameters, name)]
+    if len(stated) < len(names) or stated[2] <= 0:
+        return {}
+    channels, analogue, points = stated
+    return {channels * round(analogue / points): " and ".join(names)}
+
+
+def _scales(parameters: C3DParameters) -> _Claims:
+    """Return what integers may be multiplied by; of two such scales, that of the header.
+
+    In floating-point files the size of the scale says nothing about coordinates.
+    """
+    named = [(_HEADER, parameters.header_number(7)), *_named(parameters, "POINT:SCALE")]
+    scales = [(scale, where) for where, scale in named if scale]
+    floats = [(-1.0, where) for scale, where in scales if scale < 0]
+    integers = [(scale, where) for scale, where in scales if scale > 0]
+    return _first_of_each((*floats[:1], *integers[:1]))
+
+
+def _named(parameters: C3DParameters, name: str) -> list[tuple[str, float]]:
+    """Return the number of a parameter under its name, or nothing if it has none.
+
+    Two words are one number, the low word first.
+    """
+    numbers = parameters.numbers(name)[:2]
+    if numbers and parameters.values[name].kind == WORD:
+        numbers = [sum(word * (_MOST + 1) ** place for place, word in enumerate(numbers))]
+    return [(name, number) for number in numbers[:1] if isfinite(number)]
+
+
+def _first_of_each(claims: Iterable[tuple[float, str]]) -> _Claims:
+    """Return where each number is claimed first."""
+    found: _Claims = {}
+    for number, where in claims:
+        found.setdefault(number, where)
+    return found
+
+
+def _uncounted(file: str) -> FormatError:
+    expected = (
+        "the number of frames in POINT:LONG_FRAMES or TRIAL:ACTUAL_END_FIELD, as there are more "
+        f"than the {_MOST} that the header can count"
+    )
+    advice = "cut the recording into parts, or export it in another format"
+    return FormatError(file, expected, "neither", advice)

@@ -73,7 +73,7 @@ def test_a_file_larger_than_memory_is_refused_with_the_number(name, tmp_path, mo
         FORMATS.get(name)().read(path)
 
 
-@pytest.mark.parametrize(("name", "package"), [("c3d", "ezc3d"), ("parquet", "pyarrow")])
+@pytest.mark.parametrize(("name", "package"), [("parquet", "pyarrow")])
 def test_a_library_that_lacks_is_named_with_what_installs_it(name, package, tmp_path, monkeypatch):
     monkeypatch.setattr(base, "find_spec", lambda _: None)
     path = tmp_path / f"walk.{name}"
@@ -129,7 +129,10 @@ def test_a_format_has_no_skeleton_unless_it_says_so(tmp_path):
 
 @pytest.mark.parametrize(
     "error",
-    [FormatError("a.csv", "b", "c", "d", line=3), MissingExtraError("a.c3d", "ezc3d", "c3d")],
+    [
+        FormatError("a.csv", "b", "c", "d", line=3),
+        MissingExtraError("a.parquet", "pyarrow", "parquet"),
+    ],
 )
 def test_errors_pass_between_processes(error):
     again = pickle.loads(pickle.dumps(error))

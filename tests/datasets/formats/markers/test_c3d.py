@@ -3,10 +3,12 @@
 import ezc3d
 import numpy as np
 import pytest
+from c3d_files import write_bytes
 from format_files import markers, with_gap, write_c3d
 
 from mocapbench.datasets import C3DFormat, FormatError
-from mocapbench.datasets.formats.markers.c3d_layout import read_layout
+from mocapbench.datasets.formats.markers.c3d_layout import find_layout
+from mocapbench.datasets.formats.markers.c3d_parameters import read_parameters
 
 C3D = C3DFormat()
 RESIDUAL = 3
@@ -18,16 +20,17 @@ def given(tmp_path):
     return tmp_path / "given.c3d"
 
 
+def read_layout(path):
+    return find_layout(path, read_parameters(path))
+
+
 def numbers(path):
-    """Return the numbers of all frames, (N, numbers)."""
-    return np.array(read_layout(path).frames(path, 40))
+    """Return the numbers of all points, (N, numbers)."""
+    return np.array(read_layout(path).points(path, "r")).reshape(40, -1)
 
 
 def change(path, frame, number, value):
-    layout = read_layout(path)
-    frames = layout.frames(path, 40)
-    frames[frame, number] = value
-    frames.flush()
+    read_layout(path).points(path, "r+")[frame, number // 4, number % 4] = value
 
 
 def filled(path, value=0.5):
@@ -65,10 +68,7 @@ def test_only_filled_coordinates_and_their_residuals_change(given, tmp_path):
     assert np.array_equal(after, expected)
     layout = read_layout(given)
     one, two = given.read_bytes(), out.read_bytes()
-    assert (one[: layout.start], one[layout.end(40) :]) == (
-        two[: layout.start],
-        two[layout.end(40) :],
-    )
+    assert (one[: layout.start], one[layout.end :]) == (two[: layout.start], two[layout.end :])
     analog = ezc3d.c3d(str(out))["data"]["analogs"]
     assert np.array_equal(analog, ezc3d.c3d(str(given))["data"]["analogs"])
 
@@ -93,22 +93,15 @@ def test_one_coordinate_of_a_visible_point_can_be_replaced(given, tmp_path):
 
 
 def as_integers(path, scale):
-    """Rewrite a file of floats as one of integers to be multiplied by ``scale``."""
-    layout = read_layout(path)
-    data = bytearray(path.read_bytes()[: layout.start])
-    data[12:16] = np.float32(scale).tobytes()
-    at = data.index(b"SCALE") + 5 + 2 + 2  # name, offset, type and number of dimensions
-    data[at : at + 4] = np.float32(scale).tobytes()
-    frames = numbers(path)
-    frames[:, : 4 * layout.n_points] /= scale
-    frames[:, 3 : 4 * layout.n_points : 4] *= scale
-    path.write_bytes(bytes(data) + np.round(frames).astype("<i2").tobytes())
+    """Write a file of integers to be multiplied by ``scale``."""
+    write_bytes(path, with_gap(markers(40)).values.reshape(40, 5, 3), scale=scale)
 
 
 def test_a_file_of_integers_keeps_them(given, tmp_path):
     as_integers(given, 0.1)
     recording = C3D.read(given)
     assert np.allclose(recording.values, with_gap(markers(40)).values, atol=0.051, equal_nan=True)
+    assert read_layout(given).dtype == np.dtype("<i2")
     C3D.write(tmp_path / "out.c3d", filled(given, 12.34), like=given)
     before, after = numbers(given), numbers(tmp_path / "out.c3d")
     expected = before.copy()
@@ -118,7 +111,7 @@ def test_a_file_of_integers_keeps_them(given, tmp_path):
 
 def test_a_file_of_integers_refuses_what_it_cannot_hold(given, tmp_path):
     as_integers(given, 0.1)
-    expected = r"coordinates within ±3276.7, as the file stores integers, got -4000; export the"
+    expected = r"coordinates within ±3276.7, as the file stores them, got -4000; export the"
     with pytest.raises(FormatError, match=expected):
         C3D.write(tmp_path / "out.c3d", filled(given, -4000.0), like=given)
 
@@ -142,6 +135,10 @@ def header(path, at, *values):
     path.write_bytes(data)
 
 
+def more_points(path):
+    write_bytes(path, np.ones((40, 5, 3)), header={2: 99}, parameters={"POINT:USED": None})
+
+
 WRONG = {
     "an empty file": (lambda p: p.write_bytes(b""), "the header of a C3D file, got an empty file"),
     "another file": (
@@ -150,12 +147,10 @@ WRONG = {
     ),
     "cut short": (
         lambda p: p.write_bytes(p.read_bytes()[:3000]),
-        "as its header says, got 3000; th",
+        "as its header says, got 3000; the file is cut short",
     ),
-    "no points": (lambda p: header(p, 2, 0, 0), "expected 0 points, as its header says, got 5 in"),
-    "DEC": (lambda p: header(p, 515, 85), "Intel or MIPS computers, got those of a DEC computer"),
-    "no computer": (lambda p: header(p, 515, 9), "Intel or MIPS computers, got the type 9; export"),
-    "frames": (lambda p: header(p, 8, 255, 255), "expected [0-9]{7} bytes, as its header says"),
+    "no computer": (lambda p: header(p, 515, 9), r"DEC or MIPS computers .*, got the type 9; exp"),
+    "more points": (more_points, "expected [0-9]{5} bytes, as its header says, got [0-9]{4}; the"),
 }
 
 
@@ -176,10 +171,7 @@ def test_what_is_wrong_is_said_plainly(given, damage):
 
 
 def test_a_file_without_a_rate_can_be_given_one(given):
-    header(given, 20, 0, 0, 0, 0)
-    data = given.read_bytes()
-    at = data.index(b"RATE") + 4 + 2 + 2
-    given.write_bytes(data[:at] + bytes(4) + data[at + 4 :])
+    write_bytes(given, np.ones((40, 5, 3)), rate=0.0)
     with pytest.raises(FormatError, match="expected a positive frame rate, got 0; name the rate"):
         C3D.read(given)
     assert C3D.read(given, rate=50.0).times[1] == 0.02
