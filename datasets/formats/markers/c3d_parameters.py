@@ -84,9 +84,10 @@ class C3DParameters:
         kind, _, data = self.values.get(name, _NOTHING)
         whole = data[: len(data) // abs(kind) * abs(kind)] if kind else data
         if kind == FLOAT:
-            return self._floats(whole).tolist()
+            return [float(number) for number in self._floats(whole)]
         if kind in (BYTE, WORD):
-            return np.frombuffer(whole, f"{self.processor.order}u{kind}").astype(float).tolist()
+            words = np.frombuffer(whole, f"{self.processor.order}u{kind}")
+            return [float(word) for word in words]
         return []
 
     def texts(self, name: str) -> Iterator[str]:

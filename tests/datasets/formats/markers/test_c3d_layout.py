@@ -11,6 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.datasets import C3DFormat, FormatError
+from mocapbench.datasets.formats.markers.c3d_layout import find_layout
+from mocapbench.datasets.formats.markers.c3d_parameters import read_parameters
 
 C3D = C3DFormat()
 TOTAL = N_ANALOGUE * EACH
@@ -98,6 +100,13 @@ def test_a_disagreement_that_nothing_decides_is_refused_with_both_counts(tmp_pat
         C3D.read(path)
 
 
+def test_counts_that_disagree_and_leave_a_part_of_a_block_are_refused(tmp_path):
+    parameters = {"ANALOG:USED": word("Intel", 2)}
+    path = write_bytes(tmp_path / "given.c3d", positions(), header={3: 0}, parameters=parameters)
+    with pytest.raises(FormatError, match="analogue numbers a frame: 0 in its header, 4 in ANALO"):
+        C3D.read(path)
+
+
 def test_blocks_of_zeros_may_follow_and_others_may_not(tmp_path):
     path = write_bytes(tmp_path / "given.c3d", positions())
     data = path.read_bytes()
@@ -121,6 +130,27 @@ def test_parameters_may_stand_elsewhere(tmp_path):
     assert np.array_equal(
         C3D.read(path).values.reshape(40, 4, 3), positions().astype("f4"), equal_nan=True
     )
+
+
+def test_parameters_may_stand_behind_the_data(tmp_path):
+    path = write_bytes(tmp_path / "given.c3d", positions(), parameters={"POINT:DATA_START": None})
+    data = path.read_bytes()
+    start = find_layout(path, read_parameters(path)).start
+    head = bytearray(data[:512])
+    head[0], head[16:18] = 2 + (len(data) - start) // 512, word("Intel", 2)[2]
+    path.write_bytes(bytes(head) + data[start:] + data[512:start])
+    with warnings.catch_warnings(action="error"):
+        assert C3D.read(path).visible.sum() == 3 * 150
+
+
+def test_rotations_may_follow_the_points(tmp_path):
+    path = write_bytes(tmp_path / "given.c3d", positions())
+    block = len(path.read_bytes()) // 512 + 1
+    rotations = {"ROTATION:DATA_START": word("Intel", block)}
+    path = write_bytes(tmp_path / "given.c3d", positions(), parameters=rotations)
+    path.write_bytes(path.read_bytes() + b"more" * 512)
+    with warnings.catch_warnings(action="error"):
+        assert C3D.read(path).visible.sum() == 3 * 150
 
 
 def test_two_rates_are_said_and_the_parameter_is_taken(tmp_path):
