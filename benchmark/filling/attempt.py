@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines import FrameImputer, Prediction
+from mocapbench.benchmark.filling.constants import keep_constants
 from mocapbench.benchmark.filling.question import FilledEntries, GapQuestion, without_unseen
 from mocapbench.benchmark.filling.windows import Window, windows_of
 from mocapbench.benchmark.messages import reason
@@ -76,7 +77,8 @@ def attempt(
     try:
         with warnings.catch_warnings(action="ignore"):
             windows = windows_of(question, model.max_frames)
-            answer = _merged(question, [(w, _filled(model, part, method)) for w, part in windows])
+            merged = _merged(question, [(w, _filled(model, part, method)) for w, part in windows])
+            answer = keep_constants(question, merged)
     except MemoryError:
         return Attempt(None, f"needed more than {memory / 2**30:.1f} GiB of memory")
     except BaseException as error:  # a model that calls sys.exit has failed like any other
