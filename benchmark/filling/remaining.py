@@ -24,9 +24,12 @@ def remaining(request: FillRequest) -> Iterator[str]:
         yield f"{were} left open."
     if request.unlabelled:
         yield _unlabelled(marker_names(request.unlabelled))
+    if request.outputs:
+        yield _outputs(marker_names(request.outputs))
     if request.unknown:
         yield _unknown(marker_names(request.unknown))
-    others = ~np.isin(request.given.channels, [*request.unlabelled, *request.unknown])
+    told = [*request.unlabelled, *request.outputs, *request.unknown]
+    others = ~np.isin(request.given.channels, told)
     rest = int((~request.given.visible & ~request.target)[:, others].sum())
     if rest:
         stay = counted(rest, "hidden entry stays", "hidden entries stay")
@@ -38,6 +41,15 @@ def _unlabelled(markers: Sequence[str]) -> str:
     return (
         f"{counted(len(markers), 'unlabelled marker')} ({first_of(markers, _NAMED)}) {stay}: "
         f"name {them} with --channels to fill {them}."
+    )
+
+
+def _outputs(points: Sequence[str]) -> str:
+    count = counted(len(points), "result of a model of the body", "results of a model of the body")
+    stay, them = ("stays as it is", "it") if len(points) == 1 else ("stay as they are", "them")
+    return (
+        f"{count} ({first_of(points, _NAMED)}) {stay}, as the model gives {them} anew from filled "
+        f"markers: name {them} with --channels to fill {them}."
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from mocapbench.benchmark.filling.question import GapQuestion, with_channels
 from mocapbench.benchmark.filling.requests.channels import chosen
+from mocapbench.benchmark.filling.requests.model_outputs import model_outputs
 from mocapbench.benchmark.filling.requests.names import is_unlabelled
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
@@ -32,7 +33,7 @@ class Source:
         What of it is to be filled.
     train : tuple of Recording
         Other files that models learn from, with the channels of the file, in its order; unlabelled
-        markers that they lack are hidden throughout.
+        markers and results of a model that they lack are hidden throughout.
     """
 
     path: Path
@@ -42,7 +43,11 @@ class Source:
 
     @property
     def question(self) -> GapQuestion:
-        """What is asked of a model, without unlabelled markers of which nothing is to be filled."""
+        """What is asked of a model.
+
+        It is without unlabelled markers and results of a model of the body of which nothing is to
+        be filled.
+        """
         request = self.request
         wanted = chosen(request.given, None) | request.target.any(axis=0)
         return with_channels(GapQuestion(request.given, request.target, self.train), wanted)
@@ -104,11 +109,12 @@ def _read(path: Path, rate: float | None) -> Recording:
 def _matched(other: Recording, recording: Recording) -> Recording:
     """Return the channels of ``recording`` from another one, which stays whole if it lacks any.
 
-    An unlabelled marker is nobody's in particular: where the other lacks one, nothing of it shows.
+    An unlabelled marker is nobody's in particular, and a result of a model no marker: where the
+    other lacks one, nothing of it shows.
     """
     units = dict(zip(recording.channels, recording.units, strict=True))
     lacking = [name for name in recording.channels if name not in other.channels]
-    if not all(map(is_unlabelled, lacking)):
+    if not {*lacking} <= {*filter(is_unlabelled, lacking), *model_outputs(recording.channels)}:
         return other
     hidden = np.full((len(other.times), len(lacking)), np.nan)
     padded = replace(

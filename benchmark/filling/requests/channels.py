@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.filling.requests.model_outputs import model_outputs
 from mocapbench.benchmark.filling.requests.names import is_unlabelled
 from mocapbench.datasets import Recording
 
@@ -15,7 +16,9 @@ __all__ = ["chosen"]
 
 
 def chosen(recording: Recording, pattern: str | None) -> NDArray[np.bool_]:
-    """Return which channels (D,) a regular expression matches; without one, all labelled ones.
+    """Return which channels (D,) a regular expression matches.
+
+    Without one, they are all that are of labelled markers, not results of a model of the body.
 
     Raises
     ------
@@ -23,7 +26,8 @@ def chosen(recording: Recording, pattern: str | None) -> NDArray[np.bool_]:
         If it is not a regular expression, or matches no channel.
     """
     if pattern is None:
-        return np.array([not is_unlabelled(name) for name in recording.channels], dtype=bool)
+        others = {*filter(is_unlabelled, recording.channels), *model_outputs(recording.channels)}
+        return np.array([name not in others for name in recording.channels], dtype=bool)
     matches = np.array([_matches(pattern, name) for name in recording.channels], dtype=bool)
     if not matches.any():
         some = ", ".join(recording.channels[:5])

@@ -19,13 +19,20 @@ class NothingToFillError(UsageError):
     """A recording that needs no filling; others may need it."""
 
 
-def no_gap(recording: Recording, pattern: str | None, unlabelled: Sequence[str]) -> str:
-    """Return that nothing is hidden in the channels of a pattern, or in the labelled ones."""
-    if unlabelled and pattern is None:
-        names = marker_names(unlabelled)
+def no_gap(
+    recording: Recording, pattern: str | None, unlabelled: Sequence[str], outputs: Sequence[str]
+) -> str:
+    """Return that nothing is hidden in the channels of a pattern, or in those of markers."""
+    if (unlabelled or outputs) and pattern is None:
+        strays, results = (len(marker_names(names)) for names in (unlabelled, outputs))
+        counts = [
+            counted(strays, "unlabelled marker") if strays else "",
+            counted(results, "result of a model", "results of a model") if results else "",
+        ]
+        names = marker_names((*unlabelled, *outputs))
         return (
             f"{recording.name}: expected a gap in a labelled marker, got hidden entries of "
-            f"{counted(len(names), 'unlabelled marker')} only ({first_of(names, _NAMED)}); "
+            f"{' and '.join(filter(None, counts))} only ({first_of(names, _NAMED)}); "
             "--channels '.*' fills all channels"
         )
     which = "entries" if pattern is None else f"entries of {pattern!r}"

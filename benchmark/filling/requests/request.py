@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of, mask_of
 from mocapbench.benchmark.filling.requests.channels import chosen
+from mocapbench.benchmark.filling.requests.model_outputs import model_outputs
 from mocapbench.benchmark.filling.requests.names import is_unlabelled
 from mocapbench.benchmark.filling.requests.refusals import (
     NothingToFillError,
@@ -32,7 +33,7 @@ class NamedEntries:
         Frames [first, stop), 0-based, which are filled whether the file has values there or not.
     channels : str or None
         A regular expression that matches the whole name of a channel. Without one, all channels
-        but those of unlabelled markers are meant.
+        but those of unlabelled markers and of results of a model of the body are meant.
     max_gap : float or None
         Seconds; longer gaps stay open.
     """
@@ -60,6 +61,8 @@ class FillRequest:
         Channels that were asked for, and of which there is nothing to fill them from.
     replaced : int
         How many of the entries to fill had a value.
+    outputs : tuple of str
+        Channels of results of a model of the body that have hidden entries, and that nobody named.
     """
 
     given: Recording
@@ -68,6 +71,7 @@ class FillRequest:
     unlabelled: tuple[str, ...] = ()
     unknown: tuple[str, ...] = ()
     replaced: int = 0
+    outputs: tuple[str, ...] = ()
 
     @property
     def gaps(self) -> tuple[Gap, ...]:
@@ -90,9 +94,11 @@ def select(
         If frames or channels are not in the recording, or nothing is visible.
     """
     asked = _asked(recording, entries)
-    unlabelled = tuple(filter(is_unlabelled, _incomplete(recording, asked)))
+    incomplete = _incomplete(recording, asked)
+    unlabelled = tuple(filter(is_unlabelled, incomplete))
+    outputs = tuple(name for name in model_outputs(recording.channels) if name in incomplete)
     if not asked.any():
-        raise NothingToFillError(no_gap(recording, entries.channels, unlabelled))
+        raise NothingToFillError(no_gap(recording, entries.channels, unlabelled, outputs))
     given = recording.hide(asked)
     if not given.visible.any():
         raise UsageError(
@@ -108,7 +114,9 @@ def select(
     target = named & ~mask_of(left_open, named.shape)
     replaced = int((target & recording.visible).sum())
     open_too = recording.hide(named)
-    return FillRequest(unwrapped(open_too), target, left_open, unlabelled, unknown, replaced)
+    return FillRequest(
+        unwrapped(open_too), target, left_open, unlabelled, unknown, replaced, outputs
+    )
 
 
 def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[Gap, ...]:

@@ -9,11 +9,12 @@ from pathlib import Path
 import format_files
 import numpy as np
 import pytest
+from c3d_files import write_bytes
 
 from mocapbench.benchmark import FORMATS, format_for
 from mocapbench.benchmark.cli import fill as command
 from mocapbench.benchmark.filling.workers import Workers
-from mocapbench.datasets import AcclaimFormat, CSVFormat
+from mocapbench.datasets import AcclaimFormat, C3DFormat, CSVFormat
 from mocapbench.datasets.formats import memory
 
 HEADER = "time,hip [deg],knee [deg],height [cm]"
@@ -361,3 +362,22 @@ def test_an_interrupt_has_its_own_exit_code(cli, walk, out, monkeypatch):
 def test_a_rate_is_positive(cli, walk, out, rate):
     assert cli("fill", walk, f"--rate={rate}", "--model", "linear", "--out", out) == 2
     assert "positive rate" in cli.printed
+
+
+def test_a_disagreeing_c3d_is_filled_and_one_that_cannot_be_understood_ends_with_2(
+    cli, tmp_path, out
+):
+    values = np.random.default_rng(0).uniform(-9, 9, (60, 3, 3)).cumsum(axis=0)
+    values[20:30, :2] = np.nan
+    labels = ["LKNE", "Ann:LFEO", "RKNE"]
+    given = write_bytes(tmp_path / "given.c3d", values, "DEC", labels=labels, header={3: 3})
+    assert cli("fill", given, "--model", "linear", "--out", out) == 0
+    assert "1 result of a model of the body (Ann:LFEO) stays as it is" in cli.printed
+    filled = C3DFormat().read(out / "given.c3d")
+    assert filled.visible[:, [0, 1, 2, 6, 7, 8]].all()
+    assert not filled.visible[20:30, 3:6].any()
+    data = bytearray(given.read_bytes())
+    data[515] = 9
+    given.write_bytes(data)
+    assert cli("fill", given, "--model", "linear", "--out", tmp_path / "more") == 2
+    assert "expected numbers of Intel, DEC or MIPS computers" in cli.printed
