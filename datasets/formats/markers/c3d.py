@@ -41,7 +41,7 @@ class C3DFormat(Format):
     """
 
     suffixes = (".c3d",)
-    memory_per_byte = 24.0
+    memory_per_byte = 12.0
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""

@@ -7,11 +7,11 @@ is negative where the record names that group, the name, and the distance to the
 the type of the values, their dimensions, and the values.
 """
 
-# Why not by a library: of 74 files of some 15 programs, ezc3d 1.7 refuses 11 (MIPS, PhoeniX,
+# Why not by a library: of 73 files of some 15 programs, ezc3d 1.7 refuses 11 (MIPS, PhoeniX,
 # OptiTrack, BKIN) and reads others by parameters that are wrong, so that coordinates are shifted
-# from the second frame on; c3d 0.6 refuses 15, as it insists that header and parameters agree.
-# Neither tells where a number stands, which writing needs in order to leave all else as it is.
-# The tests compare with both.
+# from the second frame on; c3d 0.6 refuses 11, as it insists that header and parameters agree and
+# that no name repeats. Neither tells where a number stands, which writing needs in order to leave
+# all else as it is. The tests compare with both.
 
 from __future__ import annotations
 
