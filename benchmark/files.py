@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
 
-from mocapbench.basics.whole_files import target_of
+from mocapbench.basics.whole_files import LONGEST_NAME
 from mocapbench.benchmark.errors import UsageError
 
 __all__ = [
     "ENTRIES",
     "is_writable",
+    "require_short_names",
     "require_writable_folder",
     "words_of",
 ]
@@ -38,6 +40,23 @@ def require_writable_folder(option: str, folder: Path) -> None:
             f"{option}: expected a folder that can be written to, got {folder}; "
             "name another, or change its permissions"
         )
+
+
+def require_short_names(option: str, paths: Iterable[Path]) -> None:
+    """Refuse files whose names are too long to be written, whole or in part.
+
+    Raises
+    ------
+    UsageError
+        If one is.
+    """
+    for path in paths:
+        length = len(os.fsencode(path.name))
+        if length > LONGEST_NAME:
+            raise UsageError(
+                f"{option}: expected files whose names have at most {LONGEST_NAME} bytes, got "
+                f"{length} in {path.name}; give the recording a shorter name"
+            )
 
 
 def words_of(error: OSError) -> str:

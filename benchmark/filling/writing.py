@@ -11,7 +11,7 @@ import pandas as pd
 
 from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.files import ENTRIES, require_writable_folder
+from mocapbench.benchmark.files import ENTRIES, require_short_names, require_writable_folder
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.reports import csv_text
 
@@ -35,8 +35,8 @@ def outputs_of(files: Sequence[Path], folder: Path) -> list[Outputs]:
     Raises
     ------
     UsageError
-        If the folder is a file or cannot be written to, a file to write exists, or two have one
-        name.
+        If the folder is a file or cannot be written to, a file to write exists, has too long a
+        name, or two have one name.
     """
     if folder.exists() and not folder.is_dir():
         raise UsageError(f"--out: expected a folder, got the file {folder}; name another")
@@ -46,6 +46,7 @@ def outputs_of(files: Sequence[Path], folder: Path) -> list[Outputs]:
         for file in files
     ]
     paths = [path for written in outputs for path in written]
+    require_short_names("--out", paths)
     existing = [path for path in paths if path.exists()]
     if existing:
         raise UsageError(

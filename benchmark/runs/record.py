@@ -12,7 +12,7 @@ from typing import Any, Self
 
 import orjson
 
-from mocapbench.basics.words import printable
+from mocapbench.basics.words import encodable, printable
 from mocapbench.benchmark.tasks.address import Address
 
 __all__ = ["Record", "RecordError", "Status"]
@@ -166,22 +166,17 @@ def _parsed(text: str | bytes) -> Any:
 def _plain(text: str) -> str:
     """Return ``text`` without what no file, no terminal and no spreadsheet would show."""
     lines = text.replace("\r\n", "\n").replace("\r", "\n")
-    return _encodable(printable(lines))
-
-
-def _encodable(text: str) -> str:
-    """Return ``text`` with surrogates escaped, which no file and no terminal would take."""
-    return text.encode("utf-8", "backslashreplace").decode()
+    return printable(lines)
 
 
 def _without_nan(value: Any) -> Any:
     match value:
         case dict():
-            return {_encodable(str(key)): _without_nan(item) for key, item in value.items()}
+            return {encodable(str(key)): _without_nan(item) for key, item in value.items()}
         case list() | tuple():
             return [_without_nan(item) for item in value]
         case str():
-            return _encodable(value)
+            return encodable(value)
         case float() if not math.isfinite(value):
             return None
         case _:

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from mocapbench.datasets.acclaim.errors import AcclaimError
+from mocapbench.datasets.encoding import MARK, decode_text
 
 __all__ = [
     "FINITE_NUMBERS",
@@ -125,7 +126,8 @@ def read_text(path: str | Path, max_bytes: int) -> str:
     Raises
     ------
     AcclaimError
-        If the file cannot be opened, is too large, has an over-long line, is empty or is not UTF-8.
+        If the file cannot be opened, is too large, has an over-long line, is empty or has
+        a NUL byte.
     """
     file = str(path)
     try:
@@ -136,7 +138,10 @@ def read_text(path: str | Path, max_bytes: int) -> str:
     _require_bounded(data, file, max_bytes)
     if not data or data.isspace():
         raise AcclaimError(file, None, "an Acclaim file", "an empty file")
-    return _decoded(data, file)
+    if b"\0" in data:
+        number = data.count(b"\n", 0, data.index(b"\0")) + 1
+        raise AcclaimError(file, number, "text in UTF-8 or Windows-1252", "a NUL byte")
+    return decode_text(data).removeprefix(MARK)
 
 
 def _chunks(stream: BinaryIO, max_bytes: int) -> Iterator[bytes]:
@@ -155,16 +160,6 @@ def _require_bounded(data: bytes, file: str, max_bytes: int) -> None:
     if len(data) > max_bytes:
         expected = f"a file of at most {max_bytes / 2**20:g} MiB"
         raise AcclaimError(file, None, expected, "a larger one")
-
-
-def _decoded(data: bytes, file: str) -> str:
-    try:
-        return data.decode("utf-8")
-    except UnicodeDecodeError as problem:
-        start = problem.start
-    # Not in the clause, as the other error keeps all of the data.
-    line = data.count(b"\n", 0, start) + 1
-    raise AcclaimError(file, line, "UTF-8 text", f"the byte {data[start]:#04x}")
 
 
 def _beginning(text: str, length: int) -> str:

@@ -195,7 +195,9 @@ class Format(ABC):
         with _plain_errors(path):
             size = path.stat().st_size
             check_fits(str(path), size, self.memory_per_byte * size)
-            return self.load(path, rate)
+            recording = self.load(path, rate)
+            _check_texts(path.name, recording)
+            return recording
 
     def _check_suffix(self, path: Path) -> None:
         if path.suffix.lower() not in self.suffixes:
@@ -205,6 +207,14 @@ class Format(ABC):
                 f"{path.suffix!r}",
                 "name a file of this format",
             )
+
+
+def _check_texts(file: str, recording: Recording) -> None:
+    """Refuse names and units that no table and no page could hold: halves of characters."""
+    for text in (*recording.channels, *recording.units):
+        if any("\ud800" <= character <= "\udfff" for character in text):
+            advice = "rename the channel, or export the recording again with text in UTF-8"
+            raise FormatError(file, "names and units of whole characters", ascii(text), advice)
 
 
 def _check_shape(filled: Recording, raw: Recording, path: Path) -> None:

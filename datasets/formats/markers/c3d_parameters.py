@@ -24,6 +24,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mocapbench.datasets.encoding import decode_text
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.markers.c3d_numbers import PROCESSORS, Processor
 
@@ -97,9 +98,8 @@ class C3DParameters:
             kind, dimensions, data = self.values[one]
             width = dimensions[0] if dimensions else 1
             if kind == TEXT and width:
-                yield from (
-                    _decode_text(bytes(data[at : at + width])) for at in range(0, len(data), width)
-                )
+                padded = (bytes(data[at : at + width]) for at in range(0, len(data), width))
+                yield from (decode_text(text.strip(b" \0")) for text in padded)
 
     def _floats(
         self, data: bytes | memoryview
@@ -177,15 +177,3 @@ def _values_of(content: memoryview) -> Values:
     first = 2 + max(n_dimensions, 0)
     dimensions = tuple(content[2:first])
     return Values(kind, dimensions, content[first : first + abs(kind) * prod(dimensions)])
-
-
-def _decode_text(text: bytes) -> str:
-    """Return a text without the blanks and zeros that pad it.
-
-    The format knows ASCII alone; programs write UTF-8, or else what Windows has in Western Europe.
-    """
-    bare = text.strip(b" \0")
-    try:
-        return bare.decode("utf-8")
-    except UnicodeDecodeError:
-        return bare.decode("cp1252", "replace")

@@ -16,19 +16,15 @@ _EXAMPLE = "write such as 'time,hip.x [cm],hip.y [cm]' in the first line"
 
 
 def check_lines(file: str, lines: Sequence[str]) -> None:
-    """Refuse what is not text, and what is one line to all but old programs.
+    """Refuse a file without text, and what is one line to all but old programs.
 
     Raises
     ------
     FormatError
-        If there is no line, one has a NUL byte, or a carriage return alone ends the first.
+        If there is no line, or a carriage return alone ends the first.
     """
     if not lines:
         raise FormatError(file, _EXPECTED, "an empty file", _EXAMPLE, line=1)
-    for number, line in enumerate(lines, start=1):
-        if "\0" in line:
-            expected = "text in UTF-8, or in UTF-16 with a byte order mark"
-            raise FormatError(file, expected, "a NUL byte", "save it as CSV in UTF-8", number)
     if "\r" in lines[0].rstrip("\r\n"):
         expected, got = "lines that end with LF or CR LF", "lines that end with CR alone"
         raise FormatError(file, expected, got, "save it with other line ends", line=1)
@@ -66,4 +62,4 @@ def _stands_above(names: Sequence[str], below: Sequence[str]) -> bool:
 
 
 def _shown(line: str) -> str:
-    return repr(line.lstrip("\ufeff")[:_SHOWN].rstrip())
+    return repr(line[:_SHOWN].rstrip())

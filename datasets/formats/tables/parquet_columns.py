@@ -18,7 +18,7 @@ __all__ = ["read_columns", "write_columns"]
 
 def read_columns(path: str) -> Mapping[str, NDArray[Any]]:
     """Return ``names`` (C,), ``is_number`` (C,) and ``values`` (N, C), NaN where there is none."""
-    table = pq.read_table(path, use_threads=False)
+    table = _read_table(Path(path))
     is_number = [_is_number(field.type) for field in table.schema]
     values = np.full((len(table), len(is_number)), np.nan)
     for index in np.flatnonzero(is_number).tolist():
@@ -34,7 +34,7 @@ def write_columns(
     path: Path, columns: Sequence[int], values: FrameByChannel, new: Mask, like: Path
 ) -> None:
     """Write a copy of a file with the ``new`` entries (N, columns) of some columns replaced."""
-    table = pq.read_table(like)
+    table = _read_table(like)
     for place in np.flatnonzero(new.any(axis=0)).tolist():
         index = columns[place]
         old, rows = table.column(index), new[:, place]
@@ -43,7 +43,14 @@ def write_columns(
         filled = np.where(rows, values[:, place], _floats(old)).astype(kind.to_pandas_dtype())
         field = table.schema.field(index).with_type(kind)
         table = table.set_column(index, field, pa.array(filled, kind, mask=missing))
-    pq.write_table(table, path)
+    with path.open("wb") as stream:
+        pq.write_table(table, stream)
+
+
+def _read_table(path: Path) -> pa.Table:
+    # From a stream: pyarrow takes no name that is not UTF-8, and a folder "a=1" for a column.
+    with path.open("rb") as stream:
+        return pq.read_table(stream, use_threads=False)
 
 
 def _is_number(kind: pa.DataType) -> bool:

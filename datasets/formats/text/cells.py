@@ -10,7 +10,6 @@ from typing import Protocol
 __all__ = ["CellSplitter", "Separated", "Words"]
 
 _ENDS = "\r\n"
-_BYTE_ORDER_MARK = "\ufeff"
 
 
 class CellSplitter(Protocol):
@@ -37,10 +36,9 @@ class Separated:
 
     def split(self, line: str) -> list[str]:
         """Return the cells of a line, without quotes and the blanks around."""
-        text = line.removeprefix(_BYTE_ORDER_MARK)
-        if '"' not in text:
-            return text.rstrip(_ENDS).split(self.separator)
-        return [cell.strip().strip('"') for cell in self._quoted(text)]
+        if '"' not in line:
+            return line.rstrip(_ENDS).split(self.separator)
+        return [cell.strip().strip('"') for cell in self._quoted(line)]
 
     def replaced(self, line: str, new: Mapping[int, str]) -> str:
         """Return the line with the cells of some indices replaced; a short line is lengthened."""

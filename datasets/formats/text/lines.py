@@ -2,43 +2,44 @@
 
 from __future__ import annotations
 
-import codecs
 from collections.abc import Sequence
 from pathlib import Path
 
+from mocapbench.datasets.encoding import MARK, encoding_of
+from mocapbench.datasets.formats.errors import FormatError
+
 __all__ = ["read_lines", "write_lines"]
 
-_MARKS = {  # that of UTF-32 begins with that of UTF-16, and comes first
-    codecs.BOM_UTF32_LE: "utf-32-le",
-    codecs.BOM_UTF32_BE: "utf-32-be",
-    codecs.BOM_UTF16_LE: "utf-16-le",
-    codecs.BOM_UTF16_BE: "utf-16-be",
-}
+_ADVICE = "save it as text in UTF-8"
 
 
 def read_lines(path: Path) -> list[str]:
-    """Return the lines of a text file with their ends.
+    """Return the lines of a text file with their ends, without a byte order mark.
 
-    It is UTF-8 unless it begins with the byte order mark of UTF-16 or UTF-32. The mark stays part
-    of the first line, and bytes that are not UTF-8 are kept.
+    Raises
+    ------
+    FormatError
+        If it is not in the encoding that its byte order mark names, or a line has a NUL byte.
     """
-    encoding, errors = _encoding(path)
-    with path.open(encoding=encoding, errors=errors, newline="\n") as file:
-        return file.readlines()
+    encoding = encoding_of(path)
+    try:
+        with path.open(encoding=encoding, newline="\n") as file:
+            lines = file.readlines()
+    except UnicodeDecodeError as error:
+        expected = f"text in {encoding.upper()}, as its byte order mark says"
+        raise FormatError(path.name, expected, error.reason, _ADVICE) from error
+    for number, line in enumerate(lines, start=1):
+        if "\0" in line:
+            expected = "text in UTF-8, or in UTF-16 with a byte order mark"
+            raise FormatError(path.name, expected, "a NUL byte", _ADVICE, number)
+    return [line.removeprefix(MARK) for line in lines[:1]] + lines[1:]
 
 
 def write_lines(path: Path, lines: Sequence[str], like: Path) -> None:
     """Write lines that have their ends in the encoding of a file, the inverse of `read_lines`."""
-    encoding, errors = _encoding(like)
-    with path.open("w", encoding=encoding, errors=errors, newline="\n") as file:
+    encoding = encoding_of(like)
+    with like.open(encoding=encoding) as given:
+        mark = given.read(1) == MARK
+    with path.open("w", encoding=encoding, newline="\n") as file:
+        file.write(MARK * mark)
         file.writelines(lines)
-
-
-def _encoding(path: Path) -> tuple[str, str]:
-    """Return the encoding of a file, and how to treat what is not text in it."""
-    with path.open("rb") as file:
-        start = file.read(4)
-    for mark, encoding in _MARKS.items():
-        if start.startswith(mark):
-            return encoding, "surrogatepass"
-    return "utf-8", "surrogateescape"

@@ -10,10 +10,14 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
 
-__all__ = ["atomic_write", "stage_file", "target_of", "write_bytes", "write_text"]
+from mocapbench.basics.words import encodable
+
+__all__ = ["LONGEST_NAME", "atomic_write", "stage_file", "target_of", "write_bytes", "write_text"]
 
 _READABLE = 0o644
 _SUFFIX = ".tmp"
+LONGEST_NAME = 255 - len("..12345678") - len(_SUFFIX)
+"""In bytes, of what file systems take, with room for what `stage_file` puts around a name."""
 _TEMPORARY = re.compile(r"\.(?P<target>.+)\.[a-z0-9_]{8}\.tmp")
 """The names that `stage_file` gives."""
 
@@ -46,8 +50,8 @@ def atomic_write(path: Path) -> Iterator[IO[bytes]]:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write ``text`` as UTF-8, whole or not at all."""
-    write_bytes(path, text.encode())
+    """Write ``text`` as UTF-8, whole or not at all; lone surrogates are escaped."""
+    write_bytes(path, encodable(text).encode())
 
 
 def write_bytes(path: Path, content: bytes) -> None:

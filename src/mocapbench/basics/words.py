@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-__all__ = ["counted", "listed", "printable"]
+from collections.abc import Sequence
+
+__all__ = ["counted", "encodable", "listed", "printable"]
 
 _CONTROL = r"\x00-\x08\x0b-\x1f\x7f-\x9f"
 _BIDIRECTIONAL = r"\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"
@@ -37,13 +39,26 @@ def listed(names: Sequence[str], most: int) -> str:
 def printable(text: str) -> str:
     r"""Return ``text`` without escape sequences, control characters and marks of direction.
 
-    Line feeds and tabs stay. Names and messages come from packages, files and runs of others;
-    through them a terminal could be cleared or made to show a link elsewhere, and marks of
-    direction let text be read as another.
+    Line feeds and tabs stay, and lone surrogates are escaped (`encodable`). Names and messages come
+    from packages, files and runs of others; through them a terminal could be cleared or made to
+    show a link elsewhere, and marks of direction let text be read as another.
 
     Examples
     --------
     >>> printable("\x1b]8;;http://elsewhere\x1b\\knn\x1b]8;;\x1b\\ \x1b[31mfailed\x1b[0m")
     'knn failed'
     """
-    return _UNPRINTABLE.sub("", text)
+    return encodable(_UNPRINTABLE.sub("", text))
+
+
+def encodable(text: str) -> str:
+    r"""Return ``text`` with lone surrogates escaped, which no file and no terminal takes.
+
+    Python has them for the bytes of a file's name that are not UTF-8.
+
+    Examples
+    --------
+    >>> encodable("T\udceate.c3d")
+    'T\\udceate.c3d'
+    """
+    return text.encode("utf-8", "backslashreplace").decode()

@@ -29,10 +29,22 @@ def test_a_missing_file_and_a_folder_are_refused_by_name(tmp_path):
         assert (caught.value.file, caught.value.line) == (str(path), None)
 
 
-def test_bytes_that_are_not_utf8_are_refused_with_their_line(tmp_path):
+def test_bytes_that_are_not_utf8_are_windows_1252(tmp_path):
     path = tmp_path / "a.asf"
-    path.write_bytes(b"one\ntwo\nth\xffree\n")
-    with pytest.raises(AcclaimError, match="UTF-8") as caught:
+    path.write_bytes(b"one\ntwo\nth\xearee\n")
+    assert read_text(path, LIMIT) == "one\ntwo\nthêree\n"
+
+
+def test_a_byte_order_mark_is_left_out(tmp_path):
+    path = tmp_path / "a.asf"
+    path.write_text("thêree\n", encoding="utf-8-sig")
+    assert read_text(path, LIMIT) == "thêree\n"
+
+
+def test_a_nul_byte_is_refused_with_its_line(tmp_path):
+    path = tmp_path / "a.asf"
+    path.write_bytes(b"one\ntwo\nth\0ree\n")
+    with pytest.raises(AcclaimError, match="expected text in UTF-8 or Windows-1252") as caught:
         read_text(path, LIMIT)
     assert caught.value.line == 3
 
