@@ -75,7 +75,7 @@ def _cases(file: TaskFile, settings: Settings, hidden: Hidden) -> tuple[Case, ..
         patterns = (address(hidden.pattern),) if hidden.pattern else ()
         protocol = Protocol(settings.selection, variant.hiding)
         case = Case(
-            f"{names[test]} {variant.name}".rstrip(),
+            f"{names[test]} {variant.name}" if variant.name else names[test],
             partial(own_problem, protocol, address(test), training),
             {"recording": names[test], **variant.columns},
             tuple(dict.fromkeys((address(test), *training, *patterns))),
@@ -88,7 +88,7 @@ def _cases(file: TaskFile, settings: Settings, hidden: Hidden) -> tuple[Case, ..
 def _names(paths: tuple[str, ...]) -> dict[str, str]:
     """Return what to call recordings: their paths, without the suffix where they stay distinct."""
     short = {path: str(PurePosixPath(path).with_suffix("")) for path in paths}
-    twice = {name for name, count in Counter(short.values()).items() if count > 1}
+    twice = {name for name, count in Counter([*short.values(), *paths]).items() if count > 1}
     return {path: path if name in twice else name for path, name in short.items()}
 
 

@@ -16,6 +16,7 @@ from mocapbench.benchmark.task_files.library import address_of
 from mocapbench.benchmark.task_files.settings import read_settings
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.task_files.trial import TrialRun
+from mocapbench.reports.printable import encodable
 
 __all__ = ["checked", "open_task_file", "open_task_files", "require_folder"]
 
@@ -82,9 +83,10 @@ def require_folder(folder: Path) -> None:
     UsageError
         If it is so.
     """
-    if not folder.is_dir() or ":" in str(folder.resolve()):
+    path = str(folder.resolve())
+    if not folder.is_dir() or ":" in path or encodable(path) != path:
         raise UsageError(
-            f"--recordings: expected a folder of recordings without ':' in its path, got "
+            "--recordings: expected a folder of recordings whose path is UTF-8 without ':', got "
             f"{str(folder)!r}; name the one that holds your files"
         )
 

@@ -7,8 +7,9 @@ from pathlib import Path, PurePosixPath
 from mocapbench.benchmark.formats import format_for
 from mocapbench.datasets import FormatError, Library, Recording, Skeleton, SkeletonUnavailable
 from mocapbench.datasets.digests import content_digest
+from mocapbench.reports.printable import encodable
 
-__all__ = ["SCHEME", "FolderLibrary", "address_of"]
+__all__ = ["SCHEME", "FolderLibrary", "address_of", "require_addressable"]
 
 SCHEME = "files"
 """The name under which the library is registered."""
@@ -82,12 +83,23 @@ def address_of(path: str, rate: float | None) -> str:
     Raises
     ------
     FormatError
-        If the path cannot be part of an address.
+        As `require_addressable`.
     """
-    if ":" in path or _RATE in path:
-        expected = f"a file without ':' and '{_RATE}' in its path"
-        raise FormatError(path, expected, repr(path), "rename it")
+    require_addressable(path)
     return f"{SCHEME}:{path}" + ("" if rate is None else f"{_RATE}{rate:g}")
+
+
+def require_addressable(path: str) -> None:
+    """Refuse a path below the folder that no address and no task file can hold.
+
+    Raises
+    ------
+    FormatError
+        If it has what separates the parts of an address, or bytes that are not UTF-8.
+    """
+    if ":" in path or _RATE in path or encodable(path) != path:
+        expected = f"a file whose path is UTF-8, without ':' and '{_RATE}'"
+        raise FormatError(encodable(path), expected, ascii(path), "rename it")
 
 
 def _split(key: str) -> tuple[str, float | None]:

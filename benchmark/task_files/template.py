@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from glob import escape
 from pathlib import Path, PurePosixPath
 from string import Template
 from textwrap import wrap
+
+import tomli_w
 
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.task_files.building import build_task
@@ -49,11 +51,11 @@ title = "Gaps in our recordings"
 description = "Gaps at random places of each recording, which models fill."
 
 # The recordings to fill, one after the other: names or patterns, * for any text.
-files = $files
+$files\
 
 # What models learn from besides what is visible of it: the "others" of these files,
 # "none", or patterns such as ["training/*.csv"].
-training = $training
+$training\
 
 ${rate}\
 # The part that counts, of every recording; all of it if these are left out.
@@ -81,17 +83,13 @@ $hide
 
 _RATE = Template("""\
 # Frames per second, in place of what files say.
-rate = $rate
-
+$rate
 """)
 
 _MODELS = Template("""\
 # Leave this out for every model that can fill such gaps. Besides these:
 ${slower}\
-models = [
-${named}\
-]
-
+$models
 """)
 
 
@@ -149,7 +147,7 @@ def _patterns(tests: tuple[str, ...], left_out: tuple[str, ...]) -> list[str]:
     """Return patterns of the files, or all their names if a pattern would find others too."""
     suffixes = {PurePosixPath(path).suffix for path in tests}
     if left_out or len(suffixes) > 1 or len(tests) == 1:
-        return list(tests)
+        return [escape(path) for path in tests]
     below = "**/" if any("/" in path for path in tests) else ""
     return [f"{below}*{suffixes.pop()}"]
 
@@ -165,9 +163,9 @@ class _Content:
     def text(self, hide: str, able: Sequence[str]) -> str:
         """Return a draft that hides so, for these models, or for all if none is named."""
         return _FILE.substitute(
-            files=_quoted(self.patterns),
-            training=_quoted("others" if len(self.tests) > 1 else "none"),
-            rate="" if self.rate is None else _RATE.substitute(rate=repr(self.rate)),
+            files=_setting("files", self.patterns),
+            training=_setting("training", "others" if len(self.tests) > 1 else "none"),
+            rate="" if self.rate is None else _RATE.substitute(rate=_setting("rate", self.rate)),
             folds=max(1, min(5, 20 // len(self.tests))),
             models=_models(able) if able else "",
             hide=hide,
@@ -178,13 +176,13 @@ def _models(able: Sequence[str]) -> str:
     """Return the models that are quick or a user's own, and the others in a remark."""
     own = [name for name in able if not MODELS.is_installed(name)]
     named = [name for name in _QUICK if name in able] + own
-    slower = [name for name in able if name not in named]
+    slower = ", ".join(name for name in able if name not in named)
     return _MODELS.substitute(
-        slower="".join(f"# {line}\n" for line in wrap(", ".join(slower), 96)),
-        named="".join(f"    {line}\n" for line in wrap(", ".join(map(_quoted, named)), 96)),
+        slower="".join(f"# {line}\n" for line in wrap(slower, 96, break_on_hyphens=False)),
+        models=_setting("models", named),
     )
 
 
-def _quoted(value: str | Sequence[str]) -> str:
-    """Return a text or a list of texts as TOML, which writes them as JSON does."""
-    return json.dumps(value, ensure_ascii=False)
+def _setting(key: str, value: str | float | list[str]) -> str:
+    """Return a line or more of TOML that give a key its value, whatever a text has in it."""
+    return tomli_w.dumps({key: value})
