@@ -36,3 +36,8 @@ def test_any_bytes_are_text_that_gives_them_again(tmp_path_factory, data):
 
 def test_what_other_alphabets_need_stays_in_utf8():
     assert decode_text(NAMES.encode()) == NAMES
+
+
+def test_quotes_and_euros_of_windows_are_read():
+    assert decode_text("“Tête” €".encode("cp1252")) == "“Tête” €"
+    assert decode_text(b"T\xeate \x81") == "Tête \x81"  # undefined in Windows-1252

@@ -12,6 +12,7 @@ from own_files import write_csv
 from mocapbench.baselines import LinearImputer
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.task_files.building import build_task
 from mocapbench.benchmark.task_files.checking import open_task_file
 from mocapbench.benchmark.task_files.template import draft
 
@@ -88,3 +89,19 @@ def test_a_folder_that_no_run_can_name_is_refused(tmp_path):
         write_csv(tmp_path / name / "a.csv")
         with pytest.raises(UsageError, match="whose path is UTF-8 without ':'"):
             draft("first.toml", tmp_path / name, None)
+
+
+def test_a_name_with_brackets_stands_for_one_file_alone(tmp_path):
+    folder = tmp_path / "walks"
+    for name in ("walk [1]", "walk *"):
+        write_csv(folder / f"{name}.csv")
+    write_csv(folder / "walk 1.csv", channels=("another.x",))
+    assert run_draft(folder).tests == ("walk *.csv", "walk [1].csv")
+
+
+def test_cases_of_names_within_names_are_told_apart(tmp_path):
+    folder = tmp_path / "walks"
+    for name in ("a.csv", "a.CSV", "a.csv.csv"):
+        write_csv(folder / name)
+    cases = build_task(run_draft(folder)).cases
+    assert len({case.columns["recording"] for case in cases}) == 3
