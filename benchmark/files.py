@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
-from mocapbench.basics.whole_files import LONGEST_NAME
+from mocapbench.basics.whole_files import LONGEST_NAME, target_of
 from mocapbench.benchmark.errors import UsageError
 
 __all__ = [

@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from collections.abc import Sequence
-
 __all__ = ["counted", "encodable", "listed", "printable"]
 
 _CONTROL = r"\x00-\x08\x0b-\x1f\x7f-\x9f"
