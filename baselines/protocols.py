@@ -30,6 +30,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import FunctionType
 from typing import ClassVar, Self
 
 import numpy as np
@@ -37,6 +38,7 @@ from numpy.typing import ArrayLike, NDArray
 from sklearn.base import BaseEstimator
 
 from mocapbench.basics.numbers import real_numbers
+from mocapbench.baselines.blas import limit_blas
 from mocapbench.datasets import FrameByChannel, Frames, Recording, ToyProcess
 
 __all__ = [
@@ -184,6 +186,15 @@ class Model(BaseEstimator, ABC):  # type: ignore[misc]
     family: ClassVar[str] = "Your models"
     """The rows of a report under which the model stands, beside others of its kind."""
 
+    def __init_subclass__(cls, **keywords: object) -> None:
+        """Limit BLAS to one thread during every public method, those of mix-ins included."""
+        super().__init_subclass__(**keywords)
+        for owner in cls.__mro__:
+            if owner is cls or not (issubclass(owner, Model) or issubclass(Model, owner)):
+                for name, method in _public_methods(owner):
+                    if getattr(cls, name) is method:
+                        setattr(cls, name, limit_blas(method))
+
     @abstractmethod
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Learn from recordings.
@@ -207,6 +218,14 @@ class Model(BaseEstimator, ABC):  # type: ignore[misc]
         ValueError
             If a parameter or the recordings are invalid.
         """
+
+
+def _public_methods(owner: type) -> list[tuple[str, FunctionType]]:
+    return [
+        (name, member)
+        for name, member in vars(owner).items()
+        if isinstance(member, FunctionType) and not name.startswith("_")
+    ]
 
 
 class FrameImputer(Model):

@@ -12,8 +12,6 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Protocol, TypeVar
 
-from threadpoolctl import threadpool_limits
-
 __all__ = ["Mapper", "thread_mapper"]
 
 T = TypeVar("T")
@@ -29,14 +27,9 @@ class Mapper(Protocol):
 
 @contextmanager
 def thread_mapper(n_threads: int) -> Iterator[Mapper]:
-    """Give a mapper over ``n_threads`` threads, and limit BLAS to one thread meanwhile.
-
-    numpy and scipy each bring a pool of BLAS threads. On matrices this small and few cores, two
-    pools of spinning threads cost more than they gain. The limit is set once, not for each call.
-    """
-    with threadpool_limits(limits=1, user_api="blas"):
-        if n_threads == 1:
-            yield map
-            return
-        with ThreadPoolExecutor(n_threads) as pool:
-            yield pool.map
+    """Give a mapper over ``n_threads`` threads."""
+    if n_threads == 1:
+        yield map
+        return
+    with ThreadPoolExecutor(n_threads) as pool:
+        yield pool.map

@@ -71,7 +71,7 @@ def _report_constant(channels: Sequence[str], n_channels: int) -> None:
         warnings.warn(
             f"the channels {', '.join(channels)}, which are constant in training, are left out of "
             "the model and filled with their constant value",
-            stacklevel=4,
+            stacklevel=5,
         )
 
 

@@ -62,7 +62,7 @@ def _components(rows: Array, n_states: int) -> Array:
         warnings.warn(
             f"expected training data of at least n_states={n_states} dimensions, got {rank}: the "
             f"model has {max(rank, 1)} states",
-            stacklevel=4,
+            stacklevel=5,
         )
     if rank == 0:
         return np.zeros((len(rows), 1))

@@ -16,7 +16,7 @@ from mocapbench.benchmark.task_files.library import address_of
 from mocapbench.benchmark.task_files.settings import read_settings
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.task_files.trial import TrialRun
-from mocapbench.reports.printable import encodable
+from mocapbench.basics.words import encodable
 
 __all__ = ["checked", "open_task_file", "open_task_files", "require_folder"]
 

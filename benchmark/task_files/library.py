@@ -7,7 +7,7 @@ from pathlib import Path, PurePosixPath
 from mocapbench.benchmark.formats import format_for
 from mocapbench.datasets import FormatError, Library, Recording, Skeleton, SkeletonUnavailable
 from mocapbench.datasets.digests import content_digest
-from mocapbench.reports.printable import encodable
+from mocapbench.basics.words import encodable
 
 __all__ = ["SCHEME", "FolderLibrary", "address_of", "require_addressable"]
 
