@@ -5,12 +5,18 @@ import sys
 
 import pytest
 from hypothesis import settings
+from threadpoolctl import threadpool_limits
 
 from mocapbench.benchmark.registry import REGISTRIES
 
-# A deadline would assert a wall-clock time.
-settings.register_profile("no-clock", deadline=None)
-settings.load_profile("no-clock")
+# Linear algebra of tests is small: threads of BLAS would spin on it. Models limit it themselves.
+threadpool_limits(1, user_api="blas")
+
+# A deadline would assert a wall-clock time. Properties are tried on the same examples every time;
+# `tox run -e properties` searches among others, at random.
+settings.register_profile("random", deadline=None)
+settings.register_profile("same-examples", deadline=None, derandomize=True)
+settings.load_profile("same-examples")
 
 # Under nohup, or in the background of a shell, processes would inherit that these are ignored.
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
