@@ -17,7 +17,9 @@ from mocapbench.benchmark.cli.main import main
 from mocapbench.benchmark.registry import REGISTRIES
 
 ROOT = Path(__file__).parents[2]
-EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
+PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+EXTRAS = PYPROJECT["project"]["optional-dependencies"]
+MARKS = {line.partition(":")[0] for line in PYPROJECT["tool"]["pytest"]["ini_options"]["markers"]}
 NETWORK = ("data", "fetch")
 GOOD = {"check": {0, 5}}  # in a small run, controls are undecided
 NARROWING = {"--tasks", "--cases", "--task-file"}
@@ -126,6 +128,15 @@ def _attempt_python(shell, words):
         assert Path(words[0]).is_file() or (ROOT / words[0]).is_file(), f"no file {words[0]}"
 
 
+def _attempt_pytest(shell, words):
+    """Folders are there, and marks are declared."""
+    del shell
+    if words[0] == "-m":
+        assert words[1].removeprefix("not ") in MARKS, f"unknown mark: {words[1]}"
+    else:
+        assert all((ROOT / word).exists() for word in words), words
+
+
 def _attempt_cat(shell, words):
     """The files are there; what they are added to is the workflow's."""
     del shell
@@ -147,6 +158,7 @@ ATTEMPTS = {
     "pip": _attempt_pip,
     "tox": _attempt_tox,
     "python": _attempt_python,
+    "pytest": _attempt_pytest,
     "dask": _attempt_dask,
     "cat": _attempt_cat,
     "git": _attempt_publishing,

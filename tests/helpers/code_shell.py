@@ -10,6 +10,7 @@ mocapbench fill     by `linear`, unless it names a model
 other mocapbench    runs as it stands, and ends with exit code 0
 pip install         names packages, and extras that we have
 tox run             names environments of the nearest `tox.ini`; options of `bench` are parsed
+pytest FOLDER       names a folder of the source tree, or a mark that is declared
 python FILE         names a file of the page's folder or of the source tree
 cat FILE >> …       names files that there are
 git …, twine …      name a command of theirs; they publish, so nothing more is tried
