@@ -1,7 +1,7 @@
 """What the benchmarks of one run say: `python report.py speed.json [PAGE]`.
 
-Prints the ratios beside their bars and the seconds and memory that they come from; puts them into
-the page as well where one is named.
+Prints the ratios beside their bars and the seconds and memory that they come from; puts the seconds
+and memory into the page as well where one is named.
 """
 
 from __future__ import annotations
@@ -139,10 +139,9 @@ def _mark(reached: bool) -> str:
 
 def main(saved: str, *pages: str) -> None:
     run = Run.read(Path(saved))
-    text = f"{run.about}\n\n{run.bars}\n\n{run.seconds}"
-    print(text)
+    print(run.about, run.bars, run.seconds, sep="\n\n")
     for page in pages:
-        place(Path(page), "speed", text)
+        place(Path(page), "speed", f"{run.about}\n\n{run.seconds}")
 
 
 if __name__ == "__main__":

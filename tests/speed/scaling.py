@@ -1,8 +1,8 @@
-"""Seconds and peak memory as a problem grows: `python scaling.py SAVED PAGE FIGURE`.
+"""Seconds and peak memory as a problem grows: `python scaling.py SAVED FIGURE`.
 
 From the size of three walks one axis at a time is moved. Every point is a process of its own; a
 way leaves an axis where a point takes too long or too much memory. The points are saved as JSON;
-a file of them that exists is drawn without measuring anew.
+a file of them that exists is drawn without measuring anew. Prints the exponents of the growth.
 """
 
 from __future__ import annotations
@@ -114,13 +114,13 @@ def draw(points: pd.DataFrame, path: Path) -> None:
     grid.savefig(path, metadata={"Date": None})
 
 
-def main(saved: str, page: str, figure: str) -> None:
+def main(saved: str, figure: str) -> None:
     """Measure, or draw what is saved."""
     path = Path(saved)
     if not path.exists():
         path.write_text(json.dumps(list(measure())), encoding="utf-8")
     points = pd.DataFrame(json.loads(path.read_text(encoding="utf-8")))
-    place(Path(page), "scaling", summary(points))
+    print(summary(points))
     draw(points, Path(figure))
 
 

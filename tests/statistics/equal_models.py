@@ -117,10 +117,10 @@ def report() -> str:
     """Return the table."""
     head = [
         "file",
-        "trial gaps",
-        "places",
-        "each trial gap a unit",
-        "each place a unit",
+        "held-out gaps",
+        "independent positions",
+        "each gap a unit",
+        "each position a unit",
         "and a lead",
     ]
     return table(head, _rows())
