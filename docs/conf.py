@@ -21,6 +21,7 @@ source_repository = METADATA["urls"]["Source"]
 extensions = [
     "catalogue",
     "citation",
+    "commands",
     "front_doors",
     "source_links",
     "myst_parser",
@@ -35,7 +36,7 @@ extensions = [
 templates_path = ["templates"]
 exclude_patterns = [
     *("_build", "checks", "evidence", "extensions", "static", "templates"),
-    *("generated/citation.md", "tutorials/*.rst"),
+    *("generated/citation.md", "generated/commands.md", "tutorials/*.rst"),
 ]
 
 myst_enable_extensions = ["colon_fence", "dollarmath"]

@@ -19,7 +19,7 @@ import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import seaborn as sns
-from page import place, table
+from page import table
 from problems import SIZES, Size
 from ways import measured
 

@@ -1,4 +1,4 @@
-"""The simulation of the first rank in docs/statistics.md."""
+"""The simulation of the first rank in docs/mathematics/error-rates.md."""
 
 import sys
 from pathlib import Path
@@ -8,7 +8,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 import first_rank
 
-PAGE = Path(__file__).parents[2] / "docs" / "statistics.md"
+PAGE = Path(__file__).parents[2] / "docs" / "mathematics" / "error-rates.md"
 
 
 def test_two_equal_entrants_are_separated_at_the_nominal_rate():

@@ -1,4 +1,4 @@
-"""The simulation of the regression gate in docs/statistics.md."""
+"""The simulation of the regression gate in docs/mathematics/error-rates.md."""
 
 import sys
 from pathlib import Path
@@ -9,7 +9,7 @@ from scipy import stats
 sys.path.insert(0, str(Path(__file__).parent))
 import gate
 
-PAGE = Path(__file__).parents[2] / "docs" / "statistics.md"
+PAGE = Path(__file__).parents[2] / "docs" / "mathematics" / "error-rates.md"
 NOISE = gate.Scenario("even folds, some noise", 0.15, 0.05)
 EXACT = gate.Scenario("repeated exactly", 0.5, 0.0)
 

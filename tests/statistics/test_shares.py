@@ -1,4 +1,4 @@
-"""The simulation of unequal shares in docs/statistics.md."""
+"""The simulation of unequal shares in docs/mathematics/error-rates.md."""
 
 import sys
 from pathlib import Path
@@ -11,7 +11,7 @@ from mocapbench.metrics.statistics import ALPHA, unit_means
 sys.path.insert(0, str(Path(__file__).parent))
 import shares
 
-PAGE = Path(__file__).parents[2] / "docs" / "statistics.md"
+PAGE = Path(__file__).parents[2] / "docs" / "mathematics" / "error-rates.md"
 MOST = ALPHA + 0.045
 """How much of the level is kept where three people have nearly all of the weight."""
 
