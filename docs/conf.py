@@ -22,6 +22,7 @@ extensions = [
     "catalogue",
     "citation",
     "commands",
+    "folders",
     "front_doors",
     "source_links",
     "myst_parser",
@@ -36,7 +37,8 @@ extensions = [
 templates_path = ["templates"]
 exclude_patterns = [
     *("_build", "checks", "evidence", "extensions", "static", "templates"),
-    *("generated/citation.md", "generated/commands.md", "tutorials/*.rst"),
+    *("generated/citation.md", "generated/commands.md", "generated/folders.md"),
+    "tutorials/*.rst",
 ]
 
 myst_enable_extensions = ["colon_fence", "dollarmath"]

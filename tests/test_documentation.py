@@ -12,7 +12,11 @@ SOURCE = METADATA["urls"]["Source"]
 RAW = SOURCE.replace("github.com", "raw.githubusercontent.com") + "/main/"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
-PAGES += sorted([*(ROOT / "docs").glob("*.md"), *(ROOT / "docs/frontier").glob("*.md")])
+PAGES += sorted(
+    path
+    for folder in ("docs", "docs/mathematics", "docs/results")
+    for path in (ROOT / folder).glob("*.md")
+)
 
 
 def links(text):
@@ -33,7 +37,7 @@ def test_every_reference_link_of_the_readme_is_defined_and_used():
     assert sorted(set(re.findall(r"\]\[([^\]]+)\]", README))) == sorted(defined)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.relative_to(ROOT).as_posix())
 def test_links_into_the_source_tree_lead_to_files(page):
     for link in links(page.read_text(encoding="utf-8")):
         path, _, _ = link.partition("#")
@@ -48,6 +52,17 @@ def test_links_into_the_source_tree_lead_to_files(page):
         else:
             target = page.parent / path
         assert target.exists(), link
+
+
+def test_pages_that_the_code_names_exist():
+    named = {
+        (path, page)
+        for top in ("datasets", "metrics", "baselines", "reports", "benchmark", "tests", "docs")
+        for path in (ROOT / top).rglob("*.py")
+        for page in re.findall(r"\bdocs/[\w/-]+\.md", path.read_text(encoding="utf-8"))
+    }
+    missing = {(str(path), page) for path, page in named if not (ROOT / page).exists()}
+    assert not missing
 
 
 @pytest.mark.parametrize("name", ["Documentation", "Changelog"])

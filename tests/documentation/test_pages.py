@@ -8,7 +8,7 @@ from markdown_it import MarkdownIt
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
-PAGES += sorted((ROOT / "docs/frontier").glob("*.md"))
+PAGES += sorted([*(ROOT / "docs/mathematics").glob("*.md"), *(ROOT / "docs/results").glob("*.md")])
 PAGES += sorted((ROOT / "examples").glob("*/README.md"))
 
 
