@@ -51,7 +51,7 @@ class ChannelKriging(OneByOne, Imputer, Inductive):
     Variances are multiplied by what trials in the recording, and training recordings in its place,
     show (``docs/calibration.md``). Time is counted in frames. The model has no parameters to
     choose: the medians of their priors, the ridge and the window are those with which limbs were
-    filled best in recordings that are in no test (``docs/frontier/imputation.md``).
+    filled best in recordings that are in no test (``docs/results/filling.md``).
 
     Attributes
     ----------

@@ -72,7 +72,7 @@ class CPM(CycleAligner):
         p(\pi_i = m \mid \pi_{i-1} = m - j) = d_j, \quad j = 1 \ldots J, \qquad
         x_{if} \sim N(z_{\pi_i f}, \sigma_f^2)
 
-    ``docs/alignment.md`` has the algorithm.
+    ``docs/mathematics/alignment.md`` has the algorithm.
 
     References
     ----------

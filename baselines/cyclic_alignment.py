@@ -129,13 +129,13 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         p(\pi_i = m \mid \pi_{i-1} = m - j) = d_j, \quad j = 1 \ldots J, \qquad
         x_{if} \sim N(z^c_{\pi_i f}, 1 / \lambda^c_f)
 
-    ``docs/alignment.md`` has the algorithm.
+    ``docs/mathematics/alignment.md`` has the algorithm.
 
     References
     ----------
     W. Pan and L. Torresani (2009), Unsupervised Hierarchical Modeling of Locomotion Styles, ICML:
-    the model §2, variational EM §3, blending §4.2, missing data §4.3. ``docs/alignment.md`` lists
-    the corrections to its formulas.
+    the model §2, variational EM §3, blending §4.2, missing data §4.3.
+    ``docs/mathematics/alignment.md`` lists the corrections to its formulas.
 
     Examples
     --------

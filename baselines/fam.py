@@ -95,13 +95,13 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         x_{jd}(u) = b(u)^\top \Bigl(m_d + \sum_q s_{jq} w_{qd}\Bigr) + \varepsilon, \qquad
         s_j \sim N(0, I), \quad \varepsilon \sim N(0, \sigma_d^2)
 
-    ``docs/functional.md`` has the algorithm.
+    ``docs/mathematics/functional.md`` has the algorithm.
 
     References
     ----------
     D. Ormoneit, M. J. Black, T. Hastie and H. Kjellström (2005), Representing cyclic human motion
-    using functional analysis, Image and Vision Computing 23. ``docs/functional.md`` lists what
-    differs.
+    using functional analysis, Image and Vision Computing 23. ``docs/mathematics/functional.md``
+    lists what differs.
 
     Examples
     --------

@@ -66,7 +66,7 @@ class GPIndependent(Channelwise[LMCIndependent]):
         f_d \sim \mathcal{GP}\Bigl(0, \sum_q b_{qd} k_{qd}\Bigr), \qquad
         y_d(t) = f_d(t) + \varepsilon, \quad \varepsilon \sim N(0, \beta_d)
 
-    ``docs/inference.md`` has the inference.
+    ``docs/mathematics/inference.md`` has the inference.
 
     References
     ----------

@@ -64,7 +64,7 @@ class GPLVM(LatentVariableModel):
         g_j + n_j \sim \mathcal{GP}\bigl(0, e^{-\frac{\beta_1}{2} \| x - x' \|^2}
         + \beta_2^{-1} \delta\bigr), \qquad x_t \sim N(0, I)
 
-    ``docs/gpdm.md`` has the learning and the filling.
+    ``docs/mathematics/gpdm.md`` has the learning and the filling.
 
     References
     ----------

@@ -88,7 +88,7 @@ class HGP(Channelwise[MOHGP], Trended):
 
         y_{rd}(t) = f_{rd}(t) + \varepsilon, \qquad \varepsilon \sim N(0, \beta_d)
 
-    ``docs/inference.md`` has the inference.
+    ``docs/mathematics/inference.md`` has the inference.
 
     References
     ----------

@@ -50,7 +50,8 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
     ----------
     n_states : int, default=15
         Number q of states. A smaller number is taken, with a warning, where short stretches of the
-        training frames have fewer dimensions. ``docs/state-space.md`` has the choice of 15.
+        training frames have fewer dimensions. ``docs/mathematics/state-space.md`` has the choice of
+        15.
     max_iter : int, default=10
         Largest number of iterations of EM.
     tol : float, default=1e-3

@@ -100,7 +100,7 @@ class LMCIndependent(GaussianProcess):
 
         y_{rd}(t) = f_{rd}(t) + \varepsilon, \qquad \varepsilon \sim N(0, \beta_d)
 
-    ``docs/inference.md`` has the inference.
+    ``docs/mathematics/inference.md`` has the inference.
 
     References
     ----------

@@ -103,13 +103,13 @@ class MOA(TrendedProcess):
 
         y_{rd}(t) = f_d(t) + \varepsilon, \qquad \varepsilon \sim N(0, \beta_d)
 
-    ``docs/inference.md`` has the inference.
+    ``docs/mathematics/inference.md`` has the inference.
 
     References
     ----------
     J. D. Gil López (2017), Hierarchical Multiple Output Gaussian Processes for Human Motion Data,
     MSc thesis, Universidad Tecnológica de Pereira, §5.1.1 and
-    §5.2.3. ``docs/moa.md`` explains why its likelihood pools the recordings.
+    §5.2.3. ``docs/results/moa.md`` explains why its likelihood pools the recordings.
 
     M. A. Álvarez, L. Rosasco and N. D. Lawrence (2012), Kernels for Vector-Valued Functions: a
     Review, Foundations and Trends in Machine Learning 4(3): linear models of coregionalisation.

@@ -129,7 +129,7 @@ class MOHGP(TrendedProcess):
         K_\tau = \sum_q B_{\tau q} \otimes k_{\tau q}, \qquad
         B_{\tau q} = W_{\tau q} W_{\tau q}^\top + \operatorname{diag}(\kappa_{\tau q})
 
-    ``docs/inference.md`` has the inference.
+    ``docs/mathematics/inference.md`` has the inference.
 
     References
     ----------

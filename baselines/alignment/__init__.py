@@ -1,7 +1,7 @@
 """The hierarchical model of cyclic motion: styles, cycles and alignment by variational EM.
 
 The model is that of W. Pan and L. Torresani (2009), *Unsupervised Hierarchical Modeling of
-Locomotion Styles*, ICML, cited as HLM. ``docs/alignment.md`` has the
+Locomotion Styles*, ICML, cited as HLM. ``docs/mathematics/alignment.md`` has the
 mathematics. One idea a module:
 
 * `sequences`: padded arrays; `ring`: Gaussians on a cycle; `chain`: the hidden Markov chain;

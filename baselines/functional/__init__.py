@@ -1,6 +1,7 @@
 """Cyclic motion as smooth periodic functions, after Ormoneit, Black, Hastie and Kjellström 2005.
 
-``docs/functional.md`` has the mathematics, and what differs from the paper. One idea a module:
+``docs/mathematics/functional.md`` has the mathematics, and what differs from the paper. One idea a
+module:
 
 * `basis`: Fourier series; `statistics`: sums over visible entries;
 * `period`: the length of a cycle; `shifts`: recordings shifted to a common curve;

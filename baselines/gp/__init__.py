@@ -14,5 +14,5 @@ Data pass through its folders and modules in this order:
   `channel_posteriors` make one model for each channel. `registration` moves recordings in time
   before; `conditioned` is what is known after.
 
-``docs/inference.md`` has the mathematics in the names used here.
+``docs/mathematics/inference.md`` has the mathematics in the names used here.
 """

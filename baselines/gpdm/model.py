@@ -117,7 +117,7 @@ class GPDM(DynamicalModel):
         k_X(x, x') = \alpha_1 e^{-\frac{\alpha_2}{2} \| x - x' \|^2} + \alpha_3 x^\top x'
         + \alpha_4^{-1} \delta
 
-    ``docs/gpdm.md`` has the learning and the filling.
+    ``docs/mathematics/gpdm.md`` has the learning and the filling.
 
     References
     ----------

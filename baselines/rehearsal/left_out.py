@@ -35,7 +35,8 @@ __all__ = ["LeftOut", "side_by_side"]
 _RESOLVED = 1e-11
 """In standard units, the β (β − v) above which an entry counts: below, rounding of v may decide.
 
-On walks of 39 channels the latent split knows v to 2e-13 / β or better (``docs/inference.md``).
+On walks of 39 channels the latent split knows v to 2e-13 / β or better
+(``docs/mathematics/inference.md``).
 """
 _AS_CLAIMED = 200
 """Entries as good as claimed that count besides, before variances become smaller.

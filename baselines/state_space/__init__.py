@@ -4,7 +4,7 @@ The model of a recording y_1 … y_N in standardised units, with q states:
 
     x_1 = m + u,  x_{t+1} = A x_t + w_t,  y_t = C x_t + d + v_t,
 
-with u ~ N(0, P), w_t ~ N(0, Q) and v_t ~ N(0, diag(r)). ``docs/state-space.md`` has the
+with u ~ N(0, P), w_t ~ N(0, Q) and v_t ~ N(0, diag(r)). ``docs/mathematics/state-space.md`` has the
 derivations and the choices. One idea a module:
 
 * `model`: the parameters and their priors; `observations`: recordings as padded sequences;

@@ -1,4 +1,4 @@
-"""Experiments on `cyclic-alignment`, reported in `docs/frontier/aligned.md`.
+"""Experiments on `cyclic-alignment`, reported in `docs/results/styles.md`.
 
 ::
 

@@ -1,4 +1,4 @@
-"""Tables of docs/centimetres.md: ``python docs/evidence/degrees_and_centimetres.py RUN``.
+"""Tables of docs/results/positions.md: ``python docs/evidence/degrees_and_centimetres.py RUN``.
 
 RUN is a run directory, such as of ``mocapbench run --profile quick``. Scores are means over folds
 and then over the cases on recordings.

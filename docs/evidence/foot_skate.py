@@ -1,4 +1,4 @@
-"""What recordings of people score in the metrics of feet: the table of docs/centimetres.md.
+"""What recordings of people score in the metrics of feet: the table of docs/results/positions.md.
 
 Run with the recordings at hand: ``MOCAPBENCH_DATA=… python docs/evidence/foot_skate.py``.
 """

@@ -1,4 +1,4 @@
-"""Figures that `docs/frontier/imputation.md` reports, all from training recordings but the last.
+"""Figures that `docs/results/filling.md` reports, all from training recordings but the last.
 
 ::
 

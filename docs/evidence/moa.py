@@ -1,4 +1,4 @@
-"""Experiments on how the thesis computed MOA, reported in `docs/moa.md`.
+"""Experiments on how the thesis computed MOA, reported in `docs/results/moa.md`.
 
 The thesis is J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion
 Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017.

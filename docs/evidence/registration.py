@@ -1,6 +1,6 @@
 """What registration in time does for `walking-interpolation`.
 
-It is reported in `docs/frontier/gaussian-processes.md`.
+It is reported in `docs/results/gaussian-processes.md`.
 
 ::
 

@@ -1,6 +1,6 @@
 """What the scores of synthesis see of real recordings that are repeated.
 
-It is reported in `docs/frontier/gaussian-processes.md`.
+It is reported in `docs/results/gaussian-processes.md`.
 
 ::
 

@@ -1,6 +1,6 @@
 """How far below the best of many starts a search of `MOHGP` ends.
 
-It is reported in `docs/frontier/gaussian-processes.md`.
+It is reported in `docs/results/gaussian-processes.md`.
 
 ::
 

@@ -1,4 +1,4 @@
-"""Experiments on `lds` and `lgssm`, reported in `docs/state-space.md`.
+"""Experiments on `lds` and `lgssm`, reported in `docs/mathematics/state-space.md`.
 
 ::
 

@@ -1,4 +1,4 @@
-"""Why samples correlate less with real motion than in the thesis: reported in `docs/thesis.md`.
+"""Why samples correlate less with real motion than in the thesis: see `docs/results/thesis.md`.
 
 The thesis is J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion
 Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017.

@@ -91,7 +91,9 @@ def _rows() -> Iterator[list[str]]:
         shares = np.array(recordings) / sum(recordings)
         worth = float(unit_means(np.zeros(len(shares)), shares).freedom) + 1.0
         tested = "no" if too_few(worth - 1.0) else "yes"
-        samples = (differences(recordings, each, noise) for noise in NOISES for each in CORRELATIONS)
+        samples = (
+            differences(recordings, each, noise) for noise in NOISES for each in CORRELATIONS
+        )
         rates = ([100.0 * rate(rule(s, shares)) for rule in RULES] for s in samples)
         written = [f"{plain:.1f}, {general:.1f} %" for plain, general in rates]
         yield [_listed(recordings), f"{worth:.2f}", tested, *written]

@@ -1,6 +1,6 @@
 """Posterior means and variances of curves, as sums of independent terms.
 
-See docs/inference.md, section 8.
+See docs/mathematics/prediction.md, section 8.
 """
 
 from __future__ import annotations

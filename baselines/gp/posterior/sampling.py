@@ -2,7 +2,8 @@ r"""Draws from a linear model of coregionalisation, without forming its covarian
 
 A component is :math:`B_q \otimes k_q` with :math:`B_q = W W^\top + \operatorname{diag}(\kappa)`
 and :math:`k_q = L L^\top`. A draw is white noise multiplied by L in time and by
-:math:`[W, \sqrt{\operatorname{diag}\kappa}]` in outputs (docs/inference.md, section 9).
+:math:`[W, \sqrt{\operatorname{diag}\kappa}]` in outputs (docs/mathematics/prediction.md, section
+9).
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ __all__ = ["TermInference"]
 class TermInference:
     """Inference of one term of a curve in its block.
 
-    The symbols are those of docs/inference.md, sections 8 and 9.
+    The symbols are those of docs/mathematics/prediction.md, sections 8 and 9.
 
     Parameters
     ----------

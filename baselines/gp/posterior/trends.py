@@ -4,7 +4,7 @@ J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Mot
 thesis, Universidad Tecnológica de Pereira, 2017, §5.2, takes the trend's posterior mean as if it
 were known. New recordings then resemble each other, and the fitted recordings, a little more than
 they should. Drawn around a draw from the trend's posterior, a set of new recordings is an exact
-draw of further replicates given all visible entries (docs/inference.md, section 9).
+draw of further replicates given all visible entries (docs/mathematics/prediction.md, section 9).
 """
 
 from __future__ import annotations

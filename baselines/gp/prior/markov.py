@@ -12,8 +12,8 @@ beside the diagonal, and :math:`-m` in its last entry. Its only eigenvalue is âˆ
 
 The entries of :math:`v v^\top` are polynomials times :math:`e^{-2s}`, whose integrals are given by
 the regularised incomplete gamma function. :math:`I - \Phi\Phi^\top` equals Q too, but loses all
-digits for a short lag, where Q is of order :math:`a^{2m - 1}` (docs/inference.md, sections 6
-and 12).
+digits for a short lag, where Q is of order :math:`a^{2m - 1}` (docs/mathematics/solvers.md,
+section 6).
 
 References
 ----------

@@ -3,8 +3,9 @@
 A layer ("parent" g, "child" f − g) is a linear model of coregionalisation, Σ_q B_q ⊗ k_q (eq. 17 of
 J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
 thesis, Universidad Tecnológica de Pereira, 2017), and every output has a noise variance. The
-optimiser works on one flat vector of log ℓ, W, √κ and log β (docs/inference.md, section 10). A
-gradient is a `Parameters` too: its entries are the derivatives in the free coordinates.
+optimiser works on one flat vector of log ℓ, W, √κ and log β (docs/mathematics/prediction.md,
+section 10). A gradient is a `Parameters` too: its entries are the derivatives in the free
+coordinates.
 """
 
 from __future__ import annotations

@@ -4,7 +4,8 @@ The plain Cholesky factorisation fails on the Gram matrix of a smooth kernel, wh
 fall below rounding error. With complete pivoting it stops when the largest remaining variance is
 below 1e-14, a few dozen roundings. The trace of the remainder is then below 1e-14 of the matrix's,
 far below any noise, and the number of columns is the numerical rank (Higham 2002, *Accuracy and
-Stability of Numerical Algorithms*, §10.3; docs/inference.md, section 5, "Root and trimming").
+Stability of Numerical Algorithms*, §10.3; docs/mathematics/solvers.md, section 5, "Root and
+trimming").
 """
 
 from __future__ import annotations

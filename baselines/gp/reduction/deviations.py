@@ -16,7 +16,7 @@ class Deviations:
 
     Families with the same shape and number are data vectors of one block: the covariance Π between
     the data vectors is a projection with a constant diagonal, 1 − 1 / R for families of R siblings
-    (docs/inference.md, section 2, "Trees of replicates").
+    (docs/mathematics/inference.md, section 2, "Trees of replicates").
     """
 
     def __init__(self) -> None:

@@ -7,7 +7,7 @@ Gaussian Processes for Human Motion Data*, MSc thesis, Universidad Tecnológica 
 entries, are exchangeable. So the contrasts between them do not depend on their mean or on the
 draws above, and the mean of R siblings has their covariance, divided by R, around the draws above.
 Applied level by level, this leaves the means at the root and, for each shape, one block of
-deviations (docs/inference.md, section 2).
+deviations (docs/mathematics/inference.md, section 2).
 """
 
 from __future__ import annotations

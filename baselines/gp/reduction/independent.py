@@ -1,4 +1,4 @@
-"""Replicates as independent draws (docs/inference.md, section 2, "Independent")."""
+"""Replicates as independent draws (docs/mathematics/inference.md, section 2, "Independent")."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Replicates as noisy observations of one function (docs/inference.md, section 2, "Pooled")."""
+"""Replicates as noisy observations of one function (docs/mathematics/inference.md, section 2)."""
 
 from __future__ import annotations
 

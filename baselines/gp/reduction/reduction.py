@@ -1,4 +1,4 @@
-r"""A likelihood as a sum over block problems (docs/inference.md, section 2).
+r"""A likelihood as a sum over block problems (docs/mathematics/inference.md, section 2).
 
 In each reduction the log-likelihood of the replicates is exactly the sum of the log-densities of a
 few `Block` problems and of a closed form. The posterior of a replicate's curve is a sum of

@@ -2,7 +2,7 @@
 
 A *pattern* is a set of replicates with the same visible entries. Exact inference needs only the
 mean curve of a pattern and the deviations from it, so its cost hardly grows with the number of
-replicates (docs/inference.md, section 2).
+replicates (docs/mathematics/inference.md, section 2).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The shape of a subtree: all that the covariance of its mean curves depends on.
 
-The symbols are those of docs/inference.md, section 2, "Trees of replicates".
+The symbols are those of docs/mathematics/inference.md, section 2, "Trees of replicates".
 """
 
 from __future__ import annotations

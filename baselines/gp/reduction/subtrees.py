@@ -2,7 +2,7 @@
 
 A subtree is represented by a few mean curves, which are sums of the draws inside it; its `Shape`
 says which. Siblings of one shape are replaced by their mean, and their deviations from it are set
-aside (docs/inference.md, section 2, "Trees of replicates").
+aside (docs/mathematics/inference.md, section 2, "Trees of replicates").
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-r"""The inference problem that every exact solver solves (docs/inference.md, section 3).
+r"""The inference problem that every exact solver solves (docs/mathematics/inference.md, section 3).
 
 A *unit* is a curve with all outputs: a replicate, or a mean of replicates. Units
 :math:`p = 1 \dots P` are observed at times :math:`t` and outputs :math:`d`, with covariance

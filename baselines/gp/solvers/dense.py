@@ -3,7 +3,7 @@
 The covariance of the visible entries is formed, factorised and inverted in place by LAPACK. Its
 adjoint is summed over units into one (D N, D N) array per layer. There a single matrix product
 with the kernels and their derivatives gives the gradients of all coregionalisation matrices and
-lengthscales at once (docs/inference.md, section 4).
+lengthscales at once (docs/mathematics/solvers.md, section 4).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 A block is filled and read by pairs of units. Only one triangle is ever computed: an adjoint whose
 off-diagonal entries stand twice above the diagonal and nowhere below has the same inner product
-with every symmetric matrix (docs/inference.md, section 4).
+with every symmetric matrix (docs/mathematics/solvers.md, section 4).
 """
 
 from __future__ import annotations

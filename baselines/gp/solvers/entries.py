@@ -2,8 +2,8 @@
 
 A *site* is a unit and a time at which some output is visible. Given the latent functions the
 outputs are independent, so there is one matrix for each output, over all sites, with zeros where
-the output is hidden: formulae then need no masks (docs/inference.md, section 5). Only what is
-factorised is first reduced to the sites at which the output is visible.
+the output is hidden: formulae then need no masks (docs/mathematics/solvers.md, section 5). Only
+what is factorised is first reduced to the sites at which the output is visible.
 """
 
 from __future__ import annotations

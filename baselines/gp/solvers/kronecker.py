@@ -1,7 +1,7 @@
 r"""Inference in one component with complete data, by two eigendecompositions.
 
 In the basis of `kronecker_basis` the covariance is diagonal, so that everything costs
-:math:`O(N^3 + D^3)` and, for each data vector, :math:`O(D N (D + N))` (docs/inference.md,
+:math:`O(N^3 + D^3)` and, for each data vector, :math:`O(D N (D + N))` (docs/mathematics/solvers.md,
 section 7). It solves the deviations from a mean in an intrinsic coregionalisation model, and
 independent draws from one.
 """

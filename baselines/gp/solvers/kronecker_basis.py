@@ -9,7 +9,7 @@ The covariance of a single unit with one component, all of whose entries are vis
 .. math:: K = (\nu^{1/2} V \otimes Z) \operatorname{diag}(1 + \lambda_i \mu_j)
           (\nu^{1/2} V \otimes Z)^\top.
 
-The symbols are those of docs/inference.md, section 7.
+The symbols are those of docs/mathematics/solvers.md, section 7.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Type-II maximum likelihood by L-BFGS-B, from several starts.
 
 This is the training of §4.2 of J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes
-for Human Motion Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017; docs/inference.md,
-section 10, has the details.
+for Human Motion Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017;
+docs/mathematics/prediction.md, section 10, has the details.
 """
 
 from __future__ import annotations

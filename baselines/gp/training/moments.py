@@ -1,6 +1,6 @@
 """Rough estimates of noise, lengthscale and curves from data in standard units.
 
-They follow docs/inference.md, section 10, "Start".
+They follow docs/mathematics/prediction.md, section 10, "Start".
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 r"""Where the searches for parameters start.
 
-The first start follows from the data in standard units (docs/inference.md, section 10, "Start").
-The leading directions of the mean curves start :math:`W` of the parent, those of the deviations
-from them :math:`W` of the child. :math:`\kappa` starts at a tenth of the layer's variance, and
-noise and lengthscales at the estimates of `moments`. Nothing in the data says which direction goes
-with which lengthscale, so the next four starts assign them in other ways; further starts are random
-around the first.
+The first start follows from the data in standard units (docs/mathematics/prediction.md, section 10,
+"Start"). The leading directions of the mean curves start :math:`W` of the parent, those of the
+deviations from them :math:`W` of the child. :math:`\kappa` starts at a tenth of the layer's
+variance, and noise and lengthscales at the estimates of `moments`. Nothing in the data says which
+direction goes with which lengthscale, so the next four starts assign them in other ways; further
+starts are random around the first.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ PAGE = TaskPage(
         "models had: its values stand beside each of ours with that caution.",
         "MOA takes the walks for one function, so that differences of posture between walkers are "
         "error. With each walk mapped to [0, 1] by its own range, as in the thesis, it comes "
-        "within 13 % of Table 11 (docs/moa.md).",
+        "within 13 % of Table 11 (docs/results/moa.md).",
     ),
     illustrated=("observed 40", "synthetic observed 40"),
     figures=(

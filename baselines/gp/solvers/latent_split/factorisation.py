@@ -1,7 +1,7 @@
 """The factorisations of the latent split, which likelihood and prediction share.
 
-The symbols are those of docs/inference.md, section 5, "Value". m is the number of sites, K that of
-white coordinates.
+The symbols are those of docs/mathematics/solvers.md, section 5, "Value". m is the number of sites,
+K that of white coordinates.
 """
 
 from __future__ import annotations

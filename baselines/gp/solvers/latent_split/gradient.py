@@ -1,4 +1,4 @@
-r"""The gradient of the latent split (docs/inference.md, section 5, "Gradient").
+r"""The gradient of the latent split (docs/mathematics/solvers.md, section 5, "Gradient").
 
 With :math:`M = \Lambda S^{-1} \Lambda^\top` the posterior covariance of the latent functions, let
 :math:`Z_{ab} = \sum_{i \in a, j \in b} c_i c_j^\top \otimes M_{ij}` collect it by columns of

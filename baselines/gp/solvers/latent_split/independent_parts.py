@@ -2,8 +2,8 @@ r"""The independent part of each output.
 
 :math:`E_d = \sum_\tau \kappa_{\tau d}\, U_\tau \otimes k_\tau + \nu_d`, where :math:`\tau` runs
 over the components of all layers, :math:`U_\tau` is the layer's Gram matrix over units and
-:math:`\nu_d` the noise (docs/inference.md, section 5). There is one matrix for each output, over
-the m sites of the block.
+:math:`\nu_d` the noise (docs/mathematics/solvers.md, section 5). There is one matrix for each
+output, over the m sites of the block.
 """
 
 from __future__ import annotations

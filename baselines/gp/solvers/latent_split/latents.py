@@ -1,4 +1,4 @@
-"""The latent functions of the shared part of a block's covariance (docs/inference.md, section 5).
+"""The latent functions of what outputs share in a block (docs/mathematics/solvers.md, section 5).
 
 Every column of a factor W_q has one latent function for each independent draw of its layer. The
 column holds the loadings of the outputs on these functions, the draw those of the units.

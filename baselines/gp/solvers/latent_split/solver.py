@@ -1,8 +1,8 @@
 r"""Inference by splitting every output into a shared and an independent part.
 
 A coregionalisation matrix is :math:`W W^\top + \operatorname{diag}(\kappa)`. Given the latent
-functions that :math:`W` mixes, the *outputs are independent* (docs/inference.md, section 5). The
-covariance of a block is therefore
+functions that :math:`W` mixes, the *outputs are independent* (docs/mathematics/solvers.md, section
+5). The covariance of a block is therefore
 
 .. math:: K = A K_v A^\top + \operatorname{blockdiag}_d E_d,
 
@@ -74,7 +74,9 @@ class LatentSplit(Solver):
 
 
 class _SplitPosterior(BlockPosterior):
-    r"""The posterior of white coordinates and independent parts (docs/inference.md, section 8).
+    r"""The posterior of white coordinates and independent parts.
+
+    The symbols are those of docs/mathematics/prediction.md, section 8.
 
     The target in output d is :math:`T_d u + e_d`, with :math:`T_d` the regression on the white
     coordinates and :math:`e_d` its independent part, whose covariance with the visible entries is

@@ -1,9 +1,9 @@
 r"""The state of a block: one Markov chain for each component and draw of a layer.
 
 Chain j holds the state of its kernel once per output, with stationary covariance
-:math:`I \otimes B_j` (docs/inference.md, section 6). The coregionalisation matrices are used as
-they are and never inverted, so they may be singular. The states of all chains form one vector of
-length s = J m D with axes (chain, coordinate, output).
+:math:`I \otimes B_j` (docs/mathematics/solvers.md, section 6). The coregionalisation matrices are
+used as they are and never inverted, so they may be singular. The states of all chains form one
+vector of length s = J m D with axes (chain, coordinate, output).
 """
 
 from __future__ import annotations

@@ -7,7 +7,8 @@ then updated with the visible entries. Their innovations e are independent of al
           x = x^- + A^\top L^{-1} e, \quad P = P^- - A^\top A.
 
 Hence :math:`\log|K| = \sum_t \log|S_t|` and :math:`z^\top K^{-1} z = \sum_t |L_t^{-1} e_t|^2`, a
-sum of squares. The covariances are common to all data vectors (docs/inference.md, section 6).
+sum of squares. The covariances are common to all data vectors (docs/mathematics/solvers.md, section
+6).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 r"""The gradient of the log-density from the two passes of the state-space solver.
 
 By Fisher's identity the gradient needs only the smoothed moments of the noise that drives the
-states (docs/inference.md, section 6). With
+states (docs/mathematics/solvers.md, section 6). With
 :math:`\bar E = \tfrac12 (\sum_r r^- r^{-\top} - \rho N^-)` the adjoint of a step's noise
 :math:`Q \otimes B`, and x, P the filtered state before the step,
 

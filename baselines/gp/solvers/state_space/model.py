@@ -1,7 +1,7 @@
 """The matrices of a block's state-space model, applied without forming them.
 
 A state is a column of length s = J m D with axes (chain, coordinate, output). An observation is a
-weighted sum of the chains' first coordinates (docs/inference.md, section 6).
+weighted sum of the chains' first coordinates (docs/mathematics/solvers.md, section 6).
 """
 
 from __future__ import annotations

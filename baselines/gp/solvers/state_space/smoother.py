@@ -11,7 +11,7 @@ recursion. With the gain :math:`K = A^\top L^{-1}`,
 and across a step :math:`r = \Phi^\top r^-`, :math:`N = \Phi^\top N^- \Phi`. Here u is the frame's
 part of :math:`\alpha = K^{-1} z` and D its diagonal block of :math:`K^{-1}`. A filtered state
 :math:`(x, P)` becomes the smoothed :math:`(x + P r,\; P - P N P)`. No matrix but S is inverted, so
-frames may be arbitrarily close (docs/inference.md, section 6).
+frames may be arbitrarily close (docs/mathematics/solvers.md, section 6).
 
 References
 ----------

@@ -3,9 +3,9 @@ r"""Inference by one pass forward and one pass backward through time.
 A Matérn kernel of half-integer order is the covariance of a Markov process
 (`mocapbench.baselines.gp.prior.markov`), so a block is a linear Gaussian state-space model
 (`chains`, `model`). A Kalman filter (`filter`) gives the log-density, a backward pass (`smoother`)
-the posterior, and both together the gradient (`gradient`): docs/inference.md, section 6. The cost
-is linear in the number of frames. Irregular times and hidden entries cost nothing extra, and
-further data vectors little, because all data vectors have the same covariances.
+the posterior, and both together the gradient (`gradient`): docs/mathematics/solvers.md, section 6.
+The cost is linear in the number of frames. Irregular times and hidden entries cost nothing extra,
+and further data vectors little, because all data vectors have the same covariances.
 """
 
 from __future__ import annotations
