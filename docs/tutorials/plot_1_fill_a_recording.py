@@ -1,12 +1,12 @@
 """
-Fill a recording and look at its bands
-======================================
+Fill a recording and look at its intervals
+==========================================
 
 Eight people walk, and each recording has a gap of two thirds of a
 second in which nothing was seen. Three models fill the gaps. You
 learn to look at three things: the *curve* that is filled in, the
-*band* around it, and the *coverage*, which tells whether the bands
-can be believed.
+*interval* around it, and the *coverage*, which tells whether the
+intervals can be believed.
 """
 
 # %%
@@ -65,7 +65,7 @@ given = [with_gap(recording, rng) for recording in truth]
 # ------------
 #
 # - ``makima`` draws a smooth curve through the frames on either side.
-#   It has no band.
+#   It has no interval.
 # - ``gp-independent`` is one Gaussian process for each joint. It knows
 #   how fast a joint moves, and nothing of other joints or other people.
 # - ``pose-kriging`` looks for similar poses in the walks of other
@@ -93,18 +93,18 @@ problem = ImputeProblem(
     truth=tuple(recording.values for recording in truth),
     unit=Unit.natural(len(JOINTS)),  # score in degrees
 )
-answers = {
+solutions = {
     name: problem.solve(model.fit(problem.train), random_state=0)
     for name, model in MODELS.items()
 }
 
 # %%
-# The curve and its band
-# ----------------------
+# The curve and its interval
+# --------------------------
 #
 # **Look at** the dashed line, which is the truth. Does the filled curve
-# follow it? Do the bands hold it? The dark band should hold half of the
-# hidden values, the light one 95 % of them.
+# follow it? Do the intervals hold it? The dark one should hold half of
+# the hidden values, the light one 95 % of them.
 
 PERSON, KNEE = 0, JOINTS.index("ltibia")
 
@@ -123,8 +123,8 @@ figure, axes = plt.subplots(
     sharey=True,
     layout="constrained",
 )
-for axis, (name, answer) in zip(axes, answers.items(), strict=True):
-    prediction = answer.predictions[PERSON]
+for axis, (name, solution) in zip(axes, solutions.items(), strict=True):
+    prediction = solution.predictions[PERSON]
     mean = prediction.mean[:, KNEE]
     if prediction.variance is not None:
         sd = np.sqrt(prediction.variance[:, KNEE])
@@ -137,7 +137,7 @@ for axis, (name, answer) in zip(axes, answers.items(), strict=True):
                 color="C0",
                 alpha=opacity,
                 lw=0,
-                label=f"{share:.0%} band",
+                label=f"{share:.0%} interval",
             )
     axis.plot(times, mean, color="C0", label="filled")
     axis.plot(times, knee, "--", color="black", lw=1.2, label="truth")
@@ -150,16 +150,16 @@ plt.show()
 
 # %%
 # ``makima`` says nothing of its doubt. ``gp-independent`` does, and its
-# bands widen towards the middle of the gap, where the nearest seen
+# intervals are widest in the middle of the gap, where the nearest seen
 # frame is far away.
 #
-# Can the bands be believed?
-# --------------------------
+# Can the intervals be believed?
+# ------------------------------
 #
 # One gap in one joint is an anecdote. Over all gaps and joints,
-# **coverage** counts how many hidden values lie within a band. A 95 %
-# band with a coverage of 60 % is too narrow: the model is surer than it
-# should be. With more than 95 % it is wider than it need be.
+# **coverage** counts how many hidden values lie within an interval. A
+# 95 % interval with a coverage of 60 % is too narrow: the model is
+# surer than it should be. With more than 95 % it is wider than it need be.
 
 from mocapbench.metrics import (
     coverage_50,
@@ -178,11 +178,11 @@ COVERAGES = {
 }
 
 covered = {}
-print(f"{'':16}{'error':>9}{'mean sd':>11}{'within the 95 % band':>24}")
-for name, answer in answers.items():
-    outcome = problem.outcome(answer)
+print(f"{'':16}{'error':>9}{'mean sd':>11}{'in the 95 % interval':>24}")
+for name, solution in solutions.items():
+    outcome = problem.outcome(solution)
     line = f"{name:16}{np.sqrt(mse(outcome).value):7.1f} °"
-    if answer.variance is not None:
+    if solution.variance is not None:
         covered[name] = [
             metric(outcome).value for metric in COVERAGES.values()
         ]
@@ -193,7 +193,7 @@ for name, answer in answers.items():
 # %%
 # The error is the root of the mean squared error over all hidden
 # values. **Look at** which points lie below the diagonal in the
-# picture: those bands hold fewer values than they promise.
+# picture: those intervals hold fewer values than they promise.
 
 promised = 100 * np.array(list(COVERAGES))
 
@@ -211,7 +211,7 @@ for (name, shares), marker, color in zip(
         label=name,
     )
 axis.set(
-    xlabel="promised by the band (%)",
+    xlabel="promised by the interval (%)",
     ylabel="hidden values within it (%)",
     title="Above the line: too wide; below: too narrow",
 )
@@ -269,7 +269,7 @@ print(done.stdout)
 # %%
 # ``filled/walk.csv`` is the walk without its gap. The table beside it
 # has the mean and the standard deviation (``sd``) of every value that
-# was filled in; the mean ± 1.96 sd is the 95 % band.
+# was filled in; the mean ± 1.96 sd is the 95 % interval.
 
 entries = pd.read_csv(
     Path(folder.name, "filled", "walk.csv.entries.csv")
@@ -287,7 +287,7 @@ folder.cleanup()
 #
 # - :doc:`/filling`: all options of ``mocapbench fill``, and how well it
 #   chooses a model.
-# - :doc:`/calibration`: the bands of models on real recordings.
+# - :doc:`/calibration`: the intervals of models on real recordings.
 # - :doc:`/generated/models/pose-kriging` and
 #   :doc:`/generated/models/gp-independent`: how they work.
 # - :doc:`plot_2_add_a_model`: a model of your own.

@@ -94,7 +94,7 @@ independent, hierarchical = (
 # ----------------------------
 #
 # **Look at** how the trend runs through the middle of the thin lines.
-# Its band says where the trend may lie; it promises nothing about
+# Its interval says where the trend may lie; it promises nothing about
 # single recordings.
 
 KNEE = CHANNELS.index("ltibia.rx")
@@ -119,7 +119,7 @@ axis.plot(
     trend,
     color="C1",
     lw=2,
-    label="trend, with its 95 % band",
+    label="trend, with its 95 % interval",
 )
 axis.set(
     xlabel="cycle (%)",
@@ -134,9 +134,9 @@ plt.show()
 # What the gap may have held
 # --------------------------
 #
-# A posterior is more than a curve with a band: it gives whole courses.
-# Each thin line below is one that the model holds possible, given all
-# that was seen.
+# A posterior is more than a curve with an interval: it gives whole
+# courses. Each thin line below is one that the model holds possible,
+# given all that was seen.
 #
 # **Look at** the thin lines inside the gap. Which of the two models
 # knows that the leg stays straight until its swing begins?
@@ -271,7 +271,7 @@ tests = {
 }
 print(
     f"{'':12}{'model':16}{'error':>8}{'mean sd':>10}"
-    f"{'within 95 % band':>20}"
+    f"{'in 95 % interval':>20}"
 )
 for what, recording in tests.items():
     for name, model in (
@@ -291,7 +291,7 @@ for what, recording in tests.items():
 
 # %%
 # So align recordings first: cut them at the same event, as here, or let
-# a model do it (:doc:`/alignment`).
+# a model do it (:doc:`/mathematics/alignment`).
 #
 # Where recordings fall into groups, a deeper hierarchy is the better
 # model: ``MOHGP(tree={"person 1": ("run",), "person 2": ("walk",),
@@ -303,9 +303,9 @@ for what, recording in tests.items():
 #
 # - :doc:`/generated/models/mohgp`: the model's parameters, and where it
 #   wins and fails.
-# - :doc:`/inference`: how the posterior is computed without the matrix
-#   of all recordings, joints and frames.
-# - :doc:`/thesis`: the same question on the tables of the thesis that
-#   introduced the model.
+# - :doc:`/mathematics/inference`: how the posterior is computed without
+#   the matrix of all recordings, joints and frames.
+# - :doc:`/results/thesis`: the same question on the tables of the
+#   thesis that introduced the model.
 # - :doc:`plot_4_is_the_difference_real`: three walkers are few; how
 #   many would do?

@@ -93,9 +93,10 @@ folder.cleanup()
 # --------------------
 #
 # With five models there are four such comparisons, and each may err.
-# **Holm's correction** widens the intervals so that all four together
-# raise a false alarm in about 5 % of runs. (It is a little more, since
-# the best is chosen on the same folds: :doc:`/statistics` counts it.)
+# **Holm's correction** makes the intervals wider so that all four
+# together raise a false alarm in about 5 % of runs. (It is a little
+# more, since the best is chosen on the same folds:
+# :doc:`/mathematics/error-rates` counts it.)
 #
 # **Look at** the dashed line. A model whose bar reaches it may be as
 # good as the best.
@@ -282,7 +283,7 @@ plt.show()
 # Where next
 # ----------
 #
-# - :doc:`/statistics`: which test is used where, and why.
+# - :doc:`/mathematics/statistics`: which test is used where, and why.
 # - :doc:`/ci`: the regression gate, which asks whether a metric got
 #   worse, and how often it errs.
 # - :doc:`/compare`: compare your model with others.
