@@ -2,10 +2,9 @@
 
 ::
 
-    python docs/evidence/aligned.py styles [RESTARTS]  # purity by start, before and after EM
-    python docs/evidence/aligned.py tempo [RESTARTS]   # … by shape, and by shape and tempo
-    python docs/evidence/aligned.py bodies             # upper bodies of subjects 08 and 35
-    python docs/evidence/aligned.py walks              # the task's eleven walks, five seeds
+    python docs/evidence/aligned.py tempo [RESTARTS]  # purity by shape, and by shape and tempo
+    python docs/evidence/aligned.py bodies            # upper bodies of subjects 08 and 35
+    python docs/evidence/aligned.py walks             # the task's eleven walks, five seeds
 
 `tempo` does so for the task's recordings, and for 31 others, of subjects 02, 16 and 35, by which
 the weight of the tempo was judged. `bodies` is what other choices were made by. Subject 07, whose
@@ -23,7 +22,7 @@ import numpy as np
 
 from mocapbench import benchmark as bench
 from mocapbench.baselines import CyclicAlignment
-from mocapbench.baselines.alignment.fitting import restarts, run, split
+from mocapbench.baselines.alignment.fitting import run, split
 from mocapbench.baselines.alignment.start import best_paths, prototypes
 from mocapbench.baselines.common.prototypes import grouped, of_unit_variance, tempi
 from mocapbench.benchmark.tasks.hlm_recordings import CMU, Corpus
@@ -56,33 +55,6 @@ def purity(labels: np.typing.NDArray[np.intp], corpus: Corpus = CMU) -> float:
     truth = np.array([style for _, style in sorted(corpus.styles.items())])
     tops = [np.unique(truth[labels == c], return_counts=True)[1].max() for c in set(labels)]
     return float(np.sum(tops)) / len(truth)
-
-
-def styles(n_restarts: int = 5) -> None:
-    """Print the purity of similar and of random groups, as they start and after EM."""
-    recordings = list(CMU.read(bench.archive_at(None)).values())
-    for n_styles in range(2, 9):
-        rows = []
-        for seed in range(n_restarts):
-            model = CyclicAlignment(
-                n_styles=n_styles,
-                n_restarts=1,
-                max_iter=1,
-                grouping="similar",
-                random_state=seed,
-            ).fit(recordings)
-            rng = np.random.default_rng(seed)
-            one = model.settings_.__class__(**{**vars(model.settings_), "n_styles": 1})
-            (common,) = restarts(model.sequences_, one, n_restarts=1, max_iter=1, rng=rng)
-            mixed = np.eye(n_styles)[rng.permutation(len(recordings)) % n_styles]
-            ends = [
-                run(state, model.sequences_, model.settings_, 40).state
-                for state in (model.state_, split(common.state, mixed))
-            ]
-            rows.append(
-                [purity(model.labels_), *(purity(end.labels.argmax(axis=1)) for end in ends)]
-            )
-        print(n_styles, "start, similar, random:", *np.mean(rows, axis=0).round(3), flush=True)
 
 
 def tempo(n_restarts: int = 5) -> None:
@@ -150,6 +122,4 @@ def walks() -> None:
 
 if __name__ == "__main__":
     command, *numbers = sys.argv[1:]
-    {"styles": styles, "tempo": tempo, "bodies": bodies, "walks": walks}[command](
-        *map(int, numbers)
-    )
+    {"tempo": tempo, "bodies": bodies, "walks": walks}[command](*map(int, numbers))

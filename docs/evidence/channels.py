@@ -4,11 +4,10 @@ An arm or a leg is hidden for a tenth of a second to two seconds, in joint angle
 path, or in the positions of joints without its path on the floor; 30 frames a second, five seconds
 at most; three other recordings of the subject are given, or none. Errors are root mean squared
 errors in degrees and cm, of which the geometric mean over recordings and three draws is shown, and
-the share that 95 % bands of the model hold before any trial checks them. Nothing was chosen on the
-recordings of the second table. `halves` hides the second half of a part in five of the training
-recordings of `subject-35-missing`, which are left out of training. Ten minutes each:
+the share that the model's 95 % intervals hold before calibration. Nothing was chosen on the
+recordings of the second table. Ten minutes each:
 
-    MOCAPBENCH_DATA=FOLDER python docs/evidence/channels.py limbs|others|halves
+    MOCAPBENCH_DATA=FOLDER python docs/evidence/channels.py limbs|others
 """
 
 from __future__ import annotations
@@ -23,11 +22,9 @@ from unittest.mock import patch
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench import benchmark as bench
 from mocapbench.baselines import ChannelKriging, CubicSplineImputer, MakimaImputer, Prediction
 from mocapbench.baselines.kriging import channel_process, learning, stacked
 from mocapbench.baselines.kriging.channel_pairs import TYPICAL
-from mocapbench.benchmark import TASKS, Address, ImputeProblem, Seeds
 from mocapbench.benchmark.tasks.marker_gaps import LIMBS
 from mocapbench.datasets import AcclaimFormat, Mask, Recording, joint_trajectories
 
@@ -203,35 +200,5 @@ def others() -> None:
         print(f"| {kind} | `makima` / `cubic-spline` | {simple} |", flush=True)
 
 
-def halves() -> None:
-    """Print RMS of angles in degrees, and what bands hold, of a leg and of upper bodies."""
-    for part in ("right leg", "upper body"):
-        problem = _posed(part)
-        for name, change in CHANGES.items():
-            with _changed(change):
-                found = np.array([_half(problem, number) for number in range(1, 31, 6)])
-            degrees = np.sqrt(np.mean(found[:, 0] ** 2))
-            print(f"| {part} | {name} | {degrees:.2f} ({found[:, 1].mean():.2f}) |", flush=True)
-
-
-def _half(problem: ImputeProblem, number: int) -> tuple[float, float]:
-    recording = problem.train[number]
-    training = [other for other in problem.train if other is not recording]
-    hidden = np.zeros(recording.values.shape, dtype=bool)
-    hidden[len(hidden) // 2 :, np.isnan(problem.given[0].values[-1])] = True
-    (filled,) = ChannelKriging().fit(training).as_claimed([recording.hide(hidden)])
-    errors = ((filled.mean - recording.values) / problem.unit.scale)[hidden]
-    return float(np.sqrt(np.mean(errors**2))), held(recording, hidden, filled)
-
-
-def _posed(part: str) -> ImputeProblem:
-    task = TASKS.get("subject-35-missing")
-    case = task.case(part)
-    address = Address(task.name, task.version, case.problem_name, 0)
-    problem = case.problem(Seeds(0, address), bench.archive_at(None))
-    assert isinstance(problem, ImputeProblem)
-    return problem
-
-
 if __name__ == "__main__":
-    {"limbs": limbs, "others": others, "halves": halves}[sys.argv[1]]()
+    {"limbs": limbs, "others": others}[sys.argv[1]]()

@@ -1,4 +1,4 @@
-"""Channels that are hidden throughout a recording, which `docs/calibration.md` reports.
+"""Channels that are hidden throughout a recording, which `docs/results/calibration.md` reports.
 
 ::
 

@@ -159,7 +159,8 @@ plt.show()
 # One gap in one joint is an anecdote. Over all gaps and joints,
 # **coverage** counts how many hidden values lie within an interval. A
 # 95 % interval with a coverage of 60 % is too narrow: the model is
-# surer than it should be. With more than 95 % it is wider than it need be.
+# surer than it should be. With more than 95 % it is wider than it need
+# be.
 
 from mocapbench.metrics import (
     coverage_50,
