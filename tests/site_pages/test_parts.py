@@ -59,7 +59,7 @@ def test_the_parts_of_docstrings():
     model, metric = described_class(GPDM), described_function(mse)
     assert model.idea.startswith("Poses and their dynamics")
     assert "k_Y" in model.formula
-    assert ":doc:`/gpdm`" in model.formula
+    assert ":doc:`/mathematics/gpdm`" in model.formula
     assert model.settings[0].name == "learning"
     assert metric.idea.startswith("The mean of")
     assert metric.pitfalls

@@ -14,7 +14,7 @@ from mocapbench import baselines
 
 __all__ = ["Described", "Setting", "api_name", "described_class", "described_function"]
 
-_PAGE = re.compile(r"``docs/([\w-]+)\.md``|\(docs/([\w-]+)\.md\)")
+_PAGE = re.compile(r"``docs/([\w/-]+)\.md``|\(docs/([\w/-]+)\.md\)")
 _MENTION = re.compile(r"(?<![`:\w])`([\w.]+)`(?!`)")
 _DOCS = Path(__file__).parents[2]
 
