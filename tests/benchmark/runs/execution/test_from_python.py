@@ -1,4 +1,4 @@
-"""A run that a script starts, as the documentation shows it."""
+"""A run that a script starts, as the example shows it."""
 
 import re
 import subprocess
@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-PAGE = Path(__file__).parents[4] / "docs" / "compare.md"
-(SCRIPT,) = re.findall(r"```python\n(# my_run\.py\n.*?)```", PAGE.read_text(), re.DOTALL)
+EXAMPLE = Path(__file__).parents[4] / "examples" / "run_from_python.py"
+SCRIPT = EXAMPLE.read_text(encoding="utf-8")
 GUARD = 'if __name__ == "__main__":\n    main()'
 
 
@@ -19,7 +19,7 @@ def run(script, folder):
 
 
 @pytest.mark.slow
-def test_the_script_of_the_documentation_runs_and_its_folder_is_a_run(tmp_path, cli):
+def test_the_example_runs_and_its_folder_is_a_run(tmp_path, cli):
     ended = run(SCRIPT, tmp_path)
     assert ended.returncode == 0, ended.stderr
     assert re.search(r"knn +0 +mse", ended.stdout)
