@@ -95,7 +95,9 @@ html_theme_options = {
 html_context = {"default_mode": "auto"}
 html_title = project
 html_favicon = "static/mark.svg"
-html_sidebars = {name: [] for name in ("index", "start", "architecture", "changelog", "cite")}
+html_sidebars = {
+    name: [] for name in ("index", "start", "glossary", "architecture", "changelog", "cite")
+}
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_copy_source = False
