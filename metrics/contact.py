@@ -41,12 +41,12 @@ _HORIZONTAL = [0, 2]
 def foot_skate(outcome: Imputation) -> Score:
     r"""Return the mean horizontal speed of predicted feet while the true feet stand.
 
-    The metric ``foot_skate``. A foot is a joint whose name ends in ``foot``; in the Acclaim format
-    it is placed at the ball of the foot. It stands from one frame to the next where the truth is
-    below 5 cm at both, above its lowest place in the recording, and slower than 30 cm/s between
-    them. The mean is over the feet and pairs of frames where it stands and is hidden at either
-    frame. Lower is better; in centimetres per second. The truth itself does not have 0: recordings
-    of the CMU database have 6 to 10 cm/s in walks and 10 to 15 in runs (docs/results/positions.md).
+    A foot is a joint whose name ends in ``foot``; in the Acclaim format it is placed at the ball of
+    the foot. It stands from one frame to the next where the truth is below 5 cm at both, above its
+    lowest place in the recording, and slower than 30 cm/s between them. The mean is over the feet
+    and pairs of frames where it stands and is hidden at either frame. The truth itself does not
+    have 0: recordings of the CMU database have 6 to 10 cm/s in walks and 10 to 15 in runs
+    (docs/results/positions.md).
 
     Parameters
     ----------
@@ -130,10 +130,10 @@ def foot_skate(outcome: Imputation) -> Score:
 def sample_foot_skate(outcome: Synthesis) -> Score:
     r"""Return the mean horizontal speed of sampled feet near the ground, weighted by nearness.
 
-    The metric ``sample_foot_skate``: the mean of v (2 − 2^(h/H)) over the feet and pairs of frames
-    with h < H = 2.5 cm, v being the horizontal speed and h the height at the second frame above
-    the lowest place of the sample's feet. Lower is better; in centimetres per second. Recordings
-    of the CMU database have 4 to 12 cm/s in walks and 20 to 25 in runs (docs/results/positions.md).
+    It is the mean of v (2 − 2^(h/H)) over the feet and pairs of frames with h < H = 2.5 cm, v being
+    the horizontal speed and h the height at the second frame above the lowest place of the sample's
+    feet. Recordings of the CMU database have 4 to 12 cm/s in walks and 20 to 25 in runs
+    (docs/results/positions.md).
 
     Parameters
     ----------

@@ -2,10 +2,9 @@ r"""The coordinates of a search, in which the log-likelihood is better condition
 
 They are the free coordinates of `Parameters` with two changes (docs/mathematics/prediction.md,
 section 10). The noise enters by its root, :math:`\sqrt{\beta_d}` relative to the start's, because
-with
-:math:`\log\beta` a search approaches very small noise ever more slowly. And a layer's coordinates
-are scaled by the root of the number of its draws in the data, since its Fisher information is
-proportional to that number.
+with :math:`\log\beta` a search approaches very small noise ever more slowly. And a layer's
+coordinates are scaled by the root of the number of its draws in the data, since its Fisher
+information is proportional to that number.
 """
 
 from __future__ import annotations
