@@ -9,7 +9,7 @@ from sphinx.application import Sphinx
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
-from mocapbench.benchmark.cli.main import COMMANDS, app
+from mocapbench.benchmark.cli.commands import COMMANDS, app
 
 __all__ = ["describe_commands", "find_commands", "setup", "tabulate_options"]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import commands
 import pytest
 
-from mocapbench.benchmark.cli.main import COMMANDS
+from mocapbench.benchmark.cli.commands import COMMANDS
 from mocapbench.benchmark.errors import ExitCode
 
 PAGE = (Path(__file__).parents[2] / "docs" / "command-line.md").read_text(encoding="utf-8")
