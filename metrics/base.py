@@ -193,7 +193,7 @@ def metric(
         them.
     name : str
         Name in tables and records; by default that of the function. One formula with an argument
-        makes several metrics: bind it with `functools.partial`, and name each.
+        makes several metrics: bind it with ``functools.partial``, and name each.
 
     Raises
     ------
