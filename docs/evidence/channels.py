@@ -142,14 +142,14 @@ def error(recording: Recording, hidden: Mask, filled: Prediction) -> float:
 
 
 def held(recording: Recording, hidden: Mask, filled: Prediction) -> float:
-    """Return the share of hidden entries in 95 % bands."""
+    """Return the share of hidden entries in 95 % intervals."""
     assert filled.variance is not None
     within = np.abs(filled.mean - recording.values) <= 1.96 * np.sqrt(filled.variance)
     return float(within[hidden].mean())
 
 
 def row(groups: Mapping[str, Sequence[str]], kind: str, change: Change) -> str:
-    """Return errors, and in brackets what bands hold, for each length of gaps."""
+    """Return errors, and in brackets what intervals hold, for each length of gaps."""
     cells = []
     with _changed(change):
         for seconds in SECONDS:

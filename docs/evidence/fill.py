@@ -3,7 +3,7 @@
 Gaps are cut into recordings of the CMU database, of different people and motions, and filled by
 every able model. Errors are root mean squared errors over the hidden angles, in degrees, and over
 the hidden coordinates of the root, in cm. The score of a fill is the mean of the two, each relative
-to that of `hold`. The choice is compared with the model that hindsight would have chosen by it, and
+to that of `hold`. The choice is compared with the best model, chosen by the truth, and
 with linear interpolation. Takes half an hour on two cores:
 
     MOCAPBENCH_DATA=FOLDER python docs/evidence/fill.py

@@ -5,7 +5,7 @@ from its end, so that where they are is known. Each also wanders on the skin, sm
 quarter of a second, by a standard deviation of 0, 3 or 10 mm in each direction, and is measured
 with one of 0.2 mm. Single markers are lost, or all three of a segment. Errors are root mean squared
 distances in mm, and of recordings the geometric mean is shown; then the share of coordinates that
-the 95 % bands of `marker-kriging` hold. Nothing was chosen on the recordings of the second table.
+the 95 % intervals of `marker-kriging` hold. Nothing was chosen on the second recordings.
 Takes 35 minutes on two cores:
 
     MOCAPBENCH_DATA=FOLDER python docs/evidence/markers.py [MOST_SECONDS]
@@ -122,7 +122,7 @@ def distance(recording: Recording, hidden: Mask, mean: Array) -> float:
 
 
 def held(recording: Recording, hidden: Mask, prediction: Prediction) -> float:
-    """Return the share of hidden entries that 95 % bands hold."""
+    """Return the share of hidden entries that 95 % intervals hold."""
     assert prediction.variance is not None
     errors = np.abs(prediction.mean - recording.values)
     return float((errors <= 1.96 * np.sqrt(prediction.variance))[hidden].mean())
@@ -131,7 +131,7 @@ def held(recording: Recording, hidden: Mask, prediction: Prediction) -> float:
 def fills(
     recording: Recording, hidden: Mask, workers: Workers, budget: float
 ) -> Iterator[tuple[str, float, float]]:
-    """Yield what fills, its error, and the share that bands hold, if it has any."""
+    """Yield what fills, its error, and the share that intervals hold, if it has any."""
     given = recording.hide(hidden)
     chosen = choose(GapQuestion(given, hidden), workers, budget, lambda *_: None).ranking.order[0]
     for name, model in {**MODELS_ALONE, f"best: {chosen}": MODELS.get(chosen)()}.items():
@@ -141,7 +141,7 @@ def fills(
 
 
 def row(names: Sequence[str], seed: int, wandering: float, workers: Workers, budget: float) -> str:
-    """Return mean errors, what was chosen, and what bands hold."""
+    """Return mean errors, what was chosen, and what intervals hold."""
     together, n_gaps = list(GAPS.values())[seed]
     errors, chosen, shares = [], [], []
     for name in names:
