@@ -8,53 +8,24 @@ channels or recordings.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from mocapbench.baselines.gp.channelwise import Channelwise
+from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.lmc_independent import LMCIndependent
 
 __all__ = ["GPIndependent"]
 
 
+@document_like(Channelwise)
+@dataclass(kw_only=True, eq=False, repr=False)
 class GPIndependent(Channelwise[LMCIndependent]):
     r"""A Gaussian process with noise for each channel on its own.
 
-    Parameters
-    ----------
-    n_components : int or mapping of str to int, default=1
-        Number of kernels that are added in each channel; a mapping has the one key ``"child"``.
-    kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
-        The kernel of every component.
-    n_restarts : int, default=1
-        Number of searches for each channel; the first starts from the data.
-    max_iter : int, default=1000
-        Largest number of iterations of a search.
-    tol : float, default=1e-7
-        A search has converged when an iteration gains less than this fraction of the
-        log-likelihood.
-    max_seconds : float or None, default=None
-        Time limit for all channels together, divided equally; None sets no limit.
-    warm_start : bool, default=False
-        Whether `fit` starts from the parameters of the previous one, if there was one.
-    verbose : bool, default=False
-        Whether `fit` prints a line for every iteration.
-    solver : {"auto", "dense", "latent-split", "state-space"}, default="auto"
-        How the likelihood is computed; "auto" takes the solver with the least work.
-    random_state : int, numpy.random.Generator or None, default=None
-        Seed of the random starts.
-
     Attributes
     ----------
-    channels_, units_ : tuple of D str
-        The channels of the recordings given to `fit`, and their units.
     models_ : tuple of D LMCIndependent
         The model of each channel.
-    log_likelihood_ : float
-        Log-likelihood of the recordings in their own units.
-    converged_ : bool
-        Whether every channel's search converged.
-    n_iterations_, n_evaluations_ : int
-        Totals over the channels.
-    solver_ : str
-        The solvers that were used.
 
     Notes
     -----
@@ -90,8 +61,6 @@ class GPIndependent(Channelwise[LMCIndependent]):
     >>> prediction.mean.shape, bool((prediction.variance[hidden] > 0).all())
     ((20, 2), True)
     """
-
-    max_frames = 200
 
     @staticmethod
     def of_one_channel() -> LMCIndependent:

@@ -11,8 +11,10 @@ thesis, Universidad Tecnológica de Pereira, 2017, is cited as the thesis.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from mocapbench.baselines.gp.estimator import GaussianProcess
+from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.gp.prior.parameters import CHILD
 from mocapbench.baselines.gp.reduction.independent import independent
 from mocapbench.baselines.gp.reduction.reduction import Reduction
@@ -22,69 +24,13 @@ from mocapbench.baselines.gp.reduction.tree import Tree
 __all__ = ["LMCIndependent"]
 
 
+@document_like(GaussianProcess)
+@dataclass(kw_only=True, eq=False, repr=False)
 class LMCIndependent(GaussianProcess):
     r"""A Gaussian process over all channels, of which recordings are independent draws.
 
     `impute` conditions each recording on its own visible entries, with variances that they bear
     out (`as_claimed` has the posterior itself). `sample` draws from the prior.
-
-    Parameters
-    ----------
-    n_components : int or mapping of str to int, default=1
-        Number Q of components of every layer, or of each layer by its name, such as
-        ``{"child": 3}``.
-    rank : int, default=1
-        Number of columns of each factor W_q; 0 makes the outputs independent.
-    kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
-        The kernel of every component.
-    n_restarts : int, default=1
-        Number of searches. The first starts from the data, the next four with its lengthscales
-        assigned otherwise, the others at random around it. Of starts that are the same, as with one
-        component, one is searched.
-    max_iter : int, default=1000
-        Largest number of iterations of a search.
-    tol : float, default=1e-7
-        A search has converged when an iteration gains less than this fraction of the
-        log-likelihood.
-    max_seconds : float or None, default=None
-        Time limit for all searches together; None sets no limit. Results then depend on the
-        machine. An evaluation of the likelihood that has begun is finished first: with "rbf" it
-        takes time with the cube of the frames, with Matérn kernels in proportion to them.
-    warm_start : bool, default=False
-        Whether `fit` starts from the parameters of the previous one, if there was one.
-    verbose : bool, default=False
-        Whether `fit` prints a line for every iteration.
-    solver : {"auto", "dense", "latent-split", "state-space", "kronecker"}, default="auto"
-        How the likelihood is computed; "auto" takes the solver with the least work.
-    sampled_trend : {"mean", "posterior"}, default="mean"
-        Not used: this model has no trend.
-    n_jobs : int or None, default=None
-        Number of threads over outputs; it does not affect results. None means 1, unless in a
-        ``joblib.parallel_config`` context; −1 means all processors.
-    random_state : int, numpy.random.Generator or None, default=None
-        Seed of the random starts.
-
-    Attributes
-    ----------
-    channels_, units_ : tuple of D str
-        The channels of the recordings given to `fit`, and their units.
-    parameters_ : Parameters
-        Maximum-likelihood parameters, for outputs in standard units.
-    log_likelihood_ : float
-        Log-likelihood of the recordings in their own units.
-    bic_ : float
-        Schwarz's criterion, −2 log L + k log n for k parameters and n visible entries; lower is
-        better.
-    training_ : Training
-        The searches, with the log-likelihood after each iteration.
-    converged_, n_iterations_, n_evaluations_ : bool, int, int
-        Those of the best search.
-    solver_, engine_ : str
-        The solvers that were used, without and with their counted work.
-    coregionalisation_ : dict of str to ndarray of shape (Q, D, D)
-        The matrices B_q of each layer, in the outputs' own units.
-    noise_ : ndarray of shape (D,)
-        Noise variances, in the outputs' own units.
 
     Notes
     -----
@@ -128,8 +74,6 @@ class LMCIndependent(GaussianProcess):
     >>> prediction.mean.shape, bool((prediction.variance[hidden] > 0).all())
     ((20, 2), True)
     """
-
-    max_frames = 200
 
     def grow(self, names: Sequence[str]) -> Tree:
         """Return one draw for every recording."""

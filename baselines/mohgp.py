@@ -12,26 +12,30 @@ thesis, Universidad Tecnológica de Pereira, 2017, is cited as the thesis.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Self
 
-import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.validation import check_choice
+from mocapbench.baselines.gp.estimator import GaussianProcess
+from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.gp.prior.parameters import CHILD
 from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow, is_path
 from mocapbench.baselines.gp.registration import REGISTRATIONS
-from mocapbench.baselines.gp.trended import TrendedProcess
+from mocapbench.baselines.protocols import Trended
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
 __all__ = ["MOHGP"]
 
 
-class MOHGP(TrendedProcess):
+@document_like(GaussianProcess)
+@dataclass(kw_only=True, eq=False, repr=False)
+class MOHGP(GaussianProcess, Trended):
     r"""A Gaussian process over all channels, in which recordings vary around a common trend.
 
     `impute` gives the posterior of each child, with variances that its visible entries bear out
@@ -46,9 +50,6 @@ class MOHGP(TrendedProcess):
         many for all, such as ``{"02_01": ("walk", "subject 2"), ...}``. Groups with the same name
         within different groups are different. The layers are then ``"parent"``, ``"group-1"``,
         ``"group-2"`` and so on, ``"child"``. None makes every recording a child of the trend.
-    n_components : int or mapping of str to int, default=1
-        Number Q of components of every layer, or of each layer by its name, such as
-        ``{"parent": 3, "child": 1}``.
     registration : {"none", "affine"}, default="none"
         Whether complete recordings are first moved in time by an affine map, to where they are most
         like the visible entries of the recording with the most hidden ones (or like the first, if
@@ -56,59 +57,9 @@ class MOHGP(TrendedProcess):
         Times of the trend and of samples are then those of that recording. The likelihood is that
         of the recordings as they were moved, without what is moved beyond that recording's first
         or last frame: it does not compare with that of another registration.
-    rank : int, default=1
-        Number of columns of each factor W_q; 0 makes the outputs independent.
-    kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
-        The kernel of every component.
-    n_restarts : int, default=5
-        Number of searches. The first starts from the data, the next four with its lengthscales
-        assigned otherwise, the others at random around it. Of starts that are the same, as with one
-        component, one is searched.
-    max_iter : int, default=1000
-        Largest number of iterations of a search.
-    tol : float, default=1e-7
-        A search has converged when an iteration gains less than this fraction of the
-        log-likelihood.
-    max_seconds : float or None, default=None
-        Time limit for all searches together; None sets no limit. Results then depend on the
-        machine. An evaluation of the likelihood that has begun is finished first: with "rbf" it
-        takes time with the cube of the frames, with Matérn kernels in proportion to them.
-    warm_start : bool, default=False
-        Whether `fit` starts from the parameters of the previous one, if there was one.
-    verbose : bool, default=False
-        Whether `fit` prints a line for every iteration.
-    solver : {"auto", "dense", "latent-split", "state-space", "kronecker"}, default="auto"
-        How the likelihood is computed; "auto" takes the solver with the least work.
-    sampled_trend : {"mean", "posterior"}, default="mean"
-        The trend around which `sample` draws new recordings: its posterior mean, as in the thesis
-        (§5.2), or one draw from its posterior, shared by all recordings of a call.
-    n_jobs : int or None, default=None
-        Number of threads over outputs; it does not affect results. None means 1, unless in a
-        ``joblib.parallel_config`` context; −1 means all processors.
-    random_state : int, numpy.random.Generator or None, default=None
-        Seed of the random starts.
 
     Attributes
     ----------
-    channels_, units_ : tuple of D str
-        The channels of the recordings given to `fit`, and their units.
-    parameters_ : Parameters
-        Maximum-likelihood parameters, for outputs in standard units.
-    log_likelihood_ : float
-        Log-likelihood of the recordings in their own units.
-    bic_ : float
-        Schwarz's criterion, −2 log L + k log n for k parameters and n visible entries; lower is
-        better.
-    training_ : Training
-        The searches, with the log-likelihood after each iteration.
-    converged_, n_iterations_, n_evaluations_ : bool, int, int
-        Those of the best search.
-    solver_, engine_ : str
-        The solvers that were used, without and with their counted work.
-    coregionalisation_ : dict of str to ndarray of shape (Q, D, D)
-        The matrices B_q of each layer, in the outputs' own units.
-    noise_ : ndarray of shape (D,)
-        Noise variances, in the outputs' own units.
     clocks_ : dict of str to Clock
         By the name of each recording, how ``registration`` moved it in time.
 
@@ -157,44 +108,9 @@ class MOHGP(TrendedProcess):
     >>> mean, variance = model.trend(np.linspace(0.0, 6.0, 5), group=("slow",))
     """
 
-    max_frames = 200
-
-    def __init__(
-        self,
-        *,
-        tree: Mapping[str, Path] | None = None,
-        n_components: int | Mapping[str, int] = 1,
-        registration: str = "none",
-        rank: int = 1,
-        kernel: str = "matern32",
-        n_restarts: int = 5,
-        max_iter: int = 1000,
-        tol: float = 1e-7,
-        max_seconds: float | None = None,
-        warm_start: bool = False,
-        verbose: bool = False,
-        solver: str = "auto",
-        sampled_trend: str = "mean",
-        n_jobs: int | None = None,
-        random_state: int | np.random.Generator | None = None,
-    ) -> None:
-        super().__init__(
-            n_components=n_components,
-            rank=rank,
-            kernel=kernel,
-            n_restarts=n_restarts,
-            max_iter=max_iter,
-            tol=tol,
-            max_seconds=max_seconds,
-            warm_start=warm_start,
-            verbose=verbose,
-            solver=solver,
-            sampled_trend=sampled_trend,
-            n_jobs=n_jobs,
-            random_state=random_state,
-        )
-        self.tree = tree
-        self.registration = registration
+    tree: Mapping[str, Path] | None = None
+    registration: str = "none"
+    n_restarts: int = 5
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Register the recordings, and find the parameters of largest likelihood.
@@ -266,7 +182,8 @@ class MOHGP(TrendedProcess):
             If there is no such group.
         """
         check_is_fitted(self)
-        if not is_path(group) or tuple(group) not in self.reduction_.nodes:
+        nodes = self.process_.reduction.nodes
+        if not is_path(group) or tuple(group) not in nodes:
             known = sorted(set().union(*self.tree_.values()) - set(self.tree_[CHILD]))
             raise ValueError(f"expected a group of the tree, one of {known}, got {group!r}")
-        return self._infer(self.reduction_.nodes[tuple(group)], times)
+        return self._infer_curve(nodes[tuple(group)], times)

@@ -11,7 +11,7 @@ from format_files import sample
 from sklearn.exceptions import NotFittedError
 
 from mocapbench.baselines import FrameImputer, Synthesiser
-from mocapbench.baselines.gp.covariances import LearntCovariances
+from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.benchmark.registry import FORMATS, METRICS, MODELS, TASKS
 from mocapbench.benchmark.testing import check_format, check_metric, check_task, model_checks
 from mocapbench.benchmark.testing.subject import COMPLETE, GAP, TIMES, Subject, problem
@@ -117,7 +117,7 @@ def test_a_model_says_what_recordings_it_cannot_fill(fitted, name, answer, unusa
         getattr(fitted(name), answer)([changed(problem(GAP)[-1])])
 
 
-LEARNT = [name for name in MODELS.names() if issubclass(MODELS.get(name), LearntCovariances)]
+LEARNT = [name for name in MODELS.names() if issubclass(MODELS.get(name), GaussianProcess)]
 
 
 @pytest.mark.parametrize("name", LEARNT)

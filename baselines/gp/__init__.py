@@ -5,14 +5,14 @@ Data pass through its folders and modules in this order:
 * `prior`: kernels, coregionalisation matrices and the parameters of both;
 * `reduction`: recordings become a few small Gaussian problems of one form, exactly;
 * `solvers`: interchangeable exact methods evaluate, differentiate and condition such a problem
-  (`solvers.dense`, `solvers.kronecker`, `solvers.latent_split`, `solvers.state_space`), and
-  `planner` chooses the one with the least work; `threads` share it;
+  (`solvers.dense`, `solvers.kronecker`, `solvers.latent_split`, `solvers.state_space`),
+  `solvers.planner` chooses the one with the least work, and `solvers.threads` share it;
 * `training`: the parameters of largest likelihood are searched for;
-* `posterior`: predictions, joint covariances and draws with these parameters;
-* `estimator`: the base class of the models, on `covariances` (what is learnt), `imputation` (what
-  is predicted) and `synthesis` (what is drawn). `trended` adds a trend to it; `channelwise` and
-  `channel_posteriors` make one model for each channel. `registration` moves recordings in time
-  before; `conditioned` is what is known after.
+* `process`: a fitted process as a value, with means, variances, covariances and draws of curves;
+  `joint` is the posterior of a curve at several times together;
+* `estimator`: the one estimator, which learns a process and predicts by it. `channelwise` makes
+  one for each channel. `registration` moves recordings in time before; `parameter_docs` has the
+  models' docstrings say what they share.
 
 ``docs/mathematics/inference.md`` has the mathematics in the names used here.
 """

@@ -3,20 +3,43 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
-from typing import ClassVar, Self
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Generic, Self, TypeVar
 
 import numpy as np
+from scipy.linalg import block_diag
+from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.checks import check_recordings
-from mocapbench.baselines.common.validation import check_positive, check_seed
-from mocapbench.baselines.gp.channel_posteriors import ChannelPosteriors, Single
-from mocapbench.datasets import Recording
+from mocapbench.baselines.common.checks import check_channels, check_recordings
+from mocapbench.baselines.common.validation import (
+    check_count,
+    check_positive,
+    check_sampling,
+    check_seed,
+)
+from mocapbench.baselines.gp.estimator import GaussianProcess
+from mocapbench.baselines.gp.parameter_docs import document_like
+from mocapbench.baselines.protocols import (
+    Imputer,
+    Prediction,
+    SampleByFrameByChannel,
+    Synthesiser,
+)
+from mocapbench.baselines.rehearsal.calibrated_posteriors import calibrate_posterior
+from mocapbench.baselines.rehearsal.left_out import LeftOut, side_by_side
+from mocapbench.basics.arrays import Array
+from mocapbench.datasets import Frames, Recording
 
 __all__ = ["Channelwise"]
 
+Single = TypeVar("Single", bound=GaussianProcess)
+"""The model of one channel."""
 
-class Channelwise(ChannelPosteriors[Single]):
+
+@document_like(GaussianProcess)
+@dataclass(kw_only=True, eq=False, repr=False)
+class Channelwise(Imputer, Synthesiser, Generic[Single]):
     """A separate model for each channel, with separate parameters.
 
     N is the number of frames of a recording, D that of channels, Q that of components of a layer.
@@ -25,31 +48,18 @@ class Channelwise(ChannelPosteriors[Single]):
     ----------
     n_components : int or mapping of str to int, default=1
         Number Q of kernels that are added up in every layer of a channel, or in each layer by its
-        name.
-    kernel : {"rbf", "matern12", "matern32", "matern52"}, default="matern32"
-        The kernel of every component.
+        name, such as ``{"parent": 2, "child": 1}``.
     n_restarts : int, default=1
         Number of searches for each channel. The first starts from the data, the next four with its
         lengthscales assigned otherwise, the others at random around it. Of starts that are the
         same, as with one component, one is searched.
-    max_iter : int, default=1000
-        Largest number of iterations of a search.
-    tol : float, default=1e-7
-        Relative gain of an iteration below which a search has converged, as in `GaussianProcess`.
     max_seconds : float or None, default=None
-        Time for all channels together, in seconds, divided evenly between them; None sets no
-        limit.
-    warm_start : bool, default=False
-        Whether `fit` starts from the parameters of the previous fit, if there was one.
-    verbose : bool, default=False
-        Whether `fit` prints a line for every iteration.
-    solver : {"auto", "dense", "latent-split", "state-space", "kronecker"}, default="auto"
-        How the likelihood is computed, as in `GaussianProcess`.
-    random_state : int, numpy.random.Generator or None, default=None
-        Seed of the random starts.
+        Time limit for all channels together, divided equally; None sets no limit.
 
     Attributes
     ----------
+    channels_, units_ : tuple of D str
+        The channels of the recordings given to `fit`, and their units.
     models_ : tuple of GaussianProcess
         The model of each channel.
     log_likelihood_ : float
@@ -62,32 +72,19 @@ class Channelwise(ChannelPosteriors[Single]):
         The solvers that were used.
     """
 
-    family: ClassVar[str] = "Gaussian processes"
+    family = "Gaussian processes"
+    max_frames = 200
 
-    def __init__(
-        self,
-        *,
-        n_components: int | Mapping[str, int] = 1,
-        kernel: str = "matern32",
-        n_restarts: int = 1,
-        max_iter: int = 1000,
-        tol: float = 1e-7,
-        max_seconds: float | None = None,
-        warm_start: bool = False,
-        verbose: bool = False,
-        solver: str = "auto",
-        random_state: int | np.random.Generator | None = None,
-    ) -> None:
-        self.n_components = n_components
-        self.kernel = kernel
-        self.n_restarts = n_restarts
-        self.max_iter = max_iter
-        self.tol = tol
-        self.max_seconds = max_seconds
-        self.warm_start = warm_start
-        self.verbose = verbose
-        self.solver = solver
-        self.random_state = random_state
+    n_components: int | Mapping[str, int] = 1
+    kernel: str = "matern32"
+    n_restarts: int = 1
+    max_iter: int = 1000
+    tol: float = 1e-7
+    max_seconds: float | None = None
+    warm_start: bool = False
+    verbose: bool = False
+    solver: str = "auto"
+    random_state: int | np.random.Generator | None = None
 
     @staticmethod
     @abstractmethod
@@ -143,3 +140,124 @@ class Channelwise(ChannelPosteriors[Single]):
             channel: last.get(channel, self.of_one_channel()).set_params(**settings)
             for channel in channels
         }
+
+    def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictive distributions of recordings given to `fit`, as `MOHGP.impute` does.
+
+        Channels tell of each other only by how much variances are widened.
+        """
+        return [
+            calibrate_posterior(recording, errors, self.as_tried)
+            for recording, errors in zip(recordings, self.left_out(recordings), strict=True)
+        ]
+
+    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute` with the variances of the exact posteriors."""
+        by_channel = [model.as_claimed(alone) for model, alone in self._by_channel(recordings)]
+        return [side_by_side(channels) for channels in zip(*by_channel, strict=True)]
+
+    def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
+        """Return the posteriors of recordings, and the errors of their visible entries."""
+        by_channel = [model.left_out(alone) for model, alone in self._by_channel(recordings)]
+        return [LeftOut.side_by_side(channels) for channels in zip(*by_channel, strict=True)]
+
+    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
+        """Return what the models claim of recordings of which more is hidden."""
+        by_channel = [model.as_tried(alone) for model, alone in self._by_channel(trials)]
+        return [side_by_side(channels) for channels in zip(*by_channel, strict=True)]
+
+    def _by_channel(
+        self, recordings: Sequence[Recording]
+    ) -> Iterator[tuple[Single, list[Recording]]]:
+        """Yield the model of each channel, and that channel of each recording."""
+        check_is_fitted(self)
+        check_channels(recordings, self.channels_, self.units_)
+        for channel, model in zip(self.channels_, self.models_, strict=True):
+            yield model, [recording.select([channel]) for recording in recordings]
+
+    def sample(
+        self, times: Frames, n_samples: int, random_state: int | np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Return draws of new recordings, noise included, as `MOHGP.sample` does.
+
+        Parameters
+        ----------
+        times : ndarray of shape (N,)
+            In seconds, in any order.
+        n_samples : int
+            Number n of recordings.
+        random_state : int or numpy.random.Generator
+            Seed of the draws.
+
+        Returns
+        -------
+        ndarray of shape (n, N, D)
+            In the channels' own units.
+
+        Raises
+        ------
+        sklearn.exceptions.NotFittedError
+            If `fit` has not been called.
+        ValueError
+            If the number of recordings is not a positive integer, or times or the seed are invalid.
+        """
+        check_is_fitted(self)
+        check_sampling(times, n_samples, random_state, increasing=False)
+        rng = np.random.default_rng(random_state)
+        return np.dstack([model.sample(times, n_samples, rng) for model in self.models_])
+
+    def posterior_covariance(self, recording: Recording, times: Frames | None = None) -> Array:
+        """Return the joint covariance of a recording's curve, as `MOHGP.posterior_covariance` does.
+
+        Covariances between different channels are 0.
+
+        Parameters
+        ----------
+        recording : Recording
+            One that was given to `fit`.
+        times : ndarray of shape (M,), optional
+            In seconds, in any order; the recording's times if left out.
+
+        Returns
+        -------
+        ndarray of shape (D M, D M)
+            In the channels' own units, with channels slowest.
+        """
+        of_channels = [
+            model.posterior_covariance(alone, times)
+            for model, (alone,) in self._by_channel([recording])
+        ]
+        return np.asarray(block_diag(*of_channels))
+
+    def posterior_draws(
+        self,
+        recording: Recording,
+        n_samples: int,
+        random_state: int | np.random.Generator,
+        times: Frames | None = None,
+    ) -> SampleByFrameByChannel:
+        """Return draws of a recording's curve without noise, as `MOHGP.posterior_draws` does.
+
+        Parameters
+        ----------
+        recording : Recording
+            One that was given to `fit`.
+        n_samples : int
+            Number n of draws.
+        random_state : int or numpy.random.Generator
+            Seed of the draws.
+        times : ndarray of shape (M,), optional
+            In seconds, in any order; the recording's times if left out.
+
+        Returns
+        -------
+        ndarray of shape (n, M, D)
+            In the channels' own units.
+        """
+        alone = list(self._by_channel([recording]))
+        check_count("n_samples", n_samples, 1)
+        check_seed("random_state", random_state)
+        rng = np.random.default_rng(random_state)
+        return np.dstack(
+            [model.posterior_draws(one, n_samples, rng, times) for model, (one,) in alone]
+        )

@@ -7,5 +7,6 @@
 * `ratios`: by how much squared errors exceed claimed variances;
 * `variance_check`, `widening`: what trials say of variances, and these so multiplied;
 * `rehearsing`: what trials and training recordings say together;
-* `left_out`: what visible entries say that are left out one by one.
+* `left_out`: what visible entries say that are left out one by one; `calibrated_posteriors`: what
+  they and trials say together of a process that knows the recordings.
 """

@@ -148,7 +148,7 @@ def test_samples_have_the_moments_of_a_new_recording(model, recordings):
     times = np.array([0.4, 2.0, 4.7])
     n_samples = 20_000
     samples = fitted.sample(times, n_samples, 0)
-    ((trend, _),) = fitted._process.infer([fitted.reduction_.trend], [times])
+    ((trend, _),) = fitted.process_.infer([fitted.process_.reduction.trend], [times])
     covariance = fitted.covariance(fitted.layers[-1], times)
     expected = np.diagonal(covariance).reshape(2, 3).T + fitted.noise_
     # Five standard errors of a mean, and of a variance.

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines.gp.posterior.sampling import draw_layer
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.kernels import KERNELS, StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParameters, Parameters
+from mocapbench.baselines.gp.prior.sampling import draw_layer
 from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
 from mocapbench.baselines.gp.reduction.independent import independent
 from mocapbench.baselines.gp.reduction.reduction import Reduction

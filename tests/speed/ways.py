@@ -14,7 +14,7 @@ import numpy as np
 from naive import naive
 from problems import Problem, Size
 
-from mocapbench.baselines.gp.planner import PLANS
+from mocapbench.baselines.gp.solvers.planner import PLANS
 
 __all__ = ["evaluation", "measured", "peak_mb"]
 
@@ -23,7 +23,7 @@ def evaluation(problem: Problem, how: str) -> Callable[[], tuple[float, np.ndarr
     """Return what evaluates the problem by the yardstick, a named solver or the planner."""
     if how == "naive":
         return partial(naive, problem)
-    solvers = PLANS[how](problem.kernel, problem.reduction, problem.parameters)
+    solvers = PLANS[how](problem.kernel, problem.reduction.blocks, problem.parameters)
     return partial(problem.reduction.evaluate, solvers, problem.parameters)
 
 

@@ -1,1 +1,1 @@
-"""The prior: kernels, coregionalisation, and the parameters of both."""
+"""The prior: kernels, coregionalisation, the parameters of both, and draws (`sampling`)."""

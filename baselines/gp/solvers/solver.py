@@ -26,7 +26,7 @@ import numpy as np
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
-from mocapbench.baselines.gp.threads import Mapper
+from mocapbench.baselines.gp.solvers.threads import Mapper
 from mocapbench.basics.arrays import Array
 
 __all__ = ["BlockPosterior", "SingularCovarianceError", "Solver", "refuse_singular"]
@@ -83,7 +83,7 @@ class Solver(ABC):
         The kernel of every component.
     mapper : callable, default=map
         Calls a function for every output, like the builtin ``map``, possibly in threads
-        (`mocapbench.baselines.gp.threads`).
+        (`mocapbench.baselines.gp.solvers.threads`).
     """
 
     name: ClassVar[str]

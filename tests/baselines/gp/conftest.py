@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
+from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.kernels import KERNELS, StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParameters, Parameters
+from mocapbench.baselines.gp.process import FittedProcess
 from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
 from mocapbench.baselines.gp.reduction.independent import independent
 from mocapbench.baselines.gp.reduction.pooled import pooled
@@ -59,6 +61,12 @@ class ModelCase:
     @property
     def reduction(self) -> Reduction:
         return self.structure.reduce(self.replicates, self.tree)
+
+    def process(self, solvers: tuple[Solver, ...]) -> FittedProcess:
+        """Return the process of the case, whose outputs are in standard units."""
+        _, n_outputs, _ = self.replicates.data.shape
+        units = Standardisation(np.zeros(n_outputs), np.ones(n_outputs), np.zeros(n_outputs))
+        return FittedProcess(self.kernel, self.reduction, solvers, self.parameters, units)
 
 
 class BruteForce:

@@ -10,9 +10,9 @@ from hypothesis.extra.numpy import arrays
 from scipy.signal import lfilter
 from sklearn.exceptions import NotFittedError
 
-from mocapbench.baselines.gp.planner import PLANS
 from mocapbench.baselines.gp.prior.kernels import KERNELS
 from mocapbench.baselines.gp.reduction.replicates import Replicates
+from mocapbench.baselines.gp.solvers.planner import PLANS
 from mocapbench.baselines.gp_independent import GPIndependent
 from mocapbench.baselines.hgp import HGP
 from mocapbench.baselines.lmc_independent import LMCIndependent
@@ -37,8 +37,8 @@ def dense(model, trial):
     """Return mean and variance of a recording of which more is hidden, parameters kept."""
     given = {**model.recordings_, trial.name: trial}
     reduction = model.reduce(Replicates.align([model.scaling_.apply(r) for r in given.values()]))
-    solvers = PLANS["dense"](KERNELS[model.kernel], reduction, model.parameters_)
-    process = replace(model._process, reduction=reduction, solvers=solvers)
+    solvers = PLANS["dense"](KERNELS[model.kernel], reduction.blocks, model.parameters_)
+    process = replace(model.process_, reduction=reduction, solvers=solvers)
     curve = reduction.replicates[list(given).index(trial.name)]
     ((mean, variance),) = process.infer([curve], [trial.times])
     return mean, variance + model.noise_
@@ -135,7 +135,7 @@ def test_entries_of_which_rounding_may_decide_do_not_count(recordings):
     given = walks[0].hide(np.indices(SHAPE).sum(axis=0) % 4 == 1)
     model = MOHGP(max_iter=40, solver="latent-split").fit((given, *walks[1:]))
     little = replace(model.parameters_, log_noise=np.log([5e-5, 1e-2]))
-    model.parameters_, model._process = little, replace(model._process, parameters=little)
+    model.parameters_, model.process_ = little, replace(model.process_, parameters=little)
     (errors,) = model.left_out([given])
     counted = np.isfinite(errors.squares)
     seen = given.visible

@@ -159,7 +159,7 @@ FIT_PATH = [
     ("baselines.common.shortest_path", "missing-frames", "pose-viterbi"),
     ("baselines.common.signs", "toy-interpolation-1", "mohgp"),
     ("baselines.rehearsal.stand_ins", "subject-35-missing", "channel-kriging"),
-    ("baselines.gp.threads", "toy-interpolation-1", "mohgp"),
+    ("baselines.gp.solvers.threads", "toy-interpolation-1", "mohgp"),
     ("baselines.common.transitions", "missing-frames", "knn"),
     ("baselines.rehearsal.trials", "missing-frames", "lds"),
     ("baselines.rehearsal.variance_check", "missing-frames", "lds"),

@@ -18,7 +18,7 @@ from mocapbench.baselines.gp.solvers.entries import Entries
 from mocapbench.baselines.gp.solvers.latent_split.independent_parts import IndependentParts
 from mocapbench.baselines.gp.solvers.latent_split.latents import Latents
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
-from mocapbench.baselines.gp.threads import Mapper
+from mocapbench.baselines.gp.solvers.threads import Mapper
 from mocapbench.basics.arrays import Array
 
 __all__ = ["Factorisation"]

@@ -30,7 +30,7 @@ import numpy as np
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.latent_split.factorisation import Factorisation, project
-from mocapbench.baselines.gp.threads import Mapper
+from mocapbench.baselines.gp.solvers.threads import Mapper
 from mocapbench.basics.arrays import Array
 
 __all__ = ["split_gradient"]

@@ -19,7 +19,7 @@ from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
-from mocapbench.baselines.gp.threads import Mapper
+from mocapbench.baselines.gp.solvers.threads import Mapper
 from mocapbench.basics.arrays import Array
 
 __all__ = ["IndependentParts"]

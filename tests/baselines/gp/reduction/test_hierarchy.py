@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.posterior.prediction import infer
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.dense import Dense
@@ -59,10 +58,10 @@ def test_likelihood_and_gradient_are_those_of_the_joint_gaussian(
 
 def check_nodes_above(case, truth, replicate):
     """Check the curves of all nodes on the way from the root to a replicate."""
-    reduction, layers = case.reduction, case.structure.layers
-    solvers = [Dense(case.kernel)] * len(reduction.blocks)
-    curves = [reduction.nodes[case.tree[layer][replicate]] for layer in layers]
-    inferred = infer(reduction, solvers, case.parameters, curves, [AT] * len(curves))
+    layers = case.structure.layers
+    process = case.process((Dense(case.kernel),) * len(case.reduction.blocks))
+    curves = [process.reduction.nodes[case.tree[layer][replicate]] for layer in layers]
+    inferred = process.infer(curves, [AT] * len(curves))
     for level, (mean, variance) in enumerate(inferred, start=1):
         expected = truth.posterior(AT, replicate, layers[:level])
         np.testing.assert_allclose(mean.T, expected[0], atol=1e-8)

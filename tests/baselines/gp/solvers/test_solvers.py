@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.posterior.prediction import infer
 from mocapbench.baselines.gp.prior.kernels import KERNELS
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.kronecker import Kronecker
@@ -65,14 +64,9 @@ def test_predictions_condition_the_joint_gaussian(solver, by, served, brute_forc
     def law(case, which):
         replicate = which % len(case.replicates.data)
         times = np.concatenate([AT, case.replicates.times])
-        reduction = case.reduction
-        ((mean, variance),) = infer(
-            reduction,
-            by(solver, case),
-            case.parameters,
-            [reduction.replicates[replicate]],
-            [times],
-        )
+        process = case.process(by(solver, case))
+        curve = process.reduction.replicates[replicate]
+        ((mean, variance),) = process.infer([curve], [times])
         expected = brute_force(case).posterior(times, replicate, case.structure.layers)
         np.testing.assert_allclose(mean.T, expected[0], atol=1e-8)
         np.testing.assert_allclose(variance.T, expected[1], atol=1e-8)
@@ -84,10 +78,8 @@ def test_predictions_condition_the_joint_gaussian(solver, by, served, brute_forc
 def test_the_trend_conditions_the_joint_gaussian(solver, by, case, brute_force):
     for seed in range(10):
         example = case(np.random.default_rng(seed), n_components=2, n_replicates=4)
-        reduction = example.reduction
-        ((mean, variance),) = infer(
-            reduction, by(solver, example), example.parameters, [reduction.trend], [AT]
-        )
+        process = example.process(by(solver, example))
+        ((mean, variance),) = process.infer([process.reduction.trend], [AT])
         expected = brute_force(example).posterior(AT, None, ("parent",))
         np.testing.assert_allclose(mean.T, expected[0], atol=1e-9)
         np.testing.assert_allclose(variance.T, expected[1], atol=1e-9)
@@ -112,7 +104,7 @@ def test_solvers_agree_at_the_least_noise(solver, name, by, case):
     (expected, found), (exact, value) = zip(
         *(
             (
-                infer(reduction, solvers, parameters, curves, [times, times]),
+                example.process(solvers).infer(curves, [times, times]),
                 reduction.evaluate(solvers, parameters)[0],
             )
             for solvers in (by(Dense, example), by(solver, example))

@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gp.planner import PLANS, solver_names, work
+from mocapbench.baselines.gp.solvers.planner import PLANS, solver_names, work
 
 
 def _plan(example, name="auto"):
-    return solver_names(PLANS[name](example.kernel, example.reduction, example.parameters))
+    return solver_names(PLANS[name](example.kernel, example.reduction.blocks, example.parameters))
 
 
 def test_latent_split_is_chosen_for_many_outputs_and_dense_for_few(case):
@@ -49,7 +49,7 @@ def test_the_error_of_a_solver_that_cannot_solve_every_block_says_what_it_needs(
 
 def test_the_work_of_every_solver_is_estimated_for_every_block(case):
     example = case(np.random.default_rng(0), kernel="rbf", masks="complete")
-    counted = work(example.kernel, example.reduction, example.parameters)
+    counted = work(example.kernel, example.reduction.blocks, example.parameters)
     assert len(counted) == len(example.reduction.blocks) == 2
     assert all(set(of_block) == set(PLANS) - {"auto"} for of_block in counted)
     assert [np.isinf(of_block["state-space"]) for of_block in counted] == [True, True]

@@ -1,4 +1,17 @@
-"""Inference of one term of a curve in its block: covariances, means and prior draws."""
+r"""The joint posterior of a term of a curve at several times: its covariance, and draws from it.
+
+Conditioning is linear in the data, so posterior means of suitable data vectors are all that is
+needed of a solver (docs/inference.md, sections 8 and 9). A target of a block, with values
+:math:`f_*` at the requested times and cross covariance :math:`K_*` with the visible entries, has
+
+* the posterior covariance :math:`\tfrac{\rho}{h}(K_{**} - K_* K^{-1} K_*^\top)`, where
+  :math:`K_* K^{-1} K_*^\top` is the posterior mean given the columns of :math:`K_*^\top` as data;
+* the posterior draw :math:`\sqrt{\rho/h}\, \tilde f_* + K_* K^{-1}(z - \sqrt{\rho/h}\, \tilde z)`,
+  where :math:`(\tilde z, \tilde f_*)` is a draw of the data and the target from the prior.
+
+The second is Matheron's rule (Wilson et al. 2021, *Pathwise Conditioning of Gaussian Processes*,
+JMLR 22, Theorem 1). It needs draws of the layers at the times, but no joint covariance.
+"""
 
 from __future__ import annotations
 
@@ -6,20 +19,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mocapbench.baselines.gp.posterior.sampling import draw_layer
 from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.baselines.gp.prior.sampling import draw_layer
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.solvers.solver import Solver
 from mocapbench.basics.arrays import Array
 
-__all__ = ["TermInference"]
+__all__ = ["TermPosterior"]
 
 
 @dataclass(frozen=True, eq=False)
-class TermInference:
-    """Inference of one term of a curve in its block.
+class TermPosterior:
+    """The posterior of one term of a curve at all times together, in standard units.
 
-    The symbols are those of docs/mathematics/prediction.md, sections 8 and 9.
+    Either method conditions the block once: `covariance` on D M data vectors, `draw` on one for
+    each draw.
 
     Parameters
     ----------
@@ -41,13 +55,28 @@ class TermInference:
     target: Target
     times: Array
 
-    def mean_given(self, data: Array) -> Array:
+    def covariance(self) -> Array:
+        """Return the posterior covariance (D M, D M), outputs slowest."""
+        prior = self._prior()
+        # (ρ / h) (K_** − K_* K⁻¹ K_*ᵀ)
+        explained = self._mean_given(self._cross()).reshape(prior.shape)
+        return np.asarray(self.block.variance_scale * (prior - explained))
+
+    def draw(self, column: int, n_samples: int, rng: np.random.Generator) -> Array:
+        """Return posterior draws (n, M, D), given data vector ``column`` of the block."""
+        # √(ρ/h) f̃_* + K_* K⁻¹ (z − √(ρ/h) z̃)
+        data, curves = self._simulate(n_samples, rng)
+        scale = np.sqrt(self.block.variance_scale)
+        correction = self._mean_given(self.block.data[column] - scale * data)
+        return np.asarray(scale * curves + correction.transpose(0, 2, 1))
+
+    def _mean_given(self, data: Array) -> Array:
         """Return K_* K⁻¹ z for data vectors (k, P, D, N), (k, D, M)."""
         posterior = self.solver.condition(replace(self.block, data=data), self.parameters)
         mean, _ = posterior.predict(self.target, self.times)
         return mean
 
-    def prior(self) -> Array:
+    def _prior(self) -> Array:
         """Return K_**, (D M, D M)."""
         size = len(self.parameters.log_noise) * len(self.times)
         total = np.zeros((size, size))
@@ -56,7 +85,7 @@ class TermInference:
             total += self.target.prior_scale(name) * covariance
         return total
 
-    def cross(self) -> Array:
+    def _cross(self) -> Array:
         """Return the rows of K_* as data vectors, (D M, P, D, N), 0 where hidden."""
         observed = self.block.observed
         cross = np.zeros((observed.shape[1] * len(self.times), *observed.shape))
@@ -66,7 +95,7 @@ class TermInference:
             cross += (factor @ self.target.weights[name])[:, None, None] * by_row
         return np.where(observed, cross, 0.0)
 
-    def simulate(self, n_samples: int, rng: np.random.Generator) -> tuple[Array, Array]:
+    def _simulate(self, n_samples: int, rng: np.random.Generator) -> tuple[Array, Array]:
         """Return joint prior draws of data vectors (n, P, D, N) and of the target (n, M, D)."""
         block, times = self.block, np.concatenate([self.block.times, self.times])
         n_entries = len(block.times)  # drawn together, so that equal times get equal values
@@ -75,16 +104,18 @@ class TermInference:
         data = noise * rng.standard_normal((n_samples, *noise.shape))
         curves = np.zeros((n_samples, len(self.times), noise.shape[1]))
         for name, factor in block.units.items():
-            draws = self._draw(name, times, n_samples * factor.shape[1], rng)
+            draws = self._draw_layer(name, times, n_samples * factor.shape[1], rng)
             draws = draws.reshape(n_samples, factor.shape[1], *draws.shape[1:])
             data += np.einsum("pi,nitd->npdt", factor, draws[:, :, :n_entries])
             curves += np.einsum("i,nitd->ntd", self.target.weights[name], draws[:, :, n_entries:])
         for name, variance in self.target.independent_variance.items():
-            draws = self._draw(name, times, n_samples, rng)
+            draws = self._draw_layer(name, times, n_samples, rng)
             curves += np.sqrt(variance) * draws[:, n_entries:]
         return np.where(block.observed, data, 0.0), curves
 
-    def _draw(self, name: str, times: Array, n_samples: int, rng: np.random.Generator) -> Array:
+    def _draw_layer(
+        self, name: str, times: Array, n_samples: int, rng: np.random.Generator
+    ) -> Array:
         """Return (n, M, D) draws of a layer at ``times`` (M,)."""
         layer = self.parameters.layers[name]
         return draw_layer(self.solver.kernel, layer, times, n_samples, rng)

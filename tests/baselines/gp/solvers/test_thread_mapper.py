@@ -1,6 +1,6 @@
 import pytest
 
-from mocapbench.baselines.gp.threads import thread_mapper
+from mocapbench.baselines.gp.solvers.threads import thread_mapper
 
 
 @pytest.mark.parametrize("n_threads", [1, 2, 3])

@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gp.posterior.sampling import draw_layer
 from mocapbench.baselines.gp.prior.kernels import KERNELS
+from mocapbench.baselines.gp.prior.sampling import draw_layer
 
 
 @pytest.mark.parametrize("name", KERNELS)

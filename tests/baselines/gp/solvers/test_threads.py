@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
-from mocapbench.baselines.gp.threads import thread_mapper
+from mocapbench.baselines.gp.solvers.threads import thread_mapper
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.datasets import Recording
 

@@ -9,30 +9,29 @@ import numpy as np
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
-from mocapbench.baselines.gp.reduction.reduction import Reduction
+from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.kronecker import Kronecker
 from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
 from mocapbench.baselines.gp.solvers.solver import Solver
 from mocapbench.baselines.gp.solvers.state_space.solver import StateSpace
-from mocapbench.baselines.gp.threads import Mapper
+from mocapbench.baselines.gp.solvers.threads import Mapper
 
 __all__ = ["PLANS", "Plan", "describe_work", "solver_names", "with_mapper", "work"]
 
-Plan = Callable[[StationaryKernel, Reduction, Parameters], tuple[Solver, ...]]
+Plan = Callable[[StationaryKernel, Sequence[Block], Parameters], tuple[Solver, ...]]
 """Chooses a solver for each block; of the parameters only the shapes matter."""
 
 _SOLVERS: tuple[type[Solver], ...] = (Dense, LatentSplit, StateSpace, Kronecker)
 
 
 def work(
-    kernel: StationaryKernel, reduction: Reduction, parameters: Parameters
+    kernel: StationaryKernel, blocks: Sequence[Block], parameters: Parameters
 ) -> tuple[Mapping[str, float], ...]:
     """Return for each block the estimated work of every solver; infinite if it cannot solve it."""
     solvers = [solver(kernel) for solver in _SOLVERS]
     return tuple(
-        {solver.name: solver.work(block, parameters) for solver in solvers}
-        for block in reduction.blocks
+        {solver.name: solver.work(block, parameters) for solver in solvers} for block in blocks
     )
 
 
@@ -46,9 +45,11 @@ def with_mapper(solvers: Sequence[Solver], mapper: Mapper) -> tuple[Solver, ...]
     return tuple(type(solver)(solver.kernel, mapper) for solver in solvers)
 
 
-def describe_work(solvers: Sequence[Solver], reduction: Reduction, parameters: Parameters) -> str:
+def describe_work(
+    solvers: Sequence[Solver], blocks: Sequence[Block], parameters: Parameters
+) -> str:
     """Return the solvers in use, their work, and the work of each solver alone."""
-    estimated = work(solvers[0].kernel, reduction, parameters)
+    estimated = work(solvers[0].kernel, blocks, parameters)
     in_use = sum(of_block[solver.name] for of_block, solver in zip(estimated, solvers, strict=True))
     alone = {
         solver.name: sum(of_block[solver.name] for of_block in estimated) for solver in _SOLVERS
@@ -64,20 +65,20 @@ def describe_work(solvers: Sequence[Solver], reduction: Reduction, parameters: P
 
 
 def _least_work(
-    kernel: StationaryKernel, reduction: Reduction, parameters: Parameters
+    kernel: StationaryKernel, blocks: Sequence[Block], parameters: Parameters
 ) -> tuple[Solver, ...]:
     by_name = {solver.name: solver for solver in _SOLVERS}
     return tuple(
         by_name[min(of_block, key=of_block.__getitem__)](kernel)
-        for of_block in work(kernel, reduction, parameters)
+        for of_block in work(kernel, blocks, parameters)
     )
 
 
 def _always(solver: type[Solver]) -> Plan:
     def plan(
-        kernel: StationaryKernel, reduction: Reduction, parameters: Parameters
+        kernel: StationaryKernel, blocks: Sequence[Block], parameters: Parameters
     ) -> tuple[Solver, ...]:
-        for of_block in work(kernel, reduction, parameters):
+        for of_block in work(kernel, blocks, parameters):
             if np.isinf(of_block[solver.name]):
                 able = sorted(name for name, amount in of_block.items() if np.isfinite(amount))
                 raise ValueError(
@@ -85,7 +86,7 @@ def _always(solver: type[Solver]) -> Plan:
                     f"{solver.name!r}: it needs {solver.needs}; choose one of {able} here, or "
                     "'auto'"
                 )
-        return (solver(kernel),) * len(reduction.blocks)
+        return (solver(kernel),) * len(blocks)
 
     return plan
 

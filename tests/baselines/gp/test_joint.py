@@ -1,15 +1,12 @@
 """Joint posteriors, compared with the joint Gaussian conditioned on all visible entries."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.posterior.joint import draw_curves, joint_covariance
-from mocapbench.baselines.gp.posterior.prediction import infer
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.kronecker import Kronecker
@@ -45,12 +42,12 @@ class UnitNoise:
         return taken.reshape(shape)
 
 
-def moments_of_draws(*problem):
-    """Return the exact mean (D M,) and covariance of `draw_curves`, which is affine in noise."""
+def moments_of_draws(process, curve, times):
+    """Return the exact mean (D M,) and covariance of draws, which are affine in noise."""
     noise = CountedNoise()
-    draw_curves(*problem, n_samples=1, rng=noise)
+    process.draw(curve, times, 1, noise)
     unit = UnitNoise(noise.count)
-    draws = draw_curves(*problem, n_samples=noise.count + 1, rng=unit)
+    draws = process.draw(curve, times, noise.count + 1, unit)
     assert unit.left.shape[1] == 0
     flat = draws.transpose(0, 2, 1).reshape(len(draws), -1)
     return flat[-1], (flat[:-1] - flat[-1]).T @ (flat[:-1] - flat[-1])
@@ -74,10 +71,10 @@ def conditioned(brute_force, case, times):
     return (gain @ data[observed]).reshape(shape), covariance.reshape(*shape, *shape)
 
 
-def curve(case, by, solver, which, times):
-    """Return the arguments for the curve of a replicate, and the index of the replicate."""
-    reduction, r = case.reduction, which % len(case.replicates.data)
-    return (reduction, by(solver, case), case.parameters, reduction.replicates[r], times), r
+def posed(case, by, solver, which):
+    """Return the process of a case, the curve of a replicate, and its index."""
+    process, r = case.process(by(solver, case)), which % len(case.replicates.data)
+    return process, process.reduction.replicates[r], r
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -86,8 +83,8 @@ def test_the_covariance_conditions_the_joint_gaussian(solver, by, served, brute_
     @given(served(solver), st.integers(0, 3))
     def law(case, which):
         times = np.concatenate([AT, case.replicates.times])
-        problem, r = curve(case, by, solver, which, times)
-        covariance = joint_covariance(*problem)
+        process, curve, r = posed(case, by, solver, which)
+        covariance = process.covariance(curve, times)
         _, expected = conditioned(brute_force, case, times)
         np.testing.assert_allclose(covariance, expected[r, :, r], atol=1e-8)
 
@@ -100,12 +97,11 @@ def test_the_covariance_is_semi_definite_and_has_the_predicted_variances(solver,
     @given(served(solver), st.integers(0, 3))
     def law(case, which):
         times = np.concatenate([AT, case.replicates.times])
-        problem, _ = curve(case, by, solver, which, times)
-        covariance = joint_covariance(*problem)
+        process, curve, _ = posed(case, by, solver, which)
+        covariance = process.covariance(curve, times)
         np.testing.assert_array_equal(covariance, covariance.T)
         assert np.linalg.eigvalsh(covariance).min() > -1e-10 * max(1.0, np.trace(covariance))
-        reduction, solvers, parameters, terms, _ = problem
-        ((_, variance),) = infer(reduction, solvers, parameters, [terms], [times])
+        ((_, variance),) = process.infer([curve], [times])
         diagonal = np.diagonal(covariance).reshape(-1, len(times)).T
         np.testing.assert_allclose(diagonal, variance, atol=1e-8)
 
@@ -119,8 +115,8 @@ def test_draws_have_exactly_the_moments_of_the_conditioned_gaussian(
     @settings(deadline=None, max_examples=50)
     @given(served(solver), st.integers(0, 3))
     def law(case, which):
-        problem, r = curve(case, by, solver, which, AT)
-        mean, covariance = moments_of_draws(*problem)
+        process, curve, r = posed(case, by, solver, which)
+        mean, covariance = moments_of_draws(process, curve, AT)
         expected = conditioned(brute_force, case, AT)
         np.testing.assert_allclose(mean, expected[0][r], atol=1e-8)
         np.testing.assert_allclose(covariance, expected[1][r, :, r], atol=1e-8)
@@ -133,16 +129,16 @@ def test_the_covariance_between_unseen_replicates_is_the_trends(solver, by, case
     example = case(np.random.default_rng(3), n_components=2, n_replicates=5, masks="complete")
     example.replicates.observed[3:] = False
     example.replicates.data[3:] = 0.0
-    reduction, solvers = example.reduction, by(solver, example)
-    problem = (reduction, solvers, example.parameters)
+    process = example.process(by(solver, example))
+    unseen_curve = process.reduction.replicates[3]
     _, expected = conditioned(brute_force, example, AT)
-    trend = joint_covariance(*problem, reduction.trend, AT)
+    trend = process.covariance(process.reduction.trend, AT)
     np.testing.assert_allclose(trend, expected[3, :, 4], atol=1e-9)
-    _, drawn = moments_of_draws(*problem, reduction.trend, AT)
+    _, drawn = moments_of_draws(process, process.reduction.trend, AT)
     np.testing.assert_allclose(drawn, trend, atol=1e-9)
-    unseen = joint_covariance(*problem, reduction.replicates[3], AT)
+    unseen = process.covariance(unseen_curve, AT)
     np.testing.assert_allclose(unseen, expected[3, :, 3], atol=1e-9)
-    _, drawn = moments_of_draws(*problem, reduction.replicates[3], AT)
+    _, drawn = moments_of_draws(process, unseen_curve, AT)
     np.testing.assert_allclose(drawn, unseen, atol=1e-9)
 
 
@@ -150,7 +146,7 @@ def test_the_order_of_replicates_does_not_matter(by, cases):
     @settings(deadline=None, max_examples=30)
     @given(cases, st.integers(0, 3), st.integers(0, 2**32 - 1))
     def law(case, which, seed):
-        problem, r = curve(case, by, Dense, which, AT)
+        process, curve, r = posed(case, by, Dense, which)
         order = np.random.default_rng(seed).permutation(len(case.replicates.data))
         old = case.replicates
         shuffled = replace(
@@ -158,8 +154,10 @@ def test_the_order_of_replicates_does_not_matter(by, cases):
             replicates=Replicates(old.times, old.data[order], old.observed[order]),
             paths=case.paths and tuple(case.paths[r] for r in order),
         )
-        other, _ = curve(shuffled, by, Dense, int(np.flatnonzero(order == r)[0]), AT)
-        np.testing.assert_allclose(joint_covariance(*problem), joint_covariance(*other), atol=1e-10)
+        other, moved, _ = posed(shuffled, by, Dense, int(np.flatnonzero(order == r)[0]))
+        np.testing.assert_allclose(
+            process.covariance(curve, AT), other.covariance(moved, AT), atol=1e-10
+        )
 
     law()
 
@@ -169,8 +167,8 @@ def test_draws_depend_only_on_the_seed_and_the_times(by, cases):
     @given(cases, st.integers(0, 3), st.integers(0, 2**32 - 1))
     def law(case, which, seed):
         def draws(solver, times):
-            problem, _ = curve(case, by, solver, which, times)
-            return draw_curves(*problem, n_samples=3, rng=np.random.default_rng(seed))
+            process, curve, _ = posed(case, by, solver, which)
+            return process.draw(curve, times, 3, np.random.default_rng(seed))
 
         first = draws(Dense, AT)
         np.testing.assert_array_equal(first, draws(Dense, AT))
@@ -185,10 +183,10 @@ def test_draws_depend_only_on_the_seed_and_the_times(by, cases):
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_draws_of_two_terms_have_their_moments(solver, by, case, brute_force):
     example = case(np.random.default_rng(5), n_components=1, n_times=5, masks="complete")
-    problem, r = curve(example, by, solver, 1, AT[:3])
-    assert len(problem[3]) == 2
+    process, curve, r = posed(example, by, solver, 1)
+    assert len(curve) == 2
     n_samples = 20_000
-    draws = draw_curves(*problem, n_samples=n_samples, rng=np.random.default_rng(1))
+    draws = process.draw(curve, AT[:3], n_samples, np.random.default_rng(1))
     flat = draws.transpose(0, 2, 1).reshape(n_samples, -1)
     mean, covariance = (moment[r] for moment in conditioned(brute_force, example, AT[:3]))
     covariance = covariance[:, r]
@@ -217,20 +215,25 @@ class CountingDense(Dense):
 @pytest.mark.parametrize("structure", ["hierarchical", "pooled", "independent"])
 @pytest.mark.parametrize(
     "use",
-    [joint_covariance, partial(draw_curves, n_samples=25, rng=np.random.default_rng(0))],
+    [
+        lambda process, curve: process.covariance(curve, AT),
+        lambda process, curve: process.draw(curve, AT, 25, np.random.default_rng(0)),
+    ],
+    ids=["covariance", "draw"],
 )
 def test_each_block_of_a_curve_is_conditioned_once(structure, use, case):
     example = case(np.random.default_rng(0), structure=structure, masks="shared")
-    reduction = example.reduction
-    solvers = tuple(CountingDense(example.kernel) for _ in reduction.blocks)
-    use(reduction, solvers, example.parameters, reduction.replicates[0], AT)
-    assert [solver.calls for solver in solvers] == [1] * len(reduction.blocks)
+    solvers = tuple(CountingDense(example.kernel) for _ in example.reduction.blocks)
+    process = example.process(solvers)
+    use(process, process.reduction.replicates[0])
+    assert [solver.calls for solver in solvers] == [1] * len(solvers)
 
 
 def test_solvers_may_differ_from_block_to_block(case):
     example = case(np.random.default_rng(2), n_replicates=4, masks="complete")
-    kernel, reduction = example.kernel, example.reduction
-    rest = (example.parameters, reduction.replicates[2], AT)
-    mixed = joint_covariance(reduction, (LatentSplit(kernel), Kronecker(kernel)), *rest)
-    dense = joint_covariance(reduction, (Dense(kernel), Dense(kernel)), *rest)
+    curve = example.reduction.replicates[2]
+    mixed, dense = (
+        example.process((one(example.kernel), two(example.kernel))).covariance(curve, AT)
+        for one, two in ((LatentSplit, Kronecker), (Dense, Dense))
+    )
     np.testing.assert_allclose(mixed, dense, atol=1e-10)

@@ -1,1 +1,0 @@
-"""Posterior of a trained model: predictions, joint covariances, draws and trends."""

@@ -1,0 +1,190 @@
+"""A fitted Gaussian process as a value: what it says of curves, given its recordings.
+
+A curve is a sum of independent terms (`PosteriorTerm`), each given by one block: that of a
+recording, of the trend, or of a group in between (`Reduction`). See docs/inference.md, section 8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Self
+
+import numpy as np
+from joblib import effective_n_jobs
+
+from mocapbench.baselines.common.scaling import Standardisation
+from mocapbench.baselines.gp.joint import TermPosterior
+from mocapbench.baselines.gp.prior.kernels import StationaryKernel
+from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.baselines.gp.prior.sampling import draw_layer
+from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
+from mocapbench.baselines.gp.solvers.planner import PLANS, with_mapper
+from mocapbench.baselines.gp.solvers.solver import BlockPosterior, Solver
+from mocapbench.baselines.gp.solvers.threads import thread_mapper
+from mocapbench.baselines.protocols import SampleByFrameByChannel
+from mocapbench.basics.arrays import Array
+from mocapbench.datasets import FrameByChannel, Frames
+
+__all__ = ["TRENDS", "Curve", "FittedProcess"]
+
+
+Curve = tuple[PosteriorTerm, ...]
+"""The terms of a noise-free curve."""
+
+
+@dataclass(frozen=True, eq=False)
+class FittedProcess:
+    """A Gaussian process with its parameters, given recordings.
+
+    Times are in seconds and in any order, results in the outputs' own units. Observation noise is
+    left out unless a method says otherwise.
+
+    Parameters
+    ----------
+    kernel : StationaryKernel
+        The kernel of every component.
+    reduction : Reduction
+        The likelihood of the recordings as block problems, and the terms of their curves.
+    solvers : tuple of Solver
+        One for each block.
+    parameters : Parameters
+        For outputs in standard units.
+    scaling : Standardisation
+        The map to standard units.
+    """
+
+    kernel: StationaryKernel
+    reduction: Reduction
+    solvers: tuple[Solver, ...]
+    parameters: Parameters
+    scaling: Standardisation
+
+    @property
+    def noise(self) -> Array:
+        """(D,) noise variance of each output."""
+        return self.parameters.noise * self.scaling.scale**2
+
+    @property
+    def coregionalisation(self) -> Mapping[str, Array]:
+        """The matrices B_q of each layer by its name, (Q, D, D)."""
+        units = np.outer(self.scaling.scale, self.scaling.scale)
+        layers = self.parameters.layers.items()
+        return {name: layer.coregionalisation.matrices * units for name, layer in layers}
+
+    def layer_covariance(self, layer: str, times: Frames) -> Array:
+        """Return the prior covariance Σ_q B_q ⊗ k_q of a layer, (D M, D M), outputs slowest."""
+        lags = np.subtract.outer(times, times)
+        covariance = self.parameters.layers[layer].covariance(self.kernel, lags)
+        scale = np.repeat(self.scaling.scale, len(times))
+        return covariance.reshape(len(scale), -1) * np.outer(scale, scale)
+
+    @contextmanager
+    def threaded(self, n_jobs: int | None) -> Iterator[Self]:
+        """Give the same process, whose solvers share their outputs out to ``n_jobs`` threads."""
+        with thread_mapper(effective_n_jobs(n_jobs)) as mapper:
+            yield replace(self, solvers=with_mapper(self.solvers, mapper))
+
+    def given(self, reduction: Reduction) -> Self:
+        """Return the process given other recordings, its parameters kept."""
+        # They may break what the solver of `fit` needs, such as gaps that all outputs share.
+        solvers = PLANS["auto"](self.kernel, reduction.blocks, self.parameters)
+        return replace(self, reduction=reduction, solvers=solvers)
+
+    def infer(
+        self, curves: Sequence[Curve], times: Sequence[Frames]
+    ) -> list[tuple[FrameByChannel, FrameByChannel]]:
+        """Return the posterior mean and variance of every curve at its times: (M, D) each.
+
+        Every block that is needed is conditioned once.
+        """
+        posteriors = {
+            index: self.solvers[index].condition(self.reduction.blocks[index], self.parameters)
+            for index in sorted({term.block for curve in curves for term in curve})
+        }
+        return [
+            self._add_terms(posteriors, curve, at) for curve, at in zip(curves, times, strict=True)
+        ]
+
+    def covariance(self, curve: Curve, times: Frames) -> Array:
+        """Return the posterior covariance of a curve, (D M, D M), outputs slowest.
+
+        It is symmetric, and positive semi-definite up to rounding. Each of the curve's blocks is
+        conditioned once, on D M data vectors.
+        """
+        scale = np.repeat(self.scaling.scale, len(times))
+        total = np.zeros((len(scale), len(scale)))
+        for term in curve:
+            total += self._joint(term, times).covariance()
+        return 0.5 * (total + total.T) * np.outer(scale, scale)
+
+    def draw(
+        self, curve: Curve, times: Frames, n_samples: int, rng: np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Return posterior draws of a curve, (n, M, D); equal times get equal values.
+
+        Each of the curve's blocks is conditioned once, on n data vectors. The draws of a seed
+        depend on the set of times, but not on their order, nor on the solvers except for rounding.
+        """
+        total = np.zeros((n_samples, len(times), len(self.scaling.scale)))
+        for term in curve:
+            total += self._joint(term, times).draw(term.column, n_samples, rng)
+        return self.scaling.restore(total)
+
+    def draw_recordings(
+        self, trend: str, times: Frames, n_samples: int, rng: np.random.Generator
+    ) -> SampleByFrameByChannel:
+        """Return new recordings, noise included: (n, M, D).
+
+        They are one of the `TRENDS`, plus draws of the layers below it, or of the only layer.
+        """
+        around = TRENDS[trend](self, times, rng)
+        top, *below = self.parameters.layers.values()
+        draws = np.zeros((n_samples, len(times), len(self.scaling.scale)))
+        for layer in below or [top]:
+            draws += draw_layer(self.kernel, layer, times, n_samples, rng)
+        draws += np.sqrt(self.parameters.noise) * rng.standard_normal(draws.shape)
+        return around + self.scaling.scale * draws
+
+    def _add_terms(
+        self, posteriors: Mapping[int, BlockPosterior], curve: Curve, times: Frames
+    ) -> tuple[FrameByChannel, FrameByChannel]:
+        """Return the mean and the variance (M, D) of the sum of a curve's independent terms."""
+        mean, variance = np.zeros((2, len(times), len(self.scaling.scale)))
+        for term in curve:
+            means, term_variance = posteriors[term.block].predict(term.target, times)
+            mean += means[term.column].T
+            variance += term_variance.T
+        return self.scaling.restore(mean), variance * self.scaling.scale**2
+
+    def _joint(self, term: PosteriorTerm, times: Frames) -> TermPosterior:
+        block, solver = self.reduction.blocks[term.block], self.solvers[term.block]
+        return TermPosterior(block, solver, self.parameters, term.target, times)
+
+
+Trend = Callable[[FittedProcess, Frames, np.random.Generator], FrameByChannel]
+"""Gives the trend of a fitted process at times (M,): (M, D)."""
+
+
+def _infer_trend(process: FittedProcess, times: Frames, rng: np.random.Generator) -> FrameByChannel:
+    del rng  # nothing is drawn
+    ((mean, _),) = process.infer([process.reduction.trend], [times])
+    return mean
+
+
+def _draw_trend(process: FittedProcess, times: Frames, rng: np.random.Generator) -> FrameByChannel:
+    (trend,) = process.draw(process.reduction.trend, times, 1, rng)
+    return np.asarray(trend)
+
+
+TRENDS: Mapping[str, Trend] = MappingProxyType({"mean": _infer_trend, "posterior": _draw_trend})
+"""What new recordings are drawn around: the trend's posterior mean, or one draw from its posterior.
+
+J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
+thesis, Universidad Tecnológica de Pereira, 2017, §5.2, takes the mean as if it were known. New
+recordings then resemble each other, and the fitted recordings, a little more than they should.
+Around a draw, a set of new recordings is an exact draw of further replicates given all visible
+entries (docs/inference.md, section 9).
+"""
