@@ -91,9 +91,9 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         log-likelihood of the recordings in standard units.
     max_seconds : float or None, default=None
         Time limit for all searches together; None sets no limit. When it is spent, the best
-        parameters so far are taken, and `training_` says so. Results then depend on the machine. An
-        evaluation of the likelihood that has begun is finished first: with "rbf" it takes time with
-        the cube of the frames, with Matérn kernels in proportion to them.
+        parameters so far are taken, and ``training_`` says so. Results then depend on the machine.
+        An evaluation of the likelihood that has begun is finished first: with "rbf" it takes time
+        with the cube of the frames, with Matérn kernels in proportion to them.
     warm_start : bool, default=False
         Whether `fit` starts from the parameters of the previous one, if there was one.
     verbose : bool, default=False

@@ -147,6 +147,7 @@ FIT_PATH = [
     ("baselines.common.own_means", "walking-interpolation", "low-rank"),
     ("baselines.common.pose_units", "missing-frames", "pose-viterbi"),
     ("baselines.common.prototypes", "style-clustering", "k-fam"),
+    ("baselines.rehearsal.calibrated_posteriors", "toy-interpolation-1", "mohgp"),
     ("baselines.rehearsal.checkable", "missing-frames", "lds"),
     ("baselines.rehearsal.in_training", "subject-35-missing", "channel-kriging"),
     ("baselines.rehearsal.lost_channels", "missing-frames", "lds"),
