@@ -1,5 +1,6 @@
 """Parameters are documented once, and every model that takes them says what they mean."""
 
+import ast
 import inspect
 import re
 
@@ -40,6 +41,17 @@ def test_the_thirteen_parameters_are_documented_once():
 @pytest.mark.parametrize("model", [*JOINT, *CHANNELWISE])
 def test_a_model_documents_all_its_parameters_in_their_order(model):
     assert entries(model.__doc__) == list(inspect.signature(model).parameters)
+
+
+@pytest.mark.parametrize("model", [*JOINT, *CHANNELWISE])
+def test_documented_defaults_are_those_of_the_signature(model):
+    kinds = re.findall(r"^(\w+) : .*default=(\S+?)(?:, or (\S+) for (\w+))?$", model.__doc__, re.M)
+    documented = {
+        name: ast.literal_eval(own if whose == model.__name__ else usual)
+        for name, usual, own, whose in kinds
+    }
+    parameters = inspect.signature(model).parameters.values()
+    assert documented == {parameter.name: parameter.default for parameter in parameters}
 
 
 @pytest.mark.parametrize("model", JOINT)
