@@ -25,7 +25,6 @@ import numpy as np
 import pandas as pd
 from sklearn.preprocessing import minmax_scale
 
-from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.moa import MOA
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.benchmark import METRICS
@@ -60,7 +59,7 @@ UNITS: Mapping[str, Callable[[Recording], Recording]] = {
     "recorded": lambda recording: recording,
     "ranges": scaled,
 }
-MODELS: Mapping[str, type[GaussianProcess]] = {"mohgp-3": MOHGP, "moa-3": MOA}
+MODELS: Mapping[str, type[MOHGP] | type[MOA]] = {"mohgp-3": MOHGP, "moa-3": MOA}
 
 
 def excerpts(uris: Sequence[str], windows: Mapping[str, Window]) -> list[Recording]:
@@ -121,7 +120,7 @@ def variants(max_iter: int) -> Iterator[dict[str, object]]:
 
 
 def _measures(
-    fitted: GaussianProcess, train: Sequence[Recording], references: Mapping[str, np.ndarray]
+    fitted: MOHGP | MOA, train: Sequence[Recording], references: Mapping[str, np.ndarray]
 ) -> dict[str, float]:
     """Return the variance of samples in time over half that of the recordings' difference.
 
