@@ -34,7 +34,6 @@ from mocapbench.baselines.kriging.paths import MatchedPaths
 from mocapbench.baselines.kriging.symmetry import symmetries
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
-from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["PoseKriging"]

@@ -10,13 +10,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
 __all__ = ["mean_directions", "turns_away"]
 
-Array = NDArray[np.float64]
 
 _TURN = {"deg": 360.0, "rad": 2.0 * np.pi}
 """One turn in each unit of angle."""

@@ -1,7 +1,8 @@
 r"""The joint posterior of a term of a curve at several times: its covariance, and draws from it.
 
 Conditioning is linear in the data, so posterior means of suitable data vectors are all that is
-needed of a solver (docs/inference.md, sections 8 and 9). A target of a block, with values
+needed of a solver (docs/mathematics/prediction.md, sections 8
+and 9). A target of a block, with values
 :math:`f_*` at the requested times and cross covariance :math:`K_*` with the visible entries, has
 
 * the posterior covariance :math:`\tfrac{\rho}{h}(K_{**} - K_* K^{-1} K_*^\top)`, where

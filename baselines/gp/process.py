@@ -1,7 +1,8 @@
 """A fitted Gaussian process as a value: what it says of curves, given its recordings.
 
 A curve is a sum of independent terms (`PosteriorTerm`), each given by one block: that of a
-recording, of the trend, or of a group in between (`Reduction`). See docs/inference.md, section 8.
+recording, of the trend, or of a group in between (`Reduction`). See docs/mathematics/prediction.md,
+section 8.
 """
 
 from __future__ import annotations
@@ -186,5 +187,5 @@ J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Mot
 thesis, Universidad Tecnológica de Pereira, 2017, §5.2, takes the mean as if it were known. New
 recordings then resemble each other, and the fitted recordings, a little more than they should.
 Around a draw, a set of new recordings is an exact draw of further replicates given all visible
-entries (docs/inference.md, section 9).
+entries (docs/mathematics/prediction.md, section 9).
 """

@@ -24,11 +24,11 @@ from sklearn.metrics.pairwise import euclidean_distances
 
 from mocapbench.baselines.kriging.conditioned import ConditionedFrames
 from mocapbench.baselines.kriging.symmetry import Image
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel
 
 __all__ = ["MirroredResiduals", "images_of"]
 
-Array = NDArray[np.float64]
 
 _CONSTANT, _DRIFT, _NOISE = 10.0, 1.0, 0.05
 """Prior variances of constants of the two sides, of the drift in time and of noise, up to scale."""

@@ -9,13 +9,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.filling.question import FilledEntries, GapQuestion
 
 __all__ = ["keep_constants"]
 
-Array = NDArray[np.float64]
 
 _ENOUGH = 10
 """Frames; fewer that are equal are so by chance in files of rounded numbers, unless most are."""

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
+from mocapbench.basics.words import encodable
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.task_files.building import build_task
@@ -16,7 +17,6 @@ from mocapbench.benchmark.task_files.library import address_of
 from mocapbench.benchmark.task_files.settings import read_settings
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.task_files.trial import TrialRun
-from mocapbench.basics.words import encodable
 
 __all__ = ["checked", "open_task_file", "open_task_files", "require_folder"]
 

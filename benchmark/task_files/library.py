@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path, PurePosixPath
 
+from mocapbench.basics.words import encodable
 from mocapbench.benchmark.formats import format_for
 from mocapbench.datasets import FormatError, Library, Recording, Skeleton, SkeletonUnavailable
 from mocapbench.datasets.digests import content_digest
-from mocapbench.basics.words import encodable
 
 __all__ = ["SCHEME", "FolderLibrary", "address_of", "require_addressable"]
 
