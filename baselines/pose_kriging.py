@@ -229,8 +229,8 @@ class PoseKriging(FrameImputer, Inductive):
         """Return the mean and variance (N, D) of the paths, corrected by their residuals."""
         visible, n_frames = visible_frames(recording), len(recording.times)
         seen = np.tile(visible, len(self.symmetries_))
-        residuals = [recording.values - path for path in paths.paths]
-        residuals = np.array([images_of(each, self.symmetries_)[seen] for each in residuals])
+        unexplained = recording.values - paths.paths
+        residuals = np.array([images_of(each, self.symmetries_)[seen] for each in unexplained])
         corrected, variance = paths.paths.copy(), np.empty(recording.values.shape)
         for channels, given in self._residuals().given(paths.mean, visible):
             those = residuals[:, :, channels]

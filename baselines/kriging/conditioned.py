@@ -65,7 +65,7 @@ class ConditionedFrames:
 
     def _coefficients(self, residuals: Array) -> Array:
         """Return β = (HᵀK⁻¹H)⁻¹HᵀK⁻¹r of each channel (p, D)."""
-        return np.linalg.solve(self._trend_precision, self._trend_dual.T @ residuals)
+        return np.asarray(np.linalg.solve(self._trend_precision, self._trend_dual.T @ residuals))
 
     def _without_trend(self, residuals: Array) -> Array:
         """Return r − Hβ of each channel (n, D)."""
@@ -89,7 +89,7 @@ class ConditionedFrames:
 
     @property
     def _freedom(self) -> int:
-        return int(self.visible.sum()) - self.trend.shape[1]
+        return int(self.visible.sum() - self.trend.shape[1])
 
     def scales(self, residuals: Array, least: float) -> Array:
         """Return the scale of each channel (D,), at least ``least``."""

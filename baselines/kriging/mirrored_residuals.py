@@ -71,16 +71,15 @@ class MirroredResiduals:
         Its frames are the images of all N frames, one image after the other.
         """
         prior, each = self.covariance(matched), np.tile(visible, len(self.images))
-        constants = np.kron(np.eye(len(self.images)), np.ones((len(visible), 1)))
+        constants = np.repeat(np.eye(len(self.images)), len(visible), axis=0)
         free = self._middle | (self.symmetry == 0.0)
         if free.any():
             yield free, ConditionedFrames(prior, _NOISE, each, constants)
         if not free.all():
             # (c, −c), of eigenvalue 10 (1 − ρ) in the covariance 10 (1, ρ; ρ, 1) of two constants.
             unlike = constants @ [[1.0], [-1.0]] / np.sqrt(2.0)
-            apart = _CONSTANT * (1.0 - self.symmetry) * unlike @ unlike.T
-            alike = constants.sum(axis=1, keepdims=True)
-            yield ~free, ConditionedFrames(prior + apart, _NOISE, each, alike)
+            apart = prior + _CONSTANT * (1.0 - self.symmetry) * unlike @ unlike.T
+            yield ~free, ConditionedFrames(apart, _NOISE, each, np.ones((len(each), 1)))
 
     def covariance(self, matched: FrameByChannel) -> Array:
         """Return the covariance of the images of matched frames (N, D), without constants."""

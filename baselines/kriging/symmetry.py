@@ -54,7 +54,7 @@ class Image:
     @property
     def kept(self) -> NDArray[np.bool_]:
         """(D,) which channels stay in place: those in the middle of the body."""
-        return self.order == np.arange(len(self.order))
+        return np.asarray(self.order == np.arange(len(self.order)))
 
     def of(self, frames: FrameByChannel) -> FrameByChannel:
         """Return the image of frames (N, D)."""
