@@ -9,6 +9,7 @@ import re
 
 import pytest
 
+import mocapbench
 from mocapbench import baselines, benchmark, datasets
 from mocapbench.benchmark.registry import METRICS, MODELS
 
@@ -16,17 +17,10 @@ OPTIONS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 
 
 def _module_names():
-    """Return the names of all modules.
-
-    Each part of the package is walked from its own path: in an editable install its folder is not
-    below that of `mocapbench`.
-    """
-    for part in ("basics", "datasets", "metrics", "baselines", "reports", "benchmark"):
-        package = importlib.import_module(f"mocapbench.{part}")
-        yield package.__name__
-        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
-            if not module.name.endswith("__main__"):
-                yield module.name
+    """Return the names of all modules."""
+    for module in pkgutil.walk_packages(mocapbench.__path__, "mocapbench."):
+        if not module.name.endswith("__main__"):
+            yield module.name
 
 
 def _has_example(name):

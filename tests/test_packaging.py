@@ -21,7 +21,7 @@ CACHES = shutil.ignore_patterns(
     *(".git", ".tox", ".venv", ".*_cache", "__pycache__", "*.egg-info", "build", "dist"),
     *("_build", "generated"),  # the site
 )
-BUILD = "import sys; from setuptools import build_meta; build_meta.build_{}(sys.argv[1])"
+BUILD = "import sys; from hatchling import build; build.build_{}(sys.argv[1])"
 
 
 def test_the_lowest_versions_tested_are_the_lowest_declared():
@@ -52,19 +52,6 @@ def test_every_address_of_the_project_is_below_its_source():
     assert all(url.startswith(urls["Source"]) for url in urls.values())
 
 
-def test_every_folder_with_modules_is_packaged():
-    found = {
-        ".".join(("mocapbench", *path.parent.relative_to(ROOT).parts))
-        for top in FOLDERS
-        for path in (ROOT / top).rglob("__init__.py")
-    }
-    ground = {
-        ".".join(path.parent.relative_to(ROOT / "src").parts)
-        for path in (ROOT / "src").rglob("__init__.py")
-    }
-    assert {*ground, *found} == set(PROJECT["tool"]["setuptools"]["packages"])
-
-
 def test_every_public_module_says_what_is_public():
     for path in (path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py")):
         source = path.read_text()
@@ -85,12 +72,16 @@ def left_out(folder, names):
 
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory):
-    """Return a copy of the source tree, which building leaves files in."""
-    return shutil.copytree(ROOT, tmp_path_factory.mktemp("distributions") / "tree", ignore=left_out)
+    """Return a copy of the source tree, which has a package more than ours."""
+    copy = tmp_path_factory.mktemp("distributions") / "tree"
+    shutil.copytree(ROOT, copy, symlinks=True, ignore=left_out)
+    (copy / "metrics" / "gaits").mkdir()
+    (copy / "metrics" / "gaits" / "__init__.py").touch()
+    return copy
 
 
 def build(kind, tree):
-    """Return the one file that setuptools builds, without a network."""
+    """Return the one file that the build backend writes, without a network."""
     target = tree.parent / kind
     target.mkdir()
     command = [sys.executable, "-c", BUILD.format(kind), target]
@@ -108,6 +99,18 @@ def sdist(tree):
     return build("sdist", tree)
 
 
+def files_of(wheel):
+    """Return the paths of a wheel's files, its metadata aside."""
+    with zipfile.ZipFile(wheel) as archive:
+        return {name for name in archive.namelist() if ".dist-info/" not in name}
+
+
+@pytest.fixture(scope="module")
+def wheel(tree):
+    """Return the wheel that is built from a clone."""
+    return build("wheel", tree)
+
+
 @pytest.mark.slow
 def test_the_source_distribution_holds_what_its_tests_need(tree, sdist):
     with tarfile.open(sdist) as archive:
@@ -117,29 +120,41 @@ def test_the_source_distribution_holds_what_its_tests_need(tree, sdist):
     needed = files_below(tree, *FOLDERS, "src", "tests", "docs", "examples", "conda", ".ci")
     assert {*top, "pyproject.toml", *needed} - held == set()
     assert {"tests/goldens/metrics/tolerances.toml", "tests/lowest.txt", ".ci/run"} <= held
-    generated = {"PKG-INFO", "setup.cfg", "MANIFEST.in", "pyproject.toml"}
-    assert {
-        name for name in held - needed - top - generated if not name.startswith("mocapbench.egg")
-    } == set()
+    assert held - needed - top == {"PKG-INFO", ".gitignore", "pyproject.toml"}
 
 
 @pytest.mark.slow
-def test_an_archive_without_a_history_of_git_makes_a_wheel_of_this_version(sdist, tmp_path):
+def test_an_archive_without_a_history_of_git_makes_the_same_wheel(sdist, wheel, tmp_path):
     shutil.unpack_archive(sdist, tmp_path)
     (unpacked,) = tmp_path.iterdir()
     assert unpacked.name == f"mocapbench-{__version__}"
-    with zipfile.ZipFile(build("wheel", unpacked)) as archive:
+    rebuilt = build("wheel", unpacked)
+    assert files_of(rebuilt) == files_of(wheel)
+    with zipfile.ZipFile(rebuilt) as archive:
         metadata = archive.read(f"mocapbench-{__version__}.dist-info/METADATA").decode()
     assert f"\nVersion: {__version__}\n" in metadata
 
 
 @pytest.mark.slow
-def test_the_wheel_holds_the_packages_and_their_data_alone(tree):
-    with zipfile.ZipFile(build("wheel", tree)) as archive:
-        held = {name for name in archive.namelist() if ".dist-info/" not in name}
+def test_the_wheel_holds_the_packages_and_their_data_alone(tree, wheel):
+    held = files_of(wheel)
     packages = {f"mocapbench/{name}" for name in files_below(tree, *FOLDERS)}
-    assert held == packages | {"mocapbench/__init__.py", "mocapbench/py.typed"}
+    assert held == packages | files_below(tree / "src", "mocapbench")
+    assert {"mocapbench/py.typed", "mocapbench/metrics/gaits/__init__.py"} <= held
     assert {"mocapbench/reports/page/parts/page.html.j2", "mocapbench/metrics/__init__.pyi"} <= held
     parts = ("parts/player.html.j2", "scripts/player.js", "styles/player.css")
     assert {f"mocapbench/reports/page/{part}" for part in parts} <= held
     assert not any("/test_" in name for name in held)
+
+
+@pytest.mark.slow
+def test_an_editable_install_is_a_path_that_type_checkers_follow(tree):
+    """They cannot follow an import hook, nor can lint-imports."""
+    editable = build("editable", tree)
+    (path_file,) = files_of(editable)
+    assert path_file.endswith(".pth")
+    with zipfile.ZipFile(editable) as archive:
+        (line,) = archive.read(path_file).decode().splitlines()
+    package = Path(line) / "mocapbench"
+    assert (package / "__init__.py").is_file()
+    assert all((package / folder).samefile(tree / folder) for folder in FOLDERS)

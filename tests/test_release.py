@@ -22,8 +22,8 @@ def stated(path):
 
 
 def test_the_version_is_written_once():
-    assert PROJECT["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "mocapbench.__version__"}
-    source = ROOT / "src" / "mocapbench" / "__init__.py"
+    source = ROOT / PROJECT["tool"]["hatch"]["version"]["path"]
+    assert source.samefile(ROOT / "src" / "mocapbench" / "__init__.py")
     assert stated(source) == [__version__]
     others = [path for path in ROOT.iterdir() if path.is_file() and path.name[0] != "."]
     others += [path for name in ("conda", ".ci") for path in (ROOT / name).iterdir()]

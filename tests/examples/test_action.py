@@ -239,7 +239,7 @@ def test_a_check_that_cannot_be_made_shows_no_earlier_summary(action):
 @pytest.mark.slow
 def test_it_installs_this_package_into_an_environment_of_its_own(tmp_path, monkeypatch):
     """Without a network: what mocapbench needs is lent from the environment of the tests."""
-    checkout = shutil.copytree(ACTION.parent, tmp_path / "checkout", ignore=CACHES)
+    checkout = shutil.copytree(ACTION.parent, tmp_path / "checkout", symlinks=True, ignore=CACHES)
     lent = [path for path in sys.path if path.endswith("-packages")]
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(lent))
     for name, value in (("NO_INDEX", "1"), ("NO_BUILD_ISOLATION", "0"), ("NO_DEPS", "1")):
