@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
-from mocapbench.baselines.common.gaps import hidden_frames, runs, stretches
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
+from mocapbench.baselines.common.recordings import hidden_frames, stretches
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array, Index
+from mocapbench.basics.gaps import runs
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["AlignedWindow"]

@@ -12,7 +12,6 @@ from typing import ClassVar, Self
 import numpy as np
 
 from mocapbench.baselines.common.checks import check_recordings, pool
-from mocapbench.baselines.common.gaps import hidden_together, runs
 from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.kriging.channel_pairs import DescribedFrames
@@ -22,6 +21,7 @@ from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.baselines.rehearsal.checkable import OneByOne
 from mocapbench.baselines.rehearsal.rehearsing import rehearsed
 from mocapbench.basics.arrays import Array, Index
+from mocapbench.basics.gaps import hidden_together, runs
 from mocapbench.datasets import Recording
 
 __all__ = ["ChannelKriging"]

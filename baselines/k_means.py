@@ -11,9 +11,8 @@ from mocapbench.baselines.alignment.period import cycle_length
 from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.validation import check_settings
 from mocapbench.baselines.common.checks import check_recordings, check_visible
-from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.common.prototypes import grouped
-from mocapbench.baselines.common.recordings import visible_moments
+from mocapbench.baselines.common.recordings import interpolated, visible_moments
 from mocapbench.baselines.protocols import Clusterer
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording

@@ -11,13 +11,19 @@ from sklearn.neighbors import NearestNeighbors
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings, check_visible, pool
-from mocapbench.baselines.common.gaps import hidden_frames, runs, with_steps
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
-from mocapbench.baselines.common.recordings import places_by_name, stack, visible_moments
+from mocapbench.baselines.common.recordings import (
+    hidden_frames,
+    places_by_name,
+    stack,
+    visible_moments,
+    with_steps,
+)
 from mocapbench.baselines.common.transitions import Steps, fill_gap
 from mocapbench.baselines.common.validation import check_count
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array
+from mocapbench.basics.gaps import runs
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["KNN"]

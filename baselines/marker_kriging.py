@@ -9,7 +9,6 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings, pool
-from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.markers import marker_places
 from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.rigid import FEWEST, steadiness
@@ -18,6 +17,7 @@ from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.kriging.beside_gaps import courses
 from mocapbench.baselines.kriging.marker_gap import MarkerGap, Track
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spatial
+from mocapbench.basics.gaps import runs
 from mocapbench.datasets import Recording
 
 __all__ = ["MarkerKriging"]

@@ -10,9 +10,8 @@ from sklearn.metrics.pairwise import nan_euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
-from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.common.pose_units import pose_factors
-from mocapbench.baselines.common.recordings import stack
+from mocapbench.baselines.common.recordings import interpolated, stack
 from mocapbench.baselines.common.validation import check_not_negative
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array

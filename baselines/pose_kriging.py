@@ -21,8 +21,8 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.angle_wrapping import mean_directions, turns_away
 from mocapbench.baselines.common.checks import check_channels, check_recordings
-from mocapbench.baselines.common.gaps import visible_frames, with_steps
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
+from mocapbench.baselines.common.recordings import visible_frames, with_steps
 from mocapbench.baselines.common.validation import (
     check_not_negative,
     check_positive,

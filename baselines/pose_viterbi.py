@@ -18,8 +18,8 @@ from sklearn.metrics.pairwise import euclidean_distances
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
-from mocapbench.baselines.common.gaps import complete_stretches, visible_frames
 from mocapbench.baselines.common.pose_units import in_pose_units, pose_factors
+from mocapbench.baselines.common.recordings import complete_stretches, visible_frames
 from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction

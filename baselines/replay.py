@@ -9,7 +9,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_recordings
-from mocapbench.baselines.common.gaps import interpolated
+from mocapbench.baselines.common.recordings import interpolated
 from mocapbench.baselines.common.validation import check_sampling
 from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
 from mocapbench.datasets import Frames, Recording

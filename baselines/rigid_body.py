@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
-from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.markers import marker_places
 from mocapbench.baselines.common.rigid import (
     FEWEST,
@@ -24,6 +23,7 @@ from mocapbench.baselines.interpolation import PchipImputer
 from mocapbench.baselines.kriging.local_frames import LocalFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spatial
 from mocapbench.basics.arrays import Array
+from mocapbench.basics.gaps import runs
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["RigidBody"]

@@ -12,8 +12,7 @@ from pathlib import Path
 from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.acclaim.skeleton_reader import read_skeleton
-from mocapbench.datasets.gait_curves import STYLES
-from mocapbench.datasets.gait_walker import walk
+from mocapbench.datasets.gait_walker import STYLES, walk
 from mocapbench.datasets.keys import split_key
 from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import Recording

@@ -27,8 +27,8 @@ from mocapbench.baselines.alignment.updates import (
     update_paths,
     update_precisions,
 )
-from mocapbench.baselines.common.gaps import frames_alike
 from mocapbench.basics.arrays import Array
+from mocapbench.basics.gaps import frames_alike
 
 __all__ = ["corrected", "error_correlation", "infer", "refine"]
 

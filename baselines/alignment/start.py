@@ -19,8 +19,8 @@ from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hype
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.updates import update_paths
-from mocapbench.baselines.common.gaps import interpolated
 from mocapbench.baselines.common.prototypes import grouped, of_unit_variance, tempi
+from mocapbench.baselines.common.recordings import interpolated
 from mocapbench.basics.arrays import Array
 
 __all__ = [

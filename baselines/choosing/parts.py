@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.gaps import whole_gaps
+from mocapbench.basics.gaps import whole_gaps
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["EVERYTHING", "GAPS", "Part", "parts_of"]

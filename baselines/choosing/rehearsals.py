@@ -12,12 +12,12 @@ import pandas as pd
 from mocapbench.baselines.choosing.panel import CandidatePanel
 from mocapbench.baselines.choosing.parts import EVERYTHING, GAPS, Part
 from mocapbench.baselines.common.checks import pool
-from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.common.scaling import unit_scales
 from mocapbench.baselines.rehearsal.lost_channels import lost_trials
 from mocapbench.baselines.rehearsal.stand_ins import aligned, turns
 from mocapbench.baselines.rehearsal.trials import trial_masks
 from mocapbench.basics.arrays import Array
+from mocapbench.basics.gaps import runs
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["Products", "Rehearsals"]

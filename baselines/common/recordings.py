@@ -1,4 +1,4 @@
-"""Several recordings: their order, and their frames together."""
+"""Recordings: their order, their frames together, complete frames, and lines across gaps."""
 
 from __future__ import annotations
 
@@ -7,14 +7,21 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.basics.arrays import Array
-from mocapbench.datasets import FrameByChannel, Recording
+from mocapbench.basics.arrays import Array, Mask
+from mocapbench.basics.gaps import runs
+from mocapbench.datasets import FrameByChannel, Frames, Recording
 
 __all__ = [
     "by_name",
+    "complete_stretches",
+    "hidden_frames",
+    "interpolated",
     "places_by_name",
     "stack",
+    "stretches",
+    "visible_frames",
     "visible_moments",
+    "with_steps",
 ]
 
 
@@ -52,3 +59,95 @@ def visible_moments(recordings: Sequence[Recording]) -> tuple[Array, Array]:
     mean = np.where(seen, values, 0.0).sum(axis=0) / counts
     variance = np.where(seen, (values - mean) ** 2, 0.0).sum(axis=0) / counts
     return mean, variance
+
+
+def hidden_frames(recording: Recording) -> Mask:
+    """Return which frames (N,) are hidden as a whole.
+
+    Raises
+    ------
+    ValueError
+        If a frame is hidden in part.
+    """
+    hidden = np.isnan(recording.values)
+    whole = np.asarray(hidden.all(axis=1))
+    partial = int((hidden.any(axis=1) & ~whole).sum())
+    if partial:
+        raise ValueError(
+            f"recording {recording.name!r}: expected frames all visible or all hidden, "
+            f"got {partial} hidden in part; use a model that fills any gaps"
+        )
+    return whole
+
+
+def visible_frames(recording: Recording) -> Mask:
+    """Return which frames (N,) are visible.
+
+    Raises
+    ------
+    ValueError
+        If a frame is hidden in part, or none is visible.
+    """
+    visible = ~hidden_frames(recording)
+    if not visible.any():
+        raise ValueError(f"recording {recording.name!r}: expected a visible frame, got none")
+    return visible
+
+
+def stretches(recording: Recording) -> list[FrameByChannel]:
+    """Return each unbroken run of complete frames (N, D) of a recording."""
+    complete = np.asarray(recording.visible.all(axis=1))
+    return [recording.values[run] for run in runs(complete)]
+
+
+def complete_stretches(recordings: Sequence[Recording]) -> list[FrameByChannel]:
+    """Return the `stretches` of recordings, one after the other.
+
+    Raises
+    ------
+    ValueError
+        If no two consecutive frames are complete.
+    """
+    with_steps(recordings)
+    return [stretch for recording in recordings for stretch in stretches(recording)]
+
+
+def with_steps(recordings: Sequence[Recording]) -> list[Recording]:
+    """Return the recordings in which two consecutive frames are complete.
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+    """
+    usable = [one for one in recordings if any(len(each) > 1 for each in stretches(one))]
+    if not usable:
+        raise ValueError(
+            "expected two consecutive frames of some recording that are visible in all channels, "
+            "got none; add such a recording, or use a model that learns from any visible entries"
+        )
+    return usable
+
+
+def interpolated(
+    values: FrameByChannel, times: Frames, wanted: Frames | None = None
+) -> FrameByChannel:
+    """Return channels on lines between their visible entries, held at the ends: (M, D).
+
+    A channel without any is NaN.
+
+    Parameters
+    ----------
+    values : ndarray of shape (N, D)
+        NaN where hidden.
+    times : ndarray of shape (N,)
+    wanted : ndarray of shape (M,), optional
+        The times to return, those of ``values`` by default.
+    """
+    at = times if wanted is None else wanted
+    read = np.full((len(at), values.shape[1]), np.nan)
+    for column, given in zip(read.T, values.T, strict=True):
+        seen = ~np.isnan(given)
+        if seen.any():
+            column[:] = np.interp(at, times[seen], given[seen])
+    return read

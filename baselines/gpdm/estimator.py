@@ -14,8 +14,8 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_recordings
-from mocapbench.baselines.common.gaps import visible_frames
 from mocapbench.baselines.common.pose_units import in_pose_units, pose_factors
+from mocapbench.baselines.common.recordings import visible_frames
 from mocapbench.baselines.common.validation import (
     check_choice,
     check_count,

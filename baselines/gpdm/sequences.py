@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.checks import check_recordings
-from mocapbench.baselines.common.gaps import complete_stretches
-from mocapbench.baselines.common.recordings import by_name
+from mocapbench.baselines.common.recordings import by_name, complete_stretches
 from mocapbench.baselines.common.signs import oriented
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording

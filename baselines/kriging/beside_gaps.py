@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.gaps import hidden_together, runs
 from mocapbench.baselines.kriging.own_course import own_course
 from mocapbench.basics.arrays import Array
+from mocapbench.basics.gaps import hidden_together, runs
 from mocapbench.datasets import FrameByChannel, Mask
 
 __all__ = ["courses"]

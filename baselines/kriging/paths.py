@@ -9,7 +9,7 @@ from typing import Self
 
 import numpy as np
 
-from mocapbench.baselines.common.gaps import visible_frames
+from mocapbench.baselines.common.recordings import visible_frames
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording

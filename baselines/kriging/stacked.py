@@ -9,8 +9,7 @@ from typing import Self
 import numpy as np
 from sklearn.linear_model import Ridge
 
-from mocapbench.baselines.common.gaps import interpolated
-from mocapbench.baselines.common.recordings import stack
+from mocapbench.baselines.common.recordings import interpolated, stack
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 

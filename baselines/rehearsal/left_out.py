@@ -22,11 +22,11 @@ from typing import Self
 
 import numpy as np
 
-from mocapbench.baselines.common.gaps import distances
 from mocapbench.baselines.protocols import Prediction
 from mocapbench.baselines.rehearsal.ratios import mean_ratios
 from mocapbench.baselines.rehearsal.variance_check import STEEPEST
 from mocapbench.basics.arrays import Array
+from mocapbench.basics.gaps import distances
 from mocapbench.datasets import Mask, Recording
 
 __all__ = ["LeftOut", "side_by_side"]

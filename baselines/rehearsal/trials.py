@@ -15,7 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation
 
-from mocapbench.baselines.common.gaps import distances, hidden_together, runs, whole_gaps
+from mocapbench.basics.gaps import (
+    MOST_HIDDEN,
+    distances,
+    free_starts,
+    hidden_together,
+    runs,
+    whole_gaps,
+)
 from mocapbench.datasets import Mask, Recording
 
 __all__ = [
@@ -39,8 +46,6 @@ It yields frames near that place (0 to 1) of the recording, those to be preferre
 
 N_TRIALS = 3
 """Trials of a recording."""
-_MOST_HIDDEN = 0.15
-"""Of a channel's free frames, that a trial hides, unless one gap alone is longer."""
 _LEAST_LEFT = 2
 """Frames that stay visible in a trial: one tells nothing of how far a channel goes."""
 _SHARES = (1.0, 0.5, 0.25, 0.125, 0.0625)
@@ -51,7 +56,7 @@ _GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
 
 def copies(blocked: NDArray[np.bool_], gap: Frames, place: float) -> Iterator[Frames]:
     """Yield a copy of a gap, and shorter ones in case it fits nowhere."""
-    starts_of = _outer_starts if _at_an_end(blocked, gap) else _inner_starts
+    starts_of = _outer_starts if _at_an_end(blocked, gap) else free_starts
     for share in _SHARES:
         n_hidden = max(round(share * len(gap)), 1)
         starts = starts_of(blocked, n_hidden)
@@ -185,7 +190,7 @@ def _tried(
 
     They are free of what is blocked; ``spent`` frames that were visible have been hidden before.
     """
-    blocked, room = blocked.copy(), _MOST_HIDDEN * np.count_nonzero(~blocked)
+    blocked, room = blocked.copy(), MOST_HIDDEN * np.count_nonzero(~blocked)
     taken = 0
     for gap in sorted(gaps, key=len, reverse=True):
         if taken and taken + len(gap) > room:
@@ -203,13 +208,6 @@ def _tried(
 
 def _at_an_end(blocked: NDArray[np.bool_], gap: Frames) -> bool:
     return bool(gap[0] == 0 or gap[-1] == len(blocked) - 1)
-
-
-def _inner_starts(blocked: NDArray[np.bool_], length: int) -> NDArray[np.intp]:
-    """Return where stretches of free frames begin that have a free one on both sides."""
-    counts = np.concatenate([[0], np.cumsum(blocked)])
-    starts = np.arange(1, len(blocked) - length)
-    return np.asarray(starts[counts[starts + length + 1] == counts[starts - 1]])
 
 
 def _outer_starts(blocked: NDArray[np.bool_], length: int) -> NDArray[np.intp]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.common.gaps import interpolated
+from mocapbench.baselines.common.recordings import interpolated
 from mocapbench.basics.arrays import Array
 
 __all__ = ["Observations"]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.gaps import run_bounds
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.datasets import FrameByChannel, Mask, Recording
@@ -69,10 +70,9 @@ def _panel(
 
 def _longest_run(hidden: NDArray[np.bool_]) -> tuple[int, int]:
     """Return where the longest run of True (N,) begins, and where it has ended."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], hidden, [False]]).astype(int)))
-    starts, stops = edges[::2], edges[1::2]
-    longest = int(np.argmax(stops - starts))
-    return int(starts[longest]), int(stops[longest])
+    bounds = run_bounds(hidden)
+    start, stop = bounds[np.argmax(np.diff(bounds, axis=1))].tolist()
+    return start, stop
 
 
 def _around(run: tuple[int, int], n_frames: int) -> slice:

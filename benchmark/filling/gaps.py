@@ -9,6 +9,7 @@ from typing import Self
 
 import numpy as np
 
+from mocapbench.basics.gaps import run_bounds
 from mocapbench.datasets import Mask
 
 __all__ = ["Episode", "Gap", "episodes_of", "gaps_of", "mask_of"]
@@ -87,14 +88,10 @@ class Episode:
 
 def gaps_of(hidden: Mask) -> tuple[Gap, ...]:
     """Return the gaps of a mask (N, D), by their first frame; together they are the mask."""
-    edges = np.diff(np.pad(hidden, ((1, 1), (0, 0))).astype(np.int8), axis=0).T
-    channels, starts = np.nonzero(edges == 1)
-    _, stops = np.nonzero(edges == -1)
     alike: dict[tuple[int, int], list[int]] = defaultdict(list)
-    for channel, start, stop in zip(
-        channels.tolist(), starts.tolist(), stops.tolist(), strict=True
-    ):
-        alike[start, stop].append(channel)
+    for channel, column in enumerate(hidden.T):
+        for start, stop in run_bounds(column).tolist():
+            alike[start, stop].append(channel)
     return tuple(Gap(start, stop, tuple(alike[start, stop])) for start, stop in sorted(alike))
 
 

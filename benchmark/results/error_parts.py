@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.gaps import run_bounds
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.datasets import Archive, FormatError, Recording, RecordingUnavailable
@@ -65,14 +66,12 @@ def along_gap(errors: NDArray[np.float64]) -> list[Array]:
     -------
     list of ndarray of shape (20,)
     """
-    steps = np.diff(np.pad(np.isfinite(errors).astype(int), 1))
-    ends = zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1), strict=True)
     places = (np.arange(N_PLACES) + 0.5) / N_PLACES
     return [
         np.interp(
             places, (np.arange(last - first) + 0.5) / (last - first), errors[first:last]
         ).astype(np.float32)
-        for first, last in ends
+        for first, last in run_bounds(np.isfinite(errors)).tolist()
         if last - first >= SHORTEST and first > 0 and last < len(errors)
     ]
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from mocapbench.basics.gaps import run_bounds
 from mocapbench.reports.bundle.motions import Motions
 from mocapbench.reports.motions.encoding import encode, resolution
 from mocapbench.reports.text import slug
@@ -49,7 +47,7 @@ def draw(picture: Motions) -> PlayerFigure:
         "resolution": resolution(picture),
         "parents": picture.parents,
         "sides": [_side(joint, picture.joints) for joint in picture.joints],
-        "hidden": _runs(picture.hidden),
+        "hidden": run_bounds(picture.hidden).tolist(),
         "truths": names,
         "motions": [[motion.label, names.index(motion.against)] for motion in picture.motions],
         "positions": encode(picture),
@@ -63,9 +61,3 @@ def _side(joint: str, joints: tuple[str, ...]) -> str:
     """Return "l" or "r" of a joint such as ``lfemur`` that the other side has too, else ""."""
     other = _OTHER_SIDE.get(joint[:1], "")
     return joint[0] if other and other + joint[1:] in joints else ""
-
-
-def _runs(hidden: NDArray[np.bool_]) -> list[list[int]]:
-    """Return where each run of True begins, and where it has ended."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], hidden, [False]]).astype(int)))
-    return [[start, stop] for start, stop in edges.reshape(-1, 2).tolist()]

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mocapbench.basics.gaps import MOST_HIDDEN
 from mocapbench.benchmark.filling.gaps import Episode, Gap
 from mocapbench.benchmark.filling.trials.placement import free_places, occupy
 from mocapbench.benchmark.filling.trials.turns import Turns
@@ -13,8 +14,6 @@ from mocapbench.datasets import Mask
 
 __all__ = ["EpisodeLayout"]
 
-_HIDDEN_SHARE = 0.15
-"""Of the frames, that a trial may hide besides the real gaps, unless one gap alone is longer."""
 _SHARES = (1.0, 0.5, 0.25, 0.125)
 """By which episodes are shortened that fit nowhere."""
 
@@ -60,7 +59,7 @@ class EpisodeLayout:
         One that does not fit beside those as it is waits for the next trial, where it is the first;
         there it is shortened if need be.
         """
-        room = _HIDDEN_SHARE * (self.stop - self.start)
+        room = MOST_HIDDEN * (self.stop - self.start)
         hidden, at_the_ends = 0, len(self.episodes)
         for _ in range(turns.per_trial):
             episode = turns.next()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mocapbench.basics.gaps import free_starts
 from mocapbench.benchmark.filling.gaps import Episode
 from mocapbench.datasets import Mask
 
@@ -28,16 +29,11 @@ def free_places(episode: Episode, blocked: Mask) -> Frames:
     -------
     ndarray of int, ascending
     """
-    n_starts = len(blocked) - len(episode) - 1
-    if n_starts < 1:
-        return np.empty(0, dtype=np.intp)
-    starts = np.arange(1, n_starts + 1)
-    free = np.ones(n_starts, dtype=bool)
+    starts = np.arange(1, len(blocked) - len(episode))
     for gap in episode.gaps:
-        counts = np.concatenate([[0], np.cumsum(blocked[:, list(gap.channels)].any(axis=1))])
-        first = starts + (gap.start - episode.start)
-        free &= counts[first + len(gap) + 1] == counts[first - 1]
-    return starts[free]
+        of_gap = free_starts(np.asarray(blocked[:, list(gap.channels)].any(axis=1)), len(gap))
+        starts = np.intersect1d(starts, of_gap - (gap.start - episode.start), assume_unique=True)
+    return starts
 
 
 def occupy(blocked: Mask, episode: Episode) -> None:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from mocapbench.basics.gaps import free_starts
 from mocapbench.benchmark.task_files.hiding.base import HidingError, HidingPlace, columns_of
 from mocapbench.datasets import Mask, Recording, frame_rate
 
@@ -44,7 +42,7 @@ class RandomGaps:
         """Return a draw of the fold; see `Hiding`."""
         groups, length = self._groups(recording), self.frames(recording)
         free = recording.visible.copy()
-        starts = [_starts(free[:, group], length) for group in groups]
+        starts = [free_starts(~free[:, group].all(axis=1), length) for group in groups]
         for _ in range(self.count):
             with_room = [index for index, found in enumerate(starts) if len(found)]
             if not with_room:
@@ -52,7 +50,7 @@ class RandomGaps:
             drawn = int(place.rng.choice(with_room))
             start = int(place.rng.choice(starts[drawn]))
             free[start : start + length, groups[drawn]] = False
-            starts[drawn] = _starts(free[:, groups[drawn]], length)
+            starts[drawn] = free_starts(~free[:, groups[drawn]].all(axis=1), length)
         return recording.visible & ~free
 
     def frames(self, recording: Recording) -> int:
@@ -92,10 +90,3 @@ class RandomGaps:
             [column for column, own in zip(columns, owners, strict=True) if own == owner]
             for owner in dict.fromkeys(owners)
         ]
-
-
-def _starts(free: Mask, length: int) -> NDArray[np.intp]:
-    """Return where ``length`` whole frames in a row are free (N, K), and one on either side."""
-    width = length + 2
-    blocked = np.concatenate([[0], np.cumsum(~free.all(axis=1))])
-    return np.flatnonzero(blocked[width:] == blocked[:-width]) + 1

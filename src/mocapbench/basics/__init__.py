@@ -1,1 +1,1 @@
-"""What every part needs: names of arrays, checks of numbers, words, and files written whole."""
+"""What every part needs: names of arrays, gaps, checks of numbers, words, and whole files."""

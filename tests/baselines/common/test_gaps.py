@@ -4,7 +4,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.baselines.common.gaps import interpolated, runs
+from mocapbench.baselines.common.recordings import interpolated
+from mocapbench.basics.gaps import runs
 
 
 @given(frames=st.lists(st.booleans(), max_size=30))

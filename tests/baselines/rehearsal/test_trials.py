@@ -3,7 +3,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.common.gaps import runs
 from mocapbench.baselines.rehearsal.trials import (
     N_TRIALS,
     copies_or_islands,
@@ -12,6 +11,7 @@ from mocapbench.baselines.rehearsal.trials import (
     remoteness,
     trial_masks,
 )
+from mocapbench.basics.gaps import runs
 from mocapbench.datasets import Recording
 
 

@@ -141,7 +141,7 @@ FIT_PATH = [
     ("baselines.common.angle_wrapping", "missing-frames", "pose-kriging"),
     ("baselines.common.ascent", "missing-frames", "lds"),
     ("baselines.common.cholesky", "toy-interpolation-1", "mohgp"),
-    ("baselines.common.gaps", "missing-frames", "knn"),
+    ("basics.gaps", "missing-frames", "knn"),
     ("baselines.common.lapack", "toy-interpolation-1", "mohgp"),
     ("baselines.common.markers", "marker-gaps", "rigid-body"),
     ("baselines.common.rigid", "marker-gaps", "marker-kriging"),
