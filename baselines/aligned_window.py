@@ -153,11 +153,11 @@ class AlignedWindow(FrameImputer, Inductive):
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
         return [
-            from_pose_units(recording, self._filled(in_pose_units(recording)))
+            from_pose_units(recording, self._fill_recording(in_pose_units(recording)))
             for recording in recordings
         ]
 
-    def _filled(self, recording: Recording) -> FrameByChannel:
+    def _fill_recording(self, recording: Recording) -> FrameByChannel:
         hidden = hidden_frames(recording)
         filled = recording.values.copy()
         for gap in runs(hidden):

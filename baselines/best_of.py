@@ -10,7 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.choosing.panel import LAST_RESORT, CandidatePanel
+from mocapbench.baselines.choosing.candidates import LAST_RESORT, FittedCandidates
 from mocapbench.baselines.choosing.parts import parts_of
 from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
@@ -69,7 +69,7 @@ class BestOf(Imputer, Inductive):
         The channels of the recordings given to `fit`, and their units.
     recordings_ : tuple of Recording
         The recordings given to `fit`, by which candidates are rehearsed.
-    panel_ : CandidatePanel
+    candidates_ : FittedCandidates
         The candidates, fitted to them.
     left_out_ : mapping of str to str
         Why other candidates cannot learn from them, by name.
@@ -119,8 +119,8 @@ class BestOf(Imputer, Inductive):
         check_spread(checked)
         self.recordings_ = by_name(checked)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
-        self.panel_ = CandidatePanel.of(self.recordings_)
-        self.left_out_ = self.panel_.left_out
+        self.candidates_ = FittedCandidates.of(self.recordings_)
+        self.left_out_ = self.candidates_.left_out
         return self
 
     def weights(self, recordings: Sequence[Recording]) -> list[pd.DataFrame]:
@@ -137,8 +137,10 @@ class BestOf(Imputer, Inductive):
             If channels differ.
         """
         return [
-            self._weights(self._sources(self._rehearsals(recording), self.panel_.means(recording)))
-            for recording in self._checked(recordings)
+            self._weights(
+                self._sources(self._rehearsals(recording), self.candidates_.means(recording))
+            )
+            for recording in self._check_recordings(recordings)
         ]
 
     def _sources(
@@ -163,37 +165,38 @@ class BestOf(Imputer, Inductive):
             If channels differ, or a channel is visible neither in a recording nor in those given to
             `fit`.
         """
-        return [self._mixture(recording) for recording in self._checked(recordings)]
+        return [self._mixture(recording) for recording in self._check_recordings(recordings)]
 
-    def _checked(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
+    def _check_recordings(self, recordings: Sequence[Recording]) -> Sequence[Recording]:
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
         return recordings
 
     def _rehearsals(self, recording: Recording) -> Rehearsals:
-        return Rehearsals(self.recordings_, self.panel_, recording)
+        return Rehearsals(self.recordings_, self.candidates_, recording)
 
     def _mixture(self, recording: Recording) -> Prediction:
-        filled = self.panel_.means(recording)
+        filled = self.candidates_.means(recording)
         if LAST_RESORT not in filled:  # it says what nothing can fill
-            return self.panel_.models[LAST_RESORT].impute([recording])[0]
+            return self.candidates_.models[LAST_RESORT].impute([recording])[0]
         rehearsals = self._rehearsals(recording)
         sources = self._sources(rehearsals, filled)
         weights = self._weights(sources)
         weights = weights[(weights > 0.0).any(axis=1)]
         errors = pd.DataFrame({part: expected_errors(each) for part, each in sources.items()})
         errors = errors.reindex(weights.index).fillna(1.0)
-        filled_by = self.panel_.impute(recording, weights.index)
-        answers = [filled_by[name] for name in weights.index]
-        shares, expected = (_spread(table, recording) for table in (weights, errors))
-        means = np.stack([answer.mean for answer in answers])
-        claimed = np.stack(list(map(_claimed, answers, expected * rehearsals.scale**2)))
+        filled_by = self.candidates_.impute(recording, weights.index)
+        predictions = [filled_by[name] for name in weights.index]
+        shares, expected = (_spread_over_entries(table, recording) for table in (weights, errors))
+        means = np.stack([prediction.mean for prediction in predictions])
+        expected = expected * rehearsals.scale**2
+        variances = np.stack(list(map(_variance_or_expected, predictions, expected)))
         mean = (shares * means).sum(axis=0)
-        variance = (shares * (claimed + (means - mean) ** 2)).sum(axis=0)
+        variance = (shares * (variances + (means - mean) ** 2)).sum(axis=0)
         return Prediction.around(recording, mean, variance)
 
 
-def _spread(by_part: pd.DataFrame, recording: Recording) -> NDArray[np.float64]:
+def _spread_over_entries(by_part: pd.DataFrame, recording: Recording) -> NDArray[np.float64]:
     """Return a table of candidates and parts for every entry: (C, N, D)."""
     spread = np.empty((len(by_part), *recording.values.shape))
     for name, part in parts_of(recording).items():
@@ -201,6 +204,6 @@ def _spread(by_part: pd.DataFrame, recording: Recording) -> NDArray[np.float64]:
     return spread
 
 
-def _claimed(answer: Prediction, expected: FrameByChannel) -> FrameByChannel:
-    """Return the variance of a candidate (N, D), or what to expect if it claims none."""
-    return expected if answer.variance is None else answer.variance
+def _variance_or_expected(prediction: Prediction, expected: FrameByChannel) -> FrameByChannel:
+    """Return the variance of a candidate (N, D), or the expected one if it predicts none."""
+    return expected if prediction.variance is None else prediction.variance

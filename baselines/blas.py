@@ -24,11 +24,11 @@ def limit_blas(method: Callable[..., T]) -> Callable[..., T]:
     """Return a method during whose calls BLAS has one thread; then the caller's number is back."""
 
     @wraps(method)
-    def limited(*args: Any, **keywords: Any) -> T:
+    def call_on_one_thread(*args: Any, **keywords: Any) -> T:
         with _ONE_THREAD:
             return method(*args, **keywords)
 
-    return limited
+    return call_on_one_thread
 
 
 class _OneThread:

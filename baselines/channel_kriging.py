@@ -146,13 +146,13 @@ def _moments(
     weights = frames.relevance(known, channels, others)
     rows = np.concatenate([known, wanted])
     described = DescribedFrames(
-        frames.described(rows, others, weights), frames.place[rows], frames.recording[rows]
+        frames.describe_windows(rows, others, weights), frames.place[rows], frames.recording[rows]
     )
-    given, asked = (
+    given, wanted_frames = (
         described.at(np.arange(len(known))),
         described.at(np.arange(len(known), len(rows))),
     )
     values = frames.values[np.ix_(known, channels)]
     spread = np.nanmean(frames.values[:, channels] ** 2, axis=0)
     process = ChannelProcess.learnt(given, values, spread, own, duration)
-    return process.predict(given, values, asked)
+    return process.predict(given, values, wanted_frames)

@@ -136,5 +136,5 @@ class CPM(CycleAligner):
         self.log_likelihood_ = np.array(run.objectives)
         trace = run.state.cycles.mean[:, 0]
         given = self.sequences_.rows(places)
-        self.trace_ = self._unscaled(trace)
-        self.prototypes_ = self._unscaled(prototypes(self.path_, given, trace))
+        self.trace_ = self._restore_units(trace)
+        self.prototypes_ = self._restore_units(prototypes(self.path_, given, trace))

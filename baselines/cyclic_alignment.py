@@ -15,10 +15,10 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.alignment.estimator import CycleAligner
 from mocapbench.baselines.alignment.expectations import moments
 from mocapbench.baselines.alignment.fitting import EMSettings, restarts
-from mocapbench.baselines.alignment.inference import corrected, refine
+from mocapbench.baselines.alignment.inference import correct_means, refine
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.synthesis import blended, draw_sequences
+from mocapbench.baselines.alignment.synthesis import blend_cycles, draw_sequences
 from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.validation import (
     check_sampling,
@@ -241,7 +241,7 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         check_is_fitted(self)
         times = check_sampling(times, n_samples, random_state)
         rng = np.random.default_rng(random_state)
-        return self._unscaled(draw_sequences(self.state_, n_samples, len(times), rng))
+        return self._restore_units(draw_sequences(self.state_, n_samples, len(times), rng))
 
     def blend(self, weights: ArrayLike) -> FrameByChannel:
         """Return the styles' mean cycles mixed by weights (N, C) that vary from frame to frame.
@@ -254,7 +254,7 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
             If the weights are not (N, n_styles), are negative, or a row's sum is not 1.
         """
         check_is_fitted(self)
-        return self._unscaled(blended(self.state_, real_numbers("weights", weights)))
+        return self._restore_units(blend_cycles(self.state_, real_numbers("weights", weights)))
 
     def _hyperparameters(self) -> Hyperparameters:
         return Hyperparameters(self.regularisation, PRIORS[self.prior])
@@ -284,22 +284,24 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
 
     def _describe(self, run: Ascent[State], places: NDArray[np.intp]) -> None:
         self.bound_ = np.array(run.objectives)
-        self.cycles_ = self._unscaled(run.state.cycles.mean.swapaxes(0, 1))
+        self.cycles_ = self._restore_units(run.state.cycles.mean.swapaxes(0, 1))
         self.probabilities_ = run.state.labels[places]
         self.labels_: NDArray[np.intp] = self.probabilities_.argmax(axis=1)
 
     def _mixture(self, recording: Recording, states: Sequence[State]) -> Prediction:
         """Return the mean and variance of the mixture over fitted states, with equal weights."""
-        members = np.array([self._filled(recording, state) for state in states])
+        members = np.array([self._fill_by_run(recording, state) for state in states])
         filled, spread = members.swapaxes(0, 1)
         mean = filled.mean(axis=0)
         variance = spread.mean(axis=0) + filled.var(axis=0)
-        return Prediction.around(recording, self._unscaled(mean), variance * self.scaling_.scale**2)
+        return Prediction.around(
+            recording, self._restore_units(mean), variance * self.scaling_.scale**2
+        )
 
-    def _filled(self, recording: Recording, fitted: State) -> tuple[Array, Array]:
+    def _fill_by_run(self, recording: Recording, fitted: State) -> tuple[Array, Array]:
         """Return mean and variance (N, D) of a standardised recording by one run."""
         index = np.flatnonzero([name != recording.name for name in self.names_])
         new, others = self._sequences([recording]), self.sequences_.rows(index)
         state = refine(new, fitted.rows(index), others, self.settings_, self.refine_iter)
         mean, variance = moments(state)
-        return corrected(mean, others.join(new)), variance[-1, : len(recording.times)]
+        return correct_means(mean, others.join(new)), variance[-1, : len(recording.times)]

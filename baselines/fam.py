@@ -14,9 +14,9 @@ from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.functional.components import infer_scores, principal_axes
 from mocapbench.baselines.functional.cycles import Cycles
 from mocapbench.baselines.functional.fitting import fit_components, start
-from mocapbench.baselines.functional.period import cycle_periods, elapsed, frame_step
+from mocapbench.baselines.functional.period import cycle_periods, elapsed_times, frame_step
 from mocapbench.baselines.functional.placement import place
-from mocapbench.baselines.functional.prediction import cycle_moments, prototypes, sampled
+from mocapbench.baselines.functional.prediction import cycle_moments, prototypes, sample_curves
 from mocapbench.baselines.functional.shifts import SHIFTS, Aligned, shift_together
 from mocapbench.baselines.functional.statistics import CurveStatistics
 from mocapbench.baselines.functional.validation import check_settings
@@ -163,7 +163,7 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         periods = cycle_periods(scaled)
         aligned = self._shift_together(scaled, periods)
         phases = [
-            SHIFTS[shift] + elapsed(recording) / period
+            SHIFTS[shift] + elapsed_times(recording) / period
             for shift, recording, period in zip(aligned.shifts, scaled, periods, strict=True)
         ]
         self.reference_, self.cycle_length_ = aligned.curve, self._n_states(scaled, periods)
@@ -198,11 +198,11 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
             If channels differ, or a recording has no frame.
         """
         self._check_given(recordings)
-        return [self._states(self._placed(recording)) for recording in recordings]
+        return [self._states(self._place_recording(recording)) for recording in recordings]
 
     def _shift_together(self, scaled: Sequence[Recording], periods: Array) -> Aligned:
         curves = [
-            (elapsed(recording) / period, recording.values)
+            (elapsed_times(recording) / period, recording.values)
             for recording, period in zip(scaled, periods, strict=True)
         ]
         statistics = CurveStatistics.of(curves, self.n_harmonics)
@@ -226,11 +226,11 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         self.log_likelihood_, self.converged_ = np.array(fit.objectives), fit.converged
         self.n_iterations_ = fit.n_iterations
         self.model_ = principal_axes(fit.state.components)
-        curves = sampled(self.model_.coefficients, self.cycle_length_)
+        curves = sample_curves(self.model_.coefficients, self.cycle_length_)
         self.mean_cycle_ = self.scaling_.restore(curves[0])
         self.components_ = curves[1:] * self.scaling_.scale
         cycle = prototypes(fit.state.components, fit.state.scores, cycles)[places]
-        self.prototypes_ = self.scaling_.restore(sampled(cycle, self.cycle_length_))
+        self.prototypes_ = self.scaling_.restore(sample_curves(cycle, self.cycle_length_))
 
     def _n_states(self, scaled: Sequence[Recording], periods: Array) -> int:
         """Return two states a frame of a cycle, but at least one for each coefficient."""
@@ -241,12 +241,12 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         states = np.floor(phases % 1.0 * self.cycle_length_).astype(np.intp)
         return np.asarray(states % self.cycle_length_)
 
-    def _placed(self, recording: Recording) -> Array:
+    def _place_recording(self, recording: Recording) -> Array:
         return place(self.scaling_.apply(recording), self.reference_, self.periods_)
 
     def _claimed(self, recording: Recording) -> Prediction:
         scaled = self.scaling_.apply(recording)
-        cycles = Cycles.of([scaled], [self._placed(recording)], self.n_harmonics)
+        cycles = Cycles.of([scaled], [self._place_recording(recording)], self.n_harmonics)
         scores = infer_scores(cycles.statistics, self.model_)
         mean, variance = cycle_moments(cycles.phases, self.model_, scores)
         return Prediction.around(

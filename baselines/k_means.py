@@ -11,7 +11,7 @@ from mocapbench.baselines.alignment.period import cycle_length
 from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.validation import check_settings
 from mocapbench.baselines.common.checks import check_recordings, check_visible
-from mocapbench.baselines.common.prototypes import grouped
+from mocapbench.baselines.common.prototypes import group_rows
 from mocapbench.baselines.common.recordings import interpolated, visible_moments
 from mocapbench.baselines.protocols import Clusterer
 from mocapbench.basics.arrays import Array
@@ -105,7 +105,7 @@ class KMeans(Clusterer):
         self.cycles_ = np.stack([_cycle(recording, self.n_frames, mean) for recording in checked])
         points = self.cycles_.reshape(len(checked), -1)
         rng = np.random.default_rng(self.random_state)
-        self.labels_ = grouped(points, self.n_styles, self.n_restarts, rng)
+        self.labels_ = group_rows(points, self.n_styles, self.n_restarts, rng)
         return self
 
 

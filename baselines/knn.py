@@ -127,9 +127,11 @@ class KNN(Imputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.recordings_[0].channels, self.recordings_[0].units)
-        return [from_pose_units(recording, self._filled(recording)) for recording in recordings]
+        return [
+            from_pose_units(recording, self._fill_recording(recording)) for recording in recordings
+        ]
 
-    def _filled(self, recording: Recording) -> FrameByChannel:
+    def _fill_recording(self, recording: Recording) -> FrameByChannel:
         pooled = [in_pose_units(each) for each in pool(self.recordings_, [recording])]
         recording = in_pose_units(recording)
         complete = recording.visible.all(axis=1)

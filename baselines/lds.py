@@ -25,8 +25,8 @@ from mocapbench.baselines.state_space.em import expectation_maximisation
 from mocapbench.baselines.state_space.model import PRIORS, StateSpaceParameters
 from mocapbench.baselines.state_space.noise import NoiseShown
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.prediction import drawn, moments
-from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.prediction import draw_sequences, moments
+from mocapbench.baselines.state_space.smoothing import smooth_states
 from mocapbench.baselines.state_space.start import initial_states, start
 from mocapbench.datasets import Frames, Recording
 
@@ -154,7 +154,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute`, with the variances that the model itself claims."""
         self._check_given(recordings)
-        return self._smoothed(recordings, self.parameters_)
+        return self._smooth_recordings(recordings, self.parameters_)
 
     def least_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return what it claims with as much noise as the entries that it has learnt from show.
@@ -163,15 +163,15 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         claim is that prior.
         """
         self._check_given(recordings)
-        return self._smoothed(recordings, self._noise.shown) if recordings else []
+        return self._smooth_recordings(recordings, self._noise.shown) if recordings else []
 
-    def _smoothed(
+    def _smooth_recordings(
         self, recordings: Sequence[Recording], parameters: StateSpaceParameters
     ) -> list[Prediction]:
         if not len(recordings):
             return []
         data = self._observations(recordings)
-        mean, variance = moments(parameters, smoothed(parameters, data))
+        mean, variance = moments(parameters, smooth_states(parameters, data))
         means = map(self.scaling_.restore, data.unpad(mean))
         variances = data.unpad(variance * self.scaling_.scale**2)
         return list(map(Prediction.around, recordings, means, variances))
@@ -191,7 +191,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         check_is_fitted(self)
         times = check_sampling(times, n_samples, random_state)
         rng = np.random.default_rng(random_state)
-        return self.scaling_.restore(drawn(self.parameters_, n_samples, len(times), rng))
+        return self.scaling_.restore(draw_sequences(self.parameters_, n_samples, len(times), rng))
 
     def _observations(self, recordings: Sequence[Recording]) -> Observations:
         return Observations.of([self.scaling_.apply(recording).values for recording in recordings])

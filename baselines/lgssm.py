@@ -14,7 +14,7 @@ from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
 from mocapbench.baselines.protocols import Clusterer
-from mocapbench.baselines.state_space.mixture import Mixture, classification_em, seeded
+from mocapbench.baselines.state_space.mixture import Mixture, classification_em, seed_mixture
 from mocapbench.baselines.state_space.model import PRIORS
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.start import initial_states
@@ -153,7 +153,7 @@ class LGSSM(Clusterer):
         n_sequences = len(data.lengths)
         seeds = rng.choice(n_sequences, min(self.n_styles, n_sequences), replace=False)
         return classification_em(
-            seeded(states, data, seeds, PRIORS),
+            seed_mixture(states, data, seeds, PRIORS),
             data,
             PRIORS,
             max_iter=self.max_iter,

@@ -140,7 +140,7 @@ class LowRank(OneByOne, Relearning, Imputer, Inductive):
     def _learn(self, frames: _Frames, loadings: Array, noise: float) -> None:
         run = ascend(
             _Fit.of(frames, loadings, noise),
-            lambda now: _Fit.of(frames, *_maximised(frames, now.posterior)),
+            lambda now: _Fit.of(frames, *_maximise_parameters(frames, now.posterior)),
             lambda now: now.posterior.log_likelihood + _log_prior(now.noise),
             max_iter=self.max_iter,
             threshold=self.tol * max(float(frames.seen.sum()), 1.0),
@@ -230,7 +230,7 @@ class _Fit:
         return cls(loadings, noise, _Posterior.of(frames, loadings, noise))
 
 
-def _maximised(frames: _Frames, posterior: _Posterior) -> tuple[Array, float]:
+def _maximise_parameters(frames: _Frames, posterior: _Posterior) -> tuple[Array, float]:
     """Return the loadings and noise of the M-step: Ilin and Raiko 2010, §3.3."""
     latents, q = posterior.latents, posterior.latents.shape[1]
     moments = np.einsum("ni,nj->nij", latents, latents) + posterior.covariances[frames.pattern]

@@ -125,16 +125,16 @@ class MarkerKriging(Imputer, Inductive, Spatial):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
-        return [self._filled(recording) for recording in recordings]
+        return [self._fill_recording(recording) for recording in recordings]
 
-    def _filled(self, recording: Recording) -> Prediction:
+    def _fill_recording(self, recording: Recording) -> Prediction:
         known = Standardisation.of(pool(self.recordings_, [recording]))
         mean = np.broadcast_to(known.mean, recording.values.shape).copy()
         variance = np.broadcast_to(known.scale**2, recording.values.shape).copy()
         left = ~recording.visible
         for gap in self._gaps(recording):
             place = np.ix_(gap.frames, self.markers_[gap.marker])
-            mean[place], variance[place] = gap.filled()
+            mean[place], variance[place] = gap.fill()
             left[place] = False
         for where, course, doubt in courses(recording.values, left):
             mean[where], variance[where] = course, doubt

@@ -18,7 +18,7 @@ from sklearn.utils.validation import check_is_fitted
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.gp.prior.parameters import PARENT
-from mocapbench.baselines.gp.reduction.pooled import pooled
+from mocapbench.baselines.gp.reduction.pooled import pool_replicates
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
@@ -84,7 +84,7 @@ class MOA(GaussianProcess, Trended):
 
     def reduce(self, replicates: Replicates) -> Reduction:
         """Return the likelihood of replicates in standard units as block problems."""
-        return pooled(replicates)
+        return pool_replicates(replicates)
 
     def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the posterior mean and variance of the one function at ``times`` (N,).

@@ -144,7 +144,7 @@ class MOHGP(GaussianProcess, Trended):
         return self
 
     def _process_times(self, recording: Recording, times: Frames | None) -> Frames:
-        return self.clocks_[recording.name].shared(super()._process_times(recording, times))
+        return self.clocks_[recording.name].to_reference(super()._process_times(recording, times))
 
     def grow(self, names: Sequence[str]) -> Tree:
         """Return for each layer the draw that each recording depends on.

@@ -114,9 +114,12 @@ class NN(Imputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
-        return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
+        return [
+            Prediction.around(recording, self._fill_recording(recording))
+            for recording in recordings
+        ]
 
-    def _filled(self, recording: Recording) -> FrameByChannel:
+    def _fill_recording(self, recording: Recording) -> FrameByChannel:
         filled = recording.values.copy()
         incomplete = ~recording.visible.all(axis=1)
         if not incomplete.any():
@@ -124,7 +127,7 @@ class NN(Imputer, Inductive):
         poses = _poses(recording)[incomplete]
         distances = nan_euclidean_distances(poses * self.weights_, self.frames_ * self.weights_)
         distances = np.where(np.isnan(distances), np.inf, distances)
-        filled[incomplete] = np.column_stack([_donated(distances, c) for c in self.frames_.T])
+        filled[incomplete] = np.column_stack([_donate_values(distances, c) for c in self.frames_.T])
         if (lacking := np.isnan(filled) & ~recording.visible).any():
             channels = [recording.channels[d] for d in np.flatnonzero(lacking.any(axis=0))]
             raise ValueError(
@@ -150,7 +153,7 @@ def _weights(weights: Mapping[str, float] | None, channels: tuple[str, ...]) -> 
     return np.array([weights[name] for name in channels], dtype=np.float64)
 
 
-def _donated(distances: Array, channel: Array) -> Array:
+def _donate_values(distances: Array, channel: Array) -> Array:
     """Return the values of a channel (M,) at the least of its ``distances`` (n, M): (n,).
 
     Frames in which the channel is hidden are left out; NaN if no frame remains.

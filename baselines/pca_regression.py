@@ -116,9 +116,12 @@ class PCARegression(Imputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.recordings_[0].channels, self.recordings_[0].units)
-        return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
+        return [
+            Prediction.around(recording, self._fill_recording(recording))
+            for recording in recordings
+        ]
 
-    def _filled(self, recording: Recording) -> FrameByChannel:
+    def _fill_recording(self, recording: Recording) -> FrameByChannel:
         pooled = pool(self.recordings_, [recording])
         own_means = OwnMeans.of(pooled)
         frames = np.concatenate([own_means.apply(other) for other in pooled])

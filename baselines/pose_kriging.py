@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.angle_wrapping import mean_directions, turns_away
+from mocapbench.baselines.common.angle_wrapping import mean_directions, wrapping_offsets
 from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import visible_frames, with_steps
@@ -176,7 +176,7 @@ class PoseKriging(FrameImputer, Inductive):
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.directions_ = mean_directions(checked)
-        usable = [in_pose_units(self._without_turns(one)) for one in with_steps(checked)]
+        usable = [in_pose_units(self._wrap_angles(one)) for one in with_steps(checked)]
         self.names_ = tuple(recording.name for recording in usable)
         self.symmetries_ = symmetries(usable)
         self.matchers_ = [
@@ -203,12 +203,12 @@ class PoseKriging(FrameImputer, Inductive):
         check_channels(recordings, self.channels_, self.units_)
         return [self._predict(recording) for recording in recordings]
 
-    def _without_turns(self, recording: Recording) -> Recording:
-        away = turns_away(recording, self.directions_)
+    def _wrap_angles(self, recording: Recording) -> Recording:
+        away = wrapping_offsets(recording, self.directions_)
         return recording.with_values(recording.values - away)
 
     def _predict(self, recording: Recording) -> Prediction:
-        away = turns_away(recording, self.directions_)
+        away = wrapping_offsets(recording, self.directions_)
         near = recording.with_values(recording.values - away)
         found = from_pose_units(near, *self._fill_frames(in_pose_units(near)))
         return Prediction.around(recording, found.mean + away, found.variance)
@@ -232,7 +232,7 @@ class PoseKriging(FrameImputer, Inductive):
         unexplained = recording.values - paths.paths
         residuals = np.array([images_of(each, self.symmetries_)[seen] for each in unexplained])
         corrected, variance = paths.paths.copy(), np.empty(recording.values.shape)
-        for channels, given in self._residuals().given(paths.mean, visible):
+        for channels, given in self._residuals().condition(paths.mean, visible):
             those = residuals[:, :, channels]
             corrected[:, :, channels] += [given.mean(each)[:n_frames] for each in those]
             scales = given.scales(np.tensordot(paths.weights, those, axes=1), self._least(visible))

@@ -110,7 +110,7 @@ class PoseViterbi(FrameImputer, Inductive):
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         moved = [in_pose_units(recording) for recording in checked]
-        stretches = [_refined(each, self.steps) for each in complete_stretches(moved)]
+        stretches = [_refine_stretch(each, self.steps) for each in complete_stretches(moved)]
         self.frames_ = np.concatenate(stretches)
         following = np.concatenate([_follows(len(each), self.steps) for each in stretches])
         self.transition_ = self.smoothness * _jumps(self.frames_, following, self.steps)
@@ -126,7 +126,10 @@ class PoseViterbi(FrameImputer, Inductive):
         """
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
-        return [Prediction.around(recording, self._filled(recording)) for recording in recordings]
+        return [
+            Prediction.around(recording, self._fill_recording(recording))
+            for recording in recordings
+        ]
 
     def residual(self, recording: Recording) -> NDArray[np.float64]:
         """Return the mean residual (D,) of the cheapest path, in the channels' units.
@@ -140,7 +143,7 @@ class PoseViterbi(FrameImputer, Inductive):
         """
         return _mean_residual(recording, self.match(recording))
 
-    def _filled(self, recording: Recording) -> FrameByChannel:
+    def _fill_recording(self, recording: Recording) -> FrameByChannel:
         match = self.match(recording)
         return match + self.subject_offset * _mean_residual(recording, match)
 
@@ -164,7 +167,7 @@ def _mean_residual(recording: Recording, match: FrameByChannel) -> NDArray[np.fl
     return np.asarray(np.nanmean(recording.values - match, axis=0))
 
 
-def _refined(stretch: FrameByChannel, steps: int) -> FrameByChannel:
+def _refine_stretch(stretch: FrameByChannel, steps: int) -> FrameByChannel:
     """Return a stretch with ``steps`` states a frame, by a cubic spline through its frames."""
     if steps == 1 or len(stretch) == 1:
         return stretch

@@ -135,11 +135,11 @@ class RigidBody(Imputer, Inductive, Spatial):
         check_channels(recordings, self.channels_, self.units_)
         curves = self._curves.impute(recordings)
         return [
-            Prediction.around(recording, self._carried(recording, curve.mean.copy()))
+            Prediction.around(recording, self._carry_markers(recording, curve.mean.copy()))
             for recording, curve in zip(recordings, curves, strict=True)
         ]
 
-    def _carried(self, recording: Recording, filled: FrameByChannel) -> FrameByChannel:
+    def _carry_markers(self, recording: Recording, filled: FrameByChannel) -> FrameByChannel:
         """Return ``filled`` (N, D) with the markers that others can carry, where they do."""
         places = recording.values[:, self.markers_]
         hidden = np.asarray(np.isnan(places).any(axis=2))
@@ -166,14 +166,18 @@ def _through(
     body = LocalFrames.of(near[~np.isnan(near).any(axis=(1, 2))], shares)
     turns = rotations if spans_a_body(body.shapes, shares) else least_rotations
     carried = [
-        _moved(places[edge, others], places[gap][:, others], shares, places[edge, marker], turns)
+        _carry_marker(
+            places[edge, others], places[gap][:, others], shares, places[edge, marker], turns
+        )
         for edge in edges
     ]
     share = np.interp(times[gap], times[edges], np.arange(len(edges)))[:, None]
     return np.asarray((1.0 - share) * carried[0] + share * carried[-1])
 
 
-def _moved(before: Array, after: Array, shares: Array, marker: Array, turns: Rotations) -> Array:
+def _carry_marker(
+    before: Array, after: Array, shares: Array, marker: Array, turns: Rotations
+) -> Array:
     """Return where motions from ``before`` (K, 3) to ``after`` (T, K, 3) take a marker."""
     start, ends = shares @ before, shares @ after
     turned = turns(before - start, after - ends[:, None], shares)

@@ -14,10 +14,10 @@ from mocapbench.baselines.alignment.model import CycleParameters, Hyperparameter
 from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.basics.arrays import Array
 
-__all__ = ["bound", "sequence_bounds"]
+__all__ = ["lower_bound", "sequence_bounds"]
 
 
-def bound(state: State, sequences: Sequences, hyper: Hyperparameters) -> float:
+def lower_bound(state: State, sequences: Sequences, hyper: Hyperparameters) -> float:
     """Return the lower bound on log p(X, θ); valid for any state, not only after an update."""
     shared = _cycles(state, hyper) + hyper.regularisation * _penalty(state.parameters)
     return float(sequence_bounds(state, sequences, hyper).sum() + shared)

@@ -71,7 +71,7 @@ def viterbi(
     scores = np.ascontiguousarray(emission.transpose(1, 2, 0))
     choices = np.zeros(scores.shape, dtype=np.intp)
     for i in range(1, len(scores)):
-        candidates = np.stack(_reached(scores[i - 1], len(log_jumps))) + log_jumps
+        candidates = np.stack(_gather_origins(scores[i - 1], len(log_jumps))) + log_jumps
         choices[i] = candidates.argmax(axis=0)
         scores[i] += candidates.max(axis=0)
     return tuple(
@@ -93,7 +93,7 @@ def _forward(emission: Array, log_jumps: Array) -> tuple[Array, Array]:
     for i, evidence in enumerate(emission[1:]):
         terms = shares[i]
         for term, origins, log_jump in zip(
-            terms, _reached(filtered, max_jump), log_jumps, strict=True
+            terms, _gather_origins(filtered, max_jump), log_jumps, strict=True
         ):
             np.add(origins, log_jump, out=term)
         top = terms.max(axis=0)
@@ -113,19 +113,19 @@ def _backward(last: Array, shares: Array, frames: NDArray[np.bool_]) -> tuple[Ar
     for i in reversed(range(len(shares))):
         flow = occupancy[i + 1] * shares[i]
         counts += flow.sum(axis=1) * frames[i + 1]
-        occupancy[i] = _left(flow)
+        occupancy[i] = _sum_over_jumps(flow)
     occupancy *= frames[:, None]
     return np.ascontiguousarray(occupancy.transpose(2, 0, 1)), counts.T
 
 
-def _reached(states: Array, max_jump: int) -> list[Array]:
+def _gather_origins(states: Array, max_jump: int) -> list[Array]:
     """Return the values (M, K) at the origin of each jump into each state: J of them."""
     n_states = len(states)
     ring = np.concatenate([states[-max_jump:], states])
     return [ring[max_jump - j : max_jump - j + n_states] for j in range(1, max_jump + 1)]
 
 
-def _left(flow: Array) -> Array:
+def _sum_over_jumps(flow: Array) -> Array:
     """Sum the probabilities (J, M, K) of jumps into states at the jumps' origins: (M, K)."""
     ring = np.concatenate([flow, flow[:, : len(flow)]], axis=1)
     n_states, total = flow.shape[1], np.zeros(flow.shape[1:])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import reduce
 
-from mocapbench.baselines.alignment.bound import bound
+from mocapbench.baselines.alignment.bound import lower_bound
 from mocapbench.baselines.alignment.model import Hyperparameters, State
 from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.common.ascent import Ascent, ascend
@@ -26,7 +26,7 @@ def expectation_maximisation(
     n_inner: int,
     max_iter: int,
     tol: float,
-    objective: Objective = bound,
+    objective: Objective = lower_bound,
 ) -> Ascent[State]:
     """Alternate ``n_inner`` sweeps of the E-step with one of the M-step.
 

@@ -79,7 +79,7 @@ class CycleAligner(Aligner):
             If channels differ.
         """
         self._check_fitted(recordings)
-        return [self._aligned(recording) for recording in recordings]
+        return [self._align_recording(recording) for recording in recordings]
 
     @abstractmethod
     def _hyperparameters(self) -> Hyperparameters:
@@ -101,7 +101,7 @@ class CycleAligner(Aligner):
         check_is_fitted(self)
         check_channels(recordings, self.channels_, self.units_)
 
-    def _aligned(self, recording: Recording) -> StatePath:
+    def _align_recording(self, recording: Recording) -> StatePath:
         if recording.name in self.fitted_:
             fitted, path = self.fitted_[recording.name]
             if np.array_equal(fitted.values, recording.values, equal_nan=True):
@@ -112,5 +112,5 @@ class CycleAligner(Aligner):
     def _sequences(self, recordings: Sequence[Recording]) -> Sequences:
         return Sequences.of([self.scaling_.apply(recording).values for recording in recordings])
 
-    def _unscaled(self, values: Array) -> Array:
+    def _restore_units(self, values: Array) -> Array:
         return np.asarray(self.scaling_.restore(values))

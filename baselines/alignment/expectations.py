@@ -26,8 +26,8 @@ def emission(sequences: Sequences, cycles: Ring, precisions: Array, labels: Arra
     over the styles of a sequence, so that the cost for each frame does not grow with their number.
     """
     constant = labels @ (0.5 * (np.log(precisions) - _LOG_2PI))
-    linear = _mixed(labels, precisions * cycles.mean)
-    quadratic = _mixed(labels, precisions * (cycles.mean**2 + cycles.variance))
+    linear = _average_styles(labels, precisions * cycles.mean)
+    quadratic = _average_styles(labels, precisions * (cycles.mean**2 + cycles.variance))
     frame = sequences.visible @ constant[:, :, None]
     frame -= 0.5 * (sequences.values**2 @ (labels @ precisions)[:, :, None])
     moments = sequences.values @ linear - 0.5 * (sequences.visible @ quadratic)
@@ -68,8 +68,8 @@ def moments(state: State) -> tuple[Array, Array]:
     their precision instead.
     """
     cycles, noise = state.cycles, 1.0 / state.parameters.precisions
-    mean = _expected(state, cycles.mean)
-    second = _expected(state, cycles.mean**2 + cycles.variance + noise)
+    mean = _average_paths(state, cycles.mean)
+    second = _average_paths(state, cycles.mean**2 + cycles.variance + noise)
     return mean, second - mean**2
 
 
@@ -80,13 +80,13 @@ def _over_states(evidence: Array, statistic: Array) -> Array:
     return (left @ right).transpose(1, 2, 0)
 
 
-def _mixed(labels: Array, statistic: Array) -> Array:
+def _average_styles(labels: Array, statistic: Array) -> Array:
     """Average (M, C, F) over the styles of each sequence: (K, F, M)."""
     n_states, n_styles, n_channels = statistic.shape
     flat = labels @ statistic.transpose(1, 2, 0).reshape(n_styles, -1)
     return np.asarray(flat.reshape(-1, n_channels, n_states))
 
 
-def _expected(state: State, statistic: Array) -> Array:
+def _average_paths(state: State, statistic: Array) -> Array:
     """Average (M, C, F) over the styles and states of each frame: (K, N, F)."""
     return np.asarray(state.paths.occupancy @ np.einsum("kc,mcf->kmf", state.labels, statistic))

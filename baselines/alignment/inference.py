@@ -30,7 +30,7 @@ from mocapbench.baselines.alignment.updates import (
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.gaps import frames_alike
 
-__all__ = ["corrected", "error_correlation", "infer", "refine"]
+__all__ = ["correct_means", "error_correlation", "infer", "refine"]
 
 _MAX_ITER = 30
 _TOLERANCE = 1e-8
@@ -71,12 +71,12 @@ def refine(
     is returned.
     """
     joined = sequences.join(sequence)
-    first = _joined(fitted, infer(sequence, fitted, settings.hyper))
+    first = _join_states(fitted, infer(sequence, fitted, settings.hyper))
     runs = [
         run(update_paths(state, joined, settings.hyper), joined, settings, max_iter)
         for state in (first, *_in_empty_style(first, joined, settings.hyper))
     ]
-    return max(runs, key=lambda attempt: attempt.objectives[-1]).state
+    return max(runs, key=lambda result: result.objectives[-1]).state
 
 
 def error_correlation(errors: Array) -> Array:
@@ -88,7 +88,7 @@ def error_correlation(errors: Array) -> Array:
     return np.asarray(shrunk + _OWN * np.eye(len(shrunk)))
 
 
-def corrected(mean: Array, sequences: Sequences) -> Array:
+def correct_means(mean: Array, sequences: Sequences) -> Array:
     """Return the means (N, F) of the last sequence, corrected by the visible errors of its frames.
 
     Variances are left as they are: errors of style and state are not Gaussian, and variances that
@@ -123,7 +123,7 @@ def _with(state: State, labels: Array, jumps: Array) -> State:
     return replace(state, labels=labels, parameters=replace(state.parameters, jumps=jumps))
 
 
-def _joined(fitted: State, new: State) -> State:
+def _join_states(fitted: State, new: State) -> State:
     """Return the state of the fitted and new sequences; the paths are left as they were."""
     joined = _with(
         fitted,

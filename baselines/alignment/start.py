@@ -19,7 +19,7 @@ from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hype
 from mocapbench.baselines.alignment.ring import Ring
 from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.updates import update_paths
-from mocapbench.baselines.common.prototypes import grouped, of_unit_variance, tempi
+from mocapbench.baselines.common.prototypes import group_rows, of_unit_variance, tempi
 from mocapbench.baselines.common.recordings import interpolated
 from mocapbench.basics.arrays import Array
 
@@ -144,7 +144,7 @@ def similar_styles(
     paths, trace = best_paths(state, sequences), state.cycles.mean[:, 0]
     shapes = prototypes(paths, sequences, trace).reshape(n_sequences, -1)
     features = np.column_stack([of_unit_variance(shapes), tempi(paths, len(trace))])
-    return grouped(features, n_styles, _N_STARTS, rng)
+    return group_rows(features, n_styles, _N_STARTS, rng)
 
 
 GROUPINGS: dict[str, Grouping] = {"random": random_styles, "similar": similar_styles}

@@ -13,7 +13,7 @@ from mocapbench.baselines.alignment import ring
 from mocapbench.baselines.alignment.model import State
 from mocapbench.basics.arrays import Array
 
-__all__ = ["blended", "draw_cycles", "draw_path", "draw_sequences"]
+__all__ = ["blend_cycles", "draw_cycles", "draw_path", "draw_sequences"]
 
 
 def draw_sequences(state: State, n: int, n_frames: int, rng: np.random.Generator) -> Array:
@@ -54,7 +54,7 @@ def draw_path(
     return np.cumsum(np.concatenate([rng.integers(n_states, size=1), steps])) % n_states
 
 
-def blended(state: State, weights: Array) -> Array:
+def blend_cycles(state: State, weights: Array) -> Array:
     """Return the styles' mean cycles mixed by weights (N, C), at the mean pace: (N, F).
 
     The pace is not a whole number of states; poses between states are interpolated linearly.

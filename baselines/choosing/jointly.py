@@ -88,14 +88,14 @@ class Jointly(Widened, Imputer, Inductive):
             If a recording is too large beside those, or its channels differ.
         """
         self._check_given(recordings)
-        return [self._given(recording).impute([recording])[0] for recording in recordings]
+        return [self._learn_with(recording).impute([recording])[0] for recording in recordings]
 
     def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute` with the variances of the exact posterior."""
         self._check_given(recordings)
-        return [self._given(recording).as_claimed([recording])[0] for recording in recordings]
+        return [self._learn_with(recording).as_claimed([recording])[0] for recording in recordings]
 
-    def _given(self, recording: Recording) -> GaussianProcess:
+    def _learn_with(self, recording: Recording) -> GaussianProcess:
         # It comes first: of several with as many hidden entries, others are registered to it.
         others = [other for other in self.recordings_ if other.name != recording.name]
         together = pool([recording], others)

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 
-from mocapbench.baselines.choosing.panel import CandidatePanel
+from mocapbench.baselines.choosing.candidates import FittedCandidates
 from mocapbench.baselines.choosing.parts import EVERYTHING, GAPS, Part
 from mocapbench.baselines.common.checks import pool
 from mocapbench.baselines.common.scaling import unit_scales
@@ -63,14 +63,14 @@ class Rehearsals:
     ----------
     fitted : sequence of Recording
         What models learn from.
-    panel : CandidatePanel
+    candidates : FittedCandidates
         The models, fitted to them.
     given : Recording
         The recording to fill.
     """
 
     fitted: Sequence[Recording]
-    panel: CandidatePanel
+    candidates: FittedCandidates
     given: Recording
 
     @cached_property
@@ -113,42 +113,46 @@ class Rehearsals:
     def _in_trial(self, mask: Mask) -> Errors:
         """Return the errors in a trial, which no model has seen in fitting."""
         tried = self.given.hide(mask)
-        panel = self.panel
+        candidates = self.candidates
         if self.given.name in [recording.name for recording in self.fitted]:
-            panel = panel.anew(pool(self.fitted, [tried]))
-        return self._errors(panel, self.given, mask)
+            candidates = candidates.anew(pool(self.fitted, [tried]))
+        return self._errors(candidates, self.given, mask)
 
     @cached_property
     def _in_training(self) -> list[tuple[Errors, Errors]]:
         found = []
         for held_out, left in turns(self.fitted, self.given):
-            panel = self.panel.anew(left)
-            found += [self._in_place_of_given(panel, recording) for recording in held_out]
+            candidates = self.candidates.anew(left)
+            found += [self._in_place_of_given(candidates, recording) for recording in held_out]
         return found
 
     def _in_place_of_given(
-        self, panel: CandidatePanel, recording: Recording
+        self, candidates: FittedCandidates, recording: Recording
     ) -> tuple[Errors, Errors]:
         middle = len(self._copies) // 2
         short = self._copies[middle : middle + 1] if self.are_short(GAPS) else []
         masks = [~self.given.visible, *short]
         gaps, *trials = aligned(recording, masks)
         cut, hidden = gaps
-        full = self._errors(panel, cut, hidden)
-        copies = [self._errors(panel, cut.hide(hidden), mask, cut) for _, mask in trials]
+        full = self._errors(candidates, cut, hidden)
+        copies = [self._errors(candidates, cut.hide(hidden), mask, cut) for _, mask in trials]
         return full, copies[0] if copies else Errors({}, hidden)
 
     def _errors(
-        self, panel: CandidatePanel, given: Recording, mask: Mask, truth: Recording | None = None
+        self,
+        candidates: FittedCandidates,
+        given: Recording,
+        mask: Mask,
+        truth: Recording | None = None,
     ) -> Errors:
-        """Return a panel's errors where ``mask`` hides entries of ``given``."""
+        """Return the candidates' errors where ``mask`` hides entries of ``given``."""
         known, tried = mask & (truth or given).visible, given.hide(mask)
         if not known.any():
             return Errors({}, ~tried.visible)
         values = (truth or given).values
         by_model = {
             name: np.where(known, (mean - values) / self.scale, np.nan)
-            for name, mean in panel.means(tried).items()
+            for name, mean in candidates.means(tried).items()
         }
         return Errors(by_model, ~tried.visible)
 

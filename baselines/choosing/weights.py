@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 from scipy.optimize import nnls
 
-from mocapbench.baselines.choosing.panel import LAST_RESORT
+from mocapbench.baselines.choosing.candidates import LAST_RESORT
 from mocapbench.baselines.choosing.parts import EVERYTHING, Part
 from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 
@@ -46,10 +46,10 @@ def evidence(rehearsals: Rehearsals, part: Part = EVERYTHING) -> Sequence[Produc
     own, gaps, copies = (each.loc[both, both] for each in (own, gaps, copies))
     growth = np.sqrt(np.diag(gaps) / np.diag(copies))
     grown = own * np.outer(growth, growth)
-    return [_steadied(grown, gaps, rehearsals.n_entries(part)), gaps]
+    return [_steady_products(grown, gaps, rehearsals.n_entries(part)), gaps]
 
 
-def _steadied(own: Products, gaps: Products, n_entries: float) -> Products:
+def _steady_products(own: Products, gaps: Products, n_entries: float) -> Products:
     """Return products in the recording itself, moved towards those in training if of few entries.
 
     Among many models, some err little by chance in a few entries. `_PRIOR_ENTRIES` more are

@@ -14,7 +14,7 @@ import numpy as np
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
-__all__ = ["mean_directions", "turns_away"]
+__all__ = ["mean_directions", "wrapping_offsets"]
 
 
 _TURN = {"deg": 360.0, "rad": 2.0 * np.pi}
@@ -34,7 +34,7 @@ def mean_directions(recordings: Sequence[Recording]) -> Array:
     return angles
 
 
-def turns_away(recording: Recording, directions: Array) -> Array:
+def wrapping_offsets(recording: Recording, directions: Array) -> Array:
     """Return the whole turns (D,), in each channel's unit, by which its mean is away.
 
     Parameters

@@ -35,7 +35,7 @@ def check_recordings(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
         If it is not a sequence of recordings, there is none, channels or units differ, a name
         repeats, or one has no frame, no channel or values beyond 1e75.
     """
-    checked = _listed(recordings)
+    checked = _list_recordings(recordings)
     if not checked:
         raise ValueError("expected at least one recording, got none")
     check_channels(checked, checked[0].channels, checked[0].units)
@@ -59,7 +59,7 @@ def check_channels(
         If it is not a sequence of recordings, or one has other channels or units, no frame, no
         channel or values beyond 1e75.
     """
-    for recording in _listed(recordings):
+    for recording in _list_recordings(recordings):
         if recording.channels != channels:
             raise ValueError(
                 f"recording {recording.name!r}: expected channels {channels}, "
@@ -69,7 +69,7 @@ def check_channels(
         _check_values(recording)
 
 
-def _listed(recordings: object) -> tuple[Recording, ...]:
+def _list_recordings(recordings: object) -> tuple[Recording, ...]:
     """Return the recordings as a tuple, or say what was given in their place."""
     kind = type(recordings).__name__
     if not isinstance(recordings, Collection):  # An iterator would be spent after this check.
@@ -152,7 +152,7 @@ def check_visible(recordings: Sequence[Recording]) -> None:
     """
     unseen = np.asarray(np.isnan(stack(recordings)).all(axis=0))
     if unseen.any():
-        channels = _named(recordings[0], unseen)
+        channels = _name_channels(recordings[0], unseen)
         raise ValueError(
             f"expected a visible entry of every channel in some recording, got none of {channels}; "
             "leave these channels out with Recording.select"
@@ -176,8 +176,8 @@ def check_known(recording: Recording, known: NDArray[np.bool_]) -> None:
     if not known.all():
         raise ValueError(
             f"recording {recording.name!r}: expected a visible entry of every channel here or in "
-            f"the recordings given to fit, got none of {_named(recording, ~known)}; leave these "
-            "channels out with Recording.select"
+            f"the recordings given to fit, got none of {_name_channels(recording, ~known)}; leave "
+            "these channels out with Recording.select"
         )
 
 
@@ -193,7 +193,7 @@ def check_spread(recordings: Sequence[Recording]) -> None:
     """
     counts = (~np.isnan(stack(recordings))).sum(axis=0)
     if (counts == 1).any():
-        channels = _named(recordings[0], counts == 1)
+        channels = _name_channels(recordings[0], counts == 1)
         raise ValueError(
             f"expected at least two visible entries of every channel, got one of {channels}, which "
             "tells nothing of how far it goes: learn from recordings that show more of it, or "
@@ -201,7 +201,7 @@ def check_spread(recordings: Sequence[Recording]) -> None:
         )
 
 
-def _named(recording: Recording, which: NDArray[np.bool_]) -> list[str]:
+def _name_channels(recording: Recording, which: NDArray[np.bool_]) -> list[str]:
     return [recording.channels[d] for d in np.flatnonzero(which)]
 
 
@@ -215,5 +215,5 @@ def pool(fitted: Sequence[Recording], given: Sequence[Recording]) -> tuple[Recor
     ValueError
         If ``given`` is not a sequence of recordings, there is none, or channels or units differ.
     """
-    named = {recording.name: recording for recording in (*fitted, *_listed(given))}
+    named = {recording.name: recording for recording in (*fitted, *_list_recordings(given))}
     return check_recordings(tuple(named.values()))

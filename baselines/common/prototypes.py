@@ -10,7 +10,7 @@ from sklearn.cluster import KMeans
 
 from mocapbench.basics.arrays import Array
 
-__all__ = ["cluster_cycles", "grouped", "of_unit_variance", "tempi"]
+__all__ = ["cluster_cycles", "group_rows", "of_unit_variance", "tempi"]
 
 
 def cluster_cycles(
@@ -37,11 +37,11 @@ def cluster_cycles(
     means : ndarray of shape (C, M, D)
         The mean cycle of each cluster.
     """
-    labels = grouped((cycles / scale).reshape(len(cycles), -1), n_styles, n_restarts, rng)
+    labels = group_rows((cycles / scale).reshape(len(cycles), -1), n_styles, n_restarts, rng)
     return labels, np.stack([cycles[labels == c].mean(axis=0) for c in np.unique(labels)])
 
 
-def grouped(
+def group_rows(
     features: Array, n_groups: int, n_restarts: int, rng: np.random.Generator
 ) -> NDArray[np.intp]:
     """Return the group (K,) of each row of features (K, F), by the best start of K-means."""

@@ -6,13 +6,13 @@ import numpy as np
 
 from mocapbench.basics.arrays import Array
 
-__all__ = ["oriented"]
+__all__ = ["orient_vectors"]
 
 
 _AS_LARGE = 1.0 - 1e-8
 
 
-def oriented(vectors: Array) -> Array:
+def orient_vectors(vectors: Array) -> Array:
     """Return vectors (n, k), columns, with signs that make one entry of each positive.
 
     It is the first one that is as large as the largest, up to a factor of 1 - 10⁻⁸: where two are

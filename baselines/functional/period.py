@@ -15,7 +15,7 @@ from mocapbench.baselines.functional.basis import fourier, roughness
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
-__all__ = ["complete_blocks", "cycle_periods", "elapsed", "frame_step", "signal_to_noise"]
+__all__ = ["complete_blocks", "cycle_periods", "elapsed_times", "frame_step", "signal_to_noise"]
 
 _HARMONICS = 3  # enough for the cycle as a whole; more would fit two cycles as well as one
 _PENALTY = 1e-3
@@ -34,7 +34,7 @@ def frame_step(recording: Recording) -> float:
     return float(np.median(steps)) if len(steps) else 1.0
 
 
-def elapsed(recording: Recording) -> Array:
+def elapsed_times(recording: Recording) -> Array:
     """Return the time of each frame since the first, in seconds: (N,)."""
     return np.asarray(recording.times - recording.times[0])
 
@@ -45,7 +45,7 @@ def complete_blocks(recording: Recording) -> list[tuple[Array, Array]]:
     Channels of too few visible frames to tell a cycle from noise are left out.
     """
     patterns, owner = np.unique(recording.visible, axis=1, return_inverse=True)
-    times = elapsed(recording)
+    times = elapsed_times(recording)
     return [
         (times[pattern], recording.values[np.ix_(pattern, owner.ravel() == index)])
         for index, pattern in enumerate(patterns.T)
@@ -89,7 +89,7 @@ def cycle_periods(recordings: Sequence[Recording]) -> Array:
 
 def _duration(recording: Recording) -> float:
     """Return the time in seconds from the first frame to one frame after the last."""
-    return float(elapsed(recording)[-1]) + frame_step(recording)
+    return float(elapsed_times(recording)[-1]) + frame_step(recording)
 
 
 def _period(recording: Recording) -> float:

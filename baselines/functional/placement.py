@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mocapbench.baselines.functional.period import elapsed
+from mocapbench.baselines.functional.period import elapsed_times
 from mocapbench.baselines.functional.shifts import SHIFTS, prediction_errors
 from mocapbench.baselines.functional.statistics import CurveStatistics
 from mocapbench.basics.arrays import Array
@@ -32,7 +32,7 @@ def place(recording: Recording, curve: Array, periods: Array) -> Array:
         Lengths of the fitted recordings' cycles, in seconds.
     """
     candidates = np.geomspace(periods.min() / _MARGIN, periods.max() * _MARGIN, _CANDIDATES)
-    paths = np.outer(1.0 / candidates, elapsed(recording))
+    paths = np.outer(1.0 / candidates, elapsed_times(recording))
     n_harmonics = (curve.shape[1] - 1) // 2
     statistics = CurveStatistics.of([(path, recording.values) for path in paths], n_harmonics)
     errors = prediction_errors(statistics, curve)

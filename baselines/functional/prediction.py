@@ -11,7 +11,7 @@ from mocapbench.baselines.functional.components import Components, Scores
 from mocapbench.baselines.functional.cycles import Cycles
 from mocapbench.basics.arrays import Array
 
-__all__ = ["cycle_moments", "prototypes", "sampled"]
+__all__ = ["cycle_moments", "prototypes", "sample_curves"]
 
 _LEAST_WEIGHT = 1e-6  # of a cycle without visible entries, which may be all that a recording has
 
@@ -45,7 +45,7 @@ def prototypes(components: Components, scores: Scores, cycles: Cycles) -> Array:
     return np.asarray(np.tensordot(shares @ scores.padded, components.coefficients, axes=1))
 
 
-def sampled(coefficients: Array, n_states: int) -> Array:
+def sample_curves(coefficients: Array, n_states: int) -> Array:
     """Return the functions with coefficients (…, D, P) at M states of the cycle: (…, M, D)."""
     basis = fourier(np.arange(n_states) / n_states, (coefficients.shape[-1] - 1) // 2)
     return np.asarray(basis @ coefficients.swapaxes(-1, -2))

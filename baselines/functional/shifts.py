@@ -88,7 +88,7 @@ def shift_together(statistics: CurveStatistics, first: int, smoothness: float) -
     objectives = [np.inf]
     for _ in range(_MOST_ROUNDS):
         matrices = shift_matrices(SHIFTS[shifts], (curve.shape[1] - 1) // 2)
-        curve = periodic_curve(statistics.shifted(matrices), smoothness)
+        curve = periodic_curve(statistics.shift_curves(matrices), smoothness)
         errors = prediction_errors(statistics, curve)
         shifts = errors.argmin(axis=1)
         objectives.append(float(errors.min(axis=1).sum() + (curve**2 @ weights).sum()))

@@ -49,7 +49,7 @@ class CurveStatistics:
             self.grams[index], self.cross[index], self.squares[index], self.counts[index]
         )
 
-    def shifted(self, matrices: Array) -> Self:
+    def shift_curves(self, matrices: Array) -> Self:
         """Return those of each curve with its phases shifted by its own matrix (J, P, P)."""
         left = matrices[:, None]
         grams = left @ self.grams @ left.swapaxes(-1, -2)

@@ -113,7 +113,7 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
             If the covariance of a channel is singular at a start.
         """
         checked = check_recordings(recordings)
-        models = self._unfitted(checked[0].channels)
+        models = self._build_models(checked[0].channels)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         self.models_ = tuple(
             model.fit([recording.select([channel]) for recording in checked])
@@ -126,7 +126,7 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         self.solver_ = "+".join(sorted({model.solver_ for model in self.models_}))
         return self
 
-    def _unfitted(self, channels: Sequence[str]) -> Mapping[str, Single]:
+    def _build_models(self, channels: Sequence[str]) -> Mapping[str, Single]:
         """Return a model to fit for each channel; a warm start takes the channel's previous one."""
         check_seed("random_state", self.random_state)
         settings = self.get_params() | {"random_state": np.random.default_rng(self.random_state)}

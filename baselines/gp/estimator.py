@@ -385,7 +385,7 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         if trial.visible.all():
             return Prediction.around(trial, trial.values, np.zeros_like(trial.values))
         number = self._number(trial)
-        shown = self.process_.given(self.reduce(self._replicates.showing(number, trial)))
+        shown = self.process_.condition(self.reduce(self._replicates.showing(number, trial)))
         with shown.threaded(self.n_jobs) as process:
             curve = process.reduction.replicates[number]
             ((mean, variance),) = process.infer([curve], [trial.times])

@@ -88,7 +88,7 @@ class FittedProcess:
         with thread_mapper(effective_n_jobs(n_jobs)) as mapper:
             yield replace(self, solvers=with_mapper(self.solvers, mapper))
 
-    def given(self, reduction: Reduction) -> Self:
+    def condition(self, reduction: Reduction) -> Self:
         """Return the process given other recordings, its parameters kept."""
         # They may break what the solver of `fit` needs, such as gaps that all outputs share.
         solvers = PLANS["auto"](self.kernel, reduction.blocks, self.parameters)

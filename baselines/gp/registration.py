@@ -57,11 +57,11 @@ class Clock:
     start: float = 0.0
     pace: float = 1.0
 
-    def recorded(self, times: Frames) -> Frames:
+    def to_recording(self, times: Frames) -> Frames:
         """Return the recording's times at ``times`` (N,) of the reference."""
         return self.start + self.pace * (times - self.origin)
 
-    def shared(self, times: Frames) -> Frames:
+    def to_reference(self, times: Frames) -> Frames:
         """Return the reference's times at ``times`` (N,) of the recording."""
         return self.origin + (times - self.start) / self.pace
 
@@ -73,7 +73,7 @@ class Registered(NamedTuple):
     clock: Clock = Clock()
 
 
-def unmoved(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
+def keep_times(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
     """Return the recordings as they are."""
     return tuple(map(Registered, recordings))
 
@@ -84,14 +84,14 @@ def affine(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
     _, variance = visible_moments(recordings)
     scale = np.sqrt(np.where(variance > 0.0, variance, 1.0))
     return tuple(
-        _moved(recording, reference, scale)
+        _register_recording(recording, reference, scale)
         if recording is not reference and recording.visible.all() and len(recording.times) > 1
         else Registered(recording)
         for recording in recordings
     )
 
 
-def _moved(recording: Recording, reference: Recording, scale: Array) -> Registered:
+def _register_recording(recording: Recording, reference: Recording, scale: Array) -> Registered:
     """Return a complete recording at the reference's times, where it is most like it."""
     spline = CubicSpline(recording.times, recording.values)
     first, span = float(reference.times[0]), float(np.ptp(reference.times))
@@ -100,7 +100,7 @@ def _moved(recording: Recording, reference: Recording, scale: Array) -> Register
         return Clock(first, first + span * float(warp[0]), float(np.exp(warp[1])))
 
     def at(warp: Array) -> Array:
-        times = clock(warp).recorded(reference.times)
+        times = clock(warp).to_recording(reference.times)
         inside = (times >= recording.times[0]) & (times <= recording.times[-1])
         return np.where(inside[:, None], spline(times), np.nan)
 
@@ -126,6 +126,6 @@ def _error(reference: Array, moved: Array, scale: Array) -> float:
 
 
 REGISTRATIONS: Mapping[str, Callable[[Sequence[Recording]], Sequence[Registered]]] = (
-    MappingProxyType({"none": unmoved, "affine": affine})
+    MappingProxyType({"none": keep_times, "affine": affine})
 )
 """The registrations by the name that `MOHGP` takes."""

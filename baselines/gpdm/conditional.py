@@ -72,8 +72,8 @@ class Conditional:
             estimate.x,
             poses,
             posterior.lengths,
-            posterior.reconstruction.conditioned(estimate.beta, estimate.x, poses),
-            posterior.dynamics.conditioned(estimate.alpha, estimate.x, posterior.lengths),
+            posterior.reconstruction.condition(estimate.beta, estimate.x, poses),
+            posterior.dynamics.condition(estimate.alpha, estimate.x, posterior.lengths),
             posterior.weight,
         )
 

@@ -61,7 +61,7 @@ class Dynamics(ABC):
         """
 
     @abstractmethod
-    def conditioned(self, theta: Array, x: Array, lengths: Sequence[int]) -> ConditionedDynamics:
+    def condition(self, theta: Array, x: Array, lengths: Sequence[int]) -> ConditionedDynamics:
         """Return the prior of a further trajectory, given those stacked in ``x`` (N, d)."""
 
     @abstractmethod
@@ -145,10 +145,10 @@ class Markov(Dynamics):
         value = pairs.value + 0.5 * float((x[lags.first] ** 2).sum())
         return value, self._pull(x, lags, pairs.inputs, pairs.targets), pairs.theta
 
-    def conditioned(self, theta: Array, x: Array, lengths: Sequence[int]) -> ConditionedDynamics:
+    def condition(self, theta: Array, x: Array, lengths: Sequence[int]) -> ConditionedDynamics:
         """Return the dynamics of GPDM eq. (26)."""
         pairs = self._pairs(x, _Lags.of(lengths, self.order))
-        return _ConditionedMarkov(self.order, self, self.process.conditioned(theta, *pairs))
+        return _ConditionedMarkov(self.order, self, self.process.condition(theta, *pairs))
 
     def properties(self, theta: Array, n_latent: int) -> dict[str, float]:
         """Return SNR(α) and CLS(α)."""
@@ -195,7 +195,7 @@ class Static(Dynamics, ConditionedDynamics):
         del lengths
         return 0.5 * float((x**2).sum()), x, np.zeros_like(theta)
 
-    def conditioned(self, theta: Array, x: Array, lengths: Sequence[int]) -> ConditionedDynamics:
+    def condition(self, theta: Array, x: Array, lengths: Sequence[int]) -> ConditionedDynamics:
         """Return itself: the positions of other sequences are independent of a new one's."""
         del theta, x, lengths
         return self

@@ -78,7 +78,7 @@ class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedde
         """
         self._check_parameters()
         dynamics, learning = self._dynamics(), self._learning()
-        checked = self._checked(recordings)
+        checked = self._check_recordings(recordings)
         self.recordings_ = checked
         self.sequences_ = TrainingSequences.of([in_pose_units(each) for each in checked])
         self.channels_, self.units_ = checked[0].channels, checked[0].units
@@ -103,7 +103,7 @@ class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedde
         self.kernel_properties_ = self._properties(posterior)
         return self
 
-    def _checked(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
+    def _check_recordings(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
         """Return the recordings to learn from, after checking them."""
         return check_recordings(recordings)
 
@@ -144,12 +144,12 @@ class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedde
     def _claimed(self, recording: Recording) -> Prediction:
         visible = visible_frames(recording)
         offset = self.subject_offset * self.matcher_.residual(recording)
-        query = Query(self._scaled(recording.values - offset), visible)
+        query = Query(self._to_model_units(recording.values - offset), visible)
         x = STARTS[self.start](self.conditional_, query)
         x = self.conditional_.optimise(x, query, self.fill_iter)
-        mean, variance = self.conditional_.reconstruction.filled(x, query.poses, visible)
+        mean, variance = self.conditional_.reconstruction.fill_targets(x, query.poses, visible)
         return Prediction.around(
-            recording, self._unscaled(mean) + offset, np.outer(variance, self._units() ** 2)
+            recording, self._restore_units(mean) + offset, np.outer(variance, self._units() ** 2)
         )
 
     def latent_paths(self) -> list[Array]:
@@ -165,7 +165,7 @@ class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedde
     def poses(self, positions: Array) -> FrameByChannel:
         """Return the mean poses (N, D) at ``positions`` (N, d), GPDM eq. (33)."""
         check_is_fitted(self)
-        return self._unscaled(self.conditional_.reconstruction.marginals(positions)[0])
+        return self._restore_units(self.conditional_.reconstruction.marginals(positions)[0])
 
     def _units(self) -> Array:
         """Return the inverse scales (D,) in the channels' units.
@@ -176,13 +176,13 @@ class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedde
         units[self.sequences_.moving] = 1.0 / self.estimate_.scales
         return units / pose_factors(self.units_)
 
-    def _scaled(self, values: FrameByChannel) -> Array:
+    def _to_model_units(self, values: FrameByChannel) -> Array:
         """Return the moving channels in the model's units; hidden entries become zero."""
         moving, values = self.sequences_.moving, values * pose_factors(self.units_)
         poses = (values - self.sequences_.mean)[:, moving] * self.estimate_.scales
         return np.nan_to_num(poses, nan=0.0)
 
-    def _unscaled(self, poses: Array) -> FrameByChannel:
+    def _restore_units(self, poses: Array) -> FrameByChannel:
         """Return poses (…, D') in the recordings' units and channels: (…, D)."""
         values = np.broadcast_to(self.sequences_.mean, (*poses.shape[:-1], len(self.channels_)))
         values = values.copy()

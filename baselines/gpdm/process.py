@@ -95,7 +95,7 @@ class Process:
             np.append(d_theta, -np.trace(gradient) * np.exp(-theta[-1])),
         )
 
-    def conditioned(self, theta: Array, inputs: Array, targets: Array) -> ConditionedProcess:
+    def condition(self, theta: Array, inputs: Array, targets: Array) -> ConditionedProcess:
         """Return the process given ``targets`` (n, p) at ``inputs`` (n, q)."""
         gram, _ = self.kernel(theta[:-1], inputs, inputs)
         inverse, _ = invert(_noisy(gram, theta))
@@ -189,7 +189,7 @@ class ConditionedProcess:
         value = 0.5 * (mean.shape[1] * log_determinant + float((dual[rows] * residual).sum()))
         return value, pull(-dual, d_covariance), dual
 
-    def filled(
+    def fill_targets(
         self, inputs: Array, targets: Array, visible: NDArray[np.bool_]
     ) -> tuple[Array, Array]:
         """Return mean (m, p) and variance (m,) of all targets given the visible ones.

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.recordings import by_name, complete_stretches
-from mocapbench.baselines.common.signs import oriented
+from mocapbench.baselines.common.signs import orient_vectors
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
@@ -80,7 +80,7 @@ def whitened_components(y: Array, n_latent: int) -> Array:
     Where the rank of ``y`` is below ``n_latent``, d is that rank, and a warning is issued.
     """
     left, singular, _ = np.linalg.svd(y, full_matrices=False)
-    left = oriented(left)
+    left = orient_vectors(left)
     rank = int((singular > singular[0] * max(y.shape) * np.finfo(float).eps).sum())
     if rank < n_latent:
         warnings.warn(

@@ -41,8 +41,8 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
     order: int
     """Number of previous positions on which the next one depends."""
 
-    def _checked(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
-        checked = super()._checked(recordings)
+    def _check_recordings(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
+        checked = super()._check_recordings(recordings)
         check_rates(checked)
         return checked
 
@@ -69,8 +69,11 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
         rng = np.random.default_rng(random_state)
         n_frames = max(self._n_frames(times), self.order + 1)
         grid = times[0] + self.frame_seconds_ * np.arange(n_frames)
-        drawn = (self._unscaled(self._poses(x, rng)) for x in self._drawn(n_samples, n_frames, rng))
-        return np.stack([_interpolated(times, grid, values) for values in drawn])
+        drawn = (
+            self._restore_units(self._poses(x, rng))
+            for x in self._draw_trajectories(n_samples, n_frames, rng)
+        )
+        return np.stack([_interpolate_columns(times, grid, values) for values in drawn])
 
     def _n_frames(self, times: Frames) -> int:
         """Return how many frames at the training rate cover ``times``."""
@@ -105,7 +108,9 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
         starts = np.cumsum((0, *self.sequences_.lengths))
         return self.estimate_.x[starts[sequence] : starts[sequence + 1]][: self.order]
 
-    def _drawn(self, n_samples: int, n_frames: int, rng: np.random.Generator) -> list[Array]:
+    def _draw_trajectories(
+        self, n_samples: int, n_frames: int, rng: np.random.Generator
+    ) -> list[Array]:
         """Return trajectories (N, d), from one chain for each training sequence drawn."""
         origins = rng.choice(self._origins(), n_samples)
         chains = []
@@ -126,5 +131,5 @@ class DynamicalModel(LatentVariableModel, Synthesiser, Dynamical):
         return np.asarray(mean + root @ rng.standard_normal(mean.shape))
 
 
-def _interpolated(times: Frames, grid: Frames, values: Array) -> Array:
+def _interpolate_columns(times: Frames, grid: Frames, values: Array) -> Array:
     return np.stack([np.interp(times, grid, column) for column in values.T], axis=1)

@@ -57,7 +57,9 @@ class TwoStage(Learning):
         )
         for _ in range(self.n_rounds):
             samples = self._samples(posterior, estimate, rng)
-            estimate = self._maximised(posterior, samples, replace(estimate, x=samples[-1]))
+            estimate = self._maximise_parameters(
+                posterior, samples, replace(estimate, x=samples[-1])
+            )
         return optimise_latents(posterior, estimate, self.n_last)
 
     def _samples(
@@ -71,7 +73,7 @@ class TwoStage(Learning):
         samples, _ = self.sampler.sample(potential, mode.x, rng)
         return samples
 
-    def _maximised(
+    def _maximise_parameters(
         self, posterior: JointPosterior, samples: Array, estimate: PointEstimate
     ) -> PointEstimate:
         """Return the estimate with the parameters of the M-step."""

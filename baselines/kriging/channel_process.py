@@ -11,7 +11,7 @@ from mocapbench.baselines.kriging.channel_pairs import TYPICAL, ChannelPairs, De
 from mocapbench.baselines.kriging.learning import (
     best_predicting,
     noisy,
-    predicted,
+    predict_frames,
     some_of_both,
     stretch_numbers,
 )
@@ -86,7 +86,7 @@ class ChannelProcess:
     ) -> tuple[Array, Array]:
         """Return the mean and the variance (m, C) of observations in the frames wanted."""
         known, across = ChannelPairs.of(frames, frames), ChannelPairs.of(wanted, frames)
-        mean, explained = predicted(known, across, self.parameters, values)
+        mean, explained = predict_frames(known, across, self.parameters, values)
         noise = np.exp(2.0 * self.parameters[-1])
         variance = np.maximum(wanted.variances(self.parameters) - explained, 0.0) + noise
         return mean, np.outer(variance, self.scales)

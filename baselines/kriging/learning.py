@@ -18,7 +18,7 @@ __all__ = [
     "best_predicting",
     "evenly",
     "noisy",
-    "predicted",
+    "predict_frames",
     "some_of_both",
     "stretch_numbers",
 ]
@@ -89,7 +89,9 @@ def best_predicting(
     return np.asarray(found.x)
 
 
-def predicted(known: Pairs, across: Pairs, parameters: Array, values: Array) -> tuple[Array, Array]:
+def predict_frames(
+    known: Pairs, across: Pairs, parameters: Array, values: Array
+) -> tuple[Array, Array]:
     """Return the mean in m frames given n others, and by how much that lessens their variances.
 
     C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for Machine Learning, MIT

@@ -66,10 +66,10 @@ class LocalFrames:
             shapes = np.einsum("tkj,tij->tki", around, turns)
         return cls(turns, centres, shapes)
 
-    def seen(self, places: Array) -> Array:
+    def to_body(self, places: Array) -> Array:
         """Return a marker (T, 3) of the room as seen from the body."""
         return np.asarray(np.einsum("tj,tij->ti", places - self.centres, self.turns))
 
-    def back(self, seen: Array, frames: NDArray[np.intp]) -> Array:
+    def to_room(self, seen: Array, frames: NDArray[np.intp]) -> Array:
         """Return a marker as seen from the body in some frames (n, 3) in the room."""
         return np.asarray(np.einsum("ti,tij->tj", seen, self.turns[frames]) + self.centres[frames])

@@ -74,26 +74,26 @@ class MarkerGap:
         """Whether others hold a body, beside which the marker is visible twice somewhere."""
         return len(self.others) >= FEWEST and len(self._given) > 1
 
-    def filled(self) -> tuple[Array, Array]:
+    def fill(self) -> tuple[Array, Array]:
         """Return the mean (T, 3) and the variance (T, 1) of the marker in the gap."""
         known = slice(len(self.frames), None)
         body = LocalFrames.of(self._stacked[:, 1:], self.steady**self.power)
-        seen = body.seen(self._stacked[:, 0])[known]
+        seen = body.to_body(self._stacked[:, 0])[known]
         centre = seen.mean(axis=0)
         spread = max(np.sqrt(np.mean((seen - centre) ** 2)), _ROUNDING * np.abs(body.shapes).max())
         values = (seen - centre) / spread
-        mean, variance = self._predicted(self._described(body), values)
+        mean, variance = self._predict_gap(self._describe_frames(body), values)
         hidden = np.arange(len(self.frames))
-        return body.back(centre + spread * mean, hidden), spread**2 * variance[:, None]
+        return body.to_room(centre + spread * mean, hidden), spread**2 * variance[:, None]
 
-    def _predicted(self, frames: MarkerFrames, values: Array) -> tuple[Array, Array]:
+    def _predict_gap(self, frames: MarkerFrames, values: Array) -> tuple[Array, Array]:
         """Return the moments in the gap, with which ``frames`` begin, given ``values`` after it."""
         wanted, known = np.split(np.arange(len(self._rows)), [len(self.frames)])
         some = some_of_both(self._given[:, 0] == 0, _LEARNT)
         process = MarkerProcess.learnt(frames.at(known[some]), values[some], self._seconds)
         return process.predict(frames.at(known), values, frames.at(wanted))
 
-    def _described(self, body: LocalFrames) -> MarkerFrames:
+    def _describe_frames(self, body: LocalFrames) -> MarkerFrames:
         shapes = self.steady[:, None] * (body.shapes - body.shapes.mean(axis=0))
         size = np.sqrt((shapes**2).sum(axis=(1, 2)).mean())
         shapes /= max(size, _ROUNDING * np.abs(body.shapes).max())
@@ -117,13 +117,13 @@ class MarkerGap:
     @cached_property
     def _given(self) -> Index:
         """Recordings and frames that show the marker and the others; the first recording first."""
-        shown = [self._shown(number) for number in range(len(self.tracks))]
+        shown = [self._find_complete_frames(number) for number in range(len(self.tracks))]
         own, further = shown[0], np.concatenate([shown[0][:0], *shown[1:]])
         beside = np.abs(own[:, 1] - np.clip(own[:, 1], self.frames[0], self.frames[-1])) <= _BESIDE
         own = np.unique(np.concatenate([evenly(own, _FURTHER), own[beside]]), axis=0)
         return np.concatenate([own, evenly(further, _FURTHER)])
 
-    def _shown(self, number: int) -> Index:
+    def _find_complete_frames(self, number: int) -> Index:
         places = self.tracks[number].places[:, [self.marker, *self.others]]
         frames = np.flatnonzero(~np.isnan(places).any(axis=(1, 2)))
         return np.column_stack([np.full_like(frames, number), frames])

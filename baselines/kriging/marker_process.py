@@ -25,7 +25,12 @@ from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
-from mocapbench.baselines.kriging.learning import best_predicting, noisy, predicted, stretch_numbers
+from mocapbench.baselines.kriging.learning import (
+    best_predicting,
+    noisy,
+    predict_frames,
+    stretch_numbers,
+)
 from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 from mocapbench.baselines.kriging.student import student_variance
 from mocapbench.basics.arrays import Array, Index
@@ -149,7 +154,7 @@ class MarkerProcess:
     ) -> tuple[Array, Array]:
         """Return the mean (m, 3) and the variance (m,) of an observation in the frames wanted."""
         known, across = FramePairs.of(frames, frames), FramePairs.of(wanted, frames)
-        mean, explained = predicted(known, across, self.parameters, values)
+        mean, explained = predict_frames(known, across, self.parameters, values)
         _, drift, _, noise = np.exp(2.0 * self.parameters)
         total = _CONSTANTS + 1.0 + drift + noise
         variance = np.maximum(total - explained, noise)

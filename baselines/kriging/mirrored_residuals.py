@@ -63,7 +63,7 @@ class MirroredResiduals:
     time_lengthscale: float
     symmetry: float
 
-    def given(
+    def condition(
         self, matched: FrameByChannel, visible: NDArray[np.bool_]
     ) -> Iterator[tuple[NDArray[np.bool_], ConditionedFrames]]:
         """Yield groups of channels, as a mask (D,), and the process of each, given visible frames.

@@ -55,7 +55,7 @@ class StackedFrames:
             np.concatenate([np.arange(length) for length in lengths]),
         )
 
-    def described(self, frames: Index, channels: Index, weights: Array) -> Array:
+    def describe_windows(self, frames: Index, channels: Index, weights: Array) -> Array:
         """Return the windows (n, W C) of frames in some channels, times weights (C,).
 
         They are divided by the root of W C: squared distances are means. One zero stands for no

@@ -76,7 +76,7 @@ def symmetries(recordings: Sequence[Recording]) -> tuple[Image, ...]:
     mirrored = _mirror_image(channels)
     if mirrored is None:
         return itself
-    shared = [_shared(mirrored, recording) for recording in recordings]
+    shared = [_explained_share(mirrored, recording) for recording in recordings]
     return (*itself, mirrored) if np.mean(shared) >= _LEAST_SHARED else itself
 
 
@@ -102,7 +102,7 @@ def _opposite(segment: str, segments: set[str]) -> str:
     return segment
 
 
-def _shared(image: Image, recording: Recording) -> float:
+def _explained_share(image: Image, recording: Recording) -> float:
     """Return the share of the image's variance that the recording's nearest poses explain."""
     frames = recording.values[recording.visible.all(axis=1)]
     frames = frames - frames.mean(axis=0)

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Self
 
 from mocapbench.baselines.common.ascent import Ascent, ascend
-from mocapbench.baselines.state_space.maximisation import maximised
+from mocapbench.baselines.state_space.maximisation import maximise_parameters
 from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.smoothing import Smoothed, smoothed
+from mocapbench.baselines.state_space.smoothing import Smoothed, smooth_states
 
 __all__ = ["Expected", "expectation_maximisation"]
 
@@ -30,7 +30,7 @@ class Expected:
     @classmethod
     def of(cls, parameters: StateSpaceParameters, data: Observations) -> Self:
         """Take the E-step."""
-        return cls(parameters, smoothed(parameters, data))
+        return cls(parameters, smooth_states(parameters, data))
 
     def objective(self, priors: Priors) -> float:
         """Return the log-likelihood plus the log-prior."""
@@ -51,7 +51,7 @@ def expectation_maximisation(
     """
     return ascend(
         Expected.of(parameters, data),
-        lambda now: Expected.of(maximised(now.states, data, priors), data),
+        lambda now: Expected.of(maximise_parameters(now.states, data, priors), data),
         lambda now: now.objective(priors),
         max_iter=max_iter,
         threshold=tol * data.counts.sum(),

@@ -17,10 +17,10 @@ import numpy as np
 
 from mocapbench.baselines.state_space.model import StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.regression import transposed
+from mocapbench.baselines.state_space.regression import transpose_each
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Filtered", "filtered", "recurrence"]
+__all__ = ["Filtered", "filter_states", "recurrence"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ class Filtered:
     log_likelihood: Array
 
 
-def filtered(parameters: StateSpaceParameters, data: Observations) -> Filtered:
+def filter_states(parameters: StateSpaceParameters, data: Observations) -> Filtered:
     """Return the filtered states of all sequences."""
     weights = data.visible / parameters.noise
     centred = data.visible * (data.values - parameters.offset)
@@ -85,7 +85,7 @@ def _covariances(parameters: StateSpaceParameters, information: Array) -> tuple[
         predicted[:, t] = current
         # (P⁻¹ + J)⁻¹ = (I + P J)⁻¹ P, which needs no inverse of P.
         updated = np.linalg.solve(identity + current @ information[:, t], current)
-        covariance[:, t] = 0.5 * (updated + transposed(updated))
+        covariance[:, t] = 0.5 * (updated + transpose_each(updated))
         current = transition @ covariance[:, t] @ transition.T + noise
     return predicted, covariance
 

@@ -18,10 +18,12 @@ from mocapbench.baselines.state_space.regression import Regression, Sums
 from mocapbench.baselines.state_space.smoothing import Smoothed
 from mocapbench.basics.arrays import Array
 
-__all__ = ["maximised"]
+__all__ = ["maximise_parameters"]
 
 
-def maximised(posterior: Smoothed, data: Observations, priors: Priors) -> StateSpaceParameters:
+def maximise_parameters(
+    posterior: Smoothed, data: Observations, priors: Priors
+) -> StateSpaceParameters:
     """Return the parameters with the highest expected posterior density."""
     second = posterior.covariance + _outer(posterior.mean, posterior.mean)
     second = np.where(data.frames[..., None, None], second, 0.0)

@@ -18,15 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.ascent import Ascent, ascend
-from mocapbench.baselines.state_space.filtering import filtered
-from mocapbench.baselines.state_space.maximisation import maximised
+from mocapbench.baselines.state_space.filtering import filter_states
+from mocapbench.baselines.state_space.maximisation import maximise_parameters
 from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.smoothing import smooth_states
 from mocapbench.baselines.state_space.start import start
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Mixture", "classification_em", "seeded"]
+__all__ = ["Mixture", "classification_em", "seed_mixture"]
 
 Labels = NDArray[np.intp]
 
@@ -53,7 +53,7 @@ class Mixture:
     objective: float
 
     @classmethod
-    def assigned(
+    def assign_sequences(
         cls,
         components: Sequence[StateSpaceParameters],
         weights: Array,
@@ -61,23 +61,25 @@ class Mixture:
         priors: Priors,
     ) -> Mixture:
         """Return the mixture with every sequence in the component that explains it best."""
-        evidence = [filtered(parameters, data).log_likelihood for parameters in components]
+        evidence = [filter_states(parameters, data).log_likelihood for parameters in components]
         joint = np.column_stack(evidence) + np.log(weights)
         prior = sum(parameters.log_prior(priors) for parameters in components)
         value = joint.max(axis=1).sum() + np.log(weights).sum() + prior
         return cls(tuple(components), weights, joint.argmax(axis=1), float(value))
 
-    def improved(self, data: Observations, priors: Priors) -> Mixture:
+    def improve(self, data: Observations, priors: Priors) -> Mixture:
         """Return the mixture after a step of EM in each component and a new assignment."""
         sizes = np.bincount(self.labels, minlength=len(self.weights))
         components = list(self.components)
         for c in np.flatnonzero(sizes):
             members = data.rows(np.flatnonzero(self.labels == c))
-            components[c] = maximised(smoothed(components[c], members), members, priors)
-        return self.assigned(components, (sizes + 1.0) / (sizes + 1.0).sum(), data, priors)
+            components[c] = maximise_parameters(
+                smooth_states(components[c], members), members, priors
+            )
+        return self.assign_sequences(components, (sizes + 1.0) / (sizes + 1.0).sum(), data, priors)
 
 
-def seeded(states: Array, data: Observations, seeds: Labels, priors: Priors) -> Mixture:
+def seed_mixture(states: Array, data: Observations, seeds: Labels, priors: Priors) -> Mixture:
     """Return a mixture whose components each fit one sequence, of those at ``seeds`` (C,).
 
     Parameters
@@ -90,7 +92,7 @@ def seeded(states: Array, data: Observations, seeds: Labels, priors: Priors) -> 
         start(states[[seed], : one.lengths[0]], one, priors)
         for seed, one in zip(seeds, alone, strict=True)
     ]
-    return Mixture.assigned(components, np.full(len(seeds), 1.0 / len(seeds)), data, priors)
+    return Mixture.assign_sequences(components, np.full(len(seeds), 1.0 / len(seeds)), data, priors)
 
 
 def classification_em(
@@ -102,7 +104,7 @@ def classification_em(
     """
     return ascend(
         mixture,
-        lambda now: now.improved(data, priors),
+        lambda now: now.improve(data, priors),
         lambda now: now.objective,
         max_iter=max_iter,
         threshold=tol * data.counts.sum(),

@@ -11,7 +11,7 @@ from mocapbench.baselines.state_space.model import StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.prediction import moments
 from mocapbench.baselines.state_space.regression import Prior, Regression
-from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.smoothing import smooth_states
 
 __all__ = ["NoiseShown", "with_noise_shown"]
 
@@ -26,7 +26,7 @@ def with_noise_shown(parameters: StateSpaceParameters, data: Observations) -> St
     These are a few iterations of EM in which all else is kept.
     """
     for _ in range(_ITERATIONS):
-        mean, variance = moments(parameters, smoothed(parameters, data))
+        mean, variance = moments(parameters, smooth_states(parameters, data))
         squares = (data.values - mean) ** 2 + variance - parameters.noise
         sums = np.where(data.visible, squares, 0.0).sum(axis=(0, 1))
         counts = data.visible.sum(axis=(0, 1)) + _PRIOR.frames

@@ -57,7 +57,7 @@ class Observations(Sequences):
         kept = slice(lengths.max(initial=0))
         return type(self)(self.values[index][:, kept], self.visible[index][:, kept], lengths)
 
-    def interpolated(self) -> list[Array]:
+    def interpolate_hidden(self) -> list[Array]:
         """Return each sequence (N_k, D) with hidden entries on lines between visible ones.
 
         A channel that a sequence never shows is 0, its mean over all sequences.

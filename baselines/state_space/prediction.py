@@ -8,7 +8,7 @@ from mocapbench.baselines.state_space.model import StateSpaceParameters
 from mocapbench.baselines.state_space.smoothing import Smoothed
 from mocapbench.basics.arrays import Array
 
-__all__ = ["drawn", "moments"]
+__all__ = ["draw_sequences", "moments"]
 
 
 def moments(parameters: StateSpaceParameters, posterior: Smoothed) -> tuple[Array, Array]:
@@ -20,7 +20,7 @@ def moments(parameters: StateSpaceParameters, posterior: Smoothed) -> tuple[Arra
     return mean, np.maximum(signal, 0.0) + parameters.noise
 
 
-def drawn(
+def draw_sequences(
     parameters: StateSpaceParameters, n_samples: int, n_frames: int, rng: np.random.Generator
 ) -> Array:
     """Return new sequences in standard units, noise included: (n, N, D)."""

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Prior", "Regression", "Sums", "transposed"]
+__all__ = ["Prior", "Regression", "Sums", "transpose_each"]
 
 
 @dataclass(frozen=True)
@@ -67,22 +67,22 @@ class Regression:
     def of(cls, sums: Sums, prior: Prior) -> Regression:
         """Return the regression with the highest posterior density."""
         ridge = sums.xx + prior.ridge * np.eye(sums.xx.shape[-1])
-        coefficients = transposed(np.linalg.solve(ridge, transposed(sums.yx)))
+        coefficients = transpose_each(np.linalg.solve(ridge, transpose_each(sums.yx)))
         # The residuals, λ B Bᵀ included: S_yy − B S_xy where B minimises.
-        residual = sums.yy - coefficients @ transposed(sums.yx)
-        residual = 0.5 * (residual + transposed(residual))
+        residual = sums.yy - coefficients @ transpose_each(sums.yx)
+        residual = 0.5 * (residual + transpose_each(residual))
         scale = prior.frames * prior.variance * np.eye(residual.shape[-1])
         return cls(coefficients, (residual + scale) / (sums.count + prior.frames))
 
     def log_prior(self, prior: Prior) -> float:
         """Return −½ (ν log |V| + tr V⁻¹(ν s² I + λ B Bᵀ)), summed over the leading axes."""
         _, log_determinant = np.linalg.slogdet(self.covariance)
-        squares = self.coefficients @ transposed(self.coefficients)
+        squares = self.coefficients @ transpose_each(self.coefficients)
         scale = prior.frames * prior.variance * np.eye(squares.shape[-1]) + prior.ridge * squares
         trace = np.trace(np.linalg.solve(self.covariance, scale), axis1=-2, axis2=-1)
         return -0.5 * float(np.sum(prior.frames * log_determinant + trace))
 
 
-def transposed(matrices: NDArray[Any]) -> Array:
+def transpose_each(matrices: NDArray[Any]) -> Array:
     """Return the transpose of each matrix of (…, a, b)."""
     return np.swapaxes(matrices, -1, -2)

@@ -14,13 +14,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines.state_space.filtering import Filtered, filtered, recurrence
+from mocapbench.baselines.state_space.filtering import Filtered, filter_states, recurrence
 from mocapbench.baselines.state_space.model import StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.regression import transposed
+from mocapbench.baselines.state_space.regression import transpose_each
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Smoothed", "smoothed"]
+__all__ = ["Smoothed", "smooth_states"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,15 +45,15 @@ class Smoothed:
     log_likelihood: Array
 
 
-def smoothed(parameters: StateSpaceParameters, data: Observations) -> Smoothed:
+def smooth_states(parameters: StateSpaceParameters, data: Observations) -> Smoothed:
     """Return the posterior of the states of all sequences."""
-    forward = filtered(parameters, data)
+    forward = filter_states(parameters, data)
     gains = _gains(parameters, forward, data)
     mean = forward.mean
     shifts = mean - _product(gains, mean @ parameters.dynamics.coefficients.T)
-    mean = recurrence(_reversed(gains), _reversed(shifts))[::-1].swapaxes(0, 1)
+    mean = recurrence(_latest_first(gains), _latest_first(shifts))[::-1].swapaxes(0, 1)
     covariance = _covariances(gains, forward, data)
-    lagged = covariance[:, 1:] @ transposed(gains[:, :-1])
+    lagged = covariance[:, 1:] @ transpose_each(gains[:, :-1])
     return Smoothed(mean, covariance, lagged, forward.log_likelihood)
 
 
@@ -61,7 +61,7 @@ def _gains(parameters: StateSpaceParameters, forward: Filtered, data: Observatio
     """Return the gains (K, N, q, q), 0 where a sequence has no next frame."""
     ahead = parameters.dynamics.coefficients @ forward.covariance[:, :-1]
     gains = np.zeros_like(forward.covariance)
-    gains[:, :-1] = transposed(np.linalg.solve(forward.predicted[:, 1:], ahead))
+    gains[:, :-1] = transpose_each(np.linalg.solve(forward.predicted[:, 1:], ahead))
     has_next = np.arange(gains.shape[1]) < data.lengths[:, None] - 1
     return np.where(has_next[..., None, None], gains[data.groups], 0.0)
 
@@ -70,16 +70,16 @@ def _covariances(gains: Array, forward: Filtered, data: Observations) -> Array:
     """Return the smoothed covariances (K, N, q, q), from the last frame to the first."""
     own = forward.covariance[data.groups]
     ahead = forward.predicted[data.groups, 1:]
-    own[:, :-1] -= gains[:, :-1] @ ahead @ transposed(gains[:, :-1])
+    own[:, :-1] -= gains[:, :-1] @ ahead @ transpose_each(gains[:, :-1])
     covariance = np.empty_like(own)
     covariance[:, -1] = current = own[:, -1]
     for t in reversed(range(own.shape[1] - 1)):
-        current = own[:, t] + gains[:, t] @ current @ transposed(gains[:, t])
+        current = own[:, t] + gains[:, t] @ current @ transpose_each(gains[:, t])
         covariance[:, t] = current
     return covariance
 
 
-def _reversed(array: Array) -> Array:
+def _latest_first(array: Array) -> Array:
     """Return (K, N, …) as (N, K, …) with the last frame first."""
     return array.swapaxes(0, 1)[::-1]
 

@@ -14,8 +14,8 @@ import warnings
 
 import numpy as np
 
-from mocapbench.baselines.common.signs import oriented
-from mocapbench.baselines.state_space.maximisation import maximised
+from mocapbench.baselines.common.signs import orient_vectors
+from mocapbench.baselines.state_space.maximisation import maximise_parameters
 from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
 from mocapbench.baselines.state_space.observations import Observations
 from mocapbench.baselines.state_space.smoothing import Smoothed
@@ -33,7 +33,9 @@ def initial_states(data: Observations, n_states: int) -> Array:
     Where the data has fewer than ``n_states`` dimensions, q is their number, at least 1, and a
     warning is issued.
     """
-    states = _components(np.concatenate([_stretches(y) for y in data.interpolated()]), n_states)
+    states = _components(
+        np.concatenate([_stretches(y) for y in data.interpolate_hidden()]), n_states
+    )
     padded = np.zeros((*data.frames.shape, states.shape[1]))
     padded[data.frames] = states
     return padded
@@ -43,7 +45,7 @@ def start(states: Array, data: Observations, priors: Priors) -> StateSpaceParame
     """Return the parameters that are most probable if ``states`` (K, N, q) are the states."""
     certain = np.zeros((*states.shape, states.shape[2]))
     known = Smoothed(states, certain, certain[:, 1:], np.zeros(len(states)))
-    return maximised(known, data, priors)
+    return maximise_parameters(known, data, priors)
 
 
 def _stretches(frames: Array) -> Array:
@@ -67,5 +69,5 @@ def _components(rows: Array, n_states: int) -> Array:
     if rank == 0:
         return np.zeros((len(rows), 1))
     kept = slice(-1, -min(rank, n_states) - 1, -1)
-    axes = oriented(axes)  # the signs of states decide what is drawn
+    axes = orient_vectors(axes)  # the signs of states decide what is drawn
     return np.asarray(centred @ axes[:, kept] / np.sqrt(variances[kept]))

@@ -24,7 +24,7 @@ from mocapbench import benchmark as bench
 from mocapbench.baselines import CyclicAlignment
 from mocapbench.baselines.alignment.fitting import run, split
 from mocapbench.baselines.alignment.start import best_paths, prototypes
-from mocapbench.baselines.common.prototypes import grouped, of_unit_variance, tempi
+from mocapbench.baselines.common.prototypes import group_rows, of_unit_variance, tempi
 from mocapbench.benchmark.tasks.hlm_recordings import CMU, Corpus
 from mocapbench.datasets import Recording
 
@@ -77,7 +77,7 @@ def _by_tempo(
     both = np.column_stack([features, tempi(paths, len(trace))])
     found = []
     for chosen in (features, both):
-        labels = grouped(chosen, n_styles, 10, rng)
+        labels = group_rows(chosen, n_styles, 10, rng)
         state = split(model.state_, np.eye(n_styles)[labels])
         ended = run(state, model.sequences_, model.settings_, 40).state.labels.argmax(axis=1)
         found += [purity(labels, corpus), purity(ended, corpus)]

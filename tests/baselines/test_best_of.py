@@ -3,8 +3,8 @@ import pytest
 from samples import gap
 
 from mocapbench.baselines import MOHGP, BestOf, LinearImputer, MakimaImputer, PchipImputer
-from mocapbench.baselines.choosing import panel
-from mocapbench.baselines.choosing.panel import CANDIDATES
+from mocapbench.baselines.choosing import candidates
+from mocapbench.baselines.choosing.candidates import CANDIDATES
 from mocapbench.datasets import Recording, ToyProcess
 
 
@@ -98,7 +98,7 @@ def test_nothing_is_random_and_neither_order_nor_company_matters():
 def test_the_variance_includes_how_far_candidates_lie_apart():
     (prediction,) = MODEL.impute(GIVEN[:1])
     (weights,) = MODEL.weights(GIVEN[:1])
-    answers = MODEL.panel_.impute(GIVEN[0], weights.index)
+    answers = MODEL.candidates_.impute(GIVEN[0], weights.index)
     shares = weights[""].items()
     spread = sum(w * (answers[name].mean - prediction.mean) ** 2 for name, w in shares)
     assert (prediction.variance >= spread).all()
@@ -125,8 +125,8 @@ def test_candidates_that_cannot_learn_are_left_out_with_their_reason(monkeypatch
         def fit(self, recordings):
             raise np.linalg.LinAlgError("singular matrix")
 
-    monkeypatch.setattr(panel, "CANDIDATES", {**panel.CANDIDATES, "broken": Broken})
+    monkeypatch.setattr(candidates, "CANDIDATES", {**candidates.CANDIDATES, "broken": Broken})
     model = BestOf().fit([gap(walk("new", 0.0), 20, 30)])
     assert model.left_out_["broken"] == "LinAlgError: singular matrix"
-    assert not set(model.left_out_) & set(model.panel_.models)
-    assert {*model.left_out_, *model.panel_.models} == set(panel.CANDIDATES)
+    assert not set(model.left_out_) & set(model.candidates_.models)
+    assert {*model.left_out_, *model.candidates_.models} == set(candidates.CANDIDATES)

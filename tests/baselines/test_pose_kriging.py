@@ -148,7 +148,7 @@ def test_of_one_frame_the_fill_is_as_unsure_as_training_moves():
 def conditional_variance(model, recording, matched):
     """Return the conditional variance of the residuals, the doubt about the path left out."""
     visible = recording.visible[:, 0]
-    ((_, process),) = model._residuals().given(matched, visible)
+    ((_, process),) = model._residuals().condition(matched, visible)
     scales = process.scales((recording.values - matched)[visible], 0.0)
     return np.outer(process.variance, scales)
 
@@ -169,7 +169,7 @@ def test_the_mean_is_the_weighted_mean_of_what_each_path_predicts():
     model = PoseKriging().fit(TRAINING)
     recording = gap(walk("new", 2, 30, style=0.2), 10, 16)
     paths, visible = MatchedPaths.of(recording, model.matchers_), recording.visible[:, 0]
-    ((_, process),) = model._residuals().given(paths.mean, visible)
+    ((_, process),) = model._residuals().condition(paths.mean, visible)
     each = [path + process.mean((recording.values - path)[visible]) for path in paths.paths]
     (prediction,) = model.impute([recording])
     expected = np.average(each, axis=0, weights=paths.weights)

@@ -44,4 +44,4 @@ def _block(replicates: Replicates, pattern: Pattern) -> Block:
         data=replicates.data[pattern.members][:, None],
         noise_scale=np.ones((1, *pattern.observed.shape)),
         multiplicity=pattern.size,
-    ).trimmed()
+    ).trim()

@@ -9,10 +9,10 @@ from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.solvers.block import Block, Target
 
-__all__ = ["pooled"]
+__all__ = ["pool_replicates"]
 
 
-def pooled(replicates: Replicates) -> Reduction:
+def pool_replicates(replicates: Replicates) -> Reduction:
     """Reduce replicates that are noisy observations of one and the same function g.
 
     The n_dt values of an entry are replaced by their mean, with noise variance β_d / n_dt. Their

@@ -44,7 +44,7 @@ class Shape:
     def block(self, times: Array, data: Array, multiplicity: int) -> Block:
         """Return the problem of data vectors (h, P, D, N)."""
         noise = np.broadcast_to(self.noise[:, None, None], self.observed.shape)
-        return Block(times, self.units, self.observed, data, noise, multiplicity).trimmed()
+        return Block(times, self.units, self.observed, data, noise, multiplicity).trim()
 
     def of_mean(self, size: int) -> Shape:
         """Return the shape of the mean of ``size`` subtrees: R^(−1/2) C and ν / R."""

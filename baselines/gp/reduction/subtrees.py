@@ -99,7 +99,7 @@ def parent_of(parts: Sequence[Subtree], node: Node, layer: str, shape: Shape) ->
     for part in parts:
         for below, curve in part.curves.items():
             placed = {
-                name: _placed(weights, starts[name], len(zeros[name]))
+                name: _pad_weights(weights, starts[name], len(zeros[name]))
                 for name, weights in curve.weights.items()
             }
             curves[below] = NodeCurve(placed | top, curve.terms)
@@ -107,6 +107,6 @@ def parent_of(parts: Sequence[Subtree], node: Node, layer: str, shape: Shape) ->
     return Subtree(shape, np.concatenate([part.data for part in parts]), curves)
 
 
-def _placed(weights: Array, start: int, size: int) -> Array:
+def _pad_weights(weights: Array, start: int, size: int) -> Array:
     """Return ``weights`` from index ``start`` on, among zeros: (size,)."""
     return np.pad(weights, (start, size - start - len(weights)))

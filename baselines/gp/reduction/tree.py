@@ -44,7 +44,7 @@ def grow(names: Sequence[str], paths: Mapping[str, Path] | None = None) -> Tree:
         If a replicate has no path, a path has no replicate, a path is not a sequence of labels,
         or paths differ in length.
     """
-    by_name = dict.fromkeys(names, ()) if paths is None else _checked(names, paths)
+    by_name = dict.fromkeys(names, ()) if paths is None else _check_tree(names, paths)
     leaves = [(*by_name[name], name) for name in names]
     groups = (f"group-{level}" for level in range(1, len(leaves[0])))
     layers = (PARENT, *groups, CHILD)
@@ -56,7 +56,7 @@ def is_path(value: object) -> bool:
     return isinstance(value, (tuple, list)) and all(isinstance(label, str) for label in value)
 
 
-def _checked(names: Sequence[str], paths: Mapping[str, Path]) -> Mapping[str, Path]:
+def _check_tree(names: Sequence[str], paths: Mapping[str, Path]) -> Mapping[str, Path]:
     if not isinstance(paths, Mapping):
         raise ValueError(
             f"expected tree to be a mapping from the name of each recording to its path, such as "

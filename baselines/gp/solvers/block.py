@@ -87,7 +87,7 @@ class Block:
         """ρ / h, the constant diagonal of Π: each data vector has covariance (ρ / h) K."""
         return self.multiplicity / len(self.data)
 
-    def trimmed(self) -> Block:
+    def trim(self) -> Block:
         """Return the same problem without the times at which nothing is visible."""
         keep = self.observed.any(axis=(0, 1))
         return Block(

@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mocapbench.baselines.common.signs import oriented
+from mocapbench.baselines.common.signs import orient_vectors
 from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.reduction.replicates import Replicates
@@ -27,7 +27,7 @@ from mocapbench.baselines.gp.training.moments import (
 )
 from mocapbench.basics.arrays import Array
 
-__all__ = ["data_driven", "perturbed", "starts"]
+__all__ = ["data_driven", "perturb_start", "starts"]
 
 
 KAPPA_SHARE = 0.1
@@ -91,16 +91,16 @@ def starts(first: Parameters, n: int, rng: np.random.Generator) -> list[Paramete
     *above, last = first.layers
     fixed = [
         first,
-        _changed(first, dict.fromkeys([last], _reversed)),
-        _changed(first, dict.fromkeys(above, _reversed)),
-        _changed(first, dict.fromkeys(first.layers, _alike)),
-        _changed(first, dict.fromkeys(first.layers, _moved_on)),
+        _change_layers(first, dict.fromkeys([last], _reverse_lengthscales)),
+        _change_layers(first, dict.fromkeys(above, _reverse_lengthscales)),
+        _change_layers(first, dict.fromkeys(first.layers, _alike)),
+        _change_layers(first, dict.fromkeys(first.layers, _moved_on)),
     ]
     distinct = {start.flat.tobytes(): start for start in fixed[:n]}
-    return [*distinct.values(), *(perturbed(first, rng) for _ in range(n - len(fixed)))]
+    return [*distinct.values(), *(perturb_start(first, rng) for _ in range(n - len(fixed)))]
 
 
-def _reversed(log_lengthscales: Array) -> Array:
+def _reverse_lengthscales(log_lengthscales: Array) -> Array:
     return log_lengthscales[::-1]
 
 
@@ -113,7 +113,9 @@ def _moved_on(log_lengthscales: Array) -> Array:
     return np.roll(log_lengthscales, -1)
 
 
-def _changed(first: Parameters, changes: Mapping[str, Callable[[Array], Array]]) -> Parameters:
+def _change_layers(
+    first: Parameters, changes: Mapping[str, Callable[[Array], Array]]
+) -> Parameters:
     """Return the start with less of the variance in W, and shorter lengthscales, in every layer.
 
     ``changes`` has, by layer, the map of its log-lengthscales.
@@ -128,7 +130,7 @@ def _changed(first: Parameters, changes: Mapping[str, Callable[[Array], Array]])
     return replace(first, layers={name: layer(name, old) for name, old in first.layers.items()})
 
 
-def perturbed(start: Parameters, rng: np.random.Generator) -> Parameters:
+def perturb_start(start: Parameters, rng: np.random.Generator) -> Parameters:
     """Return a random start near another.
 
     The components of a layer exchange their lengthscales. Then log ℓ, log √κ and log β move by 0.5
@@ -167,7 +169,7 @@ def _coregionalisation(curves: Array, n_components: int, rank: int) -> Coregiona
     known = np.maximum((curves != 0.0).sum(axis=(0, 2)), 1)
     scaled = curves.transpose(1, 0, 2).reshape(n_outputs, -1) / np.sqrt(known)[:, None]
     directions, singular, _ = np.linalg.svd(scaled, full_matrices=False)
-    directions = oriented(directions)  # the signs of W decide what is drawn
+    directions = orient_vectors(directions)  # the signs of W decide what is drawn
     # The columns of W: singular directions in turn. If they are too few they repeat, with their
     # variance divided.
     n_columns = n_components * rank

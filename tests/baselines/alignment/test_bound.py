@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.stats import multivariate_normal
 
 from mocapbench.baselines.alignment import updates
-from mocapbench.baselines.alignment.bound import bound
+from mocapbench.baselines.alignment.bound import lower_bound
 from mocapbench.baselines.alignment.em import expectation_maximisation
 from mocapbench.baselines.alignment.model import Hyperparameters
 from mocapbench.baselines.alignment.priors import PRIORS
@@ -47,10 +47,10 @@ def _slack(value):
 def test_no_update_lowers_the_bound_in_any_order(pose, order, **problem):
     posed = pose(**problem)
     state = posed.state
-    value = bound(state, posed.sequences, posed.hyper)
+    value = lower_bound(state, posed.sequences, posed.hyper)
     for update in order:
         state = update(state, posed.sequences, posed.hyper)
-        after = bound(state, posed.sequences, posed.hyper)
+        after = lower_bound(state, posed.sequences, posed.hyper)
         assert after >= value - _slack(value), update.__name__
         value = after
 
@@ -69,7 +69,7 @@ def test_em_never_lowers_the_bound(pose, n_inner, **problem):
         max_iter=12,
         tol=0.0,
     )
-    bounds = np.array([bound(posed.state, posed.sequences, posed.hyper), *run.objectives])
+    bounds = np.array([lower_bound(posed.state, posed.sequences, posed.hyper), *run.objectives])
     assert (np.diff(bounds) >= -_slack(bounds[1:])).all()
 
 
@@ -83,7 +83,7 @@ def test_with_nothing_visible_the_bound_is_the_prior_of_the_parameters(pose, pri
     penalty = np.log(theta.weights).sum() + np.log(theta.jumps).sum()
     penalty -= ((theta.parent - np.roll(theta.parent, 1, axis=0)) ** 2).sum()
     expected = 0.1 * penalty + len(theta.weights) * _prior_of_parent(theta, prior)
-    assert bound(state, posed.sequences, posed.hyper) == pytest.approx(expected, rel=1e-9)
+    assert lower_bound(state, posed.sequences, posed.hyper) == pytest.approx(expected, rel=1e-9)
 
 
 @pytest.mark.parametrize("prior", ["normalised", "centred"])
@@ -97,7 +97,7 @@ def test_the_bound_is_below_the_evidence_and_tight_where_the_posterior_factorise
         state = update(state, sequences, hyper)
     theta = state.parameters
     evidence = _log_evidence(sequences, theta, prior) + _prior_of_parent(theta, prior)
-    assert evidence - slack <= bound(state, sequences, hyper) <= evidence + 1e-6
+    assert evidence - slack <= lower_bound(state, sequences, hyper) <= evidence + 1e-6
 
 
 def _walk_round_a_ring(separation):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.alignment.synthesis import (
-    blended,
+    blend_cycles,
     draw_cycles,
     draw_path,
     draw_sequences,
@@ -51,7 +51,7 @@ def test_sequences_are_seeded_and_of_any_length(state):
 def test_a_blend_of_one_style_runs_through_its_cycle(state):
     jumps = state.parameters.jumps.mean(axis=0)
     pace = jumps @ np.arange(1, len(jumps) + 1)
-    motion = blended(state, np.tile([1.0, 0.0], (9, 1)))
+    motion = blend_cycles(state, np.tile([1.0, 0.0], (9, 1)))
     closed = np.concatenate([state.cycles.mean[:, 0], state.cycles.mean[:1, 0]])
     for channel, curve in zip(motion.T, closed.T, strict=True):
         np.testing.assert_allclose(channel, np.interp(pace * np.arange(9) % 7, range(8), curve))
@@ -59,9 +59,9 @@ def test_a_blend_of_one_style_runs_through_its_cycle(state):
 
 def test_a_blend_is_linear_in_the_weights(state):
     weights = np.random.default_rng(0).dirichlet([1, 1], 5)
-    ends = [blended(state, np.tile(row, (5, 1))) for row in np.eye(2)]
+    ends = [blend_cycles(state, np.tile(row, (5, 1))) for row in np.eye(2)]
     expected = weights[:, :1] * ends[0] + weights[:, 1:] * ends[1]
-    np.testing.assert_allclose(blended(state, weights), expected)
+    np.testing.assert_allclose(blend_cycles(state, weights), expected)
 
 
 @pytest.mark.parametrize(
@@ -75,4 +75,4 @@ def test_a_blend_is_linear_in_the_weights(state):
 )
 def test_weights_are_checked(state, weights, message):
     with pytest.raises(ValueError, match=message):
-        blended(state, weights)
+        blend_cycles(state, weights)

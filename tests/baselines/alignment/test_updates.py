@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.alignment import updates
-from mocapbench.baselines.alignment.bound import bound
+from mocapbench.baselines.alignment.bound import lower_bound
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def test_an_update_is_at_its_own_fixed_point(posed, name):
     update = getattr(updates, name)
     once = updated(posed, update)
     twice = update(once, posed.sequences, posed.hyper)
-    values = [bound(state, posed.sequences, posed.hyper) for state in (once, twice)]
+    values = [lower_bound(state, posed.sequences, posed.hyper) for state in (once, twice)]
     assert values[1] == pytest.approx(values[0], rel=1e-9)
 
 

@@ -4,9 +4,9 @@ from samples import gap
 from sklearn.exceptions import NotFittedError
 
 from mocapbench.baselines import MOHGP
-from mocapbench.baselines.choosing import panel
+from mocapbench.baselines.choosing import candidates
+from mocapbench.baselines.choosing.candidates import CANDIDATES, FittedCandidates
 from mocapbench.baselines.choosing.jointly import Jointly
-from mocapbench.baselines.choosing.panel import CANDIDATES, CandidatePanel
 from mocapbench.datasets import Recording
 
 
@@ -99,9 +99,9 @@ def test_recordings_that_would_take_long_are_refused(model):
 
 @pytest.mark.parametrize("name", ["mohgp", "mohgp-registered"])
 def test_a_candidate_fitted_anew_leaves_the_first_as_it_is(name, monkeypatch):
-    monkeypatch.setattr(panel, "CANDIDATES", {name: CANDIDATES[name]})
+    monkeypatch.setattr(candidates, "CANDIDATES", {name: CANDIDATES[name]})
     short = [recording.frames(np.arange(12)) for recording in TRAINING]
-    first = CandidatePanel.of(short)
+    first = FittedCandidates.of(short)
     given = gap(short[0], 5, 8)
     before = first.means(given)[name]
     anew = first.anew([walk("three", 0.3, n_frames=12)])

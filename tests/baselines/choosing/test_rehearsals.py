@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from samples import gap
 
-from mocapbench.baselines.choosing.panel import CandidatePanel
+from mocapbench.baselines.choosing.candidates import FittedCandidates
 from mocapbench.baselines.choosing.parts import parts_of
 from mocapbench.baselines.choosing.rehearsals import Rehearsals
 from mocapbench.baselines.protocols import Imputer, Prediction
@@ -31,7 +31,7 @@ class Watching(Imputer):
 
 def watched(fitted, given):
     model = Watching()
-    return model, Rehearsals(fitted, CandidatePanel({"zero": model}), given)
+    return model, Rehearsals(fitted, FittedCandidates({"zero": model}), given)
 
 
 def test_real_gaps_stay_hidden_in_rehearsals():
@@ -51,10 +51,10 @@ def test_errors_are_those_of_the_copies_in_units_of_the_spread():
 
 def test_products_are_means_over_hidden_entries_and_covariances_of_errors():
     fitted, given = [walk("one"), walk("two", phase=1.0)], gap(walk("new"), 20, 28)
-    panel = CandidatePanel.of(fitted)
-    rehearsals = Rehearsals(fitted, panel, given)
+    candidates = FittedCandidates.of(fitted)
+    rehearsals = Rehearsals(fitted, candidates, given)
     mask, products = rehearsals.trials[0], rehearsals.own()[0]
-    means = panel.means(given.hide(mask))
+    means = candidates.means(given.hide(mask))
     linear, spline = (
         ((means[name] - given.values) / rehearsals.scale)[mask] for name in ("linear", "pchip")
     )
@@ -98,7 +98,7 @@ def test_channels_hidden_throughout_are_rehearsed_in_others_and_never_short():
 def test_training_recordings_take_the_place_of_the_one_to_fill(n_frames):
     fitted = [walk("one", n_frames), walk("two", n_frames, 1.0)]
     given = gap(walk("new"), 20, 40)
-    found = Rehearsals(fitted, CandidatePanel.of(fitted), given).in_training()
+    found = Rehearsals(fitted, FittedCandidates.of(fitted), given).in_training()
     assert len(found) == 2
     for with_gaps, with_copies in found:
         assert set(with_gaps) == set(with_copies) >= {"linear", "lds", "pose-kriging"}
@@ -106,7 +106,7 @@ def test_training_recordings_take_the_place_of_the_one_to_fill(n_frames):
 
 def test_copies_as_long_as_the_gaps_are_not_compared_with_them():
     fitted = [walk("one"), walk("two", phase=1.0)]
-    found = Rehearsals(fitted, CandidatePanel.of(fitted), gap(walk("new"), 20, 24)).in_training()
+    found = Rehearsals(fitted, FittedCandidates.of(fitted), gap(walk("new"), 20, 24)).in_training()
     assert [(with_gaps.empty, with_copies.empty) for with_gaps, with_copies in found] == [
         (False, True),
         (False, True),
@@ -115,7 +115,7 @@ def test_copies_as_long_as_the_gaps_are_not_compared_with_them():
 
 def test_a_copy_that_fits_in_one_place_only_is_compared_with_the_gap_in_training():
     fitted = [walk("one"), walk("two", phase=1.0)]
-    rehearsals = Rehearsals(fitted, CandidatePanel.of(fitted), gap(walk("new"), 8, 56))
+    rehearsals = Rehearsals(fitted, FittedCandidates.of(fitted), gap(walk("new"), 8, 56))
     assert len(rehearsals.trials) == 1
     assert rehearsals.are_short()
     assert not any(with_copies.empty for _, with_copies in rehearsals.in_training())
@@ -124,7 +124,8 @@ def test_a_copy_that_fits_in_one_place_only_is_compared_with_the_gap_in_training
 def test_one_training_recording_cannot_be_left_out():
     fitted = [walk("one")]
     assert (
-        Rehearsals(fitted, CandidatePanel.of(fitted), gap(walk("new"), 20, 40)).in_training() == []
+        Rehearsals(fitted, FittedCandidates.of(fitted), gap(walk("new"), 20, 40)).in_training()
+        == []
     )
 
 
@@ -132,8 +133,8 @@ def test_of_many_training_recordings_three_are_held_out_in_one_fit(monkeypatch):
     fitted = [walk(f"walk {k:02}", phase=0.3 * k) for k in range(16)]
     fits = []
     monkeypatch.setattr(
-        CandidatePanel, "anew", lambda self, recordings: fits.append(recordings) or self
+        FittedCandidates, "anew", lambda self, recordings: fits.append(recordings) or self
     )
-    found = Rehearsals(fitted, CandidatePanel({}), gap(walk("new"), 20, 40)).in_training()
+    found = Rehearsals(fitted, FittedCandidates({}), gap(walk("new"), 20, 40)).in_training()
     assert len(found) == 3
     assert [len(recordings) for recordings in fits] == [13]

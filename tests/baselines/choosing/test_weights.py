@@ -4,7 +4,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.choosing.panel import LAST_RESORT, CandidatePanel
+from mocapbench.baselines.choosing.candidates import LAST_RESORT, FittedCandidates
 from mocapbench.baselines.choosing.rehearsals import Rehearsals
 from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
 
@@ -112,9 +112,9 @@ class Staged(Rehearsals):
     """Rehearsals with given errors, those in the recording itself of so many entries."""
 
     def __init__(self, own, in_training, *, short, n_entries=10**9):
-        recording = CandidatePanel({})  # not looked at
+        recording = FittedCandidates({})  # not looked at
         object.__setattr__(self, "given", _Gap())
-        object.__setattr__(self, "panel", recording)
+        object.__setattr__(self, "candidates", recording)
         object.__setattr__(self, "errors", (own, in_training, short))
         object.__setattr__(self, "hides", n_entries)
 

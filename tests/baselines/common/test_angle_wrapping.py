@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.baselines.common.angle_wrapping import mean_directions, turns_away
+from mocapbench.baselines.common.angle_wrapping import mean_directions, wrapping_offsets
 from mocapbench.datasets import Recording
 
 UNITS = ("deg", "rad", "cm")
@@ -21,8 +21,8 @@ def test_whole_turns_are_told_and_do_not_change_the_mean_direction(turns, angle)
     near, moved = recording(values), recording(values + TURN * [*turns, 0])
     directions = mean_directions([near])
     np.testing.assert_allclose(mean_directions([moved]), directions, atol=1e-9)
-    np.testing.assert_array_equal(turns_away(near, directions), 0.0)
-    np.testing.assert_allclose(turns_away(moved, directions), TURN * [*turns, 0], atol=1e-9)
+    np.testing.assert_array_equal(wrapping_offsets(near, directions), 0.0)
+    np.testing.assert_allclose(wrapping_offsets(moved, directions), TURN * [*turns, 0], atol=1e-9)
 
 
 def test_directions_on_both_sides_of_half_a_turn_have_their_mean_there():
@@ -33,4 +33,6 @@ def test_directions_on_both_sides_of_half_a_turn_have_their_mean_there():
 def test_hidden_entries_say_nothing():
     values = np.array([[720.0, np.nan, 5.0], [720.0, np.nan, np.nan]])
     np.testing.assert_array_equal(mean_directions([recording(values)])[1:], 0.0)
-    np.testing.assert_array_equal(turns_away(recording(values), np.zeros(3)), [720.0, 0.0, 0.0])
+    np.testing.assert_array_equal(
+        wrapping_offsets(recording(values), np.zeros(3)), [720.0, 0.0, 0.0]
+    )

@@ -13,7 +13,7 @@ from mocapbench.baselines import (
     PoseKriging,
     PoseViterbi,
 )
-from mocapbench.baselines.choosing import panel
+from mocapbench.baselines.choosing import candidates
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units, pose_factors
 from mocapbench.datasets import Recording
 
@@ -85,8 +85,8 @@ def test_results_do_not_depend_on_units(name):
 @pytest.mark.parametrize("recording", [WHOLE, ENTRIES])
 def test_neither_do_those_of_several_models(recording, monkeypatch):
     names = ("linear", "pchip", "low-rank", "nn", "aligned-window", "pose-kriging")
-    few = {name: panel.CANDIDATES[name] for name in names}
-    monkeypatch.setattr(panel, "CANDIDATES", few)
+    few = {name: candidates.CANDIDATES[name] for name in names}
+    monkeypatch.setattr(candidates, "CANDIDATES", few)
     model, other = BestOf().fit(TRAINING), BestOf().fit([in_other_units(r) for r in TRAINING])
     assert_alike(model, other, recording, 1e-6)
 

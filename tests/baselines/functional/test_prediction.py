@@ -4,7 +4,7 @@ import pytest
 from mocapbench.baselines.functional.basis import fourier
 from mocapbench.baselines.functional.components import Components, Scores
 from mocapbench.baselines.functional.cycles import Cycles
-from mocapbench.baselines.functional.prediction import cycle_moments, prototypes, sampled
+from mocapbench.baselines.functional.prediction import cycle_moments, prototypes, sample_curves
 
 RNG = np.random.default_rng(0)
 COMPONENTS = Components(RNG.normal(size=(3, 2, 5)), np.array([0.1, 0.3]))
@@ -35,6 +35,6 @@ def test_a_prototype_is_the_mean_of_cycles_by_their_visible_entries(waves):
 
 @pytest.mark.parametrize("n_states", [5, 12])
 def test_functions_are_sampled_at_the_starts_of_states(n_states):
-    found = sampled(COMPONENTS.coefficients[0], n_states)
+    found = sample_curves(COMPONENTS.coefficients[0], n_states)
     expected = fourier(np.arange(n_states) / n_states, 2) @ COMPONENTS.coefficients[0].T
     np.testing.assert_allclose(found, expected)

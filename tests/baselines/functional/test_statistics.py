@@ -34,7 +34,7 @@ def test_they_hold_the_squared_error_of_any_coefficients(curves, seed):
 def test_those_of_shifted_curves_follow_from_a_matrix(curves, seed):
     given_curves = curves(seed)
     shifts = np.random.default_rng(seed).random(5)
-    moved = given_curves.statistics.shifted(shift_matrices(shifts, 2))
+    moved = given_curves.statistics.shift_curves(shift_matrices(shifts, 2))
     pairs = [(p + s, v) for (p, v), s in zip(given_curves.pairs, shifts, strict=True)]
     again = CurveStatistics.of(pairs, 2)
     np.testing.assert_allclose(moved.grams, again.grams, atol=1e-9)

@@ -16,7 +16,7 @@ from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParamet
 from mocapbench.baselines.gp.process import FittedProcess
 from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
 from mocapbench.baselines.gp.reduction.independent import independent
-from mocapbench.baselines.gp.reduction.pooled import pooled
+from mocapbench.baselines.gp.reduction.pooled import pool_replicates
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow
@@ -35,7 +35,7 @@ class Structure:
 
 STRUCTURES = {
     "hierarchical": Structure(hierarchical, (PARENT, CHILD)),
-    "pooled": Structure(lambda replicates, tree: pooled(replicates), (PARENT,)),
+    "pooled": Structure(lambda replicates, tree: pool_replicates(replicates), (PARENT,)),
     "independent": Structure(lambda replicates, tree: independent(replicates), (CHILD,)),
     "grouped": Structure(hierarchical, (PARENT, "group-1", CHILD), 1),
     "nested": Structure(hierarchical, (PARENT, "group-1", "group-2", CHILD), 2),

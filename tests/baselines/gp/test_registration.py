@@ -36,8 +36,10 @@ def test_a_shifted_and_slower_copy_is_moved_back(shift, log_pace, offset):
     assert kept.clock == Clock()
     np.testing.assert_array_equal(moved.times, reference.times)
     np.testing.assert_allclose(moved.values, offset + _movement(TIMES), atol=0.02)
-    np.testing.assert_allclose(clock.recorded(TIMES), shift + np.exp(log_pace) * TIMES, atol=0.02)
-    np.testing.assert_allclose(clock.shared(clock.recorded(TIMES)), TIMES, atol=1e-12)
+    np.testing.assert_allclose(
+        clock.to_recording(TIMES), shift + np.exp(log_pace) * TIMES, atol=0.02
+    )
+    np.testing.assert_allclose(clock.to_reference(clock.to_recording(TIMES)), TIMES, atol=1e-12)
 
 
 def test_hidden_entries_do_not_take_part():

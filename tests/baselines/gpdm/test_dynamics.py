@@ -39,7 +39,7 @@ def test_the_order_of_sequences_does_not_matter(dynamics, positions):
 def test_a_new_trajectory_has_the_quotient_of_two_priors(dynamics, positions):
     new = np.random.default_rng(1).standard_normal((5, 2))
     theta, both = dynamics.start, np.concatenate([positions, new])
-    conditional = dynamics.conditioned(theta, positions, LENGTHS).negative_log_density(new)[0]
+    conditional = dynamics.condition(theta, positions, LENGTHS).negative_log_density(new)[0]
     joint = dynamics.negative_log_prior(theta, both, (*LENGTHS, 5))[0]
     marginal = dynamics.negative_log_prior(theta, positions, LENGTHS)[0]
     assert conditional == pytest.approx(joint - marginal, rel=1e-7)
@@ -49,7 +49,7 @@ def test_a_new_trajectory_has_the_quotient_of_two_priors(dynamics, positions):
 def test_a_step_is_the_conditional_mean_of_the_next_position(name, positions):
     """The log-density is quadratic in the last position: its gradient is zero at the mean."""
     dynamics = DYNAMICS[name]
-    conditioned = dynamics.conditioned(dynamics.start, positions, LENGTHS)
+    conditioned = dynamics.condition(dynamics.start, positions, LENGTHS)
     history = np.random.default_rng(2).standard_normal((1, dynamics.order, 2))
     mean, variance = conditioned.step(history)
     trajectory = np.concatenate([history[0, ::-1], mean])
@@ -73,7 +73,5 @@ def test_without_dynamics_positions_are_standard_normal(positions):
 def test_without_information_a_position_returns_to_zero_and_a_velocity_continues():
     process, history = Process(LinearKernel()), np.full((1, 1, 1), 3.0)
     for carry, expected in ((0.0, 0.0), (1.0, 3.0)):
-        conditioned = Markov(process, carry=carry).conditioned(
-            process.start, np.zeros((6, 1)), (6,)
-        )
+        conditioned = Markov(process, carry=carry).condition(process.start, np.zeros((6, 1)), (6,))
         assert conditioned.step(history)[0].item() == pytest.approx(expected)

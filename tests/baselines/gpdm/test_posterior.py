@@ -60,7 +60,7 @@ def test_hidden_frames_at_their_mean_cost_what_the_visible_ones_do():
     posterior, at = random_posterior(rng, dynamics), random_estimate(rng, dynamics, sum(LENGTHS))
     process = Conditional.of(posterior, at).reconstruction
     x, y, visible = rng.standard_normal((6, 2)), rng.standard_normal((6, 4)), np.arange(6) % 2 == 0
-    filled, _ = process.filled(x, y, visible)
+    filled, _ = process.fill_targets(x, y, visible)
     everything = process.negative_log_density(x, filled, np.ones(6, dtype=bool))[0]
     np.testing.assert_allclose(process.negative_log_density(x, y, visible)[0], everything)
 

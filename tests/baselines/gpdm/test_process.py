@@ -57,7 +57,7 @@ def test_the_gradients_of_the_likelihood_are_finite_differences(problem):
 
 def test_moments_are_those_of_the_conditional(problem):
     process, theta, inputs, targets = problem
-    conditioned = process.conditioned(theta, inputs[:N], targets[:N])
+    conditioned = process.condition(theta, inputs[:N], targets[:N])
     mean, variance, _ = conditioned.moments(inputs[N:])
     expected_mean, expected_covariance = conditional(*problem)
     np.testing.assert_allclose(mean, expected_mean, atol=1e-9)
@@ -70,12 +70,12 @@ def test_moments_are_those_of_the_conditional(problem):
 def test_visible_targets_are_copied_and_hidden_ones_conditioned_on_them(problem):
     process, theta, inputs, targets = problem
     visible = np.array([True, False, True, False])
-    conditioned = process.conditioned(theta, inputs[:N], targets[:N])
-    mean, variance = conditioned.filled(inputs[N:], targets[N:], visible)
+    conditioned = process.condition(theta, inputs[:N], targets[:N])
+    mean, variance = conditioned.fill_targets(inputs[N:], targets[N:], visible)
     np.testing.assert_allclose(mean[visible], targets[N:][visible], atol=1e-9)
     assert (variance[visible] == 0).all()
     given = np.concatenate([np.arange(N), N + np.flatnonzero(visible)])
-    more = process.conditioned(theta, inputs[given], targets[given])
+    more = process.condition(theta, inputs[given], targets[given])
     means, variances = more.marginals(inputs[N:][~visible])
     np.testing.assert_allclose(mean[~visible], means, atol=1e-8)
     np.testing.assert_allclose(variance[~visible], variances, atol=1e-8)
@@ -84,7 +84,7 @@ def test_visible_targets_are_copied_and_hidden_ones_conditioned_on_them(problem)
 def test_far_from_the_data_the_prior_remains():
     process = Process(ScaledKernel(RBFKernel()))
     theta = np.log([2.0, 1.0, 4.0])
-    conditioned = process.conditioned(theta, np.zeros((1, 2)), np.ones((1, 1)))
+    conditioned = process.condition(theta, np.zeros((1, 2)), np.ones((1, 1)))
     mean, variance = conditioned.marginals(np.full((1, 2), 50.0))
     assert mean.item() == pytest.approx(0.0)
     assert variance.item() == pytest.approx(2.0 + 0.25)

@@ -20,7 +20,7 @@ def moving(seed, n_markers=5):
 def test_what_moves_with_the_body_stands_still_as_seen_from_it(seed):
     places = moving(seed)
     frames = LocalFrames.of(places[:, 1:], np.arange(1.0, 5.0))
-    seen = frames.seen(places[:, 0])
+    seen = frames.to_body(places[:, 0])
     np.testing.assert_allclose(seen, seen[[0]].repeat(12, axis=0), atol=1e-6)
     np.testing.assert_allclose(frames.shapes, frames.shapes[[0]].repeat(12, axis=0), atol=1e-6)
 
@@ -29,9 +29,9 @@ def test_what_moves_with_the_body_stands_still_as_seen_from_it(seed):
 def test_seeing_and_going_back_are_inverse(seed):
     places = moving(seed) + np.random.default_rng(seed).normal(size=(12, 5, 3))
     frames, some = LocalFrames.of(places[:, 1:], np.ones(4)), np.array([3, 7])
-    back = frames.back(frames.seen(places[:, 0])[some], some)
+    back = frames.to_room(frames.to_body(places[:, 0])[some], some)
     np.testing.assert_allclose(back, places[some, 0], atol=1e-9)
-    lengths = np.linalg.norm(frames.seen(places[:, 0]) - frames.shapes[:, 0], axis=1)
+    lengths = np.linalg.norm(frames.to_body(places[:, 0]) - frames.shapes[:, 0], axis=1)
     np.testing.assert_allclose(lengths, np.linalg.norm(places[:, 0] - places[:, 1], axis=1))
 
 

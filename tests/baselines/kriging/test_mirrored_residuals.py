@@ -19,7 +19,7 @@ def residuals(symmetry):
 def groups(symmetry):
     return {
         tuple(channels): process
-        for channels, process in residuals(symmetry).given(MATCHED, VISIBLE)
+        for channels, process in residuals(symmetry).condition(MATCHED, VISIBLE)
     }
 
 

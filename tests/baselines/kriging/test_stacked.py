@@ -31,12 +31,12 @@ def test_windows_end_where_the_recording_does():
 def test_frames_are_described_by_their_weighted_windows():
     """Such that squared distances are means."""
     rows, channels, weights = np.array([3, 4, 11]), np.array([1, 0]), np.array([0.5, 2.0])
-    described = FRAMES.described(rows, channels, weights)
+    described = FRAMES.describe_windows(rows, channels, weights)
     wide = (FRAMES.windows[rows][:, :, channels] * weights).reshape(3, -1)
     expected = ((wide[:, None] - wide) ** 2).mean(axis=2)
     distances = ((described[:, None] - described) ** 2).sum(axis=2)
     np.testing.assert_allclose(distances, expected, atol=1e-12)
-    none = FRAMES.described(rows, np.array([], dtype=int), np.array([]))
+    none = FRAMES.describe_windows(rows, np.array([], dtype=int), np.array([]))
     np.testing.assert_array_equal(none, np.zeros((3, 1)))
 
 

@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines.state_space.em import expectation_maximisation
-from mocapbench.baselines.state_space.filtering import filtered
-from mocapbench.baselines.state_space.maximisation import maximised
+from mocapbench.baselines.state_space.filtering import filter_states
+from mocapbench.baselines.state_space.maximisation import maximise_parameters
 from mocapbench.baselines.state_space.model import PRIORS, Priors
 from mocapbench.baselines.state_space.regression import Prior
-from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.smoothing import smooth_states
 
 VAGUE = Prior(frames=0.1, variance=0.01, ridge=1e-3)
 STRONG = Prior(frames=20.0, variance=2.0, ridge=5.0)
@@ -54,7 +54,7 @@ def test_a_fixed_point_is_a_maximum_of_the_objective(pose):
     )
 
     def objective(parameters):
-        value = filtered(parameters, problem.data).log_likelihood.sum()
+        value = filter_states(parameters, problem.data).log_likelihood.sum()
         return value + parameters.log_prior(PRIORS)
 
     found = run.state.parameters
@@ -74,8 +74,8 @@ def test_a_fixed_point_is_a_maximum_of_the_objective(pose):
 def test_hidden_frames_at_the_end_change_nothing(pose):
     problem = pose(6, lengths=(5, 4), hidden=0.2)
     longer = [np.vstack([array, np.full((3, 2), np.nan)]) for array in problem.arrays]
-    one = smoothed(problem.parameters, problem.data)
-    two = smoothed(problem.parameters, type(problem.data).of(longer))
+    one = smooth_states(problem.parameters, problem.data)
+    two = smooth_states(problem.parameters, type(problem.data).of(longer))
     np.testing.assert_allclose(one.log_likelihood, two.log_likelihood, rtol=1e-10)
     np.testing.assert_allclose(one.mean[0, :5], two.mean[0, :5], atol=1e-10)
 
@@ -83,8 +83,8 @@ def test_hidden_frames_at_the_end_change_nothing(pose):
 def test_the_order_of_sequences_changes_nothing(pose):
     problem = pose(7, lengths=(5, 4, 6))
     turned = type(problem.data).of(problem.arrays[::-1])
-    one = maximised(smoothed(problem.parameters, problem.data), problem.data, PRIORS)
-    two = maximised(smoothed(problem.parameters, turned), turned, PRIORS)
+    one = maximise_parameters(smooth_states(problem.parameters, problem.data), problem.data, PRIORS)
+    two = maximise_parameters(smooth_states(problem.parameters, turned), turned, PRIORS)
     for part in ("start", "dynamics", "emission"):
         a, b = getattr(one, part), getattr(two, part)
         np.testing.assert_allclose(a.coefficients, b.coefficients, atol=1e-10)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.state_space.filtering import filtered, recurrence
+from mocapbench.baselines.state_space.filtering import filter_states, recurrence
 from mocapbench.baselines.state_space.observations import Observations
 
 SIZES = st.fixed_dictionaries(
@@ -24,13 +24,13 @@ SIZES = st.fixed_dictionaries(
 def test_the_likelihood_is_that_of_the_joint_gaussian(pose, sizes):
     problem = pose(**sizes)
     expected = [exact.log_likelihood for exact in problem.exact()]
-    found = filtered(problem.parameters, problem.data).log_likelihood
+    found = filter_states(problem.parameters, problem.data).log_likelihood
     np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-8)
 
 
 def test_the_last_filtered_state_is_the_smoothed_one(pose):
     problem = pose(1)
-    forward = filtered(problem.parameters, problem.data)
+    forward = filter_states(problem.parameters, problem.data)
     for k, exact in enumerate(problem.exact()):
         last = len(exact.mean) - 1
         group = problem.data.groups[k]
@@ -43,16 +43,16 @@ def test_the_last_filtered_state_is_the_smoothed_one(pose):
 def test_companions_do_not_change_a_likelihood(pose):
     problem = pose(2, lengths=(3, 7, 5, 5))
     alone = [
-        filtered(problem.parameters, Observations.of([array])).log_likelihood[0]
+        filter_states(problem.parameters, Observations.of([array])).log_likelihood[0]
         for array in problem.arrays
     ]
-    together = filtered(problem.parameters, problem.data).log_likelihood
+    together = filter_states(problem.parameters, problem.data).log_likelihood
     np.testing.assert_allclose(together, alone, rtol=1e-10)
 
 
 def test_complete_sequences_share_covariances(pose):
     problem = pose(3, lengths=(3, 7, 5), hidden=0.0)
-    assert filtered(problem.parameters, problem.data).covariance.shape[:2] == (1, 7)
+    assert filter_states(problem.parameters, problem.data).covariance.shape[:2] == (1, 7)
 
 
 def test_a_recurrence_starts_from_nothing():

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.state_space.filtering import filtered
-from mocapbench.baselines.state_space.mixture import Mixture, classification_em, seeded
+from mocapbench.baselines.state_space.filtering import filter_states
+from mocapbench.baselines.state_space.mixture import Mixture, classification_em, seed_mixture
 from mocapbench.baselines.state_space.model import PRIORS
 from mocapbench.baselines.state_space.start import initial_states
 
@@ -13,7 +13,7 @@ SEEDS = np.array([0, 2, 3])
 
 def mixture_of(problem, seeds=SEEDS):
     states = initial_states(problem.data, 2)
-    return seeded(states, problem.data, seeds, PRIORS)
+    return seed_mixture(states, problem.data, seeds, PRIORS)
 
 
 @pytest.mark.filterwarnings("ignore:expected training data")
@@ -27,9 +27,9 @@ def test_no_iteration_lowers_the_objective(pose, seed):
 
 def test_every_sequence_is_where_it_is_most_probable(pose):
     problem = pose(0, lengths=(6, 3, 9, 4), hidden=0.2)
-    mixture = mixture_of(problem).improved(problem.data, PRIORS)
+    mixture = mixture_of(problem).improve(problem.data, PRIORS)
     evidence = np.column_stack(
-        [filtered(component, problem.data).log_likelihood for component in mixture.components]
+        [filter_states(component, problem.data).log_likelihood for component in mixture.components]
     )
     joint = evidence + np.log(mixture.weights)
     np.testing.assert_array_equal(mixture.labels, joint.argmax(axis=1))
@@ -42,7 +42,7 @@ def test_a_component_without_members_stays_as_it_is(pose):
     problem = pose(1, lengths=(6, 5, 4), hidden=0.0)
     mixture = mixture_of(problem, np.array([0, 1]))
     emptied = Mixture(mixture.components, mixture.weights, np.zeros(3, dtype=int), -np.inf)
-    improved = emptied.improved(problem.data, PRIORS)
+    improved = emptied.improve(problem.data, PRIORS)
     assert improved.components[1] is mixture.components[1]
     np.testing.assert_allclose(improved.weights, [0.8, 0.2])
 

@@ -4,7 +4,7 @@ import pytest
 from mocapbench.baselines.state_space.model import PRIORS
 from mocapbench.baselines.state_space.noise import with_noise_shown
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.smoothing import smooth_states
 from mocapbench.baselines.state_space.start import initial_states, start
 
 
@@ -34,6 +34,7 @@ def test_all_else_is_kept_and_the_likelihood_rises(pose, seed):
     np.testing.assert_array_equal(shown.offset, problem.parameters.offset)
     assert shown.dynamics is problem.parameters.dynamics
     before, after = (
-        smoothed(each, problem.data).log_likelihood.sum() for each in (problem.parameters, shown)
+        smooth_states(each, problem.data).log_likelihood.sum()
+        for each in (problem.parameters, shown)
     )
     assert after > before

@@ -30,5 +30,5 @@ def test_rows_are_padded_to_the_longest_of_them():
 
 def test_hidden_entries_are_on_lines_between_visible_ones():
     data = Observations.of([np.array([[X, X], [1.0, X], [X, X], [3.0, X]])])
-    (filled,) = data.interpolated()
+    (filled,) = data.interpolate_hidden()
     np.testing.assert_array_equal(filled, [[1.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]])

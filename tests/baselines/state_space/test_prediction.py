@@ -3,13 +3,13 @@
 import numpy as np
 
 from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.prediction import drawn, moments
-from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.prediction import draw_sequences, moments
+from mocapbench.baselines.state_space.smoothing import smooth_states
 
 
 def test_moments_of_entries_are_those_of_the_joint_gaussian(pose):
     problem = pose(1, n_channels=3)
-    mean, variance = moments(problem.parameters, smoothed(problem.parameters, problem.data))
+    mean, variance = moments(problem.parameters, smooth_states(problem.parameters, problem.data))
     loadings = problem.parameters.loadings
     for k, exact in enumerate(problem.exact()):
         n = len(exact.mean)
@@ -23,8 +23,8 @@ def test_moments_of_entries_are_those_of_the_joint_gaussian(pose):
 def test_draws_have_the_moments_of_a_sequence_without_visible_entries(pose):
     problem = pose(2, n_channels=2)
     hidden = Observations.of([np.full((4, 2), np.nan)])
-    mean, variance = moments(problem.parameters, smoothed(problem.parameters, hidden))
-    draws = drawn(problem.parameters, 20_000, 4, np.random.default_rng(0))
+    mean, variance = moments(problem.parameters, smooth_states(problem.parameters, hidden))
+    draws = draw_sequences(problem.parameters, 20_000, 4, np.random.default_rng(0))
     assert draws.shape == (20_000, 4, 2)
     error = (draws.mean(axis=0) - mean[0]) / np.sqrt(variance[0] / len(draws))
     assert np.abs(error).max() < 4.0
@@ -33,7 +33,7 @@ def test_draws_have_the_moments_of_a_sequence_without_visible_entries(pose):
 
 def test_successive_draws_are_correlated_as_the_dynamics_say(pose):
     problem = pose(3, n_states=1, n_channels=1)
-    draws = drawn(problem.parameters, 20_000, 2, np.random.default_rng(0))[..., 0]
+    draws = draw_sequences(problem.parameters, 20_000, 2, np.random.default_rng(0))[..., 0]
     parameters = problem.parameters
     lagged = parameters.dynamics.coefficients[0, 0] * parameters.start.covariance[0, 0]
     expected = lagged * parameters.loadings[0, 0] ** 2

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.state_space.smoothing import smoothed
+from mocapbench.baselines.state_space.smoothing import smooth_states
 
 SIZES = st.fixed_dictionaries(
     {
@@ -21,7 +21,7 @@ SIZES = st.fixed_dictionaries(
 @given(sizes=SIZES)
 def test_smoothed_moments_are_those_of_the_joint_gaussian(pose, sizes):
     problem = pose(**sizes)
-    posterior = smoothed(problem.parameters, problem.data)
+    posterior = smooth_states(problem.parameters, problem.data)
     for k, exact in enumerate(problem.exact()):
         n = np.arange(len(exact.mean))
         close = {"rtol": 1e-7, "atol": 1e-8}

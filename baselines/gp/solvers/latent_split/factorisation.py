@@ -86,7 +86,7 @@ class Factorisation:
         # u = S⁻¹ Λᵀ Aᵀ F z, A Λ u, the residual r and α = F r.
         data = entries.at_sites(block.data)
         white = inverse @ whiten(latents, entries, independent.precision @ data)
-        shared = _shared(latents, entries, white)
+        shared = _sum_shared(latents, entries, white)
         residual = data - np.tensordot(latents.weights.T, shared, axes=1)
         return cls(
             block,
@@ -154,7 +154,7 @@ def _system(latents: Latents, rooted: tuple[Array, ...]) -> Array:
     return system
 
 
-def _shared(latents: Latents, entries: Entries, white: Array) -> Array:
+def _sum_shared(latents: Latents, entries: Entries, white: Array) -> Array:
     """Return Σ_i c_i ⊗ Λ_i u_i over the functions of each column, (n, m, h)."""
     shared = np.zeros((len(latents.columns), len(entries.unit), white.shape[1]))
     for latent in latents.functions:

@@ -45,14 +45,14 @@ class FilteredState:
     mean: Array
     covariance: Array
 
-    def predicted(self, model: StateModel, transition: Array, noise: Array) -> FilteredState:
+    def predict(self, model: StateModel, transition: Array, noise: Array) -> FilteredState:
         """Return the prediction Φ x, Φ P Φᵀ + Q ⊗ B; both arrays are (J, m, m)."""
         return FilteredState(
             model.propagate(transition, self.mean),
             model.predict_covariance(transition, noise, self.covariance),
         )
 
-    def updated(self, innovation: Innovation) -> FilteredState:
+    def update(self, innovation: Innovation) -> FilteredState:
         """Return the update x + Aᵀ L⁻¹ e, P − Aᵀ A."""
         explained = innovation.explained
         return FilteredState(
@@ -119,16 +119,16 @@ class FilterPass:
         SingularCovarianceError
             If the covariance S of an innovation is not numerically positive definite.
         """
-        block = block.trimmed()
+        block = block.trim()
         model = StateModel.of(kernel, block, parameters)
         steps = model.steps(np.diff(block.times, prepend=-np.inf))
         size, n_vectors = model.size, len(block.data)
         states = [FilteredState(np.zeros((size, n_vectors)), np.zeros((size, size)))]
         innovations: list[Innovation] = []
         for t, (transition, noise) in enumerate(zip(steps.transition, steps.noise, strict=True)):
-            predicted = states[-1].predicted(model, transition, noise)
+            predicted = states[-1].predict(model, transition, noise)
             innovations.append(_innovation(model, block, parameters, predicted, t))
-            states.append(predicted.updated(innovations[-1]))
+            states.append(predicted.update(innovations[-1]))
         return cls(model, block, parameters, steps, states, innovations)
 
     @property

@@ -81,7 +81,7 @@ class _StateSpacePosterior(BlockPosterior):
         shape = (len(times), model.shape[2])
         means, variances = np.empty((*shape, len(block.data))), np.empty(shape)
         for m, i in enumerate(last):
-            state = self.filtered.states[i].predicted(model, since.transition[m], since.noise[m])
+            state = self.filtered.states[i].predict(model, since.transition[m], since.noise[m])
             message = self.messages[i].across(model, until.transition[m])
             # H P, the mean H (x + P r) and the variance diag(H P Hᵀ − H P N P Hᵀ).
             cross = model.observe(loadings, state.covariance)

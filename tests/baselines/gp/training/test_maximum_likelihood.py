@@ -10,7 +10,7 @@ from mocapbench.baselines.gp.training.bounds import bounds
 from mocapbench.baselines.gp.training.coordinates import Coordinates
 from mocapbench.baselines.gp.training.maximum_likelihood import maximise
 from mocapbench.baselines.gp.training.search import Budget, SearchSpace
-from mocapbench.baselines.gp.training.start import data_driven, perturbed
+from mocapbench.baselines.gp.training.start import data_driven, perturb_start
 
 
 @pytest.fixture
@@ -44,7 +44,7 @@ def _train(example, likelihood, starts, *, report=None, **budget):
 
 def test_training_improves_on_every_start_and_keeps_the_best(example):
     start = _start(example)
-    starts = [start, perturbed(start, np.random.default_rng(1))]
+    starts = [start, perturb_start(start, np.random.default_rng(1))]
     likelihood = _likelihood(example)
     lower, upper = bounds(start, example.replicates.times)
     training = _train(example, likelihood, starts)

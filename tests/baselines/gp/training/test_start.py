@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.gp.training.bounds import bounds
-from mocapbench.baselines.gp.training.start import data_driven, perturbed, starts
+from mocapbench.baselines.gp.training.start import data_driven, perturb_start, starts
 
 
 def _start(example, n_components=2, rank=1):
@@ -40,10 +40,10 @@ def test_every_layer_has_its_own_number_of_components(case):
 def test_random_starts_have_the_same_shapes_and_differ(case):
     start = _start(case(np.random.default_rng(4), n_times=9), rank=2)
     rng = np.random.default_rng(0)
-    one, two = perturbed(start, rng), perturbed(start, rng)
+    one, two = perturb_start(start, rng), perturb_start(start, rng)
     assert one.shapes == two.shapes == start.shapes
     assert (one.flat != two.flat).all()
-    assert (perturbed(start, np.random.default_rng(0)).flat == one.flat).all()
+    assert (perturb_start(start, np.random.default_rng(0)).flat == one.flat).all()
 
 
 # The order of three log-lengthscales in the second, third and fifth start: last layer, those above.
@@ -81,7 +81,7 @@ def test_starts_differ_and_those_after_the_fifth_are_random(n, n_components, n_s
     assert len(listed) == len({start.flat.tobytes() for start in listed}) == n - n_same
     rng = np.random.default_rng(0)
     for random in listed[5 - n_same :]:
-        np.testing.assert_array_equal(random.flat, perturbed(first, rng).flat)
+        np.testing.assert_array_equal(random.flat, perturb_start(first, rng).flat)
 
 
 def test_reversed_and_moved_on_are_one_start_with_two_components_in_one_layer(case):
@@ -92,7 +92,9 @@ def test_reversed_and_moved_on_are_one_start_with_two_components_in_one_layer(ca
 def test_components_exchange_their_lengthscales_in_random_starts(case):
     start = _start(case(np.random.default_rng(4), n_times=9), n_components=3)
     rng = np.random.default_rng(0)
-    drawn = np.array([perturbed(start, rng).layers["child"].log_lengthscales for _ in range(400)])
+    drawn = np.array(
+        [perturb_start(start, rng).layers["child"].log_lengthscales for _ in range(400)]
+    )
     mean = start.layers["child"].log_lengthscales.mean()
     np.testing.assert_allclose(drawn.mean(axis=0), mean, atol=0.15)
 

@@ -31,10 +31,10 @@ from mocapbench.baselines.protocols import FrameImputer, Prediction
 from mocapbench.baselines.rigid_body import RigidBody
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["CANDIDATES", "LAST_RESORT", "OF_MARKERS", "CandidatePanel"]
+__all__ = ["CANDIDATES", "LAST_RESORT", "OF_MARKERS", "FittedCandidates"]
 
-Asked = TypeVar("Asked")
-Answer = TypeVar("Answer")
+Tried = TypeVar("Tried")
+Result = TypeVar("Result")
 
 LAST_RESORT = "pchip"
 """What fills where no rehearsal has room: it never overshoots."""
@@ -76,7 +76,7 @@ OF_MARKERS: Mapping[str, Callable[[], FrameImputer]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class CandidatePanel:
+class FittedCandidates:
     """Fitted models by name, and why others are not among them.
 
     Parameters
@@ -94,36 +94,36 @@ class CandidatePanel:
         """Fit every candidate that can be fitted."""
         has_markers = markers_of(recordings[0].channels, recordings[0].units)
         candidates = {**CANDIDATES, **OF_MARKERS} if has_markers else CANDIDATES
-        return cls(*_asked(candidates, lambda new: new().fit(recordings)))
+        return cls(*_try_each(candidates, lambda new: new().fit(recordings)))
 
     def anew(self, recordings: Sequence[Recording]) -> Self:
         """Return the models fitted to other recordings; `Jointly` keeps its parameters."""
-        models, left_out = _asked(self.models, partial(_anew, recordings=recordings))
+        models, left_out = _try_each(self.models, partial(_anew, recordings=recordings))
         return type(self)(models, {**self.left_out, **left_out})
 
     def impute(self, recording: Recording, names: Iterable[str]) -> dict[str, Prediction]:
         """Return the predictions of some of the models, those that can fill the recording."""
         chosen = {name: self.models[name] for name in names}
-        return _asked(chosen, lambda model: model.impute([recording])[0])[0]
+        return _try_each(chosen, lambda model: model.impute([recording])[0])[0]
 
     def means(self, recording: Recording) -> dict[str, FrameByChannel]:
         """Return the means of `impute`, without the trials that variances need."""
-        return _asked(self.models, lambda model: model.as_claimed([recording])[0].mean)[0]
+        return _try_each(self.models, lambda model: model.as_claimed([recording])[0].mean)[0]
 
 
-def _asked(
-    models: Mapping[str, Asked], question: Callable[[Asked], Answer]
-) -> tuple[dict[str, Answer], dict[str, str]]:
-    """Return what models answer, and what those said that cannot: they raise a ValueError."""
-    answers, refusals = {}, {}
+def _try_each(
+    models: Mapping[str, Tried], call: Callable[[Tried], Result]
+) -> tuple[dict[str, Result], dict[str, str]]:
+    """Return what ``call`` returns for each model, and what those said that raise a ValueError."""
+    results, refusals = {}, {}
     for name, model in models.items():
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                answers[name] = question(model)
+                results[name] = call(model)
         except ValueError as error:
             refusals[name] = f"{type(error).__name__}: {error}"
-    return answers, refusals
+    return results, refusals
 
 
 def _anew(model: FrameImputer, recordings: Sequence[Recording]) -> FrameImputer:
