@@ -49,8 +49,8 @@ from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
 from .results.solved_problems import solved_problem
 from .runs.directory.plan_file import plan_document, planned_task_files
-from .runs.execution.base import Site
-from .runs.execution.choice import open_site, require_site
+from .runs.execution.base import Backend
+from .runs.execution.choice import open_backend, require_backend
 from .runs.execution.fork_server import fork_server
 from .runs.execution.this_machine import ThisMachine
 from .runs.job import Job, WorkerConfig
@@ -78,6 +78,7 @@ __all__ = [
     "Address",
     "Alignments",
     "Answer",
+    "Backend",
     "Blends",
     "Body",
     "Case",
@@ -112,7 +113,6 @@ __all__ = [
     "SampledMotion",
     "Samples",
     "Seeds",
-    "Site",
     "Solved",
     "Status",
     "Store",
@@ -159,7 +159,7 @@ __all__ = [
     "model_entry",
     "n_cores",
     "next_data_step",
-    "open_site",
+    "open_backend",
     "open_task_files",
     "plan",
     "plan_document",
@@ -167,8 +167,8 @@ __all__ = [
     "planned_task_files",
     "provenance",
     "recording_names",
+    "require_backend",
     "require_recordings",
-    "require_site",
     "required_sources",
     "run",
     "run_state",

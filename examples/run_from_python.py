@@ -17,8 +17,8 @@ def main() -> None:
     )
     store = bench.Store.create(Path("from-python"))
     store.save_plan(bench.plan_document(jobs, workers=2, task_files=[], provenance=about))
-    with bench.ThisMachine(n_workers=2) as site:
-        records = bench.run(jobs, store, config, site=site, console=Console())
+    with bench.ThisMachine(n_workers=2) as backend:
+        records = bench.run(jobs, store, config, backend=backend, console=Console())
     print(bench.score_table(records)[["label", "fold", "metric", "value"]])
 
 

@@ -24,8 +24,8 @@ from mocapbench.benchmark.cli.options import (
 )
 from mocapbench.benchmark.cli.running.about import about
 from mocapbench.benchmark.cli.running.log import require_log, run_log
+from mocapbench.benchmark.cli.running.messages import downloading, fetching
 from mocapbench.benchmark.cli.running.session import Session
-from mocapbench.benchmark.cli.running.wording import downloading, fetching
 from mocapbench.benchmark.errors import UsageError
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def run(
     What the run directory holds already is not computed again, so that the same command resumes.
     """
     require_log(log_json, out)
-    bench.require_site(jobs, scheduler, cluster)
+    bench.require_backend(jobs, scheduler, cluster)
     if not (dry_run or scheduler or cluster):
         bench.fork_server()  # which loads the libraries while the run is planned
     console, plugins = LiteralConsole(), load_plugins(plugin)
@@ -113,7 +113,7 @@ def run(
     archive = open_archive(data_dir, task_files)
     if not (offline or dry_run):
         fetch_missing(archive, bench.required_sources(request, archive), console)
-    planned = _planned(request, archive)
+    planned = _plan_jobs(request, archive)
     if explain:
         console.print(bench.explanation_table(bench.explain(planned, out)))
     elif dry_run:
@@ -123,23 +123,23 @@ def run(
         remedy = fetching(planned, plugins) if offline else downloading(planned)
         _show(bench.forecast_text(planned, profile, out, n_workers, remedy), console)
         return
-    store, site = bench.Store.create(out), bench.open_site(jobs, scheduler, cluster)
+    store, backend = bench.Store.create(out), bench.open_backend(jobs, scheduler, cluster)
     config = bench.WorkerConfig(
         bench.full_paths(bench.with_folders(data_dir, task_files)),
         plugins,
         timeout,
-        int((memory or site.memory) * 2**30),
+        int((memory or backend.memory) * 2**30),
         threads,
         about(planned, request, threads),
         task_files,
     )
-    with run_log(log_json) as log, site, store.locked():
+    with run_log(log_json) as log, backend, store.locked():
         store.sweep()
-        session = Session(planned, store, config, site, console, log)
+        session = Session(planned, store, config, backend, console, log)
         raise typer.Exit(session.run(with_report=not no_report))
 
 
-def _planned(request: Request, archive: Archive) -> Sequence[Job]:
+def _plan_jobs(request: Request, archive: Archive) -> Sequence[Job]:
     """Return the jobs of a request, of which there must be one at least."""
     planned = bench.plan(request, archive)
     if not planned:

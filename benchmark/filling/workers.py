@@ -82,7 +82,7 @@ class Workers:
 
     def ended(self, futures: Collection[Future[Attempt]]) -> Collection[Future[Attempt]]:
         """Wait until one or more of ``futures`` have ended, and return them."""
-        return self._pool.ended(futures)
+        return self._pool.wait_for_any(futures)
 
     def result(self, future: Future[Attempt]) -> Attempt:
         """Return how an attempt ended, whose worker may have died."""

@@ -96,4 +96,4 @@ def _estimate(address: Address, ways: Sequence[_Way]) -> tuple[Basis, float]:
     """Return how long a fit takes by the first way that knows; the last always does."""
     kinds = alike(address)
     way = next(way for way in ways if way.durations.knows(kinds[way.of]))
-    return way.basis, way.durations.expected(kinds[way.of])
+    return way.basis, way.durations.expect_seconds(kinds[way.of])

@@ -24,13 +24,13 @@ import numpy as np
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.sources import source_digest
 
-__all__ = ["described"]
+__all__ = ["describe_value"]
 
 Packages = tuple[str, ...]
 
 
 @singledispatch
-def described(value: object, within: Packages) -> Any:
+def describe_value(value: object, within: Packages) -> Any:
     """Return what JSON can hold of a function or value, the same in every process.
 
     Parameters
@@ -47,13 +47,14 @@ def described(value: object, within: Packages) -> Any:
         If the value is of a kind that cannot be told from others of its kind.
     """
     try:
-        content = described(_content(value), within)  # first, since a class may have much source
+        # The content comes first, since a class may have much source.
+        content = describe_value(_content(value), within)
     except (TypeError, RecursionError) as error:  # it has no content that Python can see
         raise UsageError(
             "expected arguments of a problem or a metric that can be told apart (numbers, texts, "
             f"tuples, mappings, arrays, dataclasses of these), got {value!r:.200}; use a dataclass"
         ) from error
-    return [described(type(value), within), content]
+    return [describe_value(type(value), within), content]
 
 
 def _content(value: Any) -> dict[str, Any]:
@@ -62,67 +63,73 @@ def _content(value: Any) -> dict[str, Any]:
     return dict(vars(value))
 
 
-@described.register(type(None))
-@described.register(int | float | complex | str | bytes | np.generic)
+@describe_value.register(type(None))
+@describe_value.register(int | float | complex | str | bytes | np.generic)
 def _plain(value: object, within: Packages) -> Any:
     del within  # its text has all of it
     return repr(value)
 
 
-@described.register(Enum | PurePath)
-def _named(value: Enum | PurePath, within: Packages) -> Any:
+@describe_value.register(Enum | PurePath)
+def _describe_by_text(value: Enum | PurePath, within: Packages) -> Any:
     del within  # its text has all of it
     return [type(value).__qualname__, str(value)]
 
 
-@described.register
+@describe_value.register
 def _array(value: np.ndarray, within: Packages) -> Any:
     if value.dtype.hasobject:
-        return ["objects", list(value.shape), described(value.ravel().tolist(), within)]
+        return ["objects", list(value.shape), describe_value(value.ravel().tolist(), within)]
     content = hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()
     return ["array", value.dtype.str, list(value.shape), content]
 
 
-@described.register(tuple | list)
+@describe_value.register(tuple | list)
 def _sequence(value: tuple[Any, ...] | list[Any], within: Packages) -> Any:
-    return [type(value).__qualname__, *(described(item, within) for item in value)]
+    return [type(value).__qualname__, *(describe_value(item, within) for item in value)]
 
 
-@described.register(set | frozenset)
+@describe_value.register(set | frozenset)
 def _set(value: set[Any] | frozenset[Any], within: Packages) -> Any:
-    return ["set", *sorted(json.dumps(described(item, within)) for item in value)]
+    return ["set", *sorted(json.dumps(describe_value(item, within)) for item in value)]
 
 
-@described.register
+@describe_value.register
 def _mapping(value: Mapping, within: Packages) -> Any:  # type: ignore[type-arg]  # as registered
-    pairs = ([described(key, within), described(item, within)] for key, item in value.items())
+    pairs = (
+        [describe_value(key, within), describe_value(item, within)] for key, item in value.items()
+    )
     return ["mapping", *pairs]
 
 
-@described.register
+@describe_value.register
 def _partial(value: partial, within: Packages) -> Any:  # type: ignore[type-arg]  # as registered
     bound = (value.func, value.args, dict(sorted(value.keywords.items())))
-    return ["partial", *(described(part, within) for part in bound)]
+    return ["partial", *(describe_value(part, within) for part in bound)]
 
 
-@described.register
+@describe_value.register
 def _function(value: FunctionType, within: Packages) -> Any:
     enclosed = dict(inspect.getclosurevars(value).nonlocals)
     source = source_digest(value.__module__, within)
-    return [value.__qualname__, source, described(enclosed, within)]
+    return [value.__qualname__, source, describe_value(enclosed, within)]
 
 
-@described.register
+@describe_value.register
 def _method(value: MethodType, within: Packages) -> Any:
-    return ["method", described(value.__func__, within), described(value.__self__, within)]
+    return [
+        "method",
+        describe_value(value.__func__, within),
+        describe_value(value.__self__, within),
+    ]
 
 
-@described.register(BuiltinFunctionType | np.ufunc)
+@describe_value.register(BuiltinFunctionType | np.ufunc)
 def _builtin(value: BuiltinFunctionType | np.ufunc, within: Packages) -> Any:
     del within  # versions of the libraries are part of every key
     return ["builtin", value.__name__]
 
 
-@described.register
+@describe_value.register
 def _class(value: type, within: Packages) -> Any:
     return [value.__qualname__, source_digest(value.__module__, within)]

@@ -1,4 +1,4 @@
-"""Evaluation of one job: pose its problem, have its model answer, and score the answer."""
+"""Evaluation of one job: pose its problem, have its model predict, and score the prediction."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.registry import TASKS
-from mocapbench.benchmark.runs.answering import Answered, answer
+from mocapbench.benchmark.runs.fit_attempt import FitAttempt, attempt_fit
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.fitting.trained import Trained
 from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
@@ -30,12 +30,12 @@ class Evaluation(NamedTuple):
     """The fitted model, where other jobs can use it."""
 
 
-def _here(function: Callable[..., Answered], *arguments: Any) -> Answered:
+def _here(function: Callable[..., FitAttempt], *arguments: Any) -> FitAttempt:
     return function(*arguments)
 
 
 def evaluate(
-    work: Work, config: WorkerConfig, archive: Archive, call: Callable[..., Answered] = _here
+    work: Work, config: WorkerConfig, archive: Archive, call: Callable[..., FitAttempt] = _here
 ) -> Evaluation:
     """Return the record of a job, and what others can use of it.
 
@@ -57,10 +57,10 @@ def evaluate(
         resource.setrlimit(resource.RLIMIT_AS, (config.memory, resource.RLIM_INFINITY))
         problem = TASKS.get(job.address.task).case(job.address.case).problem(job.seeds, archive)
     except BaseException as error:
-        return Evaluation(job.failed(error, config.memory))
+        return Evaluation(job.record_failure(error, config.memory))
     if work.fit is not None:
         return Evaluation(_record(work, work.fit, problem, config))
-    fit, trained, failure = call(answer, work, problem, config)
+    fit, trained, failure = call(attempt_fit, work, problem, config)
     if fit is not None:
         return Evaluation(_record(work, fit, problem, config), fit, trained)
     assert failure is not None
@@ -69,12 +69,12 @@ def evaluate(
 
 def _record(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
     try:
-        return _scored(work, fit, problem, config)
+        return _score_fit(work, fit, problem, config)
     except BaseException as error:
-        return work.job.failed(error, config.memory)
+        return work.job.record_failure(error, config.memory)
 
 
-def _scored(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
+def _score_fit(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
     costs = {**fit.costs, "warnings": (*fit.warnings, *work.remarks)}
     found = scoring(work.job, problem, fit)
     results = {"problem": problem_digest(problem), **costs, **found.results}

@@ -104,7 +104,7 @@ class Job:
             **results,
         )
 
-    def failed(self, error: BaseException, memory: int) -> Record:
+    def record_failure(self, error: BaseException, memory: int) -> Record:
         """Return a record of this job, which may take ``memory`` bytes and raised ``error``."""
         text = traceback_of(error)
         if not isinstance(error, MemoryError):

@@ -16,7 +16,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache, partial
 from typing import Any
 
-from mocapbench.benchmark.runs.descriptions import described
+from mocapbench.benchmark.runs.descriptions import describe_value
 from mocapbench.benchmark.runs.fitting import solve
 from mocapbench.benchmark.runs.sources import source_digest
 from mocapbench.benchmark.tasks.base import Case
@@ -90,9 +90,9 @@ def _problem(case: Case) -> Any:
     match case.problem:
         case partial(func=function, args=args, keywords=keywords) if case.shares_problem:
             shared = {name: value for name, value in keywords.items() if name != "references"}
-            return described(partial(function, *args, **shared), _FITTING)
+            return describe_value(partial(function, *args, **shared), _FITTING)
         case function:
-            return described(function, _FITTING)
+            return describe_value(function, _FITTING)
 
 
 @cache
@@ -102,7 +102,7 @@ def _installed_version(library: str) -> str:
 
 def metric_contents(metrics: Iterable[Metric[Any]]) -> Mapping[str, Any]:
     """Return what the score keys of all records that are scored by ``metrics`` cover of these."""
-    return {metric.name: described(metric.statistic, _SCORING) for metric in metrics}
+    return {metric.name: describe_value(metric.statistic, _SCORING) for metric in metrics}
 
 
 def score_contents(

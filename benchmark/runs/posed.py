@@ -75,7 +75,7 @@ class PosedProblems:
     def __init__(self) -> None:
         self._first: dict[tuple[object, ...], Record] = {}
 
-    def checked(self, record: Record) -> Record:
+    def check_record(self, record: Record) -> Record:
         """Return ``record``; a failed one in its place if it solves another problem than the first.
 
         Records without scores or a digest are not compared, nor are digests of different formats,

@@ -15,7 +15,7 @@ from mocapbench.benchmark.archives import (
 )
 from mocapbench.benchmark.events import EventLog
 from mocapbench.benchmark.runs.directory.key_file import KeyEntry
-from mocapbench.benchmark.runs.execution.base import Site
+from mocapbench.benchmark.runs.execution.base import Backend
 from mocapbench.benchmark.runs.execution.execute import execute
 from mocapbench.benchmark.runs.execution.job_queue import JobQueue
 from mocapbench.benchmark.runs.execution.scratch import scratch_folder
@@ -35,7 +35,7 @@ def run(
     store: Store,
     config: WorkerConfig,
     *,
-    site: Site,
+    backend: Backend,
     console: Console,
     log: EventLog | None = None,
 ) -> list[Record]:
@@ -50,7 +50,7 @@ def run(
     jobs : sequence of Job
     store : Store
     config : WorkerConfig
-    site : Site
+    backend : Backend
         Where jobs run, such as `ThisMachine`.
     console : rich.console.Console
         Shows the progress.
@@ -60,7 +60,7 @@ def run(
     log = log or EventLog()
     store.keep_keys({job.key: KeyEntry(job.address, job.parts) for job in jobs})
     posed = PosedProblems()
-    known = {job.key: posed.checked(r) for job in jobs if (r := store.load(job.key))}
+    known = {job.key: posed.check_record(r) for job in jobs if (r := store.load(job.key))}
     finished = {key: record for key, record in known.items() if not record.status.broken}
     todo = [job for job in jobs if job.key not in finished]
     log.run_started(store.path, len(jobs), len(finished))
@@ -72,16 +72,16 @@ def run(
             store.save(finished[job.key])
             _log_end(log, finished[job.key], 0.0)
     todo = [job for job in todo if not job.missing]
-    for record in _computed(todo, store, config, site, console, log=log, posed=posed):
+    for record in _compute_records(todo, store, config, backend, console, log=log, posed=posed):
         finished[record.key] = record
     return [finished[job.key] for job in jobs]
 
 
-def _computed(
+def _compute_records(
     jobs: Sequence[Job],
     store: Store,
     config: WorkerConfig,
-    site: Site,
+    backend: Backend,
     console: Console,
     *,
     log: EventLog,
@@ -100,11 +100,11 @@ def _computed(
             trained = models.load(job.training_key) if fit is None else None
             return Work(job, fit, tuple(store.damaged[already_damaged:]), trained)
 
-        def left() -> float:
-            return queue.time_left(site.n_workers)
+        def seconds_left() -> float:
+            return queue.time_left(backend.n_workers)
 
-        outcomes = map(partial(_checked, posed), execute(queue, work, config, spool, site))
-        for outcome in watch(outcomes, len(jobs), left, console):
+        outcomes = map(partial(_check_outcome, posed), execute(queue, work, config, spool, backend))
+        for outcome in watch(outcomes, len(jobs), seconds_left, console):
             if outcome.fit is not None:
                 store.save_fit(outcome.record.fit_key, outcome.fit)
             if outcome.trained is not None:
@@ -114,9 +114,9 @@ def _computed(
             yield outcome.record
 
 
-def _checked(posed: PosedProblems, outcome: Outcome) -> Outcome:
+def _check_outcome(posed: PosedProblems, outcome: Outcome) -> Outcome:
     """Return the outcome; without predictions if they are of another problem than expected."""
-    record = posed.checked(outcome.record)
+    record = posed.check_record(outcome.record)
     return outcome if record is outcome.record else outcome._replace(record=record, fit=None)
 
 

@@ -68,8 +68,8 @@ def main(n_jobs: int, folder: Path) -> None:
             store.save_fit(job.fit_key, fit)
             store.save(mine)
     with timed("resume", n_jobs), Path(os.devnull).open("w", encoding="utf-8") as nowhere:
-        site = bench.ThisMachine(1)
-        records = bench.run(jobs, store, config, site=site, console=Console(file=nowhere))
+        backend = bench.ThisMachine(1)
+        records = bench.run(jobs, store, config, backend=backend, console=Console(file=nowhere))
     with timed("tables of an export", n_jobs):
         bench.score_table(records)
         bench.job_table(records)

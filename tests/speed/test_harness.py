@@ -87,11 +87,11 @@ def test_a_stage(benchmark, stages, size, how):
 def test_a_run(benchmark, tmp_path, size, how):
     benchmark.group = size
     jobs = _jobs(size, N_JOBS if benchmark.enabled else N_JOBS_UNTIMED)
-    store, site = bench.Store.create(tmp_path / "run"), bench.ThisMachine(N_WORKERS)
+    store, backend = bench.Store.create(tmp_path / "run"), bench.ThisMachine(N_WORKERS)
     with Path(os.devnull).open("w", encoding="utf-8") as nowhere:
         console, began = Console(file=nowhere), time.perf_counter()
         run = benchmark.pedantic(
-            bench.run, (jobs, store, _config()), {"site": site, "console": console}, rounds=1
+            bench.run, (jobs, store, _config()), {"backend": backend, "console": console}, rounds=1
         )
     assert {record.status for record in run} == {bench.Status.OK}
     wall = (time.perf_counter() - began) / len(jobs)

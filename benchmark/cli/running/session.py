@@ -11,13 +11,13 @@ from mocapbench import benchmark as bench
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import show_left_out
 from mocapbench.benchmark.cli.report import write_report
-from mocapbench.benchmark.cli.running.wording import fetching, summary, wall_time, without_report
+from mocapbench.benchmark.cli.running.messages import fetching, summary, wall_time, without_report
 from mocapbench.benchmark.errors import ExitCode
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from mocapbench.benchmark import Job, Record, Site, Store, WorkerConfig
+    from mocapbench.benchmark import Backend, Job, Record, Store, WorkerConfig
     from mocapbench.benchmark.events import EventLog
 
 __all__ = ["Session"]
@@ -33,7 +33,7 @@ class Session:
     store : Store
         Locked by the caller.
     config : WorkerConfig
-    site : Site
+    backend : Backend
         Where the jobs run.
     console : LiteralConsole
     log : EventLog
@@ -42,7 +42,7 @@ class Session:
     planned: Sequence[Job]
     store: Store
     config: WorkerConfig
-    site: Site
+    backend: Backend
     console: LiteralConsole
     log: EventLog
 
@@ -76,7 +76,7 @@ class Session:
     def _plan_writer(self) -> Callable[..., None]:
         """Return a function that writes the plan, and what else is to be said of it."""
         task_files = [file.to_plain() for file in self.config.task_files]
-        same = {"workers": self.site.n_workers, "task_files": task_files}
+        same = {"workers": self.backend.n_workers, "task_files": task_files}
 
         def save_plan(**about: Any) -> None:
             self.store.save_plan(bench.plan_document(self.planned, **same, **about))
@@ -90,7 +90,7 @@ class Session:
                 self.planned,
                 self.store,
                 self.config,
-                site=self.site,
+                backend=self.backend,
                 console=self.console,
                 log=self.log,
             )

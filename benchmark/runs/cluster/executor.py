@@ -64,7 +64,7 @@ class ClusterExecutor:
             )
         return self._recordings[path.name]
 
-    def ended(self, futures: Collection[Future[Outcome]]) -> Collection[Future[Outcome]]:
+    def wait_for_any(self, futures: Collection[Future[Outcome]]) -> Collection[Future[Outcome]]:
         """Wait until one or more of ``futures`` have ended, or for a while, and return these.
 
         Raises

@@ -10,15 +10,15 @@ import dask
 from distributed import Client, LocalCluster, Worker, WorkerPlugin
 
 from mocapbench.benchmark.runs.cluster.admission import require_workers
-from mocapbench.benchmark.runs.cluster.site import ClusterSite
+from mocapbench.benchmark.runs.cluster.backend import ClusterBackend
 from mocapbench.benchmark.runs.execution.fork_server import SAFE_PATH, environment
 
-__all__ = ["open_site"]
+__all__ = ["open_backend"]
 
 _SAFE = {f"distributed.nanny.pre-spawn-environ.{name}": text for name, text in SAFE_PATH.items()}
 
 
-def open_site(kind: str) -> ClusterSite:
+def open_backend(kind: str) -> ClusterBackend:
     """Start a cluster of workers with one thread each, reachable from this machine alone.
 
     Parameters
@@ -31,7 +31,7 @@ def open_site(kind: str) -> ClusterSite:
         client = held.enter_context(Client(cluster))
         client.register_plugin(_Undisturbed())
         require_workers(client)
-        return ClusterSite(client, held.pop_all())
+        return ClusterBackend(client, held.pop_all())
 
 
 def _cluster(n_workers: int) -> LocalCluster:

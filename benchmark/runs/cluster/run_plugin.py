@@ -11,15 +11,15 @@ from distributed import Reschedule, Worker, WorkerPlugin, get_worker
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.cluster.installation import difference, installation
-from mocapbench.benchmark.runs.cluster.outpost import Outpost
 from mocapbench.benchmark.runs.cluster.plugin_files import PluginFiles
+from mocapbench.benchmark.runs.cluster.worker_state import WorkerState
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
 
 __all__ = ["RunPlugin", "run_on_worker"]
 
 
 class RunPlugin(WorkerPlugin):
-    """Gives each worker an outpost of the run.
+    """Gives each dask worker the state that the run keeps there.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class RunPlugin(WorkerPlugin):
         self._config = config
         self._files = files
         self._expected = expected
-        self._outpost: Outpost | None = None
+        self._state: WorkerState | None = None
         self._refusal = "could not prepare for the run; its log says why"
 
     def setup(self, worker: Worker) -> None:
@@ -46,13 +46,15 @@ class RunPlugin(WorkerPlugin):
         self._refusal = difference(self._expected, installation())
         if not self._refusal:
             folder = tempfile.mkdtemp(dir=worker.local_directory, prefix="mocapbench-")
-            self._outpost = Outpost(Path(folder), worker.state.nthreads, self._config, self._files)
+            self._state = WorkerState(
+                Path(folder), worker.state.nthreads, self._config, self._files
+            )
 
     def teardown(self, worker: Worker) -> None:
         """End what runs here and remove what was written."""
         del worker
-        if self._outpost:
-            self._outpost.close()
+        if self._state:
+            self._state.close()
 
     def run(self, worker: Worker, work: Work, recordings: Mapping[str, bytes]) -> Outcome:
         """Return the outcome of a job.
@@ -62,9 +64,9 @@ class RunPlugin(WorkerPlugin):
         UsageError
             If the worker cannot run jobs of this run.
         """
-        if self._outpost is None:
+        if self._state is None:
             raise UsageError(f"worker {worker.address}: {self._refusal}")
-        return self._outpost.run(work, recordings)
+        return self._state.run(work, recordings)
 
 
 def run_on_worker(

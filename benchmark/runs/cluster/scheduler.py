@@ -8,15 +8,15 @@ from distributed import Client
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.cluster.admission import require_workers
-from mocapbench.benchmark.runs.cluster.site import ClusterSite
+from mocapbench.benchmark.runs.cluster.backend import ClusterBackend
 
-__all__ = ["open_site"]
+__all__ = ["open_backend"]
 
 _PATIENCE = 20.0
 """Seconds in which the scheduler must answer."""
 
 
-def open_site(address: str) -> ClusterSite:
+def open_backend(address: str) -> ClusterBackend:
     """Return the cluster whose scheduler has this address.
 
     Parameters
@@ -39,4 +39,4 @@ def open_site(address: str) -> ClusterSite:
                 "prints its address"
             ) from error
         require_workers(client)
-        return ClusterSite(client, held.pop_all())
+        return ClusterBackend(client, held.pop_all())

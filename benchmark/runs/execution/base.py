@@ -1,4 +1,4 @@
-"""Where jobs run, as a run sees it: a site, and the executor that it starts for one run."""
+"""Where jobs run, as a run sees it: a backend, and the executor that it starts for one run."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Protocol
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
 
-__all__ = ["Executor", "Site"]
+__all__ = ["Backend", "Executor"]
 
 
 class Executor(Protocol):
@@ -18,7 +18,7 @@ class Executor(Protocol):
     def submit(self, work: Work) -> Any:
         """Have a worker run a job as soon as one is free, and return its future."""
 
-    def ended(self, futures: Collection[Any]) -> Collection[Any]:
+    def wait_for_any(self, futures: Collection[Any]) -> Collection[Any]:
         """Wait until one or more of ``futures`` have ended, or for a while, and return these."""
 
     def outcome(self, future: Any, job: Job) -> Outcome:
@@ -28,7 +28,7 @@ class Executor(Protocol):
         """Kill the workers with what they run; the jobs of ``futures`` are cancelled."""
 
 
-class Site(AbstractContextManager["Site"], Protocol):
+class Backend(AbstractContextManager["Backend"], Protocol):
     """Where jobs run; what it holds is released when its context ends."""
 
     @property

@@ -79,7 +79,7 @@ def call_in_child(function: Callable[..., Any], *arguments: Any, timeout: float)
         _report(sender, function, arguments)
     sender.close()
     try:
-        result = _received(receiver, child, min(timeout, LONGEST))
+        result = _receive_report(receiver, child, min(timeout, LONGEST))
     finally:
         os.kill(child, signal.SIGKILL)
         _, status = os.waitpid(child, 0)
@@ -109,7 +109,7 @@ def _report(
         os._exit(exit_code)
 
 
-def _received(receiver: Connection, child: int, timeout: float) -> bytes:
+def _receive_report(receiver: Connection, child: int, timeout: float) -> bytes:
     """Return what the child reports; nothing if it ends, or has ended, without a report."""
     # Besides the child the run is watched: a worker's parent is the server that forks workers,
     # which lives as long as they do, so that `die_with_parent` comes too late.

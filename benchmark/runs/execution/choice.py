@@ -1,4 +1,4 @@
-"""Which site the user asks for; the module of a site is imported only for those who do."""
+"""Which backend the user asks for; the module of a backend is imported only for those who do."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ import re
 from typing import NamedTuple
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.runs.execution.base import Site
+from mocapbench.benchmark.runs.execution.base import Backend
 from mocapbench.benchmark.runs.execution.this_machine import ThisMachine
 from mocapbench.benchmark.runs.machine import n_cores
 
-__all__ = ["open_site", "require_site"]
+__all__ = ["open_backend", "require_backend"]
 
 
 class _Kind(NamedTuple):
-    """A kind of site: its module has ``open_site``, which takes the value of the option."""
+    """A kind of backend: its module has ``open_backend``, which takes the value of the option."""
 
     module: str
     package: str
@@ -36,8 +36,10 @@ _KINDS = {
 }
 
 
-def open_site(jobs: int | None, scheduler: str | None = None, cluster: str | None = None) -> Site:
-    """Return the site that the user asks for; this machine if no other.
+def open_backend(
+    jobs: int | None, scheduler: str | None = None, cluster: str | None = None
+) -> Backend:
+    """Return the backend that the user asks for; this machine if no other.
 
     Parameters
     ----------
@@ -51,29 +53,29 @@ def open_site(jobs: int | None, scheduler: str | None = None, cluster: str | Non
     Raises
     ------
     UsageError
-        If more than one is asked for, or the site cannot be had.
+        If more than one is asked for, or the backend cannot be had.
     """
-    require_site(jobs, scheduler, cluster)
+    require_backend(jobs, scheduler, cluster)
     for option, value in {"--scheduler": scheduler, "--cluster": cluster}.items():
         if value is not None:
-            site: Site = importlib.import_module(_KINDS[option].module).open_site(value)
-            return site
+            backend: Backend = importlib.import_module(_KINDS[option].module).open_backend(value)
+            return backend
     return ThisMachine(jobs or n_cores())
 
 
-def require_site(jobs: int | None, scheduler: str | None, cluster: str | None) -> None:
-    """Refuse what `open_site` cannot open, as far as that shows before it is tried.
+def require_backend(jobs: int | None, scheduler: str | None, cluster: str | None) -> None:
+    """Refuse what `open_backend` cannot open, as far as that shows before it is tried.
 
     Raises
     ------
     UsageError
-        If more than one site is asked for, its package is missing, or a value has another form.
+        If more than one backend is asked for, its package is missing, or a value has another form.
     """
-    asked = {"--jobs": jobs, "--scheduler": scheduler, "--cluster": cluster}
-    given = {option: str(value) for option, value in asked.items() if value is not None}
+    options = {"--jobs": jobs, "--scheduler": scheduler, "--cluster": cluster}
+    given = {option: str(value) for option, value in options.items() if value is not None}
     if len(given) > 1:
         raise UsageError(
-            f"expected one of {', '.join(asked)}, got {' and '.join(given)}; leave out all but "
+            f"expected one of {', '.join(options)}, got {' and '.join(given)}; leave out all but "
             "one (a cluster's workers decide how many jobs run at once)"
         )
     for option in given.keys() & _KINDS:

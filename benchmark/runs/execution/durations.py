@@ -25,7 +25,7 @@ class Durations:
         """Return whether a job of one of ``kinds`` is known."""
         return any(kind in self._count for kind in kinds)
 
-    def expected(self, kinds: Sequence[Hashable]) -> float:
+    def expect_seconds(self, kinds: Sequence[Hashable]) -> float:
         """Return the mean of the first of ``kinds`` of which a job is known; 0 if of none."""
         known = (kind for kind in kinds if kind in self._count)
         return next((self._total[kind] / self._count[kind] for kind in known), 0.0)

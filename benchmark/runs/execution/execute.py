@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from mocapbench.benchmark.runs.execution.base import Site
+from mocapbench.benchmark.runs.execution.base import Backend
 from mocapbench.benchmark.runs.execution.job_queue import JobQueue
 from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
@@ -18,7 +18,7 @@ def execute(
     work: Callable[[Job], Work],
     config: WorkerConfig,
     spool: Spool,
-    site: Site,
+    backend: Backend,
 ) -> Iterator[Outcome]:
     """Run the jobs of ``queue`` and yield each one's outcome as it ends.
 
@@ -32,23 +32,23 @@ def execute(
     config : WorkerConfig
     spool : Spool
         The recordings that jobs read.
-    site : Site
+    backend : Backend
         Where they run.
     """
-    executor = site.start(config, spool)
+    executor = backend.start(config, spool)
     running: dict[Any, Work] = {}
     try:
         while True:
-            # As many again wait at the site, so that no worker waits for the store.
-            while len(running) < 2 * site.n_workers and (job := queue.take()):
+            # The backend holds as many again in wait, so that no worker waits for the store.
+            while len(running) < 2 * backend.n_workers and (job := queue.take()):
                 handed = work(job)
                 running[executor.submit(handed)] = handed
             if not running:
                 return
-            for future in executor.ended(running.keys()):
+            for future in executor.wait_for_any(running.keys()):
                 job, fit, *_ = running.pop(future)
                 outcome = executor.outcome(future, job)
-                queue.ended(job, outcome.seconds, rescored=fit is not None)
+                queue.finish(job, outcome.seconds, rescored=fit is not None)
                 yield outcome
     finally:
         executor.stop(running.keys())

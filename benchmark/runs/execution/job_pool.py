@@ -45,9 +45,9 @@ class JobPool:
         """Have a worker run a job as soon as one is free."""
         return self._pool.submit(run_job, work, self._config, self._spool)
 
-    def ended(self, futures: Collection[Future[Outcome]]) -> Collection[Future[Outcome]]:
+    def wait_for_any(self, futures: Collection[Future[Outcome]]) -> Collection[Future[Outcome]]:
         """Wait until one or more of ``futures`` have ended, and return them."""
-        return self._pool.ended(futures)
+        return self._pool.wait_for_any(futures)
 
     def outcome(self, future: Future[Outcome], job: Job) -> Outcome:
         """Return the job's outcome, or one that says why its worker gave none.

@@ -72,7 +72,7 @@ class JobQueue:
         """Return what is left of a job once what it shares under ``key`` is there."""
         return _kind(job, _SCORE if key == job.fit_key else _PREDICT)
 
-    def _freed(self, key: str) -> list[Job]:
+    def _free_jobs(self, key: str) -> list[Job]:
         """Return the jobs that wait for ``key``, which no longer do."""
         followers = self._followers.pop(key, [])
         self._following.subtract(self._after(key, job) for job in followers)
@@ -97,9 +97,9 @@ class JobQueue:
         if self._untried:
             return self._untried.popleft()
         waiting = [kind for kind, jobs in self._waiting.items() if jobs]
-        return max(waiting, key=self._expected, default=None)
+        return max(waiting, key=self._expect_seconds, default=None)
 
-    def ended(self, job: Job, seconds: float, *, rescored: bool = False) -> None:
+    def finish(self, job: Job, seconds: float, *, rescored: bool = False) -> None:
         """Take note that a job that was taken has ended after so many seconds.
 
         Parameters
@@ -111,14 +111,14 @@ class JobQueue:
         """
         kind, _ = self._running.pop(job.key)
         self._durations.learn(kind.alike, seconds)
-        for follower in self._freed(job.fit_key):
+        for follower in self._free_jobs(job.fit_key):
             self._append(follower, _SCORE)
         if self._leads.get(job.training_key) is job:
             self._release(job.training_key, fitted=not rescored)
 
     def _release(self, training_key: str, *, fitted: bool) -> None:
         """Let all jobs go that wait for a fitted model, or the next that is to fit it."""
-        followers = self._freed(training_key)
+        followers = self._free_jobs(training_key)
         if fitted or not followers:
             for follower in followers:
                 self._append(follower, _PREDICT)
@@ -129,19 +129,19 @@ class JobQueue:
         for other in others:
             self._hold(training_key, other)
 
-    def _expected(self, kind: _Kind) -> float:
-        return self._durations.expected(kind.alike)
+    def _expect_seconds(self, kind: _Kind) -> float:
+        return self._durations.expect_seconds(kind.alike)
 
     def time_left(self, n_workers: int) -> float:
         """Return about how many seconds it takes until all jobs have ended."""
         now = time.monotonic()
         running = [
-            max(self._expected(kind) - (now - started), 0.0)
+            max(self._expect_seconds(kind) - (now - started), 0.0)
             for kind, started in self._running.values()
         ]
         counts = Counter({kind: len(jobs) for kind, jobs in self._waiting.items()})
         counts.update(self._following)
-        waiting = [(self._expected(kind), count) for kind, count in counts.items()]
+        waiting = [(self._expect_seconds(kind), count) for kind, count in counts.items()]
         work = sum(running) + sum(seconds * count for seconds, count in waiting)
         longest = max([*running, *(seconds for seconds, count in waiting if count)], default=0.0)
         return max(work / n_workers, longest)

@@ -37,7 +37,7 @@ def _locked_folder() -> tuple[Path, int]:
     while True:
         folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
         with suppress(FileNotFoundError):  # others may take it for left behind until it is locked
-            lock = _opened(folder)
+            lock = _open_folder(folder)
             with suppress(OSError):  # a file system without locks, where nothing is deleted either
                 fcntl.flock(lock, fcntl.LOCK_EX)
             if folder.exists():
@@ -47,7 +47,7 @@ def _locked_folder() -> tuple[Path, int]:
 
 def _delete_unless_locked(folder: Path) -> None:
     with suppress(OSError):  # deleted by others just now, or not ours
-        lock = _opened(folder)
+        lock = _open_folder(folder)
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             shutil.rmtree(folder, ignore_errors=True)
@@ -55,5 +55,5 @@ def _delete_unless_locked(folder: Path) -> None:
             os.close(lock)
 
 
-def _opened(folder: Path) -> int:
+def _open_folder(folder: Path) -> int:
     return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)

@@ -133,12 +133,12 @@ class SpooledArchive(Archive):
 
     def recording(self, uri: str) -> Recording:
         """Return a recording, named by its address; see `Archive.recording`."""
-        content = self._spooled(uri)
+        content = self._load_spooled(uri)
         return super().recording(uri) if content is None else content.recording
 
     def skeleton(self, uri: str) -> Skeleton:
         """Return the skeleton of a recording; see `Archive.skeleton`."""
-        content = self._spooled(uri)
+        content = self._load_spooled(uri)
         if content is None:
             return super().skeleton(uri)
         if content.skeleton is None:  # so its library said, where the recording was read
@@ -146,5 +146,5 @@ class SpooledArchive(Archive):
             raise SkeletonUnavailable(key, type(library).__name__)
         return content.skeleton
 
-    def _spooled(self, uri: str) -> _Content | None:
+    def _load_spooled(self, uri: str) -> _Content | None:
         return self.spool.load(uri, self.digests[uri]) if uri in self.digests else None

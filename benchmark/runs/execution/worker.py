@@ -79,7 +79,7 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
     except TimeoutError:
         ended = Evaluation(job.timed_out(config.timeout))
     except MemoryError as error:  # where there is no room for what the child hands back
-        ended = Evaluation(job.failed(error, config.memory))
+        ended = Evaluation(job.record_failure(error, config.memory))
     except ProcessDiedError as error:
         message = f"the process died with exit code {error.exit_code} before it could report"
         ended = Evaluation(job.record(Status.FAILED, message))

@@ -79,7 +79,7 @@ class WorkerPool:
         with interrupts_later():
             return self._pool.schedule(function, arguments)
 
-    def ended(self, futures: Collection[Future[Any]]) -> Collection[Future[Any]]:
+    def wait_for_any(self, futures: Collection[Future[Any]]) -> Collection[Future[Any]]:
         """Wait until one or more of ``futures`` have ended, and return them."""
         ended: Collection[Future[Any]] = ()
         while futures and not ended:

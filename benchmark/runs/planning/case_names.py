@@ -29,11 +29,11 @@ def matching_cases(wanted: str, names: Iterable[str]) -> tuple[str, ...]:
     >>> matching_cases("test 1", names)
     ('test 1',)
     """
-    names, typed = tuple(dict.fromkeys(names)), _hyphenated(wanted)
+    names, typed = tuple(dict.fromkeys(names)), _hyphenate(wanted)
     ways = (
-        [name for name in names if _hyphenated(name) == typed],
-        [name for name in names if fnmatchcase(_hyphenated(name), typed)],
-        [name for name in names if _hyphenated(name).startswith(typed)],
+        [name for name in names if _hyphenate(name) == typed],
+        [name for name in names if fnmatchcase(_hyphenate(name), typed)],
+        [name for name in names if _hyphenate(name).startswith(typed)],
     )
     return tuple(next(filter(None, ways), ()))
 
@@ -63,5 +63,5 @@ def split_cases(text: str, names: Iterable[str]) -> Iterator[str]:
         parts = parts[n:]
 
 
-def _hyphenated(name: str) -> str:
+def _hyphenate(name: str) -> str:
     return name.replace("_", "-")

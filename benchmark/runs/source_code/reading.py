@@ -72,11 +72,11 @@ def _source(module: str) -> str:
 
 
 def _file(module: str) -> Path | None:
-    name = getattr(_imported(module), "__file__", None)
+    name = getattr(_import_optional(module), "__file__", None)
     return Path(name) if name else None
 
 
-def _imported(module: str) -> ModuleType | None:
+def _import_optional(module: str) -> ModuleType | None:
     """Return a module; None if it is an optional part that cannot be imported here."""
     try:
         return importlib.import_module(module)
@@ -89,7 +89,7 @@ def _imports(module: str, nodes: Iterable[ast.AST]) -> Iterator[tuple[str, Impor
 
     With each comes the name that it has here, or none if it is imported for what it does.
     """
-    values = vars(_imported(module)) if _imported(module) else {}
+    values = vars(_import_optional(module)) if _import_optional(module) else {}
     for node in (*nodes, *_stub(module)):
         if isinstance(node, ast.Import):
             yield from _modules(node)
@@ -121,9 +121,10 @@ def definer(module: str, name: str) -> str:
     module, name = passed
     if not (name and _is_package(module)):
         return module
-    if _imported(f"{module}.{name}"):
+    if _import_optional(f"{module}.{name}"):
         return f"{module}.{name}"
-    value = getattr(_imported(module), name, None)  # perhaps made by the package's __getattr__
+    # The package's __getattr__ may have made it.
+    value = getattr(_import_optional(module), name, None)
     return value.__module__ if isinstance(value, type | FunctionType) else module
 
 
@@ -152,7 +153,7 @@ def _stub(package: str) -> tuple[ast.stmt, ...]:
 
 
 def _is_package(module: str) -> bool:
-    return hasattr(_imported(module), "__path__")
+    return hasattr(_import_optional(module), "__path__")
 
 
 def _absolute(node: ast.ImportFrom, importer: str) -> str:

@@ -125,7 +125,7 @@ def _seconds(stored: Stored, label: str) -> float | None:
     """Return what a fit took in this task; None where there is no record of it."""
     durations = typical(stored.profile)
     kinds = alike(Address(stored.results.layout.name, 0, "", 0, label))[:1]
-    return durations.expected(kinds) if durations.knows(kinds) else None
+    return durations.expect_seconds(kinds) if durations.knows(kinds) else None
 
 
 def two_digits(seconds: float) -> str:

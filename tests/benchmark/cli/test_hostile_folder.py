@@ -97,18 +97,18 @@ def test_a_cluster_that_is_started_for_a_run(give):
 
 RESTART = """
 import os, signal
-from mocapbench.benchmark.runs.cluster.local import open_site
+from mocapbench.benchmark.runs.cluster.local import open_backend
 
 def kill(dask_worker):
     os.kill(os.getpid(), signal.SIGKILL)
 
 if __name__ == "__main__":
-    with open_site("local:1") as site:
-        (first,) = site._client.run(os.getpid).values()
-        site._client.run(kill, on_error="ignore")
+    with open_backend("local:1") as backend:
+        (first,) = backend._client.run(os.getpid).values()
+        backend._client.run(kill, on_error="ignore")
         later = first
         while later == first:
-            (later,) = [*site._client.run(os.getpid, on_error="ignore").values()] or [first]
+            (later,) = [*backend._client.run(os.getpid, on_error="ignore").values()] or [first]
 """
 
 

@@ -20,8 +20,8 @@ def record(address, fit, predict):
 
 def test_records_tell_the_mean_of_their_entrant_in_their_task_or_elsewhere():
     known = of_records([record(ONE, 1.0, 1.0), record(ONE._replace(fold=1), 4.0, None)])
-    assert known.expected(alike(ONE._replace(case="test 2"))) == 3.0
-    assert known.expected(alike(ONE._replace(task="another"))) == 3.0
+    assert known.expect_seconds(alike(ONE._replace(case="test 2"))) == 3.0
+    assert known.expect_seconds(alike(ONE._replace(task="another"))) == 3.0
     assert not known.knows(alike(ONE._replace(label="moa-3"))[:2])
 
 
@@ -33,7 +33,7 @@ def test_records_without_a_fit_tell_nothing():
 @pytest.mark.parametrize("profile", PROFILES)
 def test_of_every_profile_something_is_typical(profile):
     known = typical(profile)
-    assert known.expected(alike(ONE)) > 0
+    assert known.expect_seconds(alike(ONE)) > 0
     assert known.knows([()])
     assert MEASURED[profile] in PROFILES
 

@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.runs.descriptions import described
+from mocapbench.benchmark.runs.descriptions import describe_value
 from mocapbench.metrics import Direction
 
 
@@ -62,21 +62,21 @@ class Thing:
     ],
 )
 def test_two_that_differ_have_two_descriptions(one, other):
-    assert described(one, ()) == described(one, ())
-    assert described(one, ()) != described(other, ())
-    json.dumps([described(one, ()), described(other, ())])
+    assert describe_value(one, ()) == describe_value(one, ())
+    assert describe_value(one, ()) != describe_value(other, ())
+    json.dumps([describe_value(one, ()), describe_value(other, ())])
 
 
 def test_the_order_of_a_set_does_not_count():
     names = [f"joint {number}" for number in range(50)]
     backwards = dict.fromkeys(reversed(names))
-    assert described(set(names), ()) == described(frozenset(backwards), ())
+    assert describe_value(set(names), ()) == describe_value(frozenset(backwards), ())
 
 
 @pytest.mark.parametrize("value", [object(), iter([1]), pd.DataFrame({"a": range(1000)})])
 def test_what_cannot_be_told_apart_is_refused(value):
     with pytest.raises(UsageError, match=r"expected arguments .* use a dataclass"):
-        described((value,), ())
+        describe_value((value,), ())
 
 
 @pytest.mark.parametrize("bound", ["Wave(2)", "Wave(2).height", "(Wave(2),)", "Wave", "{1: Wave}"])
@@ -88,7 +88,7 @@ def test_the_source_of_the_class_of_a_value_counts(bound, tmp_path, monkeypatch,
     file.write_text(f"{code}self.n * 1\n")
     module = importlib.import_module("waves_of_mine")
     value = eval(bound, {"Wave": module.Wave})
-    before = described(functools.partial(make, value), ())
+    before = describe_value(functools.partial(make, value), ())
     file.write_text(f"{code}self.n * 7\n")
     forget()
-    assert described(functools.partial(make, value), ()) != before
+    assert describe_value(functools.partial(make, value), ()) != before

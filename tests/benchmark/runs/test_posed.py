@@ -103,13 +103,13 @@ def record(label="knn", problem="one", cpu="A", seed=0, **address):
 
 def test_a_job_that_was_posed_another_problem_has_failed():
     posed = PosedProblems()
-    assert posed.checked(record()).status is Status.OK
-    assert posed.checked(record("lds")).status is Status.OK
-    failed = posed.checked(record("trivial", "two"))
+    assert posed.check_record(record()).status is Status.OK
+    assert posed.check_record(record("lds")).status is Status.OK
+    failed = posed.check_record(record("trivial", "two"))
     assert failed.status is Status.FAILED
     assert "the problem of this fold that was posed to knn, got another" in failed.message
     assert (failed.scores, failed.parts, failed.left_out) == ({}, {}, {})
-    assert posed.checked(record("hold", "two")).status is Status.FAILED
+    assert posed.check_record(record("hold", "two")).status is Status.FAILED
 
 
 @pytest.mark.parametrize(
@@ -119,22 +119,22 @@ def test_a_job_that_was_posed_another_problem_has_failed():
 )
 def test_other_folds_seeds_and_machines_are_not_compared(other):
     posed = PosedProblems()
-    posed.checked(record())
+    posed.check_record(record())
     checked = record("trivial", "two", **other)
-    assert posed.checked(checked) is checked
+    assert posed.check_record(checked) is checked
 
 
 def test_records_without_a_digest_stay_as_they_are():
     posed = PosedProblems()
     for one in (record(), record("earlier", ""), record("lds")):
-        assert posed.checked(one) is one
+        assert posed.check_record(one) is one
 
 
 def test_digests_that_were_made_otherwise_are_not_compared():
     posed = PosedProblems()
     for one in (record(problem="1f"), record("lds", "2:ab"), record("hold", "2:ab")):
-        assert posed.checked(one) is one
-    assert posed.checked(record("trivial", "2:cd")).status is Status.FAILED
+        assert posed.check_record(one) is one
+    assert posed.check_record(record("trivial", "2:cd")).status is Status.FAILED
     assert problem_digest(pose()).partition(":")[:2] == ("2", ":")
 
 

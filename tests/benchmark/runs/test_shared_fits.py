@@ -22,7 +22,7 @@ class Drawn(FrameImputer, Inductive):
 
 MODELS = {{"drawn": Drawn}}
 """
-SITES = [("--jobs", 1), ("--jobs", 2), ("--jobs", 4), ("--cluster", "local:2")]
+BACKENDS = [("--jobs", 1), ("--jobs", 2), ("--jobs", 4), ("--cluster", "local:2")]
 COMPARED = ("scores", "parts", "key", "fit_key", "seed")
 
 
@@ -36,9 +36,9 @@ def run(cli, records, tmp_path):
         *("--cases", "synthetic*", "--models", "drawn", "--plugin", plugin),
     )
 
-    def run(name, *site, folds=12):
+    def run(name, *backend, folds=12):
         fits.write_text("")
-        assert cli(*request, "--folds", folds, *site, "--out", tmp_path / name) == 0, cli.printed
+        assert cli(*request, "--folds", folds, *backend, "--out", tmp_path / name) == 0, cli.printed
         found = {
             address: [record[name] for name in COMPARED]
             for address, record in records(tmp_path / name).items()
@@ -50,23 +50,23 @@ def run(cli, records, tmp_path):
 
 @pytest.mark.slow
 def test_scores_are_the_same_at_every_site_and_after_an_interruption(run):
-    whole, n_fits = run("whole", *SITES[0])
+    whole, n_fits = run("whole", *BACKENDS[0])
     assert len(whole) == 24
     assert n_fits == 1
-    for number, site in enumerate(SITES[1:]):
-        assert run(f"site {number}", *site) == (whole, 1)
-    run("resumed", *SITES[0], folds=5)
-    assert run("resumed", *SITES[1]) == (whole, 1)
+    for number, backend in enumerate(BACKENDS[1:]):
+        assert run(f"backend {number}", *backend) == (whole, 1)
+    run("resumed", *BACKENDS[0], folds=5)
+    assert run("resumed", *BACKENDS[1]) == (whole, 1)
 
 
 @pytest.mark.slow
 def test_predictions_that_are_there_do_not_stand_in_for_a_fit(run, tmp_path):
     """Of those only the record was lost."""
-    whole, _ = run("whole", *SITES[1])
+    whole, _ = run("whole", *BACKENDS[1])
     for path in sorted((tmp_path / "whole" / "records").rglob("*.json"))[:20]:
         path.unlink()
     for path in sorted((tmp_path / "whole" / "predictions").rglob("*.npz"))[:12]:
         path.unlink()
-    again, n_fits = run("whole", *SITES[1])
+    again, n_fits = run("whole", *BACKENDS[1])
     assert again == whole
     assert n_fits == 1

@@ -21,9 +21,11 @@ def test_the_mean_of_the_first_kind_of_which_a_job_is_known(jobs):
     for wanted in _kinds("a", "x"):
         alike = [seconds for *kind, seconds in jobs if wanted in _kinds(*kind)]
         if alike:
-            assert durations.expected(_kinds("a", "x")) == pytest.approx(sum(alike) / len(alike))
+            assert durations.expect_seconds(_kinds("a", "x")) == pytest.approx(
+                sum(alike) / len(alike)
+            )
             return
-    assert durations.expected(_kinds("a", "x")) == 0
+    assert durations.expect_seconds(_kinds("a", "x")) == 0
 
 
 @given(JOBS)

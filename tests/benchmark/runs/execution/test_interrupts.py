@@ -135,6 +135,6 @@ def test_an_interrupt_while_jobs_run_does_not_wait_for_them():
     running = pool.submit(time.sleep, 600)
     threading.Timer(0.5, signal.raise_signal, [signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):
-        pool.ended([running])
+        pool.wait_for_any([running])
     assert not running.done()
     pool.stop([running])

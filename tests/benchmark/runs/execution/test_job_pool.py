@@ -39,7 +39,7 @@ BY_METRIC = {
 }
 
 
-SITES = {"this machine": ("--jobs", 2), "a cluster": ("--cluster", "local:2")}
+BACKENDS = {"this machine": ("--jobs", 2), "a cluster": ("--cluster", "local:2")}
 
 
 @pytest.fixture
@@ -55,9 +55,9 @@ def _litter():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("site", SITES.values(), ids=SITES)
-def test_each_ending_is_recorded_and_the_others_run(cli, records, arguments, tmp_path, site):
-    assert cli(*arguments, *site, "--models", ",".join(ENDINGS), "--timeout", 5) == 3
+@pytest.mark.parametrize("backend", BACKENDS.values(), ids=BACKENDS)
+def test_each_ending_is_recorded_and_the_others_run(cli, records, arguments, tmp_path, backend):
+    assert cli(*arguments, *backend, "--models", ",".join(ENDINGS), "--timeout", 5) == 3
     found = {label: record for (_, _, label, _), record in records(tmp_path / "run").items()}
     assert {label: record["status"] for label, record in found.items()} == {
         label: status for label, (status, _) in ENDINGS.items()

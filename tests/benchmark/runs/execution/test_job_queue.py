@@ -39,7 +39,7 @@ def test_every_job_is_taken_once_whatever_ends_first(chosen, n_workers):
             break
         job = running.pop(0)
         answered.add(job.fit_key)
-        queue.ended(job, seconds[job.key])
+        queue.finish(job, seconds[job.key])
     assert sorted(taken) == sorted(job.key for job in jobs)
     assert queue.time_left(n_workers) == 0
 
@@ -62,7 +62,7 @@ def test_a_shared_model_is_fitted_by_one_job_before_the_others_start(chosen, n_w
         if not rescored:
             models.add(job.training_key)
         stored.add(job.fit_key)
-        queue.ended(job, 1.0, rescored=rescored)
+        queue.finish(job, 1.0, rescored=rescored)
     assert n_taken == len(jobs)
     assert len(fits) == len(set(fits))
 
@@ -72,7 +72,7 @@ def test_once_each_entrant_is_known_the_slowest_go_first():
     for label, seconds in {"a": 1.0, "b": 3.0, "c": 2.0}.items():
         job = queue.take()
         assert job.address.label == label
-        queue.ended(job, seconds)
+        queue.finish(job, seconds)
     assert [queue.take().address.label for _ in range(4)] == ["b", "c", "c", "a"]
     assert queue.take() is None
 
@@ -81,7 +81,7 @@ def test_the_time_left_follows_from_the_jobs_most_alike(monkeypatch):
     monkeypatch.setattr(time, "monotonic", lambda: 0.0)
     queue = JobQueue([_job(n, label) for n, label in enumerate("aaabbb")])
     for seconds in (10.0, 1.0):
-        queue.ended(queue.take(), seconds)
+        queue.finish(queue.take(), seconds)
     assert queue.time_left(1) == pytest.approx(2 * 10 + 2 * 1)
     assert queue.time_left(2) == pytest.approx(11)
     assert queue.time_left(100) == pytest.approx(10)  # no less than the longest of them
@@ -92,14 +92,14 @@ def test_jobs_that_wait_for_what_they_share_count_too(monkeypatch):
     fits = [f"fit {n // 2}" for n in range(6)]
     queue = JobQueue([_job(n, "a", fit, "model") for n, fit in enumerate(fits)])
     assert queue.time_left(1) == 0  # nothing is known yet
-    queue.ended(queue.take(), 10.0)  # frees a job to score and two to predict
+    queue.finish(queue.take(), 10.0)  # frees a job to score and two to predict
     assert queue.time_left(1) == pytest.approx(5 * 10)
-    queue.ended(queue.take(), 1.0)
-    queue.ended(queue.take(), 3.0)
+    queue.finish(queue.take(), 1.0)
+    queue.finish(queue.take(), 3.0)
     left = queue.time_left(1)
     assert 0 < left < 3 * 10
     while job := queue.take():
-        queue.ended(job, 1.0)
+        queue.finish(job, 1.0)
     assert queue.time_left(1) == 0
 
 
@@ -107,7 +107,7 @@ def test_a_running_job_counts_for_what_is_left_of_it(monkeypatch):
     now = 0.0
     monkeypatch.setattr(time, "monotonic", lambda: now)
     queue = JobQueue([_job(0), _job(1)])
-    queue.ended(queue.take(), 10.0)
+    queue.finish(queue.take(), 10.0)
     queue.take()
     now = 4.0
     assert queue.time_left(1) == pytest.approx(6)

@@ -1,4 +1,4 @@
-"""A model's part of a job: it is fitted or loaded, and answers; in a process of its own."""
+"""A model's part of a job, in a process of its own: it is fitted or loaded, and predicts."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from mocapbench.benchmark.runs.fitting.trained import Trained
 from mocapbench.benchmark.runs.job import Work, WorkerConfig
 from mocapbench.benchmark.runs.record import Record
 
-__all__ = ["Answered", "answer"]
+__all__ = ["FitAttempt", "attempt_fit"]
 
 
-class Answered(NamedTuple):
-    """What became of a model's part."""
+class FitAttempt(NamedTuple):
+    """What came of fitting a model and having it predict."""
 
     fit: Fit | None
     """The predictions."""
@@ -28,8 +28,8 @@ class Answered(NamedTuple):
     """Why there are no predictions."""
 
 
-def answer(work: Work, problem: Problem[Any], config: WorkerConfig) -> Answered:
-    """Return what the job's model answers to ``problem``; whatever it raises is a failure.
+def attempt_fit(work: Work, problem: Problem[Any], config: WorkerConfig) -> FitAttempt:
+    """Return what the job's model predicts for ``problem``; whatever it raises is a failure.
 
     Parameters
     ----------
@@ -41,14 +41,14 @@ def answer(work: Work, problem: Problem[Any], config: WorkerConfig) -> Answered:
     trained = None
     try:
         with parallel_config("threading", n_jobs=config.threads):
-            fitted, trained = _fitted(work, problem)
+            fitted, trained = _fit_model(work, problem)
             fit = solve(problem, fitted, work.job.seeds.random_state("sample"))
     except BaseException as error:  # a model that calls sys.exit has failed like any other
-        return Answered(None, trained, work.job.failed(error, config.memory))
-    return Answered(fit, trained)
+        return FitAttempt(None, trained, work.job.record_failure(error, config.memory))
+    return FitAttempt(fit, trained)
 
 
-def _fitted(work: Work, problem: Problem[Any]) -> tuple[Fitted, Trained | None]:
+def _fit_model(work: Work, problem: Problem[Any]) -> tuple[Fitted, Trained | None]:
     """Return the fitted model, and the same for other jobs if it is new and they can use it."""
     job, trained = work.job, work.trained
     if trained is not None and trained.suits(problem):

@@ -17,11 +17,11 @@ from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.job import Outcome, Work, WorkerConfig
 from mocapbench.benchmark.runs.provenance import machine_facts
 
-__all__ = ["Outpost"]
+__all__ = ["WorkerState"]
 
 
-class Outpost:
-    """Recordings, plug-ins and a pool of processes beside one dask worker.
+class WorkerState:
+    """The state of a run on one dask worker: recordings, plug-ins and a pool of processes.
 
     A dask worker has threads, from which no process may be forked; the pool's processes have one.
 
@@ -66,7 +66,7 @@ class Outpost:
         Raises
         ------
         Reschedule
-            If the outpost is closed meanwhile: then another worker is to run the job.
+            If the state is closed meanwhile: then another worker is to run the job.
         """
         for name, content in recordings.items():
             self._spool.receive(name, content)

@@ -12,13 +12,13 @@ from mocapbench.benchmark.runs.execution.spool import Spool
 from mocapbench.benchmark.runs.job import WorkerConfig
 from mocapbench.benchmark.runs.machine import MINIMUM_MEMORY, memory_share
 
-__all__ = ["ClusterSite"]
+__all__ = ["ClusterBackend"]
 
 _LOOK_AROUND = 5.0
 """Seconds for which the number of workers is taken to stay as it is."""
 
 
-class ClusterSite(AbstractContextManager["ClusterSite"]):
+class ClusterBackend(AbstractContextManager["ClusterBackend"]):
     """The workers of a scheduler, of which each runs as many jobs at once as it has threads.
 
     Parameters
@@ -26,7 +26,7 @@ class ClusterSite(AbstractContextManager["ClusterSite"]):
     client : Client
         Connected to the scheduler.
     held : ExitStack
-        What ends with the site.
+        What ends with the backend.
     """
 
     def __init__(self, client: Client, held: ExitStack) -> None:
@@ -53,7 +53,7 @@ class ClusterSite(AbstractContextManager["ClusterSite"]):
         return ClusterExecutor(self._client, config, spool)
 
     def __exit__(self, *_: object) -> None:
-        """Disconnect, and end what was started for this site."""
+        """Disconnect, and end what was started for this backend."""
         self._held.close()
 
 
