@@ -15,17 +15,17 @@ def reason(error: BaseException) -> str:
     """Return the type and the message of ``error``; the type alone if the message raises."""
     kind = type(error).__name__
     try:
-        return _shortened(f"{kind}: {error}", _MESSAGE)
+        return _shorten_text(f"{kind}: {error}", _MESSAGE)
     except BaseException:
         return f"{kind}, whose message cannot be read"
 
 
 def traceback_of(error: BaseException) -> str:
     """Return the traceback of ``error``, as Python shows it."""
-    return _shortened("".join(traceback.format_exception(error)), _TRACEBACK)
+    return _shorten_text("".join(traceback.format_exception(error)), _TRACEBACK)
 
 
-def _shortened(text: str, most: int) -> str:
+def _shorten_text(text: str, most: int) -> str:
     if len(text) <= most:
         return text
     half = most // 2

@@ -59,7 +59,7 @@ def test_a_model_refuses_a_wrong_parameter_by_its_name(name, parameter, wrong):
 @pytest.fixture(scope="module")
 def fitted():
     """Return a registered model fitted to recordings one of which has a gap, by its name."""
-    return cache(lambda name: Subject(MODELS.get(name)).fitted(problem(GAP)))
+    return cache(lambda name: Subject(MODELS.get(name)).fit_model(problem(GAP)))
 
 
 FILLERS = [name for name in MODELS.names() if issubclass(MODELS.get(name), FrameImputer)]
@@ -106,7 +106,7 @@ UNUSABLE = {
 @pytest.mark.parametrize(("changed", "expected"), UNUSABLE.values(), ids=UNUSABLE)
 def test_a_model_says_what_recordings_it_cannot_learn_from(name, changed, expected):
     with pytest.raises(ValueError, match=f"'child-1': expected .*{re.escape(expected)}"):
-        Subject(MODELS.get(name)).fitted([changed(recording) for recording in problem(GAP)])
+        Subject(MODELS.get(name)).fit_model([changed(recording) for recording in problem(GAP)])
 
 
 @pytest.mark.parametrize(("name", "answer"), ANSWERS)
@@ -133,7 +133,7 @@ def test_a_model_claims_nothing_of_channels_that_are_seen_once(name):
     (recording,) = COMPLETE[:1]
     once = recording.hide(np.arange(len(recording.times))[:, None] != 10)
     try:
-        (prediction,) = Subject(MODELS.get(name)).fitted([once]).impute([once])
+        (prediction,) = Subject(MODELS.get(name)).fit_model([once]).impute([once])
     except ValueError as error:
         assert "expected" in str(error)
     else:

@@ -98,7 +98,7 @@ def check(
     if known is None:
         console.print(NO_REFERENCE.format(reference=reference), soft_wrap=True)
         raise typer.Exit(ExitCode.NOTHING_RAN)
-    result = _compared(
+    result = _compare_values(
         known, values, records, environment=environment, tolerances=tolerances, strict=strict
     )
     _show(result, console)
@@ -120,7 +120,7 @@ def _check_controls(run: Path, console: LiteralConsole) -> ExitCode:
     return gate.check_controls(records, console)
 
 
-def _compared(
+def _compare_values(
     known: Reference,
     values: Reference,
     records: Sequence[Record],

@@ -38,7 +38,7 @@ def fetch_missing(archive: Archive, uris: Sequence[str], console: LiteralConsole
     a recording, is not.
     """
     missing = [uri for uri in uris if not archive.available(uri)]
-    for uri in _tracked(missing, console):
+    for uri in _track_fetching(missing, console):
         try:
             archive.fetch([uri])
         except (datasets.ServerUnreachable, OSError) as error:
@@ -48,7 +48,7 @@ def fetch_missing(archive: Archive, uris: Sequence[str], console: LiteralConsole
             console.print(f"working without {uri}: {error}")
 
 
-def _tracked(uris: Sequence[str], console: LiteralConsole) -> Iterable[str]:
+def _track_fetching(uris: Sequence[str], console: LiteralConsole) -> Iterable[str]:
     return track(uris, "fetching recordings", console=console, disable=not uris, transient=True)
 
 
@@ -69,7 +69,7 @@ def fetch(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = Non
     archive, console = open_archive(data_dir), LiteralConsole()
     addresses = _addresses(trials, archive)
     failures = []
-    for uri in _tracked(addresses, console):
+    for uri in _track_fetching(addresses, console):
         try:
             archive.fetch([uri])
         except datasets.ServerUnreachable as error:

@@ -11,7 +11,7 @@ from mocapbench.benchmark.comparison.fact_changes import (
     changed_provenance,
     changed_recordings,
 )
-from mocapbench.benchmark.comparison.folds import Pair, asked, both_scored
+from mocapbench.benchmark.comparison.folds import Pair, both_scored, records_by_address
 from mocapbench.benchmark.comparison.problems import differences, require_same_problems
 from mocapbench.benchmark.comparison.score_changes import score_changes
 from mocapbench.benchmark.comparison.sides import Side
@@ -59,7 +59,7 @@ def run_changes(first: Side, second: Side, names: tuple[str, str]) -> RunChanges
         parameters=changed_parameters(common),
         provenance=changed_provenance(first, second),
         recordings=changed_recordings(scored),
-        unpaired=_unpaired(scored),
+        unpaired=_count_unpaired(scored),
         only=(_only(one, other), _only(other, one)),
     )
 
@@ -80,7 +80,7 @@ def _tasks(records: Sequence[Record]) -> list[ComparedTask]:
 
 def _comparable(first: Side, second: Side) -> dict[Address, Pair]:
     """Return the jobs that both were asked for, but for those that solve different problems."""
-    one, other = (asked(side, ()) for side in (first, second))
+    one, other = (records_by_address(side, ()) for side in (first, second))
     common = {address: (one[address], other[address]) for address in one if address in other}
     return {a: pair for a, pair in common.items() if not (both_scored(pair) and differences(*pair))}
 
@@ -95,7 +95,7 @@ def _endings(common: Iterable[Pair], *, without_score: int) -> list[Ending]:
     ]
 
 
-def _unpaired(scored: Iterable[Pair]) -> list[Unpaired]:
+def _count_unpaired(scored: Iterable[Pair]) -> list[Unpaired]:
     """Return why jobs are not compared, by reason; a job may have several."""
     reasons = Counter(reason for pair in scored for reason in differences(*pair))
     return [Unpaired(reason, jobs) for reason, jobs in reasons.most_common()]

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mocapbench.benchmark.comparison.folds import asked, both_scored, paired_folds
+from mocapbench.benchmark.comparison.folds import both_scored, paired_folds, records_by_address
 from mocapbench.benchmark.comparison.problems import require_same_problems
-from mocapbench.benchmark.comparison.rows import Row, case_rows, corrected, pooled_rows
+from mocapbench.benchmark.comparison.rows import Row, case_rows, correct_rows, pooled_rows
 from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import METRICS, TASKS
@@ -43,7 +43,7 @@ def compare(
     UsageError
         If nothing is in common, or what has one address is not the same problem.
     """
-    one, other = (asked(side, tasks) for side in (first, second))
+    one, other = (records_by_address(side, tasks) for side in (first, second))
     common = {address: (one[address], other[address]) for address in one if address in other}
     if not common:
         raise UsageError("compare: the two have no scored (task, case, fold, entrant) in common")
@@ -56,7 +56,7 @@ def compare(
         for metric in chosen or shown_metrics(task, one.values())
         for folds in [paired_folds(task.name, metric, common)]
         for found in (case_rows, pooled_rows)
-        for row in corrected(found(task, metric, folds, rope))
+        for row in correct_rows(found(task, metric, folds, rope))
     ]
     if not rows:
         raise UsageError(f"compare: the two have no value of {', '.join(metrics)} in common")

@@ -16,14 +16,14 @@ from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 
-__all__ = ["Pair", "asked", "both_scored", "paired_folds"]
+__all__ = ["Pair", "both_scored", "paired_folds", "records_by_address"]
 
 Fold = tuple[str, int | None]
 Pair = tuple[Record, Record]
 """The records of one job on both sides."""
 
 
-def asked(side: Side, tasks: Sequence[str]) -> dict[Address, Record]:
+def records_by_address(side: Side, tasks: Sequence[str]) -> dict[Address, Record]:
     """Return the records of ``tasks`` by address, whose version `differences` compares.
 
     Jobs whose recordings are not on the machine say nothing of a model, and are left out.
@@ -65,7 +65,9 @@ def paired_folds(task: str, metric: str, common: Mapping[Address, Pair]) -> dict
 
 def _folds(metric: str, pairs: Mapping[Fold, Pair]) -> pd.DataFrame:
     values = np.array([[_value(record, metric) for record in pair] for pair in pairs.values()])
-    answered = np.array([[_answered(record, metric) for record in pair] for pair in pairs.values()])
+    answered = np.array(
+        [[_has_result(record, metric) for record in pair] for pair in pairs.values()]
+    )
     finite, undefined = np.isfinite(values), answered & np.isnan(values)
     never = answered.any(axis=0) & (undefined == answered).all(axis=0)
     kept = (finite.any(axis=1) | ~undefined.any(axis=1)) & ~never.any()
@@ -74,7 +76,7 @@ def _folds(metric: str, pairs: Mapping[Fold, Pair]) -> pd.DataFrame:
     return pd.DataFrame(values[kept], index[kept], columns=["first", "second"])
 
 
-def _answered(record: Record, metric: str) -> bool:
+def _has_result(record: Record, metric: str) -> bool:
     """Return whether there is a result; all scores of a model that diverged are not finite."""
     finite = not record.scores or any(map(math.isfinite, record.scores.values()))
     return (record.status is Status.OK or metric in record.scores) and finite

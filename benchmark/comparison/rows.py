@@ -18,7 +18,7 @@ from mocapbench.benchmark.tasks.base import Task
 from mocapbench.metrics.statistics import ALPHA, ROPE, Contrast, contrast, holm
 from mocapbench.reports import ChangeVerdict
 
-__all__ = ["POOLED", "Row", "case_rows", "corrected", "pooled_rows"]
+__all__ = ["POOLED", "Row", "case_rows", "correct_rows", "pooled_rows"]
 
 POOLED = "all cases"
 
@@ -81,12 +81,12 @@ def pooled_rows(task: Task, metric: str, folds: Folds, rope: float = ROPE) -> li
     return [
         _row(task, metric, (label, POOLED), counted, rope)
         for label, own in folds.items()
-        for counted in [_counted(task, own)]
+        for counted in [_select_counted(task, own)]
         if counted.index.unique("case").size > 1
     ]
 
 
-def corrected(rows: Sequence[Row]) -> list[Row]:
+def correct_rows(rows: Sequence[Row]) -> list[Row]:
     """Return rows with p-values after Holm's correction over all of them that have a test.
 
     Rows with the same values on both sides need none: otherwise models that nobody has changed
@@ -128,7 +128,7 @@ def _contrast(task: Task, metric: str, pairs: pd.DataFrame, rope: float) -> Cont
     return contrast(units_of(task, with_advantages(pairs, metric_info(metric))), rope)
 
 
-def _counted(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
+def _select_counted(task: Task, pairs: pd.DataFrame) -> pd.DataFrame:
     """Return the pairs that count over cases, by the rule that the report's tables follow."""
     generated = [case.name for case in task.cases if case.synthetic]
     averages = [case.name for case in task.cases if task.averages_references(case)]

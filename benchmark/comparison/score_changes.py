@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from mocapbench.benchmark.comparison.folds import Pair, paired_folds
-from mocapbench.benchmark.comparison.rows import Row, case_rows, corrected
+from mocapbench.benchmark.comparison.rows import Row, case_rows, correct_rows
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.results.shown_metrics import shown_metrics
 from mocapbench.benchmark.tasks.address import Address
@@ -40,7 +40,7 @@ def score_changes(common: Mapping[Address, Pair]) -> list[ScoreChange]:
 def _changes(task: Task, metric: str, common: Mapping[Address, Pair]) -> list[ScoreChange]:
     rows = case_rows(task, metric, paired_folds(task.name, metric, common))
     identical = [row for row in rows if row.identical]
-    changed = corrected([row for row in rows if not row.identical])
+    changed = correct_rows([row for row in rows if not row.identical])
     return [_change(row) for row in (*changed, *identical) if row.contrast.n]
 
 

@@ -52,7 +52,7 @@ def _picture(solved: Solved[RecoverProblem, Covariances], layer: str) -> HeatMap
         ),
         labels=tuple(np.repeat(channels, n_points).tolist()),
         maps=tuple(
-            HeatMap(label, _thinned(covariance, len(channels)))
+            HeatMap(label, _thin_covariance(covariance, len(channels)))
             for label, covariance in {"truth": problem.truth[layer], **estimates}.items()
         ),
         limit=float(np.abs(problem.truth[layer]).max()),
@@ -60,7 +60,7 @@ def _picture(solved: Solved[RecoverProblem, Covariances], layer: str) -> HeatMap
     )
 
 
-def _thinned(covariance: NDArray[np.float64], n_outputs: int) -> NDArray[np.float64]:
+def _thin_covariance(covariance: NDArray[np.float64], n_outputs: int) -> NDArray[np.float64]:
     """Return the covariance at every so many points of each output."""
     kept = np.arange(len(covariance)).reshape(n_outputs, -1)[:, ::EVERY].ravel()
     return covariance[np.ix_(kept, kept)]

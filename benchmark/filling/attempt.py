@@ -107,7 +107,9 @@ def _filled(model: type[FrameImputer], question: GapQuestion, method: str) -> Pr
     )
     fitted = build_model(model, {}, _SEED)
     problem.fit(fitted)
-    (prediction,) = problem.answered(getattr(fitted, method)(problem.given), method).predictions
+    (prediction,) = problem.check_predictions(
+        getattr(fitted, method)(problem.given), method
+    ).predictions
     spread = partial(_over_channels, question, asked)
     variance = None if prediction.variance is None else spread(prediction.variance)
     return Prediction(spread(prediction.mean), variance)

@@ -65,7 +65,7 @@ def explain(jobs: Sequence[Job], out: Path) -> list[Explanation]:
     there = {key for key in {job.fit_key for job in jobs} if store.has_fit(key)}
     explanations = []
     for job in jobs:
-        explanation = _explained(job, store, earlier, there)
+        explanation = _explain_job(job, store, earlier, there)
         explanations.append(explanation)
         there |= _left_by(job, explanation.step)
     return explanations
@@ -94,7 +94,7 @@ def _step(job: Job, there: set[str]) -> Step:
     return Step.PREDICT if job.training_key in there else Step.FIT
 
 
-def _explained(job: Job, store: Store, earlier: _Earlier, there: set[str]) -> Explanation:
+def _explain_job(job: Job, store: Store, earlier: _Earlier, there: set[str]) -> Explanation:
     step, record = _step(job, there), store.load(job.key)
     match record:
         case Record(status=Status.DATA_MISSING):
@@ -105,7 +105,7 @@ def _explained(job: Job, store: Store, earlier: _Earlier, there: set[str]) -> Ex
             return Explanation(job.address, step, f"tried again, since it ended as: {status}")
     if store.record_path(job.key).is_file():
         return Explanation(job.address, step, "its record is damaged")
-    return Explanation(job.address, step, *earlier.compared(job))
+    return Explanation(job.address, step, *earlier.compare(job))
 
 
 class _Earlier:
@@ -125,7 +125,7 @@ class _Earlier:
         records = (self._store.load(key) for key in keys)
         return {_row(record.address) for record in records if record}
 
-    def compared(self, job: Job) -> tuple[str, tuple[Change, ...]]:
+    def compare(self, job: Job) -> tuple[str, tuple[Change, ...]]:
         """Return why a job that has no record runs, beside the record most like it."""
         row = _row(job.address)
         several = [changes(parts, job.parts) for parts in self._parts.get(row, ())]

@@ -54,8 +54,10 @@ def forecast(
     records = Store(out).records() if Store.is_run(out) else []
     steps = Counter(item.step for item in explanations)
     to_fit = [item.address for item in explanations if item.step is Step.FIT]
-    predicted = {_shared(job) for job in jobs if not job.missing}  # by then
-    lacking = {_shared(job): job.address for job in jobs if _shared(job) not in predicted}
+    predicted = {_fit_shared_by(job) for job in jobs if not job.missing}  # by then
+    lacking = {
+        _fit_shared_by(job): job.address for job in jobs if _fit_shared_by(job) not in predicted
+    }
     return Forecast(
         profile,
         {step: steps[step] for step in Step if steps[step]},
@@ -64,6 +66,6 @@ def forecast(
     )
 
 
-def _shared(job: Job) -> str:
+def _fit_shared_by(job: Job) -> str:
     """Return what the jobs that share a fit have in common."""
     return job.training_key or job.fit_key

@@ -54,10 +54,10 @@ def forecast_lines(forecast: Forecast, out: Path, n_workers: int | None) -> Iter
         yield f"time: {forecast.now.in_words(n_workers)}"
     if forecast.with_all != forecast.now:
         yield f"time with the missing recordings: {forecast.with_all.in_words(n_workers)}"
-    yield from _known(forecast)
+    yield from _describe_bases(forecast)
 
 
-def _known(forecast: Forecast) -> Iterator[str]:
+def _describe_bases(forecast: Forecast) -> Iterator[str]:
     by = forecast.with_all.known_by
     fits = (f"{basis} ({counted(by[basis], 'fit')})" for basis in Basis if by[basis])
     yield f"estimated by {', by '.join(fits)}"

@@ -36,11 +36,11 @@ def left_out_lines(store: Store, planned: Sequence[Job]) -> list[str]:
         return []
     return [
         f"not in the report: {counted(len(gone), 'result')} of the run before "
-        f"({'; '.join(_named(gone, now))}), kept in {store.path} for a run that has them too"
+        f"({'; '.join(_name_missing(gone, now))}), kept in {store.path} for a run that has them too"
     ]
 
 
-def _named(gone: Iterable[Address], now: Iterable[Address]) -> Iterator[str]:
+def _name_missing(gone: Iterable[Address], now: Iterable[Address]) -> Iterator[str]:
     """Yield which models, tasks and cases are gone, and how many results are of other folds."""
     rest, kept = list(gone), list(now)
     for kind, name in (("label", "model"), ("task", "task"), ("case", "case")):

@@ -95,7 +95,7 @@ def run_state(store: Store) -> RunState:
         tasks[known.address.task if known else UNKNOWN].append(record)
     left = [job for job in jobs.values() if records[job.key] is None]
     return RunState(
-        {task: _counted(several) for task, several in tasks.items()},
+        {task: _count_records(several) for task, several in tasks.items()},
         writing,
         plan["provenance"],
         _work_left(left, store, plan["provenance"].get("profile", "")),
@@ -104,7 +104,7 @@ def run_state(store: Store) -> RunState:
     )
 
 
-def _counted(records: Iterable[Record | None]) -> TaskState:
+def _count_records(records: Iterable[Record | None]) -> TaskState:
     counts = Counter(record.status if record else None for record in records)
     failed = sum(count for status, count in counts.items() if status and status.broken)
     return TaskState(counts[Status.OK], failed, counts[Status.DATA_MISSING], counts[None])

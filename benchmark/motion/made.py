@@ -51,7 +51,7 @@ def entrant_motion(task: Task, solved: Solved[Any, Any]) -> EntrantMotion:
         If the problem is neither to fill nor to invent motion.
     """
     ((label, answer),) = solved.answers.items()
-    recording, figure = _made(solved.problem, answer)
+    recording, figure = _make_motion(solved.problem, answer)
     figures = [f for f in task.page.figures if isinstance(f, type(figure))] or [figure]
     pictures = figures[0].pictures(solved)
     body = solved.problem.body
@@ -61,7 +61,9 @@ def entrant_motion(task: Task, solved: Solved[Any, Any]) -> EntrantMotion:
 
 
 @singledispatch
-def _made(problem: Problem[Any], answer: Any) -> tuple[Recording, FilledMotion | SampledMotion]:
+def _make_motion(
+    problem: Problem[Any], answer: Any
+) -> tuple[Recording, FilledMotion | SampledMotion]:
     """Return what was made, and the figure that shows it."""
     del answer
     raise UsageError(
@@ -70,16 +72,16 @@ def _made(problem: Problem[Any], answer: Any) -> tuple[Recording, FilledMotion |
     )
 
 
-@_made.register
-def _filled(
+@_make_motion.register
+def _fill_recording(
     problem: ImputeProblem, answer: FilledRecordings
 ) -> tuple[Recording, FilledMotion | SampledMotion]:
     given, mean = problem.given[0], answer.predictions[0].mean
     return given.with_values(np.where(given.visible, given.values, mean)), FilledMotion()
 
 
-@_made.register
-def _sampled(
+@_make_motion.register
+def _sample_motion(
     problem: SynthesiseProblem, answer: Samples
 ) -> tuple[Recording, FilledMotion | SampledMotion]:
     sample = replace(problem.train[0], times=problem.times, values=answer.values[0])

@@ -7,7 +7,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-__all__ = ["Arrays", "numbered", "with_numbers", "with_prefix"]
+__all__ = ["Arrays", "arrays_by_number", "with_numbers", "with_prefix"]
 
 Arrays = Mapping[str, NDArray[Any]]
 
@@ -17,7 +17,7 @@ def with_numbers(name: str, arrays: Iterable[NDArray[Any]]) -> dict[str, NDArray
     return {f"{name}-{number}": array for number, array in enumerate(arrays)}
 
 
-def numbered(name: str, arrays: Arrays) -> tuple[NDArray[Any], ...]:
+def arrays_by_number(name: str, arrays: Arrays) -> tuple[NDArray[Any], ...]:
     """Return the arrays ``name-0``, ``name-1`` and so on, as many as there are."""
     by_number = with_prefix(name, arrays)
     return tuple(by_number[str(number)] for number in range(len(by_number)))

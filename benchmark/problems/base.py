@@ -1,6 +1,6 @@
 """Problems: what a model may see, and apart from it what it may not.
 
-A problem puts its question to a model (`Problem.solve`) and compares the answer with the truth
+A problem asks a model for its answer (`Problem.solve`) and compares it with the truth
 (`Problem.outcome`), so that no other module needs to know of which kind it is. Each kind of
 problem has a type of `Answer`, which turns into plain arrays and back for the store.
 """
@@ -39,7 +39,7 @@ A = TypeVar("A", bound=Answer)
 
 @dataclass(frozen=True, eq=False)
 class Problem(ABC, Generic[A]):
-    """A question to a model, and its secret answer.
+    """What a model is asked to do, and the truth, which it does not see.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ class Problem(ABC, Generic[A]):
 
     @abstractmethod
     def solve(self, model: Any, random_state: int) -> A:
-        """Put the question to a fitted model that has the abilities required.
+        """Return the answer of a fitted model that has the abilities required.
 
         Raises
         ------

@@ -68,17 +68,17 @@ def blend_of(model: Blender, labels: NDArray[np.intp], n_channels: int) -> Blend
         return None
     n_styles = model.get_params()["n_styles"]
     alone = {style: np.tile(np.eye(n_styles)[style], (N_FRAMES, 1)) for style in used}
-    pure = {style: _mixed(model, weights, n_channels) for style, weights in alone.items()}
+    pure = {style: _blend_styles(model, weights, n_channels) for style, weights in alone.items()}
     first, second = max(
         combinations(used, 2), key=lambda pair: float(((pure[pair[0]] - pure[pair[1]]) ** 2).sum())
     )
     share = (0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, N_FRAMES)))[:, None]
     weights = (1.0 - share) * alone[first] + share * alone[second]
-    between = _mixed(model, weights, n_channels)
+    between = _blend_styles(model, weights, n_channels)
     return Blend(pure[first], between, pure[second], (first, second))
 
 
-def _mixed(model: Blender, weights: NDArray[np.float64], n_channels: int) -> FrameByChannel:
+def _blend_styles(model: Blender, weights: NDArray[np.float64], n_channels: int) -> FrameByChannel:
     motion = np.asarray(model.blend(weights), dtype=np.float64)
     if motion.shape != (N_FRAMES, n_channels) or not np.isfinite(motion).all():
         raise InvalidPredictionError(

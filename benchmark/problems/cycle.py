@@ -9,7 +9,7 @@ from typing import Self
 import numpy as np
 
 from mocapbench.baselines import Aligner, StatePath
-from mocapbench.benchmark.problems.arrays import Arrays, numbered, with_numbers
+from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number, with_numbers
 from mocapbench.benchmark.problems.base import InvalidPredictionError
 from mocapbench.datasets import Recording
 
@@ -40,7 +40,7 @@ class Alignment:
         """Return the alignment that `to_arrays` turned into ``arrays``, None if there is none."""
         if "cycle_length" not in arrays:
             return None
-        return cls(int(arrays["cycle_length"]), numbered("path", arrays))
+        return cls(int(arrays["cycle_length"]), arrays_by_number("path", arrays))
 
 
 def alignment_of(model: Aligner, recordings: Sequence[Recording]) -> Alignment:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines import FrameImputer, Prediction
-from mocapbench.benchmark.problems.arrays import Arrays, numbered, with_numbers
+from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number, with_numbers
 from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
 from mocapbench.benchmark.problems.body import Body
 from mocapbench.benchmark.problems.placement import imputed_poses
@@ -55,7 +55,7 @@ class FilledRecordings:
     @classmethod
     def from_arrays(cls, arrays: Arrays) -> Self:
         """Return the answer that `to_arrays` turned into ``arrays``."""
-        means, variances = numbered("mean", arrays), numbered("variance", arrays)
+        means, variances = arrays_by_number("mean", arrays), arrays_by_number("variance", arrays)
         return cls(tuple(map(Prediction, means, variances or (None,) * len(means))))
 
 
@@ -126,9 +126,9 @@ class ImputeProblem(Problem[FilledRecordings]):
     def solve(self, model: FrameImputer, random_state: int) -> FilledRecordings:
         """Return the model's predictions of the recordings given."""
         del random_state  # imputation draws nothing
-        return self.answered(model.impute(self.given), "impute")
+        return self.check_predictions(model.impute(self.given), "impute")
 
-    def answered(self, predictions: object, method: str) -> FilledRecordings:
+    def check_predictions(self, predictions: object, method: str) -> FilledRecordings:
         """Return what a method of a model returned, checked.
 
         Raises
@@ -141,7 +141,7 @@ class ImputeProblem(Problem[FilledRecordings]):
             raise InvalidPredictionError(
                 f"{method}: expected a list of {len(wanted)} Prediction, got {predictions!r:.200}"
             )
-        answer = FilledRecordings(tuple(map(_checked, self.given, predictions)))
+        answer = FilledRecordings(tuple(map(_check_prediction, self.given, predictions)))
         if len({prediction.variance is None for prediction in predictions}) > 1:
             raise InvalidPredictionError(
                 f"{method}: expected a variance with every Prediction or with none, got both"
@@ -179,7 +179,7 @@ class ImputeProblem(Problem[FilledRecordings]):
         return np.nan_to_num(moments[0]), np.nan_to_num(moments[1])
 
 
-def _checked(recording: Recording, prediction: Prediction) -> Prediction:
+def _check_prediction(recording: Recording, prediction: Prediction) -> Prediction:
     """Return the prediction as float64, once it is known to be usable."""
     hidden = ~recording.visible
     mean = _usable("mean", prediction.mean, hidden, recording.name)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines import Dynamical, Embedded
-from mocapbench.benchmark.problems.arrays import Arrays, numbered, with_numbers, with_prefix
+from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number, with_numbers, with_prefix
 from mocapbench.datasets import FrameByChannel
 
 __all__ = ["LatentSpace", "LatentWalks", "space_of", "walks_of"]
@@ -52,7 +52,7 @@ class LatentSpace:
     def from_arrays(cls, arrays: Arrays) -> Self | None:
         """Return the space that `to_arrays` turned into ``arrays``, None if there is none."""
         properties = with_prefix("property", arrays)
-        space = cls(properties, numbered("latent-path", arrays), arrays.get("latent-cloud"))
+        space = cls(properties, arrays_by_number("latent-path", arrays), arrays.get("latent-cloud"))
         return space if properties or space.paths else None
 
 
@@ -85,7 +85,7 @@ class LatentWalks:
         """Return the walks that `to_arrays` turned into ``arrays``, None if there are none."""
         if "latent-mean" not in arrays:
             return None
-        samples = numbered("latent-sample", arrays)
+        samples = arrays_by_number("latent-sample", arrays)
         return cls(arrays["latent-mean"], samples, arrays["walk-mean"], arrays["walk-sample"])
 
 

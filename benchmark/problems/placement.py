@@ -42,7 +42,7 @@ def imputed_poses(
     # What moves a joint and the root alike moves it not relative to the root.
     relative = depends ^ depends[0]
     lengths = [len(recording.times) for recording in given]
-    placed = _placed(body, [*given, *given], [*truth, *means])
+    placed = _place_joints(body, [*given, *given], [*truth, *means])
     return ImputedPoses(
         truth=placed[: len(hidden)],
         mean=placed[len(hidden) :],
@@ -73,14 +73,14 @@ def sampled_poses(
     alike = [[like] * len(motions) for motions in (samples, references)]
     shape = (-1, len(like.times), len(body.skeleton.segments), 3)
     return SampledPoses(
-        samples=_placed(body, alike[0], samples).reshape(shape),
-        references=_placed(body, alike[1], references).reshape(shape),
+        samples=_place_joints(body, alike[0], samples).reshape(shape),
+        references=_place_joints(body, alike[1], references).reshape(shape),
         joints=_joints(body),
         times=like.times,
     )
 
 
-def _placed(
+def _place_joints(
     body: Body, recordings: Sequence[Recording], values: Sequence[FrameByChannel]
 ) -> FrameByJointBy3:
     """Return the joints of the recordings with other values, one below the other."""

@@ -44,7 +44,7 @@ def cell_command(of_cell: Sequence[Record]) -> tuple[str, ...]:
     folds = 1 + max(each.address.fold or 0 for each in of_cell)
     return (
         shlex.join(["mocapbench", "run", "--profile", profile, "--seed", str(record.seed)]),
-        *_kept(line),
+        *_keep_options(line),
         shlex.join(["--tasks", address.task]),
         shlex.join(["--cases", _exactly(address.case)]),
         shlex.join(["--models", address.label]),
@@ -53,7 +53,7 @@ def cell_command(of_cell: Sequence[Record]) -> tuple[str, ...]:
 
 
 @cache
-def _kept(line: str) -> tuple[str, ...]:
+def _keep_options(line: str) -> tuple[str, ...]:
     """Return the options of a run that its cells depend on, as one piece, or none."""
     program, words = shlex.split(line)[:2], iter(shlex.split(line)[2:])
     kept: list[str] = []

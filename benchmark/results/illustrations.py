@@ -28,11 +28,11 @@ def illustrations(records: Sequence[Record], store: Store, archive: Archive) -> 
     return tuple(
         picture
         for task in tasks
-        for picture in _illustrate(task, _chosen(task, records), store, archive)
+        for picture in _illustrate(task, _choose_records(task, records), store, archive)
     )
 
 
-def _chosen(task: Task, records: Sequence[Record]) -> list[Record]:
+def _choose_records(task: Task, records: Sequence[Record]) -> list[Record]:
     """Return the records of the case to show, at the first fold that has any."""
     done = [r for r in records if r.address.task == task.name and r.status is Status.OK]
     ran = {record.address.case for record in done}

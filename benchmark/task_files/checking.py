@@ -11,14 +11,14 @@ from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.task_files.building import build_task
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
+from mocapbench.benchmark.task_files.dry_run import DryRun
 from mocapbench.benchmark.task_files.finding import find_tests, find_training
 from mocapbench.benchmark.task_files.hidden_settings import Hidden, read_hidden
 from mocapbench.benchmark.task_files.library import address_of
 from mocapbench.benchmark.task_files.settings import read_settings
 from mocapbench.benchmark.task_files.task_file import TaskFile
-from mocapbench.benchmark.task_files.trial import TrialRun
 
-__all__ = ["checked", "open_task_file", "open_task_files", "require_folder"]
+__all__ = ["check_document", "open_task_file", "open_task_files", "require_folder"]
 
 
 def open_task_files(paths: Sequence[Path], folder: Path | None) -> tuple[TaskFile, ...]:
@@ -50,7 +50,7 @@ def open_task_files(paths: Sequence[Path], folder: Path | None) -> tuple[TaskFil
 def open_task_file(path: Path, folder: Path) -> TaskFile:
     """Return a task file that fits the recordings of a folder.
 
-    Every recording is read, and what every fold hides is hidden once on trial.
+    Every recording is read, and what every fold hides is hidden once, in a dry run.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def open_task_file(path: Path, folder: Path) -> TaskFile:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         raise TaskFileError(f"{path}: expected text in UTF-8, got: {error}; save it so") from error
-    return checked(Document(str(path), text), folder)
+    return check_document(Document(str(path), text), folder)
 
 
 def require_folder(folder: Path) -> None:
@@ -91,15 +91,15 @@ def require_folder(folder: Path) -> None:
         )
 
 
-def checked(document: Document, folder: Path) -> TaskFile:
+def check_document(document: Document, folder: Path) -> TaskFile:
     """Return the task file of a document that fits a folder; see `open_task_file`."""
     settings = read_settings(document)
     tests = find_tests(document, settings, folder)
     training = find_training(document, settings, tests, folder)
     hidden = read_hidden(document, partial(address_of, rate=settings.rate))
     _check_training(document, hidden, tests, training)
-    trial = TrialRun(document, settings, hidden, archive_at(folder.resolve()))
-    facts = trial.run(tests, training)
+    dry_run = DryRun(document, settings, hidden, archive_at(folder.resolve()))
+    facts = dry_run.run(tests, training)
     file = TaskFile(
         document.file,
         document.text,

@@ -159,13 +159,13 @@ def _numbers(
     """Return different numbers, of a list or of one."""
 
     def all_fit(value: Any) -> bool:
-        numbers = _listed(value)
+        numbers = _list_values(value)
         return bool(numbers) and all(map(fits, numbers)) and len({*numbers}) == len(numbers)
 
-    return tuple(map(float, _listed(document.read(key, [], all_fit, expected, example))))
+    return tuple(map(float, _list_values(document.read(key, [], all_fit, expected, example))))
 
 
-def _listed(value: Any) -> list[Any]:
+def _list_values(value: Any) -> list[Any]:
     return value if isinstance(value, list) else [value]
 
 

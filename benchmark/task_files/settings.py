@@ -86,7 +86,7 @@ def read_settings(document: Document) -> Settings:
         rate=None if rate is None else float(rate),
         selection=Selection(frames, read_channels(document, "channels")),
         folds=document.read("folds", 1, is_count, "a whole number from 1", "5"),
-        models=_registered(document, "models", MODELS, '["linear", "knn"]'),
+        models=_read_registered(document, "models", MODELS, '["linear", "knn"]'),
         metrics=_metrics(document),
     )
 
@@ -118,7 +118,7 @@ def _one_span(document: Document) -> Any:
     return spans
 
 
-def _registered(
+def _read_registered(
     document: Document, key: str, registry: Registry[Any], example: str
 ) -> tuple[str, ...]:
     return tuple(
@@ -136,7 +136,7 @@ def _current_name(document: Document, key: str, registry: Registry[Any], name: s
 
 
 def _metrics(document: Document) -> tuple[str, ...]:
-    names = _registered(document, "metrics", METRICS, '["mse", "smse"]') or _METRICS
+    names = _read_registered(document, "metrics", METRICS, '["mse", "smse"]') or _METRICS
     of = {name: METRICS.get(name).outcome for name in names}
     for name, outcome in of.items():
         if outcome is not Imputation:

@@ -13,7 +13,7 @@ import tomli_w
 
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.task_files.building import build_task
-from mocapbench.benchmark.task_files.checking import checked, require_folder
+from mocapbench.benchmark.task_files.checking import check_document, require_folder
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
 from mocapbench.benchmark.task_files.grouping import largest_group
 
@@ -133,7 +133,7 @@ def draft(file: str, folder: Path, rate: float | None) -> Draft:
     content = _Content(tests, _patterns(tests, left_out), rate)
     for hide in _HIDE:
         try:
-            task_file = checked(Document(file, content.text(hide, ())), folder)
+            task_file = check_document(Document(file, content.text(hide, ())), folder)
         except TaskFileError as error:
             failure = error
             continue

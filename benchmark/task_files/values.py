@@ -58,11 +58,11 @@ def read_patterns(document: Document, key: str, default: list[str]) -> tuple[str
     patterns = document.read(
         key,
         default,
-        lambda value: _are_patterns(_listed(value)),
+        lambda value: _are_patterns(_list_values(value)),
         "names or patterns of files in the folder of recordings, without .. and : and a leading /",
         '["*.csv"]',
     )
-    return tuple(_listed(patterns))
+    return tuple(_list_values(patterns))
 
 
 def read_channels(document: Document, key: str) -> tuple[str, ...]:
@@ -70,22 +70,22 @@ def read_channels(document: Document, key: str) -> tuple[str, ...]:
     patterns: list[str] = document.read(
         key,
         [],
-        lambda value: _are_expressions(_listed(value)),
+        lambda value: _are_expressions(_list_values(value)),
         "regular expressions of whole names of channels",
         '["lknee.*", "rknee.*"]',
     )
-    return tuple(_listed(patterns))
+    return tuple(_list_values(patterns))
 
 
 def read_spans(document: Document, key: str, default: list[str]) -> tuple[Span, ...]:
     """Return spans of frames; a text stands for a list of one."""
     texts = document.read(
-        key, default, lambda value: _are_spans(_listed(value)), _SPANS, '"120:180"'
+        key, default, lambda value: _are_spans(_list_values(value)), _SPANS, '"120:180"'
     )
-    return tuple(Span.of_text(text) for text in _listed(texts))
+    return tuple(Span.of_text(text) for text in _list_values(texts))
 
 
-def _listed(value: Any) -> Any:
+def _list_values(value: Any) -> Any:
     return [value] if isinstance(value, str) else value
 
 

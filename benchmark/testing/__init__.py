@@ -13,7 +13,7 @@ checks are small functions, also to be had one by one (`model_checks`), each a t
 """
 
 from mocapbench.benchmark.testing.errors import ConformanceError
-from mocapbench.benchmark.testing.formats import check_format, damaged
+from mocapbench.benchmark.testing.formats import check_format, damage_bytes
 from mocapbench.benchmark.testing.metrics import check_metric
 from mocapbench.benchmark.testing.models import check_model, model_checks
 from mocapbench.benchmark.testing.tasks import check_task
@@ -24,6 +24,6 @@ __all__ = [
     "check_metric",
     "check_model",
     "check_task",
-    "damaged",
+    "damage_bytes",
     "model_checks",
 ]

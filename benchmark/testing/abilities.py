@@ -22,7 +22,7 @@ _CLOSE = 1e-9
 
 def draws_samples(subject: Subject) -> None:
     """Check that samples have a shape, are finite, and follow from their seed."""
-    model = subject.fitted(COMPLETE)
+    model = subject.fit_model(COMPLETE)
     one, two, other = (np.asarray(model.sample(TIMES, _N_SAMPLES, seed)) for seed in (1, 1, 2))
     shape = (_N_SAMPLES, *COMPLETE[0].values.shape)
     advice = "return (n_samples, frames, channels)"
@@ -35,7 +35,7 @@ def draws_samples(subject: Subject) -> None:
 
 def clusters_every_recording(subject: Subject) -> None:
     """Check that every recording has a cluster, and the same seed gives the same."""
-    one, two = (np.asarray(subject.fitted(problem(GAP)).labels_) for _ in range(2))
+    one, two = (np.asarray(subject.fit_model(problem(GAP)).labels_) for _ in range(2))
     whole = one.shape == (4,) and np.issubdtype(one.dtype, np.integer)
     got = f"shape {one.shape} of {one.dtype}"
     require(whole, "labels_ of 4 integers, one a recording", got, "label recordings, not frames")
@@ -44,7 +44,7 @@ def clusters_every_recording(subject: Subject) -> None:
 
 def makes_one_cluster_of_one_style(subject: Subject) -> None:
     """Check that with n_styles=1 all recordings are together."""
-    labels = sorted(set(np.asarray(subject.fitted(COMPLETE, n_styles=1).labels_).tolist()))
+    labels = sorted(set(np.asarray(subject.fit_model(COMPLETE, n_styles=1).labels_).tolist()))
     advice = "take n_styles in the constructor and find no more clusters than that"
     require(len(labels) == 1, "one cluster with n_styles=1", labels, advice)
 
@@ -52,7 +52,7 @@ def makes_one_cluster_of_one_style(subject: Subject) -> None:
 def aligns_every_frame(subject: Subject) -> None:
     """Check that every frame has a state, whether fitted or aligned later."""
     recordings = problem(GAP)
-    model = subject.fitted(recordings)
+    model = subject.fit_model(recordings)
     one, two = (model.align(recordings) for _ in range(2))
     lengths = [recording.times.shape for recording in recordings]
     states = np.arange(model.cycle_length_)
@@ -69,7 +69,7 @@ def aligns_every_frame(subject: Subject) -> None:
 
 def blends_frame_by_frame(subject: Subject) -> None:
     """Check that a blend is its styles mixed, frame by frame."""
-    model = subject.fitted(COMPLETE, n_styles=_N_STYLES)
+    model = subject.fit_model(COMPLETE, n_styles=_N_STYLES)
     weights = np.random.default_rng(0).dirichlet(np.ones(_N_STYLES), size=30)
     pure = [model.blend(np.tile(one, (30, 1))) for one in np.eye(_N_STYLES)]
     mixed = sum(share[:, None] * style for share, style in zip(weights.T, pure, strict=True))

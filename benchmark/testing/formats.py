@@ -15,7 +15,7 @@ from mocapbench.benchmark.testing.errors import raised_by, require, require_equa
 from mocapbench.datasets import Format, FormatError, Recording, unwrapped
 from mocapbench.datasets.recording import FrameByChannel, Mask
 
-__all__ = ["check_format", "damaged"]
+__all__ = ["check_format", "damage_bytes"]
 
 _TURN = {"deg": 360.0, "rad": 2.0 * np.pi}
 _N_DAMAGED = 40
@@ -50,7 +50,7 @@ def check_format(kind: type[Format], sample: Path) -> None:
         _check_damaged(kind(), copy)
 
 
-def damaged(data: bytes, rng: random.Random) -> bytes:
+def damage_bytes(data: bytes, rng: random.Random) -> bytes:
     """Return the bytes of a file with some cut off, removed, replaced, inserted or repeated."""
     if rng.random() < 0.2:
         return data[: rng.randrange(len(data) + 1)]
@@ -136,4 +136,4 @@ def _check_damaged(format_: Format, sample: Path) -> None:
 
 
 def _several(data: bytes, rng: random.Random) -> Iterator[bytes]:
-    return (damaged(data, rng) for _ in range(_N_DAMAGED))
+    return (damage_bytes(data, rng) for _ in range(_N_DAMAGED))

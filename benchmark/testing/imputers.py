@@ -28,22 +28,22 @@ _TOLERANCE = 1e-4
 def fills_whole_frames(subject: Subject) -> None:
     """Check that frames that are hidden as a whole are filled."""
     recordings = problem(GAP)
-    _filled(subject.fitted(recordings), [recordings[-1]])
+    _fill_recordings(subject.fit_model(recordings), [recordings[-1]])
 
 
 def fills_any_mask(subject: Subject) -> None:
     """Check that hidden entries are filled wherever they are."""
     recordings = problem(SCATTERED)
-    _filled(subject.fitted(recordings), list(recordings))
+    _fill_recordings(subject.fit_model(recordings), list(recordings))
 
 
 def fills_channels_apart(subject: Subject) -> None:
     """Check that a channel is filled from its own entries in the same recording alone."""
     *_, last = problem(SCATTERED)
-    together = _filled(subject.fitted(problem(SCATTERED)), [last])[0].mean
+    together = _fill_recordings(subject.fit_model(problem(SCATTERED)), [last])[0].mean
     for d, channel in enumerate(last.channels):
         alone = last.select([channel])
-        mean = _filled(subject.fitted([alone]), [alone])[0].mean
+        mean = _fill_recordings(subject.fit_model([alone]), [alone])[0].mean
         expected = "each channel filled as if it were alone"
         advice = "use its entries in this recording, or do not inherit Interpolator"
         require_equal(mean, together[:, [d]], expected, advice)
@@ -52,7 +52,9 @@ def fills_channels_apart(subject: Subject) -> None:
 def repeats_itself(subject: Subject) -> None:
     """Check that the same seed gives the same answer."""
     recordings = problem(GAP)
-    one, two = (_filled(subject.fitted(recordings), [recordings[-1]])[0].mean for _ in range(2))
+    one, two = (
+        _fill_recordings(subject.fit_model(recordings), [recordings[-1]])[0].mean for _ in range(2)
+    )
     advice = "take all randomness from random_state"
     require_equal(one, two, "the same answer from the same seed", advice)
 
@@ -60,8 +62,8 @@ def repeats_itself(subject: Subject) -> None:
 def claims_the_same_means(subject: Subject) -> None:
     """Check that what is compared in trials, without checks of variances, is what is filled."""
     recordings = problem(GAP)
-    (filled,) = _filled(subject.fitted(recordings), [recordings[-1]])
-    (claimed,) = _filled(subject.fitted(recordings), [recordings[-1]], "as_claimed")
+    (filled,) = _fill_recordings(subject.fit_model(recordings), [recordings[-1]])
+    (claimed,) = _fill_recordings(subject.fit_model(recordings), [recordings[-1]], "as_claimed")
     advice = "let as_claimed change variances alone, or do not define it"
     gap = float(np.abs(claimed.mean - filled.mean).max())
     require(
@@ -79,7 +81,7 @@ def ignores_the_order_of_recordings(subject: Subject) -> None:
     """Check that the order of the other recordings means nothing."""
     *others, last = problem(GAP)
     orders = ((*others, last), (*reversed(others), last))
-    one, two = (_filled(subject.fitted(order), [last])[0].mean for order in orders)
+    one, two = (_fill_recordings(subject.fit_model(order), [last])[0].mean for order in orders)
     gap = float(np.abs(one - two).max())
     require(
         np.allclose(one, two, rtol=_TOLERANCE, atol=_TOLERANCE),
@@ -93,13 +95,13 @@ def fills_new_recordings(subject: Subject) -> None:
     """Check that a recording that fit has not seen is filled: the class is `Inductive`."""
     seen = COMPLETE[-1]
     new = Recording("new", seen.times, seen.values, seen.channels, seen.units).hide(GAP)
-    _filled(subject.fitted(COMPLETE[:-1]), [new])
+    _fill_recordings(subject.fit_model(COMPLETE[:-1]), [new])
 
 
 def refuses_new_recordings(subject: Subject) -> None:
     """Check that a recording that fit has not seen is refused by name: it is not `Inductive`."""
     new = COMPLETE[-1].hide(GAP)
-    model = subject.fitted(COMPLETE[:-1])
+    model = subject.fit_model(COMPLETE[:-1])
     expected = f"a ValueError that names {new.name}, which fit has not seen"
     advice = "raise it, or inherit Inductive if you can fill new recordings"
     try:
@@ -110,7 +112,9 @@ def refuses_new_recordings(subject: Subject) -> None:
         raise ConformanceError(f"expected {expected}, got {type(answer).__name__}: {advice}")
 
 
-def _filled(model: Any, recordings: list[Recording], method: str = "impute") -> list[Prediction]:
+def _fill_recordings(
+    model: Any, recordings: list[Recording], method: str = "impute"
+) -> list[Prediction]:
     predictions = getattr(model, method)(recordings)
     kinds = [type(prediction).__name__ for prediction in predictions]
     require(

@@ -20,7 +20,7 @@ _ROUNDING = 1e-6
 def infers_a_trend_at_any_time(subject: Subject) -> None:
     """Check that the trend has a mean and a positive variance at any time."""
     times = TIMES[::3] + 0.1
-    mean, variance = subject.fitted(problem(GAP)).trend(times)
+    mean, variance = subject.fit_model(problem(GAP)).trend(times)
     shape = (len(times), COMPLETE[0].values.shape[1])
     shapes = f"{np.shape(mean)} and {np.shape(variance)}"
     whole = np.shape(mean) == np.shape(variance) == shape
@@ -32,7 +32,7 @@ def infers_a_trend_at_any_time(subject: Subject) -> None:
 
 def shows_the_covariance_of_every_layer(subject: Subject) -> None:
     """Check that every layer has a symmetric covariance that is positive semi-definite."""
-    model = subject.fitted(COMPLETE)
+    model = subject.fit_model(COMPLETE)
     require(model.layers, "at least one layer", model.layers, "name them, outermost first")
     side = COMPLETE[0].values.size
     for layer in model.layers:
@@ -48,7 +48,7 @@ def shows_the_covariance_of_every_layer(subject: Subject) -> None:
 
 def shows_matrices_that_add_up_to_the_covariance(subject: Subject) -> None:
     """Check that the coregionalisation matrices add up to the covariance at one time."""
-    model = subject.fitted(COMPLETE)
+    model = subject.fit_model(COMPLETE)
     matrices = model.coregionalisation_
     layers = sorted(model.layers)
     require(sorted(matrices) == layers, f"matrices of {layers}", sorted(matrices), "give them all")

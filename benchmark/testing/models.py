@@ -78,10 +78,10 @@ def model_checks(model: type[Model]) -> tuple[Callable[..., None], ...]:
     if issubclass(model, FrameImputer):
         new = {True: imputers.fills_new_recordings, False: imputers.refuses_new_recordings}
         groups.append((new[issubclass(model, Inductive)],))
-    return tuple(_named(check) for group in groups for check in group)
+    return tuple(_name_check(check) for group in groups for check in group)
 
 
-def _named(check: ModelCheck) -> Callable[..., None]:
+def _name_check(check: ModelCheck) -> Callable[..., None]:
     promise = (inspect.getdoc(check) or "").removeprefix("Check that ").rstrip(".")
 
     def run(model: type[Model], **parameters: Any) -> None:

@@ -55,6 +55,6 @@ class Subject:
             model.misinform(_OTHER_PROCESS)
         return model
 
-    def fitted(self, recordings: Sequence[Recording], seed: int = 0, **parameters: Any) -> Any:
+    def fit_model(self, recordings: Sequence[Recording], seed: int = 0, **parameters: Any) -> Any:
         """Return a model fitted to ``recordings``."""
         return self.build(seed, **parameters).fit(recordings)

@@ -72,7 +72,7 @@ def _check_profiles(task: Task) -> None:
 
 def _check_problems(task: Task, archive: Archive) -> None:
     case = _posable(task, archive)
-    one, two = (_posed(task, case, 0, archive) for _ in range(2))
+    one, two = (_pose_problem(task, case, 0, archive) for _ in range(2))
     require(one.train, "recordings to learn from", "none", "fill Problem.train")
     advice = "draw from seeds.generator alone"
     for a, b in zip(one.train, two.train, strict=True):
@@ -81,7 +81,7 @@ def _check_problems(task: Task, archive: Archive) -> None:
     if {Imputer, FrameImputer} & set(task.requires):
         _check_masks(one, two)
         if task.max_folds != 1:
-            other = _posed(task, case, 1, archive)
+            other = _pose_problem(task, case, 1, archive)
             _check_folds(one, other)
             if case.training:
                 _check_training(one, other)
@@ -123,7 +123,7 @@ def _posable(task: Task, archive: Archive) -> Case:
     )
 
 
-def _posed(task: Task, case: Case, fold: int, archive: Archive) -> Problem[Any]:
+def _pose_problem(task: Task, case: Case, fold: int, archive: Archive) -> Problem[Any]:
     address = Address(task.name, task.version, case.problem_name, fold)
     return case.problem(Seeds(0, address), archive)
 

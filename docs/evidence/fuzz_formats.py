@@ -16,7 +16,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mocapbench.benchmark import format_for
-from mocapbench.benchmark.testing import damaged
+from mocapbench.benchmark.testing import damage_bytes
 from mocapbench.datasets import Format, FormatError, Recording
 
 
@@ -43,7 +43,7 @@ def fuzz(path: Path, n_times: int) -> Counter[str]:
         for beside in path.parent.glob("*.asf"):
             shutil.copy(beside, folder)
         for _ in range(n_times):
-            copy.write_bytes(damaged(path.read_bytes(), rng))
+            copy.write_bytes(damage_bytes(path.read_bytes(), rng))
             counts[outcome(kind, copy)] += 1
     return counts
 

@@ -61,7 +61,7 @@ class Unreadable(list):
 @pytest.mark.parametrize("name", MODELS.names())
 def test_a_registered_model_has_one_thread_in_every_ability(name):
     recordings = Watched(problem(GAP))
-    model = Subject(MODELS.get(name)).fitted(recordings)
+    model = Subject(MODELS.get(name)).fit_model(recordings)
     assert recordings.seen == {1}
     assert n_threads() == {CALLERS}
     if isinstance(model, FrameImputer):

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from mocapbench.basics.words import counted
 from mocapbench.benchmark.figures.solved import Solved
 
-__all__ = ["Chosen", "chosen"]
+__all__ = ["Chosen", "choose_entrants"]
 
 
 class Chosen(NamedTuple):
@@ -28,7 +28,7 @@ class Chosen(NamedTuple):
     phrase: str
 
 
-def chosen(solved: Solved[Any, Any], n_most: int) -> Chosen:
+def choose_entrants(solved: Solved[Any, Any], n_most: int) -> Chosen:
     """Return the best entrants by the task's first metric, and the best interpolation."""
     ranked = [label for label in solved.ranking if label in solved.answers]
     ranked += [label for label in solved.answers if label not in ranked]

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.benchmark.figures.motions.chosen import chosen
-from mocapbench.benchmark.figures.motions.placing import PlacesJoints, placed
-from mocapbench.benchmark.figures.motions.played import Pair, played
+from mocapbench.benchmark.figures.motions.chosen import choose_entrants
+from mocapbench.benchmark.figures.motions.placing import PlacesJoints, place_joints
+from mocapbench.benchmark.figures.motions.played import Pair, build_player
 from mocapbench.benchmark.figures.motions.window import ShownWindow
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
@@ -50,10 +50,12 @@ class FilledMotion:
         shown, truth = given.frames(np.r_[window.part]), solved.problem.truth[0][window.part]
         if body is None or not np.isfinite(truth).all():
             return ()
-        entrants = chosen(solved, self.n_most)
+        entrants = choose_entrants(solved, self.n_most)
         means = [solved.answers[label].predictions[0].mean for label in entrants.labels]
         filled = [np.where(shown.visible, truth, mean[window.part]) for mean in means]
-        true, *made = placed(body, shown, [truth, *filled])
+        true, *made = place_joints(body, shown, [truth, *filled])
         pairs = [Pair("truth", true, positions) for positions in made]
         caption = f"{given.name}, shaded where something is hidden.{self.remark}"
-        return (played(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),)
+        return (
+            build_player(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),
+        )

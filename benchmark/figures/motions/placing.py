@@ -10,7 +10,7 @@ import numpy as np
 
 from mocapbench.datasets import FrameByChannel, FrameByJointBy3, Recording, Skeleton
 
-__all__ = ["PlacesJoints", "on_the_spot", "placed"]
+__all__ = ["PlacesJoints", "on_the_spot", "place_joints"]
 
 
 class PlacesJoints(Protocol):
@@ -24,7 +24,7 @@ class PlacesJoints(Protocol):
         """Return the joints (N, J, 3) of complete frames, in centimetres; the y axis points up."""
 
 
-def placed(
+def place_joints(
     body: PlacesJoints, like: Recording, motions: Sequence[FrameByChannel]
 ) -> list[FrameByJointBy3]:
     """Return the joints of each motion, (N, J, 3) in centimetres.

@@ -15,7 +15,7 @@ from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.datasets import FrameByJointBy3, Frames
 from mocapbench.reports import Motion, Motions
 
-__all__ = ["Pair", "played"]
+__all__ = ["Pair", "build_player"]
 
 
 class Pair(NamedTuple):
@@ -34,7 +34,7 @@ class Pair(NamedTuple):
     made: FrameByJointBy3
 
 
-def played(
+def build_player(
     solved: Solved[Any, Any],
     body: PlacesJoints,
     window: ShownWindow,

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.linalg import norm
 
-from mocapbench.benchmark.figures.motions.chosen import chosen
-from mocapbench.benchmark.figures.motions.placing import on_the_spot, placed
-from mocapbench.benchmark.figures.motions.played import Pair, played
+from mocapbench.benchmark.figures.motions.chosen import choose_entrants
+from mocapbench.benchmark.figures.motions.placing import on_the_spot, place_joints
+from mocapbench.benchmark.figures.motions.played import Pair, build_player
 from mocapbench.benchmark.figures.motions.window import ShownWindow
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.synthesise import Samples, SynthesiseProblem
@@ -37,12 +37,12 @@ class SampledMotion:
         problem, body = solved.problem, solved.problem.body
         if body is None:
             return ()
-        entrants = chosen(solved, self.n_most)
+        entrants = choose_entrants(solved, self.n_most)
         window = ShownWindow(problem.times, np.zeros(len(problem.times), dtype=bool))
         samples = [solved.answers[label].values[0] for label in entrants.labels]
         values = [motion[window.part] for motion in (*problem.references, *samples)]
         like = replace(problem.train[0], times=problem.times[window.part], values=values[0])
-        motions = [on_the_spot(motion) for motion in placed(body, like, values)]
+        motions = [on_the_spot(motion) for motion in place_joints(body, like, values)]
         references, made = motions[: -len(samples)], motions[-len(samples) :]
         pairs = [_beside_nearest(sample, references) for sample in made]
         caption = (
@@ -50,7 +50,9 @@ class SampledMotion:
             f"joints are nearest on average; all on the body of {like.name}, without the path on "
             "the floor."
         )
-        return (played(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),)
+        return (
+            build_player(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),
+        )
 
 
 def _beside_nearest(sample: FrameByJointBy3, references: Sequence[FrameByJointBy3]) -> Pair:

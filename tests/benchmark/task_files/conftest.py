@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 from own_files import write_csv
 
-from mocapbench.benchmark.task_files.checking import checked
+from mocapbench.benchmark.task_files.checking import check_document
 from mocapbench.benchmark.task_files.document import Document
 
 
@@ -21,6 +21,6 @@ def check(folder):
     """Return a function that checks the text of a task file against the folder."""
 
     def check_text(text):
-        return checked(Document("my.toml", text), Path(folder))
+        return check_document(Document("my.toml", text), Path(folder))
 
     return check_text

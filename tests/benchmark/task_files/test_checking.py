@@ -11,7 +11,7 @@ from own_files import write_csv
 from mocapbench.baselines import RigidBody
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.task_files.building import build_task
-from mocapbench.benchmark.task_files.checking import checked, open_task_file, open_task_files
+from mocapbench.benchmark.task_files.checking import check_document, open_task_file, open_task_files
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
 from mocapbench.benchmark.task_files.hidden_settings import HIDE_KEYS, RUN_KEYS
 from mocapbench.benchmark.task_files.settings import KEYS
@@ -218,10 +218,10 @@ def test_metrics_of_joints_are_accepted_for_whole_motions_with_a_skeleton(tmp_pa
     write_acclaim(tmp_path / "walk.amc", walk(60))
     text = 'files = "walk.amc"\nmetrics = ["mpjpe", "jerk_ratio"]\ntraining = "none"\n{}'
     document = Document("my.toml", text.format("[hide]\nruns = { seconds = 0.1 }\n"))
-    assert checked(document, tmp_path).tests == ("walk.amc",)
+    assert check_document(document, tmp_path).tests == ("walk.amc",)
     fewer = Document("my.toml", text.format('channels = ["l.*"]\n[hide]\nfraction = 0.2\n'))
     with pytest.raises(TaskFileError, match=r"got 'jerk_ratio' for .amc without a whole skeleton"):
-        checked(fewer, tmp_path)
+        check_document(fewer, tmp_path)
 
 
 UNLIKE = {

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.benchmark import JointAngles, Solved
-from mocapbench.benchmark.figures.motions.chosen import chosen
-from mocapbench.benchmark.figures.motions.placing import on_the_spot, placed
+from mocapbench.benchmark.figures.motions.chosen import choose_entrants
+from mocapbench.benchmark.figures.motions.placing import on_the_spot, place_joints
 from mocapbench.benchmark.figures.motions.side_view import side_view
 from mocapbench.benchmark.figures.motions.window import LONGEST, shown_frames
 from mocapbench.datasets import GaitLibrary, hlm_features
@@ -39,7 +39,7 @@ def solved(ranking, answers, interpolations=()):
 
 
 def test_the_best_are_shown_and_the_best_interpolation():
-    got = chosen(solved("abcde", "edcba", ("d", "e")), 2)
+    got = choose_entrants(solved("abcde", "edcba", ("d", "e")), 2)
     assert got.labels == ("a", "b", "d")
     assert got.beside == "d"
     assert (
@@ -48,10 +48,10 @@ def test_the_best_are_shown_and_the_best_interpolation():
 
 
 def test_all_are_shown_if_there_are_few():
-    got = chosen(solved("ab", "zba", ("a",)), 8)
+    got = choose_entrants(solved("ab", "zba", ("a",)), 8)
     assert got.labels == ("a", "b", "z")
     assert (got.beside, got.phrase) == ("b", "All 3 entrants, best first by MSE here")
-    assert chosen(solved((), "z"), 8).beside == "z"
+    assert choose_entrants(solved((), "z"), 8).beside == "z"
 
 
 @given(st.floats(-np.pi, np.pi), st.floats(-100, 100))
@@ -84,7 +84,7 @@ def walk():
 def test_motions_placed_at_once_are_where_each_is_alone(walk, features):
     body, recording = walk[0], features(walk[1])
     motions = [recording.values, recording.values[::-1], 0.5 * recording.values]
-    for positions, values in zip(placed(body, recording, motions), motions, strict=True):
+    for positions, values in zip(place_joints(body, recording, motions), motions, strict=True):
         alone = body.positions(recording.with_values(values))
         np.testing.assert_allclose(positions, alone, atol=1e-9)
 

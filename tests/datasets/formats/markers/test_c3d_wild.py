@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from c3d_files import PROCESSORS, write_bytes
 
-from mocapbench.benchmark.testing import damaged
+from mocapbench.benchmark.testing import damage_bytes
 from mocapbench.datasets import C3DFormat, FormatError, Recording
 from mocapbench.datasets.formats.markers.c3d_layout import find_layout
 from mocapbench.datasets.formats.markers.c3d_parameters import read_parameters
@@ -53,7 +53,7 @@ def test_a_damaged_file_is_read_or_refused_within_little_memory(computer, scale,
     path = write_bytes(tmp_path / "given.c3d", np.ones((40, 5, 3)), computer, scale)
     data, before = path.read_bytes(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     for _ in range(200):
-        path.write_bytes(damaged(data, rng))
+        path.write_bytes(damage_bytes(data, rng))
         with warnings.catch_warnings(action="ignore"):
             try:
                 assert isinstance(C3D.read(path), Recording)

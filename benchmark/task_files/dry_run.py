@@ -1,4 +1,4 @@
-"""Reading every recording of a task file, and hiding on trial what every fold hides."""
+"""The dry run of a task file: read every recording, and hide once what every fold hides."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from mocapbench.datasets import (
     RecordingUnavailable,
 )
 
-__all__ = ["RecordingFacts", "TrialRun"]
+__all__ = ["DryRun", "RecordingFacts"]
 
 _SHOWN = 6
 
@@ -45,7 +45,7 @@ class RecordingFacts(NamedTuple):
 
 
 @dataclass(frozen=True)
-class TrialRun:
+class DryRun:
     """Does with recordings what the task will do, and says which key asked for what fails.
 
     Parameters
@@ -77,18 +77,18 @@ class TrialRun:
         """
         if self.hidden.pattern:
             self._read("hide.pattern-of", self.hidden.pattern)
-        first, complete = self._selected(tests[0]), True
+        first, complete = self._select_part(tests[0]), True
         undefined = {*self.settings.metrics}
         for path in dict.fromkeys((*tests, *training)):
-            recording = self._selected(path)
+            recording = self._select_part(path)
             with self._blaming("files", path):
                 check_alike_in_any_order(first, recording)
             complete &= bool(recording.visible.all())
             if path in tests:
-                problem = self._posed(recording, path)
+                problem = self._pose_problems(recording, path)
                 undefined.difference_update(defined_metrics(undefined, problem))
         if undefined:
-            raise self._undefined(min(undefined), tests, problem)
+            raise self._undefined_metric_error(min(undefined), tests, problem)
         return RecordingFacts(complete, bool(markers_of(first.channels, first.units)))
 
     def _read(self, key: str, path: str) -> Recording:
@@ -96,7 +96,7 @@ class TrialRun:
             recording = self.archive.recording(address_of(path, self.settings.rate))
         return replace(recording, name=path)
 
-    def _selected(self, path: str) -> Recording:
+    def _select_part(self, path: str) -> Recording:
         recording = self._read("files", path)
         selected = self.settings.selection.of(recording)
         if not selected.channels:
@@ -111,7 +111,7 @@ class TrialRun:
             raise self.document.error("frames", expected, got, advice)
         return selected
 
-    def _posed(self, recording: Recording, path: str) -> ImputeProblem:
+    def _pose_problems(self, recording: Recording, path: str) -> ImputeProblem:
         """Return the problem of the last variant and fold, after all were posed."""
         self._check_lengths(recording, path)
         for variant in self.hidden.variants:
@@ -139,7 +139,7 @@ class TrialRun:
                 )
             seconds[length] = gaps.seconds
 
-    def _undefined(
+    def _undefined_metric_error(
         self, name: str, tests: tuple[str, ...], problem: ImputeProblem
     ) -> TaskFileError:
         suffixes = sorted({PurePosixPath(path).suffix for path in tests})
