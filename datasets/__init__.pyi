@@ -8,6 +8,7 @@ from .cmu import CMU_ACKNOWLEDGEMENT, CMU_URL, CMULibrary, registered_digests
 from .digests import DigestMismatch, UnregisteredDigestWarning
 from .errors import FetchError, RecordingUnavailable, ServerUnreachable, SkeletonUnavailable
 from .features import THESIS_CHANNELS, gpdm_features, hlm_features
+from .formats.angle_wrapping import unwrap_angles
 from .formats.base import Extra, Format
 from .formats.errors import FormatError, MissingExtraError, TextColumnsWarning
 from .formats.joints.acclaim_motion import AcclaimFormat
@@ -17,7 +18,6 @@ from .formats.markers.trc import TRCFormat
 from .formats.sets import check_alike, frame_rate
 from .formats.tables.comma_separated import CSVFormat
 from .formats.tables.parquet import ParquetFormat
-from .formats.turns import unwrapped
 from .gait import GAIT_VERSION, GaitLibrary, gait_style
 from .keys import subject_of
 from .kinematics import (
@@ -105,6 +105,6 @@ __all__ = [
     "taylor_deviations",
     "taylor_features",
     "taylor_scales",
-    "unwrapped",
+    "unwrap_angles",
     "zero_based_frames",
 ]

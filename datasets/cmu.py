@@ -133,7 +133,7 @@ class CMULibrary(Library):
         AcclaimError
             If a file cannot be parsed.
         """
-        skeleton_file, motion_file = (self._verified(path) for path in _paths(key))
+        skeleton_file, motion_file = (self._find_intact_file(path) for path in _paths(key))
         return read_motion(motion_file, read_skeleton(skeleton_file))
 
     def skeleton(self, key: str) -> Skeleton:
@@ -144,11 +144,11 @@ class CMULibrary(Library):
         FileNotFoundError, DigestMismatch, AcclaimError
             As `motion`.
         """
-        return read_skeleton(self._verified(_paths(key)[0]))
+        return read_skeleton(self._find_intact_file(_paths(key)[0]))
 
     def digest(self, key: str) -> str:
         """Return the SHA-256 of the .asf followed by the .amc, line ends normalised to LF."""
-        files = (self._verified(path) for path in _paths(key))
+        files = (self._find_intact_file(path) for path in _paths(key))
         return sha256(b"".join(with_unix_line_ends(f.read_bytes()) for f in files)).hexdigest()
 
     def fetch(self, key: str) -> None:
@@ -172,23 +172,25 @@ class CMULibrary(Library):
 
         return Downloader(self.base_url, self.cache_dir, retries=self.retries, backoff=self.backoff)
 
-    def _searched(self) -> tuple[Path, ...]:
+    def _list_folders(self) -> tuple[Path, ...]:
         return (*self.folders, self.cache_dir)
 
     def _find(self, path: str) -> Path | None:
-        files = (folder / path for folder in self._searched())
+        files = (folder / path for folder in self._list_folders())
         return next((file for file in files if file.is_file()), None)
 
-    def _verified(self, path: str) -> Path:
+    def _find_intact_file(self, path: str) -> Path:
         file = self._find(path)
         if file is None:
-            raise FileNotFoundError(f"{path} is in none of {', '.join(map(str, self._searched()))}")
+            raise FileNotFoundError(
+                f"{path} is in none of {', '.join(map(str, self._list_folders()))}"
+            )
         self.digests.check(path, file.read_bytes(), str(file))
         return file
 
     def _discard_wrong_download(self, path: str) -> None:
         try:
-            self._verified(path)
+            self._find_intact_file(path)
         except FileNotFoundError:
             return
         except DigestMismatch as problem:

@@ -129,7 +129,7 @@ def root_differences(recording: Recording) -> Recording:
     values = recording.values.copy()
     values[:-1, columns] = np.diff(values[:, columns], axis=0)
     values[-1, columns] = values[-2, columns]
-    return _renamed(recording, values, dict(zip(_ROOT_PATH, _ROOT_VELOCITY, strict=True)))
+    return _rename_channels(recording, values, dict(zip(_ROOT_PATH, _ROOT_VELOCITY, strict=True)))
 
 
 def integrate_root(recording: Recording) -> Recording:
@@ -146,7 +146,7 @@ def integrate_root(recording: Recording) -> Recording:
     values = recording.values.copy()
     values[1:, columns] = np.cumsum(values[:-1, columns], axis=0)
     values[0, columns] = 0.0
-    return _renamed(recording, values, dict(zip(_ROOT_VELOCITY, _ROOT_PATH, strict=True)))
+    return _rename_channels(recording, values, dict(zip(_ROOT_VELOCITY, _ROOT_PATH, strict=True)))
 
 
 def _columns(recording: Recording, channels: tuple[str, ...]) -> list[int]:
@@ -156,6 +156,8 @@ def _columns(recording: Recording, channels: tuple[str, ...]) -> list[int]:
     return [recording.channels.index(name) for name in channels]
 
 
-def _renamed(recording: Recording, values: NDArray[np.float64], names: dict[str, str]) -> Recording:
+def _rename_channels(
+    recording: Recording, values: NDArray[np.float64], names: dict[str, str]
+) -> Recording:
     channels = tuple(names.get(name, name) for name in recording.channels)
     return replace(recording, values=values, channels=channels)

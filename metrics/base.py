@@ -243,14 +243,14 @@ def _outcome_of(statistic: Callable[[OutcomeT], Score]) -> type[OutcomeT]:
     try:
         parameters = inspect.signature(function, eval_str=True).parameters.values()
     except NameError as error:
-        raise _unannotated(function, f"one that cannot be resolved: {error}") from error
+        raise _annotation_error(function, f"one that cannot be resolved: {error}") from error
     found = [parameter.annotation for parameter in parameters][:1]
     if found in ([], [inspect.Parameter.empty]):
-        raise _unannotated(function, "none")
+        raise _annotation_error(function, "none")
     return cast("type[OutcomeT]", found[0])
 
 
-def _unannotated(function: Callable[..., Score], got: str) -> ValueError:
+def _annotation_error(function: Callable[..., Score], got: str) -> ValueError:
     return ValueError(
         f"metric {function.__name__!r}: expected the kind of outcome as the annotation of its "
         f"first parameter, got {got}; write, for example, "

@@ -8,7 +8,7 @@ from importlib.resources import files
 from jinja2 import Environment, FunctionLoader, StrictUndefined, Template
 from markupsafe import Markup
 
-from mocapbench.basics.words import counted, printable
+from mocapbench.basics.words import format_count, printable
 from mocapbench.reports.text import slug
 
 __all__ = ["scripts", "styles", "template"]
@@ -20,13 +20,13 @@ def template(name: str, package: str = PAGE) -> Template:
     """Return a template of ``package``, which may use the others there."""
     environment = Environment(
         autoescape=True,
-        loader=FunctionLoader(lambda part: _read(package, part)),
+        loader=FunctionLoader(lambda part: _read_text(package, part)),
         lstrip_blocks=True,
         trim_blocks=True,
         undefined=StrictUndefined,
     )
     environment.globals["slug"] = slug
-    environment.filters |= {"counted": counted, "printable": printable}
+    environment.filters |= {"format_count": format_count, "printable": printable}
     return environment.get_template(name)
 
 
@@ -42,8 +42,8 @@ def scripts() -> Markup:
 
 def _every(folder: str) -> Iterator[str]:
     names = sorted(file.name for file in (files(PAGE) / folder).iterdir() if file.is_file())
-    return (_read(PAGE, f"{folder}/{name}") for name in names)
+    return (_read_text(PAGE, f"{folder}/{name}") for name in names)
 
 
-def _read(package: str, name: str) -> str:
+def _read_text(package: str, name: str) -> str:
     return (files(package) / name).read_text(encoding="utf-8")

@@ -11,7 +11,7 @@ from typing import Any
 
 import pandas as pd
 
-__all__ = ["csv_text", "guarded", "unguarded"]
+__all__ = ["csv_text", "guard_text", "unguard_text"]
 
 # Text that begins with apostrophes before such a character gets one more, so that no two texts
 # become one.
@@ -33,13 +33,13 @@ def csv_text(frame: pd.DataFrame) -> str:
     return str(safe.rename(columns=_cell).to_csv(index=False, lineterminator="\n"))
 
 
-def guarded(text: str) -> str:
+def guard_text(text: str) -> str:
     """Return ``text``, with an apostrophe before it if it would begin a formula."""
     return _UNGUARDED.sub("'", text)
 
 
-def unguarded(text: str) -> str:
-    """Return what `guarded` was given."""
+def unguard_text(text: str) -> str:
+    """Return what `guard_text` was given."""
     return _GUARDED.sub("", text)
 
 
@@ -51,6 +51,6 @@ def _column(cells: pd.Series[Any]) -> pd.Series[Any]:
 def _cell(value: Any) -> Any:
     match value:
         case str():  # a carriage return, which writers leave unquoted, would begin a row
-            return guarded(_LINE_END.sub("\n", value))
+            return guard_text(_LINE_END.sub("\n", value))
         case _:
             return value

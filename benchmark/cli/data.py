@@ -12,7 +12,7 @@ from rich.table import Column, Table
 
 from mocapbench import benchmark as bench
 from mocapbench import datasets
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DataDir, Plugins, load_plugins, open_archive
 from mocapbench.benchmark.errors import ExitCode, UsageError
@@ -42,7 +42,7 @@ def fetch_missing(archive: Archive, uris: Sequence[str], console: LiteralConsole
         try:
             archive.fetch([uri])
         except (datasets.ServerUnreachable, OSError) as error:
-            console.print(f"working without {counted(len(missing), 'recording')}: {error}")
+            console.print(f"working without {format_count(len(missing), 'recording')}: {error}")
             return
         except datasets.FetchError as error:
             console.print(f"working without {uri}: {error}")

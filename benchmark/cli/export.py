@@ -11,7 +11,7 @@ import typer
 from mocapbench import benchmark as bench
 from mocapbench import reports
 from mocapbench.basics.whole_files import atomic_write, write_text
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import DEFAULT_OUT, Out, show_left_out
 from mocapbench.benchmark.errors import ExitCode
@@ -43,13 +43,15 @@ def export(
         if with_parquet:
             _write_parquet(table, folder / f"{name}.parquet")
         suffixes = ".csv and .parquet" if with_parquet else ".csv"
-        console.print(f"{counted(len(table), 'row')}: {folder / name}{suffixes}", soft_wrap=True)
+        console.print(
+            f"{format_count(len(table), 'row')}: {folder / name}{suffixes}", soft_wrap=True
+        )
     if not with_parquet:
         advice = "no Parquet files, which need pyarrow: `pip install 'mocapbench[parquet]'`"
         console.print(advice)
     show_left_out(store.damaged, console)
     if earlier := len(store.record_keys() - {*store.load_plan()["keys"]}):
-        jobs = counted(earlier, "job")
+        jobs = format_count(earlier, "job")
         console.print(f"not exported: {jobs} of earlier runs in {out}", soft_wrap=True)
     if not records:
         raise typer.Exit(ExitCode.NOTHING_RAN)

@@ -10,7 +10,7 @@ import typer
 
 from mocapbench import benchmark as bench
 from mocapbench.basics.whole_files import write_text
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins, require_writable
 from mocapbench.benchmark.errors import UsageError
@@ -44,7 +44,7 @@ def init(
     write_text(task_file, draft.text)
     for reason in draft.left_out:
         console.print(f"left out: {reason}", soft_wrap=True, highlight=False)
-    count = counted(len(draft.tests), "recording")
+    count = format_count(len(draft.tests), "recording")
     console.print(f"{task_file}: a task on {count} of {recordings}")
     command = shlex.join(
         [

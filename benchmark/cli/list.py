@@ -11,7 +11,7 @@ import typer
 from rich.table import Column, Table
 
 from mocapbench import benchmark as bench
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
 
@@ -118,7 +118,7 @@ def _details(entry: Entry) -> Table:
 def _text(value: object) -> str:
     match value:
         case {"cases": cases, "folds": folds}:
-            return f"{counted(len(cases), 'case')} × {counted(folds, 'fold')}"
+            return f"{format_count(len(cases), 'case')} × {format_count(folds, 'fold')}"
         case Mapping():
             return ", ".join(f"{name}: {_text(item)}" for name, item in value.items())
         case list():

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from mocapbench import benchmark as bench
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.options import Plugins, load_plugins, show_left_out
 from mocapbench.benchmark.errors import ExitCode
@@ -37,9 +37,9 @@ def merge(
     show_left_out(merged.damaged, console)
     for path in merged.busy:
         console.print(f"a run is writing to {path}: what it writes from now on is not merged")
-    jobs = counted(len(merged.plan["keys"]), "job")
-    records = counted(len(merged.records), "record")
-    fits = counted(len(merged.fits), "set of predictions", "sets of predictions")
+    jobs = format_count(len(merged.plan["keys"]), "job")
+    records = format_count(len(merged.records), "record")
+    fits = format_count(len(merged.fits), "set of predictions", "sets of predictions")
     console.print(f"{out}: {jobs}, {records}, {fits}", soft_wrap=True)
     console.print(f"write its report with `mocapbench report --out {out}`", soft_wrap=True)
     if not merged.records:

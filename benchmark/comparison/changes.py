@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.comparison.fact_changes import (
     changed_parameters,
     changed_provenance,
@@ -107,5 +107,6 @@ def _only(these: ByAddress, those: ByAddress) -> list[str]:
     cells = dict.fromkeys(a.all_folds for a in these if a.all_folds not in theirs)
     counts = Counter((address.task, address.label) for address in cells)
     return [
-        f"{task}: {label} ({counted(cases, 'case')})" for (task, label), cases in counts.items()
+        f"{task}: {label} ({format_count(cases, 'case')})"
+        for (task, label), cases in counts.items()
     ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.results.origins import recordings
 from mocapbench.benchmark.runs.record import Record
@@ -24,7 +24,7 @@ def require_same_problems(pairs: Sequence[tuple[Record, Record]]) -> None:
     reasons = Counter(reason for pair in pairs for reason in differences(*pair))
     if reasons:
         listed = "; ".join(
-            f"{reason} ({counted(count, 'job')})" for reason, count in reasons.most_common(3)
+            f"{reason} ({format_count(count, 'job')})" for reason, count in reasons.most_common(3)
         )
         raise UsageError(
             f"compare: the two do not solve the same problems, so nothing is paired: {listed}; "

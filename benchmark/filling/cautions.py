@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mocapbench.basics.words import counted, listed
+from mocapbench.basics.words import format_count, join_names
 from mocapbench.benchmark.filling.edges import jumps
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.requests.names import marker_names
@@ -43,8 +43,8 @@ def _few_visible(filled: Filled) -> Iterator[str]:
         channel = np.array(given.channels)[filling][counts.argmin()]
         are = "is" if least == 1 else "are"
         yield (
-            f"Of {channel}, only {counted(least, 'frame')} {are} visible, too few to learn from: "
-            "trust neither what was filled in nor any bands, or name similar recordings with "
+            f"Of {channel}, only {format_count(least, 'frame')} {are} visible, too few to learn "
+            "from: trust neither what was filled in nor any bands, or name similar recordings with "
             "--train."
         )
 
@@ -55,7 +55,7 @@ def _visible_nowhere(filled: Filled) -> Iterator[str]:
     train = filled.source.train
     if not len(lost) or not train:
         return
-    names = listed([given.channels[channel] for channel in lost], _NAMED)
+    names = join_names([given.channels[channel] for channel in lost], _NAMED)
     caution = (
         f"Of {names}, nothing is visible in the file: no trial tells how well {filled.model} fills "
         "that."
@@ -78,11 +78,11 @@ def _at_the_ends(request: FillRequest) -> Iterator[str]:
     if not ends:
         return
     places = sorted({channel for gap in ends for channel in gap.channels})
-    names = listed(marker_names([request.given.channels[place] for place in places]), _NAMED)
+    names = join_names(marker_names([request.given.channels[place] for place in places]), _NAMED)
     are = "is" if len(ends) == 1 else "are"
     yield (
-        f"{counted(len(ends), 'gap')} {are} at the beginning or the end of the recording, where "
-        f"frames are visible on one side only ({names}): errors are larger there."
+        f"{format_count(len(ends), 'gap')} {are} at the beginning or the end of the recording, "
+        f"where frames are visible on one side only ({names}): errors are larger there."
     )
 
 
@@ -93,8 +93,8 @@ def _jumps(filled: Filled) -> Iterator[str]:
         frame, channel, size, largest = found[0]
         unit = f" {recording.units[channel]}".rstrip()
         yield (
-            f"At {counted(len(found), 'edge')} of gaps, a channel jumps further than between any "
-            f"two visible frames: {recording.channels[channel]} by {size:.3g}{unit} at frame "
+            f"At {format_count(len(found), 'edge')} of gaps, a channel jumps further than between "
+            f"any two visible frames: {recording.channels[channel]} by {size:.3g}{unit} at frame "
             f"{frame}, elsewhere by at most {largest:.3g}{unit}. Look at its "
             "curve before you use these entries."
         )

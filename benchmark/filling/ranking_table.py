@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.trials.comparison import Choice
 from mocapbench.reports import RankedModel
@@ -33,7 +33,7 @@ def ranked(filled: Filled) -> Iterator[RankedModel]:
 def left_out(filled: Filled) -> Iterator[tuple[str, str]]:
     """Yield the models without a rank, each with the reason."""
     for runner in filled.choice.left_out if filled.choice else ():
-        done = f"{counted(len(runner.answers), 'trial')} done; " if runner.answers else ""
+        done = f"{format_count(len(runner.answers), 'trial')} done; " if runner.answers else ""
         yield runner.model, f"{done}{runner.trouble}"
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mocapbench.basics.words import counted, listed
+from mocapbench.basics.words import format_count, join_names
 from mocapbench.benchmark.errors import first_of
 from mocapbench.benchmark.filling.requests.names import marker_names
 from mocapbench.benchmark.filling.requests.request import FillRequest
@@ -20,7 +20,7 @@ _NAMED = 4
 def remaining(request: FillRequest) -> Iterator[str]:
     """Yield how many gaps were left open, and how many entries stay hidden for other reasons."""
     if request.left_open:
-        were = counted(len(request.left_open), "longer gap was", "longer gaps were")
+        were = format_count(len(request.left_open), "longer gap was", "longer gaps were")
         yield f"{were} left open."
     if request.unlabelled:
         yield _unlabelled(marker_names(request.unlabelled))
@@ -32,20 +32,22 @@ def remaining(request: FillRequest) -> Iterator[str]:
     others = ~np.isin(request.given.channels, told)
     rest = int((~request.given.visible & ~request.target)[:, others].sum())
     if rest:
-        stay = counted(rest, "hidden entry stays", "hidden entries stay")
+        stay = format_count(rest, "hidden entry stays", "hidden entries stay")
         yield f"{stay} hidden, since {'it was' if rest == 1 else 'they were'} not to be filled."
 
 
 def _unlabelled(markers: Sequence[str]) -> str:
     stay, them = ("stays as it is", "it") if len(markers) == 1 else ("stay as they are", "them")
     return (
-        f"{counted(len(markers), 'unlabelled marker')} ({first_of(markers, _NAMED)}) {stay}: "
+        f"{format_count(len(markers), 'unlabelled marker')} ({first_of(markers, _NAMED)}) {stay}: "
         f"name {them} with --channels to fill {them}."
     )
 
 
 def _outputs(points: Sequence[str]) -> str:
-    count = counted(len(points), "result of a model of the body", "results of a model of the body")
+    count = format_count(
+        len(points), "result of a model of the body", "results of a model of the body"
+    )
     stay, them = ("stays as it is", "it") if len(points) == 1 else ("stay as they are", "them")
     return (
         f"{count} ({first_of(points, _NAMED)}) {stay}, as the model gives {them} anew from filled "
@@ -58,6 +60,6 @@ def _unknown(names: Sequence[str]) -> str:
         ("It stays as it is", "it") if len(names) == 1 else ("They stay as they are", "them")
     )
     return (
-        f"Nothing is visible that {listed(names, _NAMED)} could be filled from. {stay}: name files "
-        f"that have {them} with --train."
+        f"Nothing is visible that {join_names(names, _NAMED)} could be filled from. {stay}: name "
+        f"files that have {them} with --train."
     )

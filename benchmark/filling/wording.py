@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mocapbench.basics.words import counted, listed
+from mocapbench.basics.words import format_count, join_names
 from mocapbench.benchmark.filling.cautions import cautions
 from mocapbench.benchmark.filling.filler import Filled
 from mocapbench.benchmark.filling.remaining import remaining
@@ -20,8 +20,8 @@ _NAMED = 4
 def headline(filled: Filled) -> str:
     """Return which model filled how much."""
     request = filled.source.request
-    entries = counted(int(request.target.sum()), "entry", "entries")
-    return f"{filled.model} filled {entries} in {counted(len(request.gaps), 'gap')}."
+    entries = format_count(int(request.target.sum()), "entry", "entries")
+    return f"{filled.model} filled {entries} in {format_count(len(request.gaps), 'gap')}."
 
 
 def verdict(filled: Filled) -> str:
@@ -45,8 +45,9 @@ def _bands(filled: Filled) -> str:
     if choice.coverage is None:
         return "There was no time to try its bands: a larger --budget may tell what they hold."
     share, n_entries, n_gaps = choice.coverage
-    hidden = counted(n_entries, "hidden entry", "hidden entries")
-    return f"Its 95 % bands hold {100 * share:.0f} % of {hidden} in {counted(n_gaps, 'trial gap')}."
+    hidden = format_count(n_entries, "hidden entry", "hidden entries")
+    gaps = format_count(n_gaps, "trial gap")
+    return f"Its 95 % bands hold {100 * share:.0f} % of {hidden} in {gaps}."
 
 
 def _lead(choice: Choice) -> str:
@@ -59,13 +60,13 @@ def _lead(choice: Choice) -> str:
         return f"Its lead over {ranking.order[1]} is more than chance, over {trials}."
     if not ranking.rivals:
         return f"It leads by far, but gaps differ too much for a test, over {trials}."
-    rivals = listed(ranking.rivals, len(ranking.rivals))
+    rivals = join_names(ranking.rivals, len(ranking.rivals))
     return f"Its lead over {rivals} may be chance, over {trials}."
 
 
 def _trials(ranking: Ranking) -> str:
-    trials = counted(ranking.n, "trial gap")
-    at = f" at {counted(ranking.n_places, 'place')}" if ranking.n_places < ranking.n else ""
+    trials = format_count(ranking.n, "trial gap")
+    at = f" at {format_count(ranking.n_places, 'place')}" if ranking.n_places < ranking.n else ""
     return trials + at
 
 
@@ -87,8 +88,8 @@ def remarks(filled: Filled) -> Iterator[str]:
         )
     if choice and choice.unused and not filled.failed:
         yield (
-            f"{filled.model} had no time for {counted(choice.unused, 'more trial')} that others "
-            "had: all are compared without them."
+            f"{filled.model} had no time for {format_count(choice.unused, 'more trial')} that "
+            "others had: all are compared without them."
         )
     yield from _late(filled)
     if filled.answer.variance is None:
@@ -101,8 +102,8 @@ def _late(filled: Filled) -> Iterator[str]:
     late = [one.model for one in filled.choice.left_out if one.late] if filled.choice else []
     if late:
         yield (
-            f"Time was up before {listed(late, _NAMED)} had filled the trial gaps that the others "
-            "filled: a larger --budget may find a better model among them."
+            f"Time was up before {join_names(late, _NAMED)} had filled the trial gaps that the "
+            "others filled: a larger --budget may find a better model among them."
         )
 
 

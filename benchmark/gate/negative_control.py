@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from rich.console import Console
 from rich.table import Table
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import ExitCode
 from mocapbench.benchmark.results.bundle import bundle
 from mocapbench.benchmark.runs.record import Record
@@ -58,7 +58,7 @@ def _lines(
         yield from (f"{task}: {reason}" for reason in _reasons(findings))
     for record in broken[:1]:
         failure = f"{record.address.label}: {record.message}"
-        jobs = counted(len(broken), "job")
+        jobs = format_count(len(broken), "job")
         yield f"{jobs} failed, and nothing without a score was checked ({failure})"
 
 
@@ -111,7 +111,7 @@ def _reasons(findings: Sequence[NegativeControlResult]) -> Iterator[str]:
 
 
 def _too_few(finding: NegativeControlResult) -> str:
-    cells = counted(finding.n_cells, "cell")
+    cells = format_count(finding.n_cells, "cell")
     return f"too few to tell ({cells}: case × fold); run more --folds or --cases"
 
 

@@ -32,7 +32,7 @@ from mocapbench.benchmark.gate.reference import (
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
-from mocapbench.reports.spreadsheet import guarded, unguarded
+from mocapbench.reports.spreadsheet import guard_text, unguard_text
 
 __all__ = ["read_reference", "write_reference"]
 
@@ -104,7 +104,7 @@ def _parse(path: Path) -> Reference:
 def _row(row: Mapping[Any, Any]) -> tuple[Series, Folds]:
     if None in row or None in row.values():
         raise ValueError(f"expected as many cells in a row as in the head, got {[*row.values()]}")
-    task, version, case, label, metric = (unguarded(row[name]) for name in COLUMNS)
+    task, version, case, label, metric = (unguard_text(row[name]) for name in COLUMNS)
     address = Address(task, int(version), case, label=label)
     values = {
         int(name.removeprefix(_FOLD)): float(text)
@@ -163,7 +163,7 @@ def _write(path: Path, values: Mapping[Series, Folds], about: Mapping[str, str])
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow([*COLUMNS, *(f"{_FOLD}{fold}" for fold in folds)])
     for series, by_fold in sorted(values.items()):
-        cells = (guarded(str(cell)) for cell in series.cells)
+        cells = (guard_text(str(cell)) for cell in series.cells)
         writer.writerow([*cells, *(by_fold.get(fold) for fold in folds)])
     path.parent.mkdir(parents=True, exist_ok=True)
     write_text(path, buffer.getvalue())

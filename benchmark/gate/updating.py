@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.gate.reference import Reference
 from mocapbench.benchmark.runs.record import Record
@@ -55,7 +55,7 @@ def _require_place(reference: Path) -> None:
 def _require_whole(records: Sequence[Record], n_planned: int) -> None:
     n_lacking = n_planned - len(records)
     if n_lacking:
-        lacking = counted(n_lacking, "job of the run has", "jobs of the run have")
+        lacking = format_count(n_lacking, "job of the run has", "jobs of the run have")
         raise UsageError(
             f"--update: {lacking} no whole record, so the reference would be incomplete; resume "
             "it with `mocapbench run`"
@@ -66,6 +66,6 @@ def _require_success(records: Sequence[Record]) -> None:
     failed = [record for record in records if record.status.broken]
     if failed:
         raise UsageError(
-            f"--update: {counted(len(failed), 'job')} failed ({failed[0].address.label}: "
+            f"--update: {format_count(len(failed), 'job')} failed ({failed[0].address.label}: "
             f"{failed[0].message}); mend them, or keep their old values with --allow-failures"
         )

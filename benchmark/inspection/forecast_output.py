@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.inspection.explanation import Step
 from mocapbench.benchmark.inspection.fit_seconds import MEASURED
 from mocapbench.benchmark.inspection.forecast import Forecast
@@ -31,7 +31,7 @@ def lacking(jobs: Sequence[Job]) -> tuple[str, ...]:
 def lacking_line(jobs: Sequence[Job], remedy: str) -> str:
     """Return how many of ``jobs`` lack recordings, and what to do about it."""
     count = sum(bool(job.missing) for job in jobs)
-    recordings = counted(len(lacking(jobs)), "recording")
+    recordings = format_count(len(lacking(jobs)), "recording")
     return f"data missing: {count} of {len(jobs)} jobs lack {recordings}; {remedy}"
 
 
@@ -59,7 +59,7 @@ def forecast_lines(forecast: Forecast, out: Path, n_workers: int | None) -> Iter
 
 def _describe_bases(forecast: Forecast) -> Iterator[str]:
     by = forecast.with_all.known_by
-    fits = (f"{basis} ({counted(by[basis], 'fit')})" for basis in Basis if by[basis])
+    fits = (f"{basis} ({format_count(by[basis], 'fit')})" for basis in Basis if by[basis])
     yield f"estimated by {', by '.join(fits)}"
     measured = MEASURED[forecast.profile]
     if measured != forecast.profile and by.keys() - {Basis.RECORDS}:

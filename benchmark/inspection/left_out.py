@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.directory.plan_file import planned_jobs
 from mocapbench.benchmark.runs.job import Job
@@ -35,7 +35,7 @@ def left_out_lines(store: Store, planned: Sequence[Job]) -> list[str]:
     if not gone:
         return []
     return [
-        f"not in the report: {counted(len(gone), 'result')} of the run before "
+        f"not in the report: {format_count(len(gone), 'result')} of the run before "
         f"({'; '.join(_name_missing(gone, now))}), kept in {store.path} for a run that has them too"
     ]
 
@@ -50,4 +50,4 @@ def _name_missing(gone: Iterable[Address], now: Iterable[Address]) -> Iterator[s
             yield f"{name}{'s' if len(names) > 1 else ''} {', '.join(names)}"
         rest = [address for address in rest if getattr(address, kind) in there]
     if rest:
-        yield counted(len(rest), "other")
+        yield format_count(len(rest), "other")

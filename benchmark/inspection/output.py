@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 
 from rich.table import Column, Table
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.inspection.changes import Change, in_words
 from mocapbench.benchmark.inspection.explanation import Explanation, Step
 from mocapbench.benchmark.inspection.state import RunState, TaskState
@@ -46,7 +46,7 @@ def explanation_table(explanations: Sequence[Explanation]) -> Table:
 def _summary(explanations: Sequence[Explanation]) -> str:
     counts = ((step, sum(item.step is step for item in explanations)) for step in Step)
     parts = ", ".join(f"{step.value} {count}" for step, count in counts if count)
-    return f"{counted(len(explanations), 'job')}: {parts}"
+    return f"{format_count(len(explanations), 'job')}: {parts}"
 
 
 def _common(several: Sequence[Sequence[Change]]) -> Iterator[Change]:

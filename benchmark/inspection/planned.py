@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rich.table import Column, Table
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.inspection.explanation import explain
 from mocapbench.benchmark.inspection.forecast import forecast
 from mocapbench.benchmark.inspection.forecast_output import (
@@ -26,8 +26,8 @@ def plan_table(planned: Sequence[Job]) -> Table:
     table = Table(Column(no_wrap=True), Column(overflow="fold"), show_header=False, box=None)
     for (task, labels, folds), cases in _rows(planned).items():
         factors = ((cases, "case"), (labels, "entrant"), (range(folds), "fold"))
-        product = " × ".join(counted(len(several), noun) for several, noun in factors)
-        n_jobs = counted(len(cases) * len(labels) * folds, "job")
+        product = " × ".join(format_count(len(several), noun) for several, noun in factors)
+        n_jobs = format_count(len(cases) * len(labels) * folds, "job")
         table.add_row(task, f"{n_jobs} = {product}")
         table.add_row("  cases", ", ".join(cases))
         table.add_row("  entrants", ", ".join(labels))
@@ -50,7 +50,7 @@ def forecast_text(
     remedy : str
         What to do about missing recordings.
     """
-    yield counted(len(planned), "job")
+    yield format_count(len(planned), "job")
     expected = forecast(planned, explain(planned, out), out, profile)
     yield from forecast_lines(expected, out, n_workers)
     if lacking(planned):

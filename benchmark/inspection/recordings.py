@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.datasets import RecordingStatus, named_folders
 
 __all__ = ["DataRequest", "data_totals", "next_data_step"]
@@ -44,7 +44,7 @@ def data_totals(rows: Sequence[RecordingStatus], data_dir: Path | None) -> str:
     for folder in named_folders(data_dir):
         count = sum(folder in Path(row.where).parents for row in rows)
         parts.append(f"{count} in {folder}")
-    return f"{counted(len(rows), 'recording')}: {'; '.join(filter(None, parts))}"
+    return f"{format_count(len(rows), 'recording')}: {'; '.join(filter(None, parts))}"
 
 
 def next_data_step(rows: Sequence[RecordingStatus], request: DataRequest) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
 from typing import NamedTuple
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.inspection.fit_seconds import alike, of_records, typical
 from mocapbench.benchmark.runs.execution.durations import Durations
 from mocapbench.benchmark.runs.progress import in_words
@@ -50,11 +50,11 @@ class ExpectedWork(NamedTuple):
 
     def in_words(self, n_workers: int | None) -> str:
         """Return how long it takes with so many jobs at once; None if a cluster decides."""
-        fits = f"{in_words(self.total)} of work in {counted(len(self.seconds), 'fit')}"
+        fits = f"{in_words(self.total)} of work in {format_count(len(self.seconds), 'fit')}"
         if n_workers is None:
             return f"about {fits}, divided among the workers of the cluster"
         wall = in_words(self.wall_time(n_workers))
-        return f"about {wall} with {counted(n_workers, 'job')} at once ({fits})"
+        return f"about {wall} with {format_count(n_workers, 'job')} at once ({fits})"
 
 
 def work_of(fits: Iterable[Address], records: Iterable[Record], profile: str) -> ExpectedWork:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.messages import reason, traceback_of
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.registry import METRICS
@@ -46,7 +46,7 @@ class Scoring:
     def message(self) -> str:
         """Why metrics failed, and whether there are scores all the same; empty if none failed."""
         reasons = "; ".join(map(reason, self.errors.values()))
-        kept = f" ({counted(len(self.scores), 'other score')} kept)" if self.scores else ""
+        kept = f" ({format_count(len(self.scores), 'other score')} kept)" if self.scores else ""
         return f"{reasons}{kept}" if reasons else ""
 
     @property

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mocapbench.baselines.common.markers import markers_of
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
@@ -134,7 +134,8 @@ class DryRun:
                 raise self.document.error(
                     "hide.runs.seconds",
                     f"lengths of different numbers of frames in {path}",
-                    f"{seconds[length]:g} and {gaps.seconds:g} s of {counted(length, 'frame')}",
+                    f"{seconds[length]:g} and {gaps.seconds:g} s "
+                    f"of {format_count(length, 'frame')}",
                     "leave one of them out",
                 )
             seconds[length] = gaps.seconds

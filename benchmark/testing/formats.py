@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from mocapbench.benchmark.testing.errors import raised_by, require, require_equal
-from mocapbench.datasets import Format, FormatError, Recording, unwrapped
+from mocapbench.datasets import Format, FormatError, Recording, unwrap_angles
 from mocapbench.datasets.recording import FrameByChannel, Mask
 
 __all__ = ["check_format", "damage_bytes"]
@@ -86,7 +86,7 @@ def _check_writing(format_: Format, sample: Path) -> None:
     raw, recording = format_.load(sample, None), format_.read(sample)
     replaced = np.random.default_rng(0).random(raw.values.shape) < 0.2
     for mask in (np.zeros_like(replaced), replaced):
-        filled = unwrapped(recording.hide(mask))
+        filled = unwrap_angles(recording.hide(mask))
         filled = filled.with_values(np.where(mask, _close_by(recording), filled.values))
         format_.write(out, filled, like=sample, replaced=mask)
         again = format_.load(out, None)

@@ -14,9 +14,9 @@ import numpy as np
 
 from mocapbench.basics.whole_files import stage_file
 from mocapbench.datasets.acclaim.skeleton import Skeleton
+from mocapbench.datasets.formats.angle_wrapping import unwrap_angles, wrap_angles
 from mocapbench.datasets.formats.errors import FormatError, MissingExtraError
 from mocapbench.datasets.formats.memory import check_fits
-from mocapbench.datasets.formats.turns import unwrapped, wrapped
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["Extra", "Format"]
@@ -137,8 +137,8 @@ class Format(ABC):
         Returns
         -------
         Recording
-            Entries that the file lacks are hidden. Angles are unwrapped (`unwrapped`). Units are
-            those of the file.
+            Entries that the file lacks are hidden. Angles are unwrapped (`unwrap_angles`). Units
+            are those of the file.
 
         Raises
         ------
@@ -146,7 +146,7 @@ class Format(ABC):
             If the suffix is another, a library is missing, or the file cannot be read, is malformed
             or does not fit in memory.
         """
-        return unwrapped(self._raw(Path(path), rate))
+        return unwrap_angles(self._raw(Path(path), rate))
 
     def write(
         self, path: str | Path, filled: Recording, like: str | Path, replaced: Mask | None = None
@@ -182,7 +182,7 @@ class Format(ABC):
         new = (~raw.visible if replaced is None else np.asarray(replaced, dtype=bool)) & (
             filled.visible
         )
-        values = wrapped(filled.values, raw.hide(new), new)
+        values = wrap_angles(filled.values, raw.hide(new), new)
         with _plain_errors(path), stage_file(path) as temporary:
             self.save(temporary, values, new, like)
 

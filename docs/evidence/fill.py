@@ -25,7 +25,7 @@ from mocapbench.benchmark.filling.question import GapQuestion
 from mocapbench.benchmark.filling.trials.choice import choose
 from mocapbench.benchmark.filling.trials.comparison import Choice
 from mocapbench.benchmark.filling.workers import Workers
-from mocapbench.datasets import AcclaimFormat, Mask, Recording, unwrapped
+from mocapbench.datasets import AcclaimFormat, Mask, Recording, unwrap_angles
 
 Array = NDArray[np.float64]
 
@@ -132,7 +132,7 @@ def problems(
 
 def evaluate(recording: Recording, hidden: Mask, workers: Workers, budget: float) -> Result:
     """Return how the choice and every other able model fill the gaps."""
-    question = GapQuestion(unwrapped(recording.hide(hidden)), hidden)
+    question = GapQuestion(unwrap_angles(recording.hide(hidden)), hidden)
     choice = choose(question, workers, budget, lambda *_: None)
     kept = workers.keep(question)
     able = [model for model in able_models(question) if model in choice.ranking.order]

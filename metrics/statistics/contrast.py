@@ -91,10 +91,10 @@ def contrast(units: pd.DataFrame, rope: float = ROPE) -> Contrast:
     if too_few(mean_of(advantages, shares).freedom):
         return means
     scale = float(shares @ (np.abs(first) + np.abs(second))) / 2.0
-    return _tested(means, advantages, shares, rope * scale)
+    return _test_advantages(means, advantages, shares, rope * scale)
 
 
-def _tested(means: Contrast, advantages: Array, shares: Array, rope: float) -> Contrast:
+def _test_advantages(means: Contrast, advantages: Array, shares: Array, rope: float) -> Contrast:
     """Return ``means`` with the interval, p-values and probabilities of the advantages."""
     low, high = mean_interval(advantages, shares=shares)
     return replace(

@@ -14,17 +14,17 @@ from mocapbench.metrics.statistics.means import UnitMeans, unit_means
 
 __all__ = [
     "ALPHA",
+    "check_differences",
     "holm",
     "mean_interval",
     "mean_of",
     "t_test",
-    "validated",
 ]
 
 ALPHA = 0.05
 
 
-def validated(differences: ArrayLike) -> Array:
+def check_differences(differences: ArrayLike) -> Array:
     """Return ``differences`` as an array of shape (n,).
 
     Raises
@@ -49,7 +49,7 @@ def mean_of(differences: ArrayLike, shares: ArrayLike | None = None) -> UnitMean
     ValueError
         If there is no difference, or one is not finite.
     """
-    values = validated(differences)
+    values = check_differences(differences)
     return unit_means(values, np.full(values.size, 1.0 / values.size) if shares is None else shares)
 
 

@@ -69,7 +69,7 @@ class UnitMeans:
         half = self.error * special.stdtrit(self.freedom, 1.0 - np.asarray(level) / 2.0)
         return np.where(self.error == 0.0, 0.0, half)
 
-    def tested(self) -> UnitMeans:
+    def drop_errors_of_few_units(self) -> UnitMeans:
         """Return the means, without the errors of those over too few units."""
         return replace(self, error=np.where(too_few(self.freedom), np.nan, self.error))
 

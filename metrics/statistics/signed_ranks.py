@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import stats
 
 from mocapbench.basics.arrays import Array
-from mocapbench.metrics.statistics.differences import validated
+from mocapbench.metrics.statistics.differences import check_differences
 
 __all__ = ["least_signed_rank_p", "signed_rank_test"]
 
@@ -39,7 +39,7 @@ def signed_rank_test(differences: ArrayLike) -> float:
     ValueError
         If there is no difference, or one is not finite.
     """
-    values = validated(differences)
+    values = check_differences(differences)
     if values.size == 1:
         return math.nan
     if not values.any():

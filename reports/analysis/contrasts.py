@@ -83,7 +83,7 @@ def contrasts(scored: Cells) -> Mapping[tuple[str, str], PairContrast]:
     tested = np.full((4, len(rows)), np.nan)
     for family in (of_best, ~of_best):
         means = UnitMeans(mean[family], error[family], freedom[family])
-        found = holm_tests_of_means(means.tested())
+        found = holm_tests_of_means(means.drop_errors_of_few_units())
         tested[:, family] = found.low, found.high, found.uncorrected_p, found.p
     by_pair = {}
     for pair, count, values in zip(

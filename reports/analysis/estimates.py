@@ -60,7 +60,13 @@ def _of_case(
         address = (grid.cases[column], grid.labels[label], grid.metrics[m])
         yield (
             address,
-            FoldMean(mean, _known(two_sd), int(count), _known(sample_two_sd), _known(half_width)),
+            FoldMean(
+                mean,
+                _keep_finite(two_sd),
+                int(count),
+                _keep_finite(sample_two_sd),
+                _keep_finite(half_width),
+            ),
         )
 
 
@@ -91,5 +97,5 @@ def _deviation(values: Array) -> Array:
     return np.where(n > 1, np.sqrt(squares.sum(axis=-1) / np.maximum(n - 1, 1)), np.nan)
 
 
-def _known(value: float) -> float | None:
+def _keep_finite(value: float) -> float | None:
     return value if math.isfinite(value) else None

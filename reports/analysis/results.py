@@ -1,4 +1,4 @@
-"""One task's results as a grid: means over folds and troubles by case, label and metric."""
+"""One task's results as a grid: means over folds and failures by case, label and metric."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 
 from mocapbench.reports.analysis.estimates import estimates
+from mocapbench.reports.analysis.failures import DATA_MISSING, Failure, list_failures
 from mocapbench.reports.analysis.fold_mean import FoldMean
 from mocapbench.reports.analysis.grid import Grid
-from mocapbench.reports.analysis.troubles import DATA_MISSING, Trouble, troubles
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import CaseLayout, TaskLayout
 from mocapbench.reports.bundle.metric_info import MetricInfo
@@ -35,7 +35,7 @@ class TaskResults:
     grid : Grid
         The scores as an array.
     estimates : mapping of (case, label, metric) to FoldMean
-    troubles : mapping of (case, label) to tuple of Trouble
+    failures : mapping of (case, label) to tuple of Failure
         Jobs that failed, be it by one metric alone, or whose data are missing.
     published : mapping of (case, metric, model) to PublishedValue
         In the paper's names.
@@ -47,7 +47,7 @@ class TaskResults:
     records: pd.DataFrame
     grid: Grid
     estimates: Mapping[tuple[str, str, str], FoldMean]
-    troubles: Mapping[tuple[str, str], tuple[Trouble, ...]]
+    failures: Mapping[tuple[str, str], tuple[Failure, ...]]
     published: PublishedTask
 
     @cached_property
@@ -73,11 +73,11 @@ class TaskResults:
             means.setdefault(metric, []).append(estimate.mean)
         return {metric: decimals(values) for metric, values in means.items()}
 
-    def lost(self, case: str, label: str, metric: str) -> tuple[Trouble, ...]:
-        """Return the troubles that cost a score of ``metric``: another may be what failed."""
+    def find_failures(self, case: str, label: str, metric: str) -> tuple[Failure, ...]:
+        """Return the failures that cost a score of ``metric``: another may be what failed."""
         folds = self._scored_folds.get((case, label, metric), set())
-        found = self.troubles.get((case, label), ())
-        return tuple(trouble for trouble in found if trouble.fold not in folds)
+        found = self.failures.get((case, label), ())
+        return tuple(failure for failure in found if failure.fold not in folds)
 
     @cached_property
     def _scored_folds(self) -> Mapping[tuple[str, str, str], set[int]]:
@@ -141,15 +141,15 @@ def task_results(bundle: Bundle, layout: TaskLayout) -> TaskResults:
         records=bundle.records[bundle.records["task"] == layout.name],
         grid=grid,
         estimates=estimates(grid, layout.cases, independent=layout.independent_folds),
-        troubles=_troubles_by_cell(bundle, layout.name),
+        failures=_group_failures(bundle, layout.name),
         published=published_values(layout.name),
     )
 
 
-def _troubles_by_cell(bundle: Bundle, task: str) -> dict[tuple[str, str], tuple[Trouble, ...]]:
-    """Return the troubles of ``task`` by (case, label)."""
-    by_cell: dict[tuple[str, str], tuple[Trouble, ...]] = {}
-    for trouble in troubles(bundle, task):
-        cell = (trouble.case, trouble.label)
-        by_cell[cell] = (*by_cell.get(cell, ()), trouble)
+def _group_failures(bundle: Bundle, task: str) -> dict[tuple[str, str], tuple[Failure, ...]]:
+    """Return the failures of ``task`` by (case, label)."""
+    by_cell: dict[tuple[str, str], tuple[Failure, ...]] = {}
+    for failure in list_failures(bundle, task):
+        cell = (failure.case, failure.label)
+        by_cell[cell] = (*by_cell.get(cell, ()), failure)
     return by_cell

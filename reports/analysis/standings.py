@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.metrics.statistics import FEWEST_UNITS, holm_tests_of_means, unit_means
 from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.results import TaskResults
@@ -81,7 +81,7 @@ class Standing:
     @property
     def units(self) -> str:
         """Over how many units it is: ``"4 subjects"``."""
-        return counted(self.n_units, self.unit)
+        return format_count(self.n_units, self.unit)
 
     @property
     def finding(self) -> str:
@@ -94,7 +94,7 @@ class Standing:
 def too_few_units(n: int, unit: str) -> str:
     """Return what the page says of units that are too few, by number or as shares are unequal."""
     unequal = " of unequal weight" if n >= FEWEST_UNITS else ""
-    return f"{Place.UNTESTED.value} ({counted(n, unit)}{unequal})"
+    return f"{Place.UNTESTED.value} ({format_count(n, unit)}{unequal})"
 
 
 def standings(
@@ -134,7 +134,7 @@ def _standings(scored: Cells) -> tuple[Standing, ...]:
     losses = scored.by_unit(scored.losses, kept)
     others = np.arange(len(losses)) != best
     differences = losses - losses[best]
-    low, high, separable = _tested(differences, shares, complete & others)
+    low, high, separable = _test_rivals(differences, shares, complete & others)
     mean = differences @ shares
     places = _places(others, complete, separable, np.isfinite(low))
     order = np.lexsort((mean, others, ~complete)).tolist()
@@ -159,13 +159,13 @@ def _standing(scored: Cells, row: int, interval: Sequence[float], place: Place) 
     )
 
 
-def _tested(
+def _test_rivals(
     differences: Array, shares: Array, rivals: NDArray[np.bool_]
 ) -> tuple[Array, Array, NDArray[np.bool_]]:
     """Return intervals, NaN of too few units, and whether 0 is outside, of ``rivals``."""
     low, high = np.full((2, len(rivals)), np.nan)
     separable = np.zeros(len(rivals), dtype=bool)
-    found = holm_tests_of_means(unit_means(differences[rivals], shares).tested())
+    found = holm_tests_of_means(unit_means(differences[rivals], shares).drop_errors_of_few_units())
     low[rivals], high[rivals], separable[rivals] = found.low, found.high, found.separable
     return low, high, separable
 

@@ -63,14 +63,14 @@ def in_families(models: Mapping[str, ModelInfo]) -> dict[str, list[str]]:
     models : mapping of str to ModelInfo
         By label; labels keep their order within a family.
     """
-    families = _ordered(model.family for model in models.values())
+    families = _sort_families(model.family for model in models.values())
     return {
         family: [label for label, model in models.items() if model.family == family]
         for family in families
     }
 
 
-def _ordered(families: Iterable[str]) -> list[str]:
+def _sort_families(families: Iterable[str]) -> list[str]:
     """Return each family once: ours in their order, others in theirs before "Your models"."""
     found = dict.fromkeys(families)
     others = [family for family in found if family not in FAMILIES]

@@ -18,10 +18,10 @@ __all__ = [
     "WIDTH",
     "Axes",
     "bottom_axis",
+    "format_tick",
     "left_axis",
     "names",
     "panels",
-    "written",
 ]
 
 WIDTH = 340.0
@@ -79,7 +79,7 @@ def bottom_axis(scale: Scale, y: float, label: str) -> str:
         [
             horizontal(scale.start, scale.stop, y, "axis"),
             vertical(map(scale.place, ticks), y, y + 4.0, "axis"),
-            *(text(scale.place(tick), y + 16.0, written(tick), "middle") for tick in ticks),
+            *(text(scale.place(tick), y + 16.0, format_tick(tick), "middle") for tick in ticks),
             _label(scale, y + 31.0, label),
         ]
     )
@@ -96,7 +96,7 @@ def left_axis(scale: Scale, x: float, end: float) -> str:
     """Return lines across the panel at the ticks, from ``x`` to ``end``, and their values."""
     places = [(tick, scale.place(tick)) for tick in scale.ticks()]
     lines = (horizontal(x, end, y, "grid") for _, y in places)
-    values = (text(x - 5.0, y + 4.0, written(tick), "end") for tick, y in places)
+    values = (text(x - 5.0, y + 4.0, format_tick(tick), "end") for tick, y in places)
     return "".join([*lines, *values])
 
 
@@ -105,7 +105,7 @@ def names(labels: Sequence[str], places: Iterable[float], x: float) -> str:
     return "".join(text(x, y + 4.0, n, "end") for n, y in zip(labels, places, strict=True))
 
 
-def written(tick: float) -> str:
+def format_tick(tick: float) -> str:
     """Return a tick as text: up to six digits, or a power of ten where it is far from one."""
     mantissa, exponent = f"{tick:e}".split("e")
     if abs(int(exponent)) < 4:

@@ -9,7 +9,7 @@ import numpy as np
 
 from mocapbench.reports.figures.scale import LinearScale, LogScale, Scale
 
-__all__ = ["fitted", "linear", "remark"]
+__all__ = ["fit_linear_scale", "fit_scale", "remark"]
 
 LOG_RANGE = 10.0
 """Ratio of the largest to the smallest value above which an axis is logarithmic."""
@@ -19,7 +19,7 @@ MARGIN = 0.04
 """Share of an axis that stays free beyond the outermost values."""
 
 
-def fitted(values: Iterable[float], start: float, stop: float) -> Scale:
+def fit_scale(values: Iterable[float], start: float, stop: float) -> Scale:
     """Return the scale that shows ``values``, logarithmic where they span more than a factor 10.
 
     Parameters
@@ -34,8 +34,8 @@ def fitted(values: Iterable[float], start: float, stop: float) -> Scale:
     return _around(kind, low, high, start, stop)
 
 
-def linear(values: Iterable[float], start: float, stop: float) -> Scale:
-    """Return the linear scale that shows ``values``; see `fitted`."""
+def fit_linear_scale(values: Iterable[float], start: float, stop: float) -> Scale:
+    """Return the linear scale that shows ``values``; see `fit_scale`."""
     return _around(LinearScale, *_range(values), start, stop)
 
 

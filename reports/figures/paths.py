@@ -29,10 +29,10 @@ def outline(points: Array) -> str:
     tenths = np.rint(points * 10.0).astype(int)
     steps = np.diff(tenths, axis=0)
     first = " ".join(coordinate(value / 10) for value in tenths[0])
-    return f"M{first}" + ("l" if len(steps) else "") + _joined(steps.ravel().tolist())
+    return f"M{first}" + ("l" if len(steps) else "") + _join_numbers(steps.ravel().tolist())
 
 
-def _joined(tenths: Sequence[int]) -> str:
+def _join_numbers(tenths: Sequence[int]) -> str:
     """Return numbers side by side, separated only where they would run into each other."""
     first, *others = [_tenths(value) for value in tenths] or [""]
     return first + "".join(n if n.startswith("-") else f" {n}" for n in others)

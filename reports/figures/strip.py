@@ -11,8 +11,8 @@ import numpy as np
 from markupsafe import Markup, escape
 
 from mocapbench.reports.analysis.fold_sample import FoldSample
-from mocapbench.reports.figures.axes import written
-from mocapbench.reports.figures.fitting import fitted
+from mocapbench.reports.figures.axes import format_tick
+from mocapbench.reports.figures.fitting import fit_scale
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.marks import dot, horizontal, text, vertical
 from mocapbench.reports.figures.scale import Scale
@@ -29,7 +29,7 @@ _TICK = 4.0
 
 def strip_scale(values: Iterable[float]) -> Scale:
     """Return the scale of strips that show ``values``, ends of intervals among them or not."""
-    return fitted(values, _EDGE, STRIP_WIDTH - _EDGE)
+    return fit_scale(values, _EDGE, STRIP_WIDTH - _EDGE)
 
 
 def strip(sample: FoldSample, scale: Scale, label: str, style: DrawingStyle) -> Markup:
@@ -64,7 +64,7 @@ def strip_axis(scale: Scale, label: str) -> Markup:
     marks = [
         horizontal(scale.start, scale.stop, 4.0, "axis"),
         vertical(map(scale.place, ticks), 4.0, 8.0, "axis"),
-        *(text(scale.place(tick), 18.0, written(tick), "middle") for tick in ticks),
+        *(text(scale.place(tick), 18.0, format_tick(tick), "middle") for tick in ticks),
     ]
     return Markup(
         f'<svg class="strip" role="img" aria-label="{escape(label)}">{"".join(marks)}</svg>'

@@ -37,7 +37,7 @@ def open_figures(results: TaskResults, parts: ErrorParts, styles: Styles) -> lis
     page = results.layout.page
     metric = page.metrics[0]
     curves = curves_along(results, metric, page.along, styles) if page.along else None
-    return _drawn(curves, gap_error(results, parts, styles), _ranks(results, metric, styles))
+    return _drop_missing(curves, gap_error(results, parts, styles), _ranks(results, metric, styles))
 
 
 def folded_figures(results: TaskResults, parts: ErrorParts, styles: Styles) -> list[SvgFigure]:
@@ -47,7 +47,7 @@ def folded_figures(results: TaskResults, parts: ErrorParts, styles: Styles) -> l
     """
     page = results.layout.page
     by_case = None if page.along or page.crossed else dot_plot(results, page.metrics[0], styles)
-    return _drawn(
+    return _drop_missing(
         joint_errors(results, parts, styles),
         by_case,
         reliability(results, styles),
@@ -61,5 +61,5 @@ def _ranks(results: TaskResults, metric: str, styles: Styles) -> SvgFigure | Non
     return rank_figure(ranks, f"{title}, ranks over {ranks.unit}s", styles) if ranks else None
 
 
-def _drawn(*figures: SvgFigure | None) -> list[SvgFigure]:
+def _drop_missing(*figures: SvgFigure | None) -> list[SvgFigure]:
     return [figure for figure in figures if figure is not None]

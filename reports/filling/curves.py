@@ -6,12 +6,12 @@ import numpy as np
 from markupsafe import Markup
 
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.words import counted, printable
+from mocapbench.basics.words import format_count, printable
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes
-from mocapbench.reports.figures.fitting import linear
+from mocapbench.reports.figures.fitting import fit_linear_scale
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import band, group, horizontal, polyline, rectangle
-from mocapbench.reports.figures.pictures.thinning import thinned
+from mocapbench.reports.figures.pictures.thinning import thin_points
 from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
 from mocapbench.reports.figures.svg_figure import Key
 from mocapbench.reports.filling.values import FILLED_FRAMES, FilledCurve
@@ -29,24 +29,24 @@ def draw_curve(curve: FilledCurve) -> Markup:
     """Return a channel as an SVG element."""
     half = _WITHIN_95 * curve.deviation
     low, high = curve.filled - half, curve.filled + half
-    x = linear(curve.times, LEFT, WIDTH)
+    x = fit_linear_scale(curve.times, LEFT, WIDTH)
     values = np.concatenate([curve.visible, curve.filled, low, high])
-    y = linear(values, TOP + HEIGHT, TOP)
+    y = fit_linear_scale(values, TOP + HEIGHT, TOP)
     axes = Axes(x, y, printable(curve.channel), "time, s", printable(curve.unit))
     marks = [
         *(_gap(axes, *gap) for gap in curve.gaps),
         group(
             FILLED,
             band(x.places(curve.times), y.places(low), y.places(high)),
-            _line(axes, curve.times, _joined(curve)),
+            _line(axes, curve.times, _join_neighbours(curve)),
         ),
         group(TRUTH, _line(axes, curve.times, curve.visible)),
     ]
-    return axes.draw(marks, _described(curve))
+    return axes.draw(marks, _describe_curve(curve))
 
 
-def _described(curve: FilledCurve) -> str:
-    gaps = counted(len(curve.gaps), "filled gap")
+def _describe_curve(curve: FilledCurve) -> str:
+    gaps = format_count(len(curve.gaps), "filled gap")
     return f"{printable(curve.channel)} over time, with {gaps}"
 
 
@@ -55,7 +55,7 @@ def legend() -> tuple[Key, ...]:
     line = horizontal(0.0, 28.0, 7.0, "line")
     return (
         key("in the file", TRUTH, line),
-        key("filled, with its 95 % band if there is one", FILLED, line),
+        key("filled, with its 95 % interval if there is one", FILLED, line),
         key("gap", TRUTH, rectangle(0.0, 0.0, 28.0, 14.0, "shade")),
     )
 
@@ -67,10 +67,10 @@ def _gap(axes: Axes, first: float, last: float) -> str:
 
 
 def _line(axes: Axes, times: Array, values: Array) -> str:
-    return polyline(*thinned(np.stack([axes.x.places(times), axes.y.places(values)], axis=1)).T)
+    return polyline(*thin_points(np.stack([axes.x.places(times), axes.y.places(values)], axis=1)).T)
 
 
-def _joined(curve: FilledCurve) -> Array:
+def _join_neighbours(curve: FilledCurve) -> Array:
     """Return the filled values, joined to the visible ones beside them."""
     filled = ~np.isnan(curve.filled)
     beside = np.zeros_like(filled)

@@ -47,7 +47,8 @@ class RankedModel:
     ----------
     name : str
     error : float
-        Weighted mean error over the trial gaps, relative to that of holding the last visible pose.
+        Weighted mean error over the held-out gaps, relative to that of holding the last visible
+        pose.
     rmse : tuple of float
         By unit, in the order of ``FilledPage.units``.
     seconds : float
@@ -73,7 +74,7 @@ class FilledPage:
     headline : str
         Which model filled how much, and why this one.
     verdict : str
-        Whether its lead is more than chance; empty if there were no trials.
+        Whether its lead is more than chance; empty if no gap was held out.
     remarks : tuple of str
         What was cut into windows, left open or shortened, and what failed.
     curves : tuple of FilledCurve
@@ -84,7 +85,7 @@ class FilledPage:
     units : tuple of str
         The units of the errors.
     n : int
-        The number of trial gaps.
+        The number of held-out gaps.
     ranking : tuple of RankedModel
     left_out : tuple of (str, str)
         Models without a rank, each with the reason.

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import Place, standings
 from mocapbench.reports.bundle.questions import QUESTIONS, Question
@@ -90,4 +90,4 @@ def _sure(leads: Sequence[Place | None]) -> str:
     counts = [(leads.count(place), place) for place in (*TESTED, Place.UNTESTED)]
     parts = "; ".join(f"{count} {place.value}" for count, place in counts if count)
     alone = NO_RIVAL if leads else "no lead"
-    return f"{counted(len(leads), 'lead')}: {parts}" if parts else alone
+    return f"{format_count(len(leads), 'lead')}: {parts}" if parts else alone

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Mapping
 
+from mocapbench.reports.analysis.failures import DATA_MISSING, Failure
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.troubles import DATA_MISSING, Trouble
 from mocapbench.reports.front.board import FAILED, BoardCell
 
 __all__ = ["failed_cells"]
@@ -21,15 +21,15 @@ def failed_cells(results: TaskResults, scored: Container[str]) -> Mapping[str, B
     scored : container of str
         The labels that have a mean.
     """
-    failures: dict[str, list[Trouble]] = {}
-    for (_, label), troubles in results.troubles.items():
-        failed = [trouble for trouble in troubles if trouble.status != DATA_MISSING]
+    by_label: dict[str, list[Failure]] = {}
+    for (_, label), failures in results.failures.items():
+        failed = [failure for failure in failures if failure.status != DATA_MISSING]
         if failed and label not in scored:
-            failures.setdefault(label, []).extend(failed)
+            by_label.setdefault(label, []).extend(failed)
     tried = results.records[results.records["status"] != DATA_MISSING]["label"].value_counts()
-    return {label: _cell(failed, int(tried[label])) for label, failed in failures.items()}
+    return {label: _cell(failed, int(tried[label])) for label, failed in by_label.items()}
 
 
-def _cell(failed: list[Trouble], n_jobs: int) -> BoardCell:
+def _cell(failed: list[Failure], n_jobs: int) -> BoardCell:
     note = f"in {len(failed)} of {n_jobs}"
     return BoardCell(FAILED, math.nan, FAILED, link=failed[0].id, note=note)

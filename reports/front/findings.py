@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from mocapbench.basics.words import listed
+from mocapbench.basics.words import join_names
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import MOST_LEVEL, Place, Standing, level_with_best
 from mocapbench.reports.front.board_cells import (
@@ -82,7 +82,7 @@ class RankedTask:
 
     @property
     def _means(self) -> str:
-        names = listed([one.label for one in [self.best, *self.level]], MOST_LEVEL)
+        names = join_names([one.label for one in [self.best, *self.level]], MOST_LEVEL)
         alike, second = ", alike:" if self.level else "", self._next
         places = self.results.decimals[first_metric(self.results)]
         if second is None:

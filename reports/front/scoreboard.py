@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
@@ -71,7 +71,7 @@ def _column(results: TaskResults) -> BoardColumn:
         metric=metric,
         unit=_unit(results.metrics[metric]),
         arrow=ARROWS[results.metrics[metric].direction],
-        basis=counted(len(results.representative_cases(metric)), cases),
+        basis=format_count(len(results.representative_cases(metric)), cases),
         units=ranked[0].units if ranked else "",
         long_title=page.title,
     )

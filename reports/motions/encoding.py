@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from mocapbench.reports.bundle.motions import Motions
 
-__all__ = ["FINEST", "encode", "quantised", "resolution"]
+__all__ = ["FINEST", "encode", "quantise_positions", "resolution"]
 
 FINEST = 0.1
 """Centimetres. Markers are measured to about a millimetre."""
@@ -36,19 +36,19 @@ def resolution(picture: Motions) -> float:
     return max(FINEST, max(float(np.abs(array).max()) for array in arrays) / _LARGEST)
 
 
-def quantised(picture: Motions) -> Quantised:
+def quantise_positions(picture: Motions) -> Quantised:
     """Return truths and motions (M, T, J, 3), one after another, in steps of `resolution`."""
     arrays = [*picture.truths.values(), *(motion.positions for motion in picture.motions)]
     return np.round(np.stack(arrays) / resolution(picture)).astype(np.int16)
 
 
 def encode(picture: Motions) -> str:
-    """Return `quantised` positions as text."""
-    steps = quantised(picture)
+    """Return positions as text, in steps of `resolution`."""
+    steps = quantise_positions(picture)
     names = list(picture.truths)
     against = [names.index(motion.against) for motion in picture.motions]
     steps[len(names) :] -= steps[against]
-    return _packed(_time_differences(_bones(steps, picture.parents)))
+    return _compress_differences(_time_differences(_bones(steps, picture.parents)))
 
 
 def _bones(steps: Quantised, parents: tuple[int, ...]) -> Quantised:
@@ -66,7 +66,7 @@ def _time_differences(steps: Quantised) -> Quantised:
     return np.diff(by_time, axis=-1, prepend=np.zeros_like(by_time[..., :1]))
 
 
-def _packed(differences: Quantised) -> str:
+def _compress_differences(differences: Quantised) -> str:
     wide = differences.astype(np.int32)
     unsigned = (np.where(wide < 0, -2 * wide - 1, 2 * wide)).astype("<u2")
     planes = np.frombuffer(unsigned.tobytes(), dtype=np.uint8).reshape(-1, 2).T

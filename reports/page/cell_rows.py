@@ -7,16 +7,16 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from mocapbench.reports.analysis.failures import Failure
 from mocapbench.reports.analysis.fold_mean import FoldMean
 from mocapbench.reports.analysis.published.comparisons import Comparison
-from mocapbench.reports.analysis.troubles import Trouble
 from mocapbench.reports.bundle.origin import Origin
 
 __all__ = ["COLUMNS", "CellScore", "Job", "Shared", "cell_row"]
 
 COLUMNS = (
     *("case", "label", "model", "parameters", "seed", "command", "recordings", "folds", "keys"),
-    *("fit_seconds", "predict_seconds", "peak_memory_mb", "troubles", "scores"),
+    *("fit_seconds", "predict_seconds", "peak_memory_mb", "failures", "scores"),
 )
 """``folds`` to ``peak_memory_mb`` have one value a fold; ``keys`` are their bytes in base 64.
 ``scores`` has for each metric of the task its values by fold, their mean, half the 95 % interval
@@ -63,7 +63,7 @@ def cell_row(
     cell: tuple[str, str],
     jobs: Sequence[Job],
     origin: Origin,
-    troubles: Sequence[Trouble],
+    failures: Sequence[Failure],
     scores: Sequence[CellScore | None],
     *,
     shared: Shared,
@@ -76,14 +76,14 @@ def cell_row(
     jobs : sequence of Job
         One a fold, one or more.
     origin : Origin
-    troubles : sequence of Trouble
+    failures : sequence of Failure
     scores : sequence of CellScore or None
         One for each metric of the task, None where the cell has no value of it.
     shared : Shared
         Takes what other cells may have too.
     """
     folds, models, parameters, *costs = zip(*jobs, strict=True)
-    keys = _joined([origin.keys.get(fold, "") for fold in folds])
+    keys = _join_keys([origin.keys.get(fold, "") for fold in folds])
     return [
         *(shared.place(text) for text in (*cell, models[0], parameters[0])),
         origin.seed,
@@ -91,26 +91,26 @@ def cell_row(
         shared.place(tuple(origin.recordings.items())),
         folds,
         b64encode(keys).decode(),
-        *([_rounded(value, 2) for value in of_folds] for of_folds in costs),
-        [[t.fold, shared.place(t.status), shared.place(t.message), t.id] for t in troubles],
+        *([_round_digits(value, 2) for value in of_folds] for of_folds in costs),
+        [[t.fold, shared.place(t.status), shared.place(t.message), t.id] for t in failures],
         [score and _score(score, folds, shared) for score in scores],
     ]
 
 
 def _score(score: CellScore, folds: Sequence[int], shared: Shared) -> list[Any]:
-    values = [_rounded(score.values.get(fold)) for fold in folds]
-    published = [_published(score.published, shared)] if score.published else []
+    values = [_round_digits(score.values.get(fold)) for fold in folds]
+    published = [_encode_published(score.published, shared)] if score.published else []
     mean, half_width = score.estimate.mean, score.estimate.half_width
-    return [values, _rounded(mean), _rounded(half_width), *published]
+    return [values, _round_digits(mean), _round_digits(half_width), *published]
 
 
-def _published(pair: Comparison, shared: Shared) -> list[Any]:
+def _encode_published(pair: Comparison, shared: Shared) -> list[Any]:
     paper = pair.published
     texts = (paper.source, pair.verdict.value, pair.reason, paper.erratum)
     return [paper.value, paper.two_sd, *map(shared.place, texts)]
 
 
-def _rounded(value: float | None, digits: int = 6) -> float | None:
+def _round_digits(value: float | None, digits: int = 6) -> float | None:
     """Return ``value`` with so many significant digits, None where there is no finite value."""
     if value is None or not abs(value) < float("inf"):
         return None
@@ -118,7 +118,7 @@ def _rounded(value: float | None, digits: int = 6) -> float | None:
     return int(rounded) if rounded.is_integer() else rounded  # shorter by ".0"
 
 
-def _joined(keys: Sequence[str]) -> bytes:
+def _join_keys(keys: Sequence[str]) -> bytes:
     """Return keys of hexadecimal digits as bytes; nothing where one is not a key of a run."""
     try:
         return b"".join(map(bytes.fromhex, keys))

@@ -56,7 +56,7 @@ def _task(results: TaskResults, origins: Origins, shared: Shared) -> dict[str, A
                 cell,
                 jobs,
                 origins.get((layout.name, *cell), _UNKNOWN),
-                results.troubles.get(cell, ()),
+                results.failures.get(cell, ()),
                 [scores.get((*cell, metric)) for metric in metrics],
                 shared=shared,
             )
@@ -84,7 +84,7 @@ def _jobs(results: TaskResults) -> dict[tuple[str, str], list[Job]]:
 
 def _scores(results: TaskResults) -> dict[tuple[str, str, str], CellScore]:
     """Return every score of the metrics that the page shows, by case, label and metric."""
-    values, published = _values(results), _published(results)
+    values, published = _values(results), _compare_published(results)
     return {
         address: CellScore(estimate, published.get(address), values[address])
         for address, estimate in results.estimates.items()
@@ -102,7 +102,7 @@ def _values(results: TaskResults) -> dict[tuple[str, str, str], dict[int, float]
     return by_fold
 
 
-def _published(results: TaskResults) -> dict[tuple[str, str, str], Comparison]:
+def _compare_published(results: TaskResults) -> dict[tuple[str, str, str], Comparison]:
     return {
         (pair.case.name, pair.label, metric): pair
         for metric in results.layout.page.metrics

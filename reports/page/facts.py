@@ -85,10 +85,14 @@ def _parameters(entrants: Sequence[tuple[str, str, ModelInfo]]) -> dict[str, str
     by_label: dict[str, dict[str, list[str]]] = {}
     for label, task, info in entrants:
         by_label.setdefault(label, {}).setdefault(info.parameters or DEFAULTS, []).append(task)
-    return {label: _told(told) for label, told in by_label.items() if set(told) != {DEFAULTS}}
+    return {
+        label: _describe_parameters(told)
+        for label, told in by_label.items()
+        if set(told) != {DEFAULTS}
+    }
 
 
-def _told(tasks: Mapping[str, Sequence[str]]) -> str:
+def _describe_parameters(tasks: Mapping[str, Sequence[str]]) -> str:
     """Return the parameters; those of the most tasks first, the others with their tasks."""
     usual, *others = sorted(tasks, key=lambda parameters: -len(tasks[parameters]))
     return "; ".join([usual, *(f"{other} in {', '.join(tasks[other])}" for other in others)])

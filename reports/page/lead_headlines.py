@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mocapbench.basics.words import listed
+from mocapbench.basics.words import join_names
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import (
     MOST_LEVEL,
@@ -39,7 +39,7 @@ def _lead(results: TaskResults, metric: str, best: Standing, *others: Standing) 
         return f"is best over {where} by {title}, {mean}; no other entrant has every score."
     if level := level_with_best([best, *others]):
         (mean,) = same_places(best.mean)
-        names = listed([one.label for one in level], MOST_LEVEL)
+        names = join_names([one.label for one in level], MOST_LEVEL)
         return f"is level with {names} over {where} by {title}, {mean}."
     sentence = f"is best over {where} by {title}: {_margin(best, following)}."
     return " ".join(filter(None, (sentence, _interpolation(results, best, *others))))

@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from mocapbench.reports.analysis.troubles import Trouble
+from mocapbench.reports.analysis.failures import Failure
 
 __all__ = ["MissingData", "missing_data"]
 
@@ -33,15 +33,15 @@ class MissingData:
     jobs: int
 
 
-def missing_data(jobs: Iterable[Trouble]) -> list[MissingData]:
+def missing_data(jobs: Iterable[Failure]) -> list[MissingData]:
     """Group the jobs that lack data by the command that gets them, whatever the recordings."""
-    groups: dict[str, list[Trouble]] = {}
+    groups: dict[str, list[Failure]] = {}
     for job in jobs:
         groups.setdefault(job.fetch or job.message, []).append(job)
     return [_group(start, group) for start, group in groups.items()]
 
 
-def _group(start: str, group: list[Trouble]) -> MissingData:
+def _group(start: str, group: list[Failure]) -> MissingData:
     recordings = tuple(dict.fromkeys(name for job in group for name in job.missing))
     return MissingData(
         recordings,

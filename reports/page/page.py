@@ -7,9 +7,9 @@ from itertools import groupby
 from typing import Any
 
 from mocapbench.metrics.statistics import FEWEST_UNITS
+from mocapbench.reports.analysis.failures import DATA_MISSING, list_failures
 from mocapbench.reports.analysis.published.verdicts import RELATIVE_TOLERANCE
 from mocapbench.reports.analysis.results import TaskResults, task_results
-from mocapbench.reports.analysis.troubles import DATA_MISSING, troubles
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.model_info import ModelInfo, in_families
 from mocapbench.reports.bundle.questions import QUESTIONS, question
@@ -83,10 +83,10 @@ def _families(families: Families) -> Part:
 
 def _without_score(bundle: Bundle) -> Part:
     """Return the jobs that failed, and those that lacked recordings."""
-    no_score = troubles(bundle)
+    no_score = list_failures(bundle)
     return {
-        "failures": [trouble for trouble in no_score if trouble.status != DATA_MISSING],
-        "missing": missing_data(trouble for trouble in no_score if trouble.status == DATA_MISSING),
+        "failures": [failure for failure in no_score if failure.status != DATA_MISSING],
+        "missing": missing_data(failure for failure in no_score if failure.status == DATA_MISSING),
     }
 
 

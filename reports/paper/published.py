@@ -102,18 +102,20 @@ def _value(line: int, row: Mapping[Hashable, str]) -> PublishedValue:
 @cache
 def every_value() -> tuple[PublishedValue, ...]:
     """Return every published number of the package, with the remarks on it."""
-    errata, reasons = (parse_remarks(_read(f"{name}.csv")) for name in ("errata", "not_comparable"))
+    errata, reasons = (
+        parse_remarks(_read_text(f"{name}.csv")) for name in ("errata", "not_comparable")
+    )
     return tuple(
         replace(
             value,
             erratum=remark_on(value.address, errata),
             not_comparable=remark_on(value.address, reasons),
         )
-        for value in parse_published(_read("published.csv"))
+        for value in parse_published(_read_text("published.csv"))
     )
 
 
-def _read(name: str) -> str:
+def _read_text(name: str) -> str:
     return (files(__package__) / name).read_text(encoding="utf-8")
 
 

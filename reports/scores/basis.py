@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 
@@ -21,8 +21,8 @@ def basis(results: TaskResults, metric: str, cases: Sequence[CaseLayout]) -> str
         if name == metric and case in names
     }
     *fewer, most = sorted(sizes) or [0]
-    folds = " or ".join([*map(str, fewer), counted(most, "fold")])
+    folds = " or ".join([*map(str, fewer), format_count(most, "fold")])
     left_out = int(max(rows["left_out"], default=0))
-    lost = f", up to {counted(left_out, 'output')} left out as degenerate" if left_out else ""
+    lost = f", up to {format_count(left_out, 'output')} left out as degenerate" if left_out else ""
     each = " each" if len(cases) > 1 else ""
-    return f"{counted(len(cases), 'case')}, {folds}{each}{lost}"
+    return f"{format_count(len(cases), 'case')}, {folds}{each}{lost}"

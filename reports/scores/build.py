@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.styles import DrawingStyle
@@ -51,7 +51,7 @@ def _mean_head(results: TaskResults, counting: Sequence[CaseLayout]) -> CaseHead
     """Return the head of the means, which is that of the case where there is but one."""
     if len(results.cases) == 1:
         return _head(results, results.cases[0])
-    return CaseHead(f"mean of {counted(len(counting), 'case')}")
+    return CaseHead(f"mean of {format_count(len(counting), 'case')}")
 
 
 def _head(results: TaskResults, case: CaseLayout) -> CaseHead:

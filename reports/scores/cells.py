@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
+from mocapbench.reports.analysis.failures import DATA_MISSING, Failure
 from mocapbench.reports.analysis.results import TaskResults
-from mocapbench.reports.analysis.troubles import DATA_MISSING, Trouble
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.scores.table import NO_SCORE, ScoreCell
 from mocapbench.reports.text import cell_anchor, number
@@ -17,17 +17,17 @@ def score_cell(
 ) -> ScoreCell:
     """Return the mean over folds, bold where it is the ``best``, or why there is none."""
     estimate = results.estimate(case.name, label, metric)
-    troubles = results.lost(case.name, label, metric)
+    failures = results.find_failures(case.name, label, metric)
     link = cell_anchor(results.layout.name, case.name, label)
     if estimate is None:
-        reasons = _reasons(troubles)
-        return ScoreCell(reasons, kind="trouble", link=link) if reasons else NO_SCORE
-    lost = f"{counted(len(troubles), 'fold')} lost" if troubles else ""
+        reasons = _reasons(failures)
+        return ScoreCell(reasons, kind="failure", link=link) if reasons else NO_SCORE
+    lost = f"{format_count(len(failures), 'fold')} lost" if failures else ""
     text, kind = number(estimate.mean, places), "best" if best else ""
     return ScoreCell(text, estimate.mean, kind, lost, link)
 
 
-def _reasons(troubles: tuple[Trouble, ...]) -> str:
+def _reasons(failures: tuple[Failure, ...]) -> str:
     """Return why there is no score, nothing where the recording is missing: the head says so."""
-    reasons = dict.fromkeys(trouble.status for trouble in troubles)
+    reasons = dict.fromkeys(failure.status for failure in failures)
     return ", ".join(reason.replace("-", " ") for reason in reasons if reason != DATA_MISSING)

@@ -11,7 +11,7 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import NDArray
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.units import unit_names
@@ -74,7 +74,7 @@ class Drawing:
         if self.scale is None or label not in self.samples:
             return None
         sample = self.samples[label]
-        name = f"{label}, {counted(len(sample.values), 'value')}"
+        name = f"{label}, {format_count(len(sample.values), 'value')}"
         return strip(sample, self.scale, name, self.styles[label])
 
 

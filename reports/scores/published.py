@@ -32,7 +32,7 @@ def published_rows(
             continue
         whole = [value.value for value in values if value is not None]
         mean = _cell(float(np.mean(whole)), places) if len(whole) == len(values) else NO_SCORE
-        cells = tuple(_published(_value(case, printed), places) for case in shown)
+        cells = tuple(_show_published(_value(case, printed), places) for case in shown)
         yield ScoreRow(f"{model} (published)", "published", mean, NO_SCORE, None, cells)
 
 
@@ -50,7 +50,7 @@ def _value(case: CaseLayout, printed: Printed) -> PublishedValue | None:
     return None if case.synthetic else printed.get(case.notes.published or "")
 
 
-def _published(value: PublishedValue | None, places: int) -> ScoreCell:
+def _show_published(value: PublishedValue | None, places: int) -> ScoreCell:
     return NO_SCORE if value is None else _cell(value.value, places)
 
 

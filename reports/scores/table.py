@@ -34,7 +34,7 @@ class ScoreCell:
     value : float or None
         The number in full, by which rows are sorted.
     kind : str
-        ``""``, ``"best"``, ``"trouble"``, ``"absent"`` or ``"published"``: its class in the style
+        ``""``, ``"best"``, ``"failure"``, ``"absent"`` or ``"published"``: its class in the style
         sheet.
     note : str
         A few words beside the number, such as ``"3 of 5 folds"``.

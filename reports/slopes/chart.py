@@ -63,11 +63,11 @@ def _line(score: ScoreChange, height: Callable[[float], float]) -> Markup:
     return Markup('<path class="{}" d="M{} {:.1f}L{} {:.1f}"><title>{}</title></path>').format(
         slug(score.verdict.value),
         *(LEFT, height(score.first), RIGHT, height(score.second)),
-        _described(score),
+        _describe_change(score),
     )
 
 
-def _described(score: ScoreChange) -> str:
+def _describe_change(score: ScoreChange) -> str:
     return f"{score.label} · {score.case}: {_digits(score.first)} → {_digits(score.second)}"
 
 
@@ -81,7 +81,7 @@ def _labels(scores: Sequence[ScoreChange], height: Callable[[float], float]) -> 
     for place, score in enumerate(named):
         room = BOTTOM - GAP * (len(named) - 1 - place)
         last = min(max(height(score.second), last + GAP), room)
-        labels.append(_text(RIGHT + 8, last + 4, _described(score), "start"))
+        labels.append(_text(RIGHT + 8, last + 4, _describe_change(score), "start"))
     return labels
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.resources import styles, template
 from mocapbench.reports.slopes.chart import slope_chart
@@ -58,8 +58,8 @@ def _summary(changes: RunChanges) -> str:
         f"{counts[ChangeVerdict.IDENTICAL]} are identical",
     ]
     return (
-        f"Of {counted(len(changes.scores), 'score')} that both runs have, {', '.join(parts)}. "
-        f"{counted(len(changes.newly_failing), 'job')} newly without a score, "
+        f"Of {format_count(len(changes.scores), 'score')} that both runs have, {', '.join(parts)}. "
+        f"{format_count(len(changes.newly_failing), 'job')} newly without a score, "
         f"{len(changes.newly_passing)} newly with one."
     )
 

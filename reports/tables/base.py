@@ -22,7 +22,7 @@ class Cell:
     mark : str
         The letter of a footnote.
     kind : str
-        ``""``, ``"best"``, ``"text"``, ``"absent"``, ``"trouble"``, ``"published"``,
+        ``""``, ``"best"``, ``"text"``, ``"absent"``, ``"failure"``, ``"published"``,
         ``"contrast"``, ``"contrast ahead"``, ``"contrast behind"`` or a verdict: the cell's class
         in the style sheet.
     link : str

@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.cells import Cells, cells
 from mocapbench.reports.analysis.contrasts import PairContrast, contrasts
 from mocapbench.reports.analysis.results import TaskResults
@@ -37,7 +37,7 @@ def contrast_table(results: TaskResults, metric: str) -> Table | None:
     return Table(
         id=slug(results.layout.name, metric, "contrasts"),
         caption=f"{results.metrics[metric].short}, model against model: by how much the row is "
-        f"better than the column, over {counted(pairs[0].n, scored.unit)}",
+        f"better than the column, over {format_count(pairs[0].n, scored.unit)}",
         columns=headings(["entrant", *(f"than {label}" for label in labels)], "contrast"),
         rows=tuple(
             (Cell(row), *(_cell(by_pair.get((row, column)), places) for column in labels))

@@ -53,13 +53,13 @@ def _columns(data: pd.DataFrame) -> dict[str, tuple[Cell, ...]]:
 
 
 def _cost(label: str, jobs: pd.DataFrame) -> dict[str, object]:
-    converged = _known(jobs["converged"])
+    converged = _keep_finite(jobs["converged"])
     return {
         "label": label,
         "jobs": len(jobs),
         "fit_seconds": _median(jobs["fit_seconds"]),
         "predict_seconds": _median(jobs["predict_seconds"]),
-        "peak_memory_mb": max(_known(jobs["peak_memory_mb"]), default=math.nan),
+        "peak_memory_mb": max(_keep_finite(jobs["peak_memory_mb"]), default=math.nan),
         "iterations": _median(jobs["iterations"]),
         "converged": fmean(converged) if converged else math.nan,
         "engine": "; ".join(dict.fromkeys(filter(None, jobs["engine"]))),
@@ -68,11 +68,11 @@ def _cost(label: str, jobs: pd.DataFrame) -> dict[str, object]:
 
 def _median(values: pd.Series[Any]) -> float:
     """Return the median of what is known, NaN where nothing is."""
-    known = _known(values)
+    known = _keep_finite(values)
     return median(known) if known else math.nan
 
 
-def _known(values: pd.Series[Any]) -> list[float]:
+def _keep_finite(values: pd.Series[Any]) -> list[float]:
     numbers = (math.nan if value is None else float(value) for value in values.tolist())
     return [number for number in numbers if math.isfinite(number)]
 

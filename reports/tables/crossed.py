@@ -55,7 +55,7 @@ def _cell(results: TaskResults, case: CaseLayout | None, metric: str, lettered: 
     (label,) = results.layout.labels
     estimate = results.estimate(case.name, label, metric)
     if estimate is None:
-        return Cell("missing", kind="trouble")
+        return Cell("missing", kind="failure")
     places = results.decimals[metric]
     note = _note(results.published_value(case, label, metric), places, lettered)
     link = cell_anchor(results.layout.name, case.name, label)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.negative_control import (
     ENOUGH_CELLS,
     LEAST_VARIANCE_RATIO,
@@ -77,7 +77,7 @@ def _note(measure: Measure) -> str:
         case Decision.UNDECIDED:
             return TOO_FEW
         case Decision.FAILED:
-            return counted(len(measure.offending), "offending cell")
+            return format_count(len(measure.offending), "offending cell")
 
 
 def _notes(checked: Sequence[NegativeControlResult]) -> tuple[str, ...]:

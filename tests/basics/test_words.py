@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.basics.words import counted, listed, printable
+from mocapbench.basics.words import format_count, join_names, printable
 
 BIDIRECTIONAL = {"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"}
 MARKS = "\N{LEFT-TO-RIGHT MARK}\N{RIGHT-TO-LEFT MARK}\N{ARABIC LETTER MARK}"
@@ -72,11 +72,11 @@ def test_a_sequence_without_an_end_hides_nothing():
     ("count", "text"), [(0, "0 cases"), (1, "1 case"), (2, "2 cases"), (21, "21 cases")]
 )
 def test_the_noun_follows_its_count(count, text):
-    assert counted(count, "case") == text
+    assert format_count(count, "case") == text
 
 
 def test_an_irregular_plural_is_named():
-    texts = [counted(count, "entry", "entries") for count in (0, 1, 2)]
+    texts = [format_count(count, "entry", "entries") for count in (0, 1, 2)]
     assert texts == ["0 entries", "1 entry", "2 entries"]
 
 
@@ -91,4 +91,4 @@ def test_an_irregular_plural_is_named():
     ],
 )
 def test_names_stand_in_a_row_and_what_is_too_many_is_counted(names, text):
-    assert listed(names, 3) == text
+    assert join_names(names, 3) == text

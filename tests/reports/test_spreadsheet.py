@@ -8,7 +8,7 @@ import pandas as pd
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.reports.spreadsheet import csv_text, guarded, unguarded
+from mocapbench.reports.spreadsheet import csv_text, guard_text, unguard_text
 
 FORMULA = "=+-@\t\r\n＝＋－＠"
 names = st.text() | st.text(f"'{FORMULA}a", max_size=5)
@@ -17,17 +17,17 @@ numbers = st.floats(allow_nan=False, allow_infinity=False)
 
 @given(names)
 def test_no_guarded_text_begins_a_formula(text):
-    assert guarded(text)[:1] not in set(FORMULA)
+    assert guard_text(text)[:1] not in set(FORMULA)
 
 
 @given(names)
 def test_what_was_guarded_comes_back(text):
-    assert unguarded(guarded(text)) == text
+    assert unguard_text(guard_text(text)) == text
 
 
 @given(names.filter(lambda text: not text.lstrip("'").startswith(tuple(FORMULA))))
 def test_other_text_stays_as_it_is(text):
-    assert guarded(text) == text == unguarded(text)
+    assert guard_text(text) == text == unguard_text(text)
 
 
 @given(st.lists(st.tuples(numbers, st.integers(-(2**53), 2**53), st.booleans()), min_size=1))
@@ -57,7 +57,7 @@ def test_every_text_stays_in_its_cell(rows):
     frame = pd.DataFrame(rows, columns=["one", "two"])
     _, *read = csv.reader(StringIO(csv_text(frame), newline=""), strict=True)
     lines = [[re.sub("\r\n?", "\n", text) for text in row] for row in rows]
-    assert [[*map(unguarded, row)] for row in read] == lines
+    assert [[*map(unguard_text, row)] for row in read] == lines
     assert not {text[:1] for row in read for text in row} & set(FORMULA)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mocapbench import benchmark as bench
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import Job, Record
@@ -21,7 +21,7 @@ def summary(records: Sequence[Record]) -> str:
     """Return how many jobs there are, and how many ended in which way."""
     counts = Counter(record.status for record in records)
     ways = ", ".join(f"{counts[status]} {status}" for status in bench.Status if counts[status])
-    return f"{counted(len(records), 'job')}: {ways}"
+    return f"{format_count(len(records), 'job')}: {ways}"
 
 
 def fetching(planned: Sequence[Job], plugins: Sequence[Path]) -> str:
@@ -40,7 +40,7 @@ def wall_time(seconds: float, records: Sequence[Record], started: str) -> str:
     done = (record for record in records if record.status is bench.Status.OK)
     earlier = sum(record.provenance.get("started") != started for record in done)
     are = "is" if earlier == 1 else "are"
-    others = f"; {counted(earlier, 'result')} {are} of an earlier run" if earlier else ""
+    others = f"; {format_count(earlier, 'result')} {are} of an earlier run" if earlier else ""
     return f"{seconds:.0f} s{others}"
 
 

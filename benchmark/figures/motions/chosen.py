@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.figures.solved import Solved
 
 __all__ = ["Chosen", "choose_entrants"]
@@ -38,6 +38,6 @@ def choose_entrants(solved: Solved[Any, Any], n_most: int) -> Chosen:
     beside = next((label for label in (*first, *labels[1:2]) if label != labels[0]), labels[0])
     order = f"best first by {solved.metric} here" if solved.ranking else "in the order of the task"
     if not others:
-        return Chosen(labels, beside, f"All {counted(len(labels), 'entrant')}, {order}")
+        return Chosen(labels, beside, f"All {format_count(len(labels), 'entrant')}, {order}")
     added = " and the best interpolation" if len(labels) > n_most else ""
     return Chosen(labels, beside, f"The first {n_most} of {len(ranked)} entrants{added}, {order}")

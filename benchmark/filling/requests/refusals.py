@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError, first_of
 from mocapbench.benchmark.filling.requests.names import marker_names
 from mocapbench.benchmark.filling.requests.zeros import zeros_caution
@@ -26,8 +26,8 @@ def no_gap(
     if (unlabelled or outputs) and pattern is None:
         strays, results = (len(marker_names(names)) for names in (unlabelled, outputs))
         counts = [
-            counted(strays, "unlabelled marker") if strays else "",
-            counted(results, "result of a model", "results of a model") if results else "",
+            format_count(strays, "unlabelled marker") if strays else "",
+            format_count(results, "result of a model", "results of a model") if results else "",
         ]
         names = marker_names((*unlabelled, *outputs))
         return (

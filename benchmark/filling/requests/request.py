@@ -18,7 +18,7 @@ from mocapbench.benchmark.filling.requests.refusals import (
     no_gap,
     nothing_known,
 )
-from mocapbench.datasets import Mask, Recording, unwrapped
+from mocapbench.datasets import Mask, Recording, unwrap_angles
 
 __all__ = ["FillRequest", "NamedEntries", "select"]
 
@@ -115,7 +115,7 @@ def select(
     replaced = int((target & recording.visible).sum())
     open_too = recording.hide(named)
     return FillRequest(
-        unwrapped(open_too), target, left_open, unlabelled, unknown, replaced, outputs
+        unwrap_angles(open_too), target, left_open, unlabelled, unknown, replaced, outputs
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines.common.markers import markers_of
-from mocapbench.basics.words import counted, listed
+from mocapbench.basics.words import format_count, join_names
 from mocapbench.datasets import Recording
 
 __all__ = ["zeros_caution"]
@@ -21,9 +21,9 @@ def zeros_caution(recording: Recording) -> str:
         return ""
     are, each = ("is", "") if len(zeros) == 1 else ("are", "up to ")
     return (
-        f"{listed([*zeros], _NAMED)} {are} exactly 0, 0, 0 in {each}"
-        f"{counted(max(zeros.values()), 'frame')} and elsewhere in others: if that marks missing "
-        "values, empty these cells."
+        f"{join_names([*zeros], _NAMED)} {are} exactly 0, 0, 0 in {each}"
+        f"{format_count(max(zeros.values()), 'frame')} and elsewhere in others: if that marks "
+        "missing values, empty these cells."
     )
 
 

@@ -74,7 +74,7 @@ class _Process:
         """Return what `call_isolated` returns."""
         request = json.dumps([function, arguments, int(memory)]).encode() + b"\n"
         with self._lock, ExitStack() as unless_answered:
-            process = self._started()
+            process = self._start_if_stopped()
             # Also if interrupted: the next call would take the answer to this one for its own.
             unless_answered.callback(self.close)
             timer = threading.Timer(timeout, process.kill)
@@ -95,7 +95,7 @@ class _Process:
             running.kill()
             running.communicate()  # closes the pipes and waits
 
-    def _started(self) -> subprocess.Popen[bytes]:
+    def _start_if_stopped(self) -> subprocess.Popen[bytes]:
         if self._running is None or self._running.poll() is not None:
             self._running = subprocess.Popen(
                 _COMMAND,

@@ -31,12 +31,12 @@ def serve() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what libraries print is not an answer
     for line in sys.stdin.buffer:
         data = BytesIO()
-        np.savez(data, allow_pickle=False, **_called(*json.loads(line)))
+        np.savez(data, allow_pickle=False, **_call_function(*json.loads(line)))
         answers.write(data.tell().to_bytes(LENGTH) + data.getbuffer())
         answers.flush()
 
 
-def _called(function: str, arguments: list[str], memory: int) -> Mapping[str, NDArray[Any]]:
+def _call_function(function: str, arguments: list[str], memory: int) -> Mapping[str, NDArray[Any]]:
     """Return the arrays that a function returns, or the one called ``error``."""
     module, _, name = function.partition(":")
     try:

@@ -20,7 +20,7 @@ from mocapbench.datasets.formats.building import even_times
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.text.cells import Words
 from mocapbench.datasets.formats.text.lines import read_lines, write_lines
-from mocapbench.datasets.formats.text.numbers import written
+from mocapbench.datasets.formats.text.numbers import format_number
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["AcclaimFormat"]
@@ -59,8 +59,8 @@ class AcclaimFormat(Format):
         for frame, channel in np.argwhere(new).tolist():
             place = places[channel]
             line = start + frame * (1 + len(moving)) + 1 + place.segment
-            number = written(stated[frame, channel])
-            lines[line] = Words().replaced(lines[line], {place.word: number})
+            number = format_number(stated[frame, channel])
+            lines[line] = Words().replace_cells(lines[line], {place.word: number})
         write_lines(path, lines, like)
 
     def skeleton(self, path: Path) -> Skeleton:

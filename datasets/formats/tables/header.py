@@ -42,9 +42,9 @@ def column_names(file: str, lines: Sequence[str], cells: Separated) -> list[str]
     below = cells.split(lines[1]) if len(lines) > 1 else []
     if _stands_above(names, below):
         advice = "remove what stands above the names of the columns"
-        raise FormatError(file, _EXPECTED, _shown(lines[0]), advice, line=1)
+        raise FormatError(file, _EXPECTED, _quote_line(lines[0]), advice, line=1)
     if all(is_missing(name) or looks_numeric(name) for name in names):
-        raise FormatError(file, _EXPECTED, _shown(lines[0]), _EXAMPLE, line=1)
+        raise FormatError(file, _EXPECTED, _quote_line(lines[0]), _EXAMPLE, line=1)
     if cells.separator == "," and len(names) < len(below) and all(map(looks_numeric, below)):
         advice = (
             "if commas are decimal marks here, put semicolons between columns, else name every "
@@ -61,5 +61,5 @@ def _stands_above(names: Sequence[str], below: Sequence[str]) -> bool:
     return names[0].lower().startswith("sep=") or (names[0].startswith("#") and other)
 
 
-def _shown(line: str) -> str:
+def _quote_line(line: str) -> str:
     return repr(line[:_SHOWN].rstrip())

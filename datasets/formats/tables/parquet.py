@@ -32,18 +32,18 @@ class ParquetFormat(Format):
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""
-        names, columns, values = _read(path)
+        names, columns, values = _read_table(path)
         times = None if columns.time is None else values[:, columns.time]
         channels = values[:, list(columns.channels)]
         return table_recording(path.name, names, columns, (times, channels), rate)
 
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's columns with the new entries."""
-        _, columns, _ = _read(like)
+        _, columns, _ = _read_table(like)
         import_module(_COLUMNS).write_columns(path, columns.channels, values, new, like)
 
 
-def _read(path: Path) -> tuple[list[str], TableColumns, FrameByChannel]:
+def _read_table(path: Path) -> tuple[list[str], TableColumns, FrameByChannel]:
     """Return the names of all columns, what these are, and their values (N, columns)."""
     size = path.stat().st_size
     memory = ParquetFormat.memory_per_byte * size + _MEMORY

@@ -18,7 +18,7 @@ class CellSplitter(Protocol):
     def split(self, line: str) -> list[str]:
         """Return the cells of a line."""
 
-    def replaced(self, line: str, new: Mapping[int, str]) -> str:
+    def replace_cells(self, line: str, new: Mapping[int, str]) -> str:
         """Return the line with the cells of some indices replaced."""
 
 
@@ -38,18 +38,18 @@ class Separated:
         """Return the cells of a line, without quotes and the blanks around."""
         if '"' not in line:
             return line.rstrip(_ENDS).split(self.separator)
-        return [cell.strip().strip('"') for cell in self._quoted(line)]
+        return [cell.strip().strip('"') for cell in self._split_quoted(line)]
 
-    def replaced(self, line: str, new: Mapping[int, str]) -> str:
+    def replace_cells(self, line: str, new: Mapping[int, str]) -> str:
         """Return the line with the cells of some indices replaced; a short line is lengthened."""
         body = line.rstrip(_ENDS)
-        cells = self._quoted(body)
+        cells = self._split_quoted(body)
         cells += [""] * (1 + max(new) - len(cells))
         for index, cell in new.items():
             cells[index] = cell
         return self.separator.join(cells) + line[len(body) :]
 
-    def _quoted(self, line: str) -> list[str]:
+    def _split_quoted(self, line: str) -> list[str]:
         cells: list[str] = []
         for piece in line.rstrip(_ENDS).split(self.separator):
             if cells and cells[-1].count('"') % 2:
@@ -66,7 +66,7 @@ class Words:
         """Return the words of a line."""
         return line.split()
 
-    def replaced(self, line: str, new: Mapping[int, str]) -> str:
+    def replace_cells(self, line: str, new: Mapping[int, str]) -> str:
         """Return the line with the words of some indices replaced, and all blanks as they were."""
         words = re.findall(r"\s*\S+", line)
         end = line[sum(map(len, words)) :]

@@ -8,7 +8,7 @@ from math import nan
 
 import numpy as np
 
-__all__ = ["is_missing", "is_number", "looks_numeric", "numeric", "written"]
+__all__ = ["format_number", "is_missing", "is_number", "looks_numeric", "numeric"]
 
 _MISSING = frozenset({"", "nan", "na", "null"})
 _NUMERIC = re.compile(
@@ -77,6 +77,6 @@ def numeric(cells: Sequence[str], decimal: str = ".") -> list[float]:
         return [nan if is_missing(cell) else float(cell) for cell in cells]
 
 
-def written(value: float, decimal: str = ".") -> str:
+def format_number(value: float, decimal: str = ".") -> str:
     """Return the shortest decimal number, without an exponent, that reads back the same."""
     return np.format_float_positional(value, trim="0").replace(".", decimal)

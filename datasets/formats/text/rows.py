@@ -11,11 +11,11 @@ import numpy as np
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.text.cells import CellSplitter
 from mocapbench.datasets.formats.text.numbers import (
+    format_number,
     is_missing,
     is_number,
     looks_numeric,
     numeric,
-    written,
 )
 from mocapbench.datasets.recording import FrameByChannel, Mask
 
@@ -103,8 +103,8 @@ class TextTable:
         lines = list(self.lines)
         for row in np.flatnonzero(new.any(axis=1)).tolist():
             places = np.flatnonzero(new[row]).tolist()
-            cells = {columns[k]: written(values[row, k], self.decimal) for k in places}
-            lines[self.start + row] = self.cells.replaced(lines[self.start + row], cells)
+            cells = {columns[k]: format_number(values[row, k], self.decimal) for k in places}
+            lines[self.start + row] = self.cells.replace_cells(lines[self.start + row], cells)
         return lines
 
     def _not_a_number(self, row: Sequence[str], columns: Sequence[int], index: int) -> FormatError:

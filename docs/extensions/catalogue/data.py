@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.problems.cluster import ClusterProblem
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.recover import RecoverProblem
@@ -100,7 +100,7 @@ def _posed(task: Task, case: Case, archive: Archive) -> Posed:
     frames = f"{lengths[0]} to {lengths[-1]}" if len(lengths) > 1 else str(lengths[0])
     first = problem.train[0]
     rate = f"{1 / np.median(np.diff(first.times)):.3g} Hz" if case.recordings else ""
-    seen = counted(len(problem.train), "recording")
+    seen = format_count(len(problem.train), "recording")
     return Posed(case.name, seen, frames, rate, len(first.channels), _asked(problem))
 
 
@@ -114,13 +114,13 @@ def _asked(problem: Any) -> str:
 @_asked.register
 def _of_gaps(problem: ImputeProblem) -> str:
     hidden = np.mean([1.0 - recording.visible.mean() for recording in problem.given])
-    filled = counted(len(problem.given), "recording")
+    filled = format_count(len(problem.given), "recording")
     return f"fill {filled}, of whose entries {100 * hidden:.0f} % are hidden"
 
 
 @_asked.register
 def _of_samples(problem: SynthesiseProblem) -> str:
-    references = counted(len(problem.references), "other")
+    references = format_count(len(problem.references), "other")
     return f"draw {problem.n_samples} of {len(problem.times)} frames, like {references}"
 
 

@@ -44,7 +44,7 @@ class Tally:
 
 def published_totals(tasks: Iterable[TaskResults]) -> Tally:
     """Count every value that the package has of the papers, those of other tasks included."""
-    return _sum(every_value(), _counted(tasks))
+    return _sum(every_value(), _collect_verdicts(tasks))
 
 
 def tallies_by_source(results: TaskResults) -> Mapping[str, Tally]:
@@ -52,7 +52,7 @@ def tallies_by_source(results: TaskResults) -> Mapping[str, Tally]:
     by_source: dict[str, list[PublishedValue]] = {}
     for value in results.published.values():
         by_source.setdefault(value.source, []).append(value)
-    counted = _counted([results])
+    counted = _collect_verdicts([results])
     return {source: _sum(values, counted) for source, values in by_source.items()}
 
 
@@ -60,7 +60,7 @@ Counted = Mapping[PublishedAddress, tuple[PublishedVerdict, bool]]
 """By published value, the verdict that counts, and whether it rests on one fold."""
 
 
-def _counted(tasks: Iterable[TaskResults]) -> Counted:
+def _collect_verdicts(tasks: Iterable[TaskResults]) -> Counted:
     """Return the verdicts that the tasks decide."""
     verdicts: dict[PublishedAddress, tuple[PublishedVerdict, bool]] = {}
     for results in tasks:

@@ -14,7 +14,7 @@ import numpy as np
 from markupsafe import Markup, escape
 from numpy.typing import NDArray
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.bundle.heat_maps import HeatMap, HeatMaps
 from mocapbench.reports.figures.axes import panels
 from mocapbench.reports.figures.legend import key
@@ -63,15 +63,15 @@ def _map(figure: HeatMaps, heat_map: HeatMap) -> Markup:
     written = len(figure.labels) <= MOST_WRITTEN
     cells = _cells(heat_map.values, figure.limit) if written else []
     canvas = Markup() if written else _canvas(heat_map.values, figure.limit)
-    label = f"{figure.title}, {heat_map.title}: {_described(figure.labels, heat_map.values)}"
+    label = f"{figure.title}, {heat_map.title}: {_describe_matrix(figure.labels, heat_map.values)}"
     marks = [text(LEFT, 13.0, heat_map.title, "title"), *cells, *_names(figure.labels)]
     drawing = svg(LEFT + SIDE + 1.0, TOP + SIDE + BOTTOM, label, marks)
     return Markup('<div class="map">{}{}</div>').format(canvas, drawing)
 
 
-def _described(labels: Sequence[str], values: NDArray[np.float64]) -> str:
+def _describe_matrix(labels: Sequence[str], values: NDArray[np.float64]) -> str:
     ends = f"{values.min():.2g} to {values.max():.2g}".replace("-", MINUS)
-    return f"{counted(len(labels), 'row')} and as many columns, {ends}"
+    return f"{format_count(len(labels), 'row')} and as many columns, {ends}"
 
 
 def _canvas(values: NDArray[np.float64], limit: float) -> Markup:
@@ -113,13 +113,13 @@ def _names(labels: Sequence[str]) -> list[str]:
     centres = ends - np.asarray(sizes) * side / 2.0
     return [
         *(text(LEFT - 5.0, TOP + y + 4.0, n, "end") for n, y in zip(names, centres, strict=True)),
-        *(_turned(LEFT + x + 4.0, n) for n, x in zip(names, centres, strict=True)),
+        *(_draw_column_name(LEFT + x + 4.0, n) for n, x in zip(names, centres, strict=True)),
         *(horizontal(LEFT, LEFT + SIDE, TOP + y, "edge") for y in (0.0, *ends)),
         vertical((LEFT + x for x in (0.0, *ends)), TOP, TOP + SIDE, "edge"),
     ]
 
 
-def _turned(x: float, name: str) -> str:
+def _draw_column_name(x: float, name: str) -> str:
     place = f"translate({x:.1f} {TOP + SIDE + 6.0:.1f}) rotate(-90)"
     return f'<text class="end" transform="{place}">{escape(name)}</text>'
 
@@ -127,14 +127,14 @@ def _turned(x: float, name: str) -> str:
 def _legend(limit: float) -> tuple[Key, ...]:
     """Return a key for each of nine levels, named by its centre, or its inner edge if outermost."""
     width = 2.0 * limit / N_LEVELS
-    texts = [_signed(width * (level - MIDDLE)) for level in range(N_LEVELS)]
+    texts = [_format_value(width * (level - MIDDLE)) for level in range(N_LEVELS)]
     edge = width * (MIDDLE - 0.5)
-    texts[0], texts[-1] = f"≤ {_signed(-edge)}", f"≥ {_signed(edge)}"
+    texts[0], texts[-1] = f"≤ {_format_value(-edge)}", f"≥ {_format_value(edge)}"
     return tuple(
         key(name, _INK, rectangle(0.5, 1.5, 27.0, 11.0, f"cell l{level}"))
         for level, name in enumerate(texts)
     )
 
 
-def _signed(value: float) -> str:
+def _format_value(value: float) -> str:
     return f"{value:.2g}".replace("-", MINUS)

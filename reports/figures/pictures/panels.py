@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from mocapbench.reports.bundle.panels import Band, Curve, Illustration, Panel
 from mocapbench.reports.figures.axes import BOTTOM, LEFT, TOP, WIDTH, Axes, panels
-from mocapbench.reports.figures.fitting import linear
+from mocapbench.reports.figures.fitting import fit_linear_scale
 from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, group, polyline
-from mocapbench.reports.figures.pictures.thinning import thinned
+from mocapbench.reports.figures.pictures.thinning import thin_points
 from mocapbench.reports.figures.scale import LinearScale
 from mocapbench.reports.figures.styles import DrawingStyle, group_styles
 from mocapbench.reports.figures.svg_figure import SvgFigure
@@ -50,14 +50,14 @@ def _axes(panel: Panel) -> Axes:
     heights = np.concatenate(
         [*(curve.y for curve in panel.curves), *(np.r_[b.low, b.high] for b in panel.bands)]
     )
-    x = linear(np.concatenate(along), LEFT, WIDTH)
-    y = linear(heights, TOP + HEIGHT, TOP)
+    x = fit_linear_scale(np.concatenate(along), LEFT, WIDTH)
+    y = fit_linear_scale(heights, TOP + HEIGHT, TOP)
     return Axes(x, y, panel.title, panel.x_label, panel.y_label)
 
 
 def _spatial_axes(panel: Panel) -> Axes:
     """Return axes of one scale, as high as the curves need."""
-    x = linear(np.concatenate([curve.x for curve in panel.curves]), LEFT, WIDE)
+    x = fit_linear_scale(np.concatenate([curve.x for curve in panel.curves]), LEFT, WIDE)
     unit = (x.stop - x.start) / (x.high - x.low)
     heights = np.concatenate([curve.y for curve in panel.curves])
     low, high = float(np.nanmin(heights)), float(np.nanmax(heights))
@@ -83,4 +83,4 @@ def _lines(curves: Iterable[Curve], axes: Axes) -> str:
 
 
 def _points(curve: Curve, axes: Axes) -> NDArray[np.float64]:
-    return thinned(np.stack([axes.x.places(curve.x), axes.y.places(curve.y)], axis=1))
+    return thin_points(np.stack([axes.x.places(curve.x), axes.y.places(curve.y)], axis=1))

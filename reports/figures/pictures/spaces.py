@@ -11,12 +11,12 @@ from markupsafe import Markup
 from numpy.typing import NDArray
 
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.bundle.spaces import Path3D, Space
 from mocapbench.reports.figures.axes import WIDTH, panels
 from mocapbench.reports.figures.legend import key, line_keys
 from mocapbench.reports.figures.marks import dot, group, polyline, svg, text
-from mocapbench.reports.figures.pictures.thinning import thinned
+from mocapbench.reports.figures.pictures.thinning import thin_points
 from mocapbench.reports.figures.styles import DrawingStyle, group_styles
 from mocapbench.reports.figures.svg_figure import Key, SvgFigure
 
@@ -37,11 +37,16 @@ Styles = Mapping[str, DrawingStyle]
 def draw(space: Space, models: Styles) -> SvgFigure:
     """Return ``space`` as a figure: its paths, and the highest tenth of its cloud."""
     styles = group_styles(tuple(dict.fromkeys(path.group for path in space.paths)), models)
-    cloud, levels = _shown(space)
-    scaled = _scaled(space, cloud)
+    cloud, levels = _select_points(space)
+    scaled = _fit_axes(space, cloud)
     paths = [Path3D(scaled(path.points), path.group) for path in space.paths]
     views = [
-        svg(SIDE, SIDE, _described(space, view), _seen(paths, scaled(cloud), levels, styles, view))
+        svg(
+            SIDE,
+            SIDE,
+            _describe_view(space, view),
+            _draw_view(paths, scaled(cloud), levels, styles, view),
+        )
         for view in VIEWS
     ]
     turning = _canvas(space, paths, scaled(cloud), levels, styles)
@@ -49,9 +54,9 @@ def draw(space: Space, models: Styles) -> SvgFigure:
     return SvgFigure(space.title, panels([turning, *views]), legend, space.caption)
 
 
-def _described(space: Space, view: tuple[float, float]) -> str:
+def _describe_view(space: Space, view: tuple[float, float]) -> str:
     sides = f"elevation {view[0]:g}°, azimuth {view[1]:g}°"
-    return f"{space.title}: {counted(len(space.paths), 'path')}, {sides}"
+    return f"{space.title}: {format_count(len(space.paths), 'path')}, {sides}"
 
 
 def projection(elevation: float, azimuth: float) -> Array:
@@ -68,13 +73,13 @@ def _edges(space: Space) -> Array:
     return np.linspace(low, high, len(CLOUD) + 1)[:-1]
 
 
-def _shown(space: Space) -> tuple[Array, NDArray[np.intp]]:
+def _select_points(space: Space) -> tuple[Array, NDArray[np.intp]]:
     """Return the points of the cloud that are shown, and their levels."""
     places = np.searchsorted(_edges(space), space.values, side="right") - 1
     return space.cloud[places >= 0], places[places >= 0] + CLOUD.start
 
 
-def _scaled(space: Space, cloud: Array) -> Callable[[Array], Array]:
+def _fit_axes(space: Space, cloud: Array) -> Callable[[Array], Array]:
     """Return the map of each axis onto [−1, 1]."""
     points = np.concatenate([cloud, *(path.points for path in space.paths)])
     low, high = np.nanmin(points, axis=0), np.nanmax(points, axis=0)
@@ -82,7 +87,7 @@ def _scaled(space: Space, cloud: Array) -> Callable[[Array], Array]:
     return lambda of: np.asarray((of - (low + high) / 2.0) / reach)
 
 
-def _seen(
+def _draw_view(
     paths: list[Path3D],
     cloud: Array,
     levels: NDArray[np.intp],
@@ -96,7 +101,9 @@ def _seen(
         *_tripod(onto),
         *(_points(places[levels == level], level) for level in CLOUD),
         *(
-            group(styles[p.group], polyline(*thinned(SIDE / 2.0 + p.points @ onto * SIDE / 3.6).T))
+            group(
+                styles[p.group], polyline(*thin_points(SIDE / 2.0 + p.points @ onto * SIDE / 3.6).T)
+            )
             for p in paths
         ),
     ]
@@ -124,9 +131,11 @@ def _canvas(
 ) -> Markup:
     """Return a canvas that a script draws and turns, hidden without one."""
     data = {
-        "cloud": _packed(cloud),
+        "cloud": _encode_points(cloud),
         "levels": levels.tolist(),
-        "paths": [[styles[p.group].hue, styles[p.group].label, _packed(p.points)] for p in paths],
+        "paths": [
+            [styles[p.group].hue, styles[p.group].label, _encode_points(p.points)] for p in paths
+        ],
         "view": VIEWS[0],
     }
     return Markup(
@@ -135,7 +144,7 @@ def _canvas(
     ).format(int(WIDTH), space.title, json.dumps(data, separators=(",", ":")))
 
 
-def _packed(points: Array) -> str:
+def _encode_points(points: Array) -> str:
     """Return points of [−1, 1] as 16-bit numbers; NaN as the least of them."""
     whole = np.nan_to_num(np.rint(points * _REACH), nan=-_REACH - 1.0)
     return b64encode(whole.astype("<i2").tobytes()).decode()

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mocapbench.basics.arrays import Array
 
-__all__ = ["TOLERANCE", "thinned"]
+__all__ = ["TOLERANCE", "thin_points"]
 
 
 TOLERANCE = 0.4
@@ -19,7 +19,7 @@ With the rounding of coordinates no point moves by more than half a pixel.
 """
 
 
-def thinned(points: Array) -> Array:
+def thin_points(points: Array) -> Array:
     """Return some of ``points``, whose line passes within `TOLERANCE` of all others.
 
     Parameters

@@ -12,7 +12,7 @@ from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
-from mocapbench.reports.figures.fitting import fitted, remark
+from mocapbench.reports.figures.fitting import fit_scale, remark
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, dot, group, polyline
@@ -29,7 +29,7 @@ Curve = Mapping[float, FoldSample]
 HEIGHT, N_BANDS = 220.0, 3
 FEWEST_BANDED = 3
 """Of two units an interval is 13 times as wide as they are apart: it would hide the curves."""
-CAPTION = "bands are of the {n} models with the least mean, where there are {units} units or more."
+CAPTION = "intervals are of the {n} models with the least mean, where there are {units} units or more."
 
 
 def curves_along(
@@ -83,9 +83,9 @@ class _Panel:
         """Return the panel, and a remark on its axis."""
         curves = self._curves(cases)
         samples = (sample for curve in curves.values() for sample in curve.values())
-        y = fitted((value for sample in samples for value in sample.values), 0, 1)
+        y = fit_scale((value for sample in samples for value in sample.values), 0, 1)
         y = type(y)(y.low, y.high, TOP + HEIGHT, TOP)
-        x = fitted((float(case.columns[self.column]) for case in cases), LEFT, WIDTH)
+        x = fit_scale((float(case.columns[self.column]) for case in cases), LEFT, WIDTH)
         title = self.results.metrics[self.metric].title
         axes = Axes(x, y, heading, self.column, title)
         order = sorted(curves, key=lambda label: self._mean_loss(curves[label]))

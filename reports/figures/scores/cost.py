@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
-from mocapbench.reports.figures.fitting import fitted, remark
+from mocapbench.reports.figures.fitting import fit_scale, remark
 from mocapbench.reports.figures.legend import dot_keys
 from mocapbench.reports.figures.marks import dot, group, polyline, text
 from mocapbench.reports.figures.scale import Scale
@@ -75,8 +75,8 @@ def _panel(
     title: str,
     styles: Mapping[str, DrawingStyle],
 ) -> tuple[Markup, str]:
-    x = fitted((error for error, _ in points.values()), LEFT, WIDTH)
-    y = fitted((seconds for _, seconds in points.values()), TOP + HEIGHT, TOP)
+    x = fit_scale((error for error, _ in points.values()), LEFT, WIDTH)
+    y = fit_scale((seconds for _, seconds in points.values()), TOP + HEIGHT, TOP)
     line = np.array([points[label] for label in best])
     named = _apart(best, [y.place(points[label][1]) for label in best])
     marks = [

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 
 from markupsafe import Markup
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.fold_sample import FoldSample
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
-from mocapbench.reports.figures.fitting import fitted, remark
+from mocapbench.reports.figures.fitting import fit_scale, remark
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
 from mocapbench.reports.figures.scale import LogScale, Scale
@@ -58,7 +58,7 @@ def _panel(
     """Return the panel of one case, and a remark on its axis."""
     of_case = {label: sample for (name, label), sample in values.items() if name == case.name}
     every = (value for sample in of_case.values() for value in sample.values)
-    scale = fitted(every, NAMES, WIDTH - 8.0)
+    scale = fit_scale(every, NAMES, WIDTH - 8.0)
     loss = results.metrics[metric].loss
     order = sorted(of_case, key=lambda label: loss(centre(of_case[label], scale)))
     bottom = TOP + ROW * len(order)
@@ -69,7 +69,7 @@ def _panel(
         bottom_axis(scale, bottom, "logarithmic" if isinstance(scale, LogScale) else ""),
         *rows,
     ]
-    name = f"{results.metrics[metric].title} of {counted(len(order), 'model')}, {case.heading}"
+    name = f"{results.metrics[metric].title} of {format_count(len(order), 'model')}, {case.heading}"
     return svg(WIDTH, bottom + BOTTOM, name, marks), remark(scale)
 
 
@@ -84,5 +84,5 @@ def _row(style: DrawingStyle, sample: FoldSample, place: int, scale: Scale) -> s
         vertical(map(scale.place, values), y - 4.0, y + 4.0) if len(values) > 1 else "",
         dot(scale.place(middle), y, style.shape),
     )
-    summary = f"{style.label}: {middle:.4g}, {counted(len(values), 'fold')}"
+    summary = f"{style.label}: {middle:.4g}, {format_count(len(values), 'fold')}"
     return row(style, place, *marks, title=summary)

@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.published.comparisons import Comparison
 from mocapbench.reports.analysis.published.verdicts import PublishedVerdict
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
-from mocapbench.reports.figures.fitting import fitted
+from mocapbench.reports.figures.fitting import fit_scale
 from mocapbench.reports.figures.legend import key
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
 from mocapbench.reports.figures.scale import LogScale, Scale
@@ -56,7 +56,7 @@ def forest(
 
 
 def _panel(title: str, pairs: Sequence[Comparison], styles: Mapping[str, DrawingStyle]) -> Markup:
-    scale = fitted((end for pair in pairs for end in _values(pair)), NAMES, STOP)
+    scale = fit_scale((end for pair in pairs for end in _values(pair)), NAMES, STOP)
     bottom = TOP + ROW * len(pairs)
     marks = [
         text(0.0, 13.0, title, "title"),
@@ -64,7 +64,7 @@ def _panel(title: str, pairs: Sequence[Comparison], styles: Mapping[str, Drawing
         bottom_axis(scale, bottom, "logarithmic" if isinstance(scale, LogScale) else ""),
         *(_row(pair, number, scale, styles[pair.label]) for number, pair in enumerate(pairs)),
     ]
-    name = f"{title}: {counted(len(pairs), 'published value')} beside ours"
+    name = f"{title}: {format_count(len(pairs), 'published value')} beside ours"
     return svg(WIDTH, bottom + BOTTOM, name, marks)
 
 

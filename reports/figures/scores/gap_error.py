@@ -8,11 +8,11 @@ import numpy as np
 from markupsafe import Markup
 
 from mocapbench.basics.arrays import Array
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.error_parts import ErrorParts
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
-from mocapbench.reports.figures.fitting import linear
+from mocapbench.reports.figures.fitting import fit_linear_scale
 from mocapbench.reports.figures.legend import line_keys
 from mocapbench.reports.figures.marks import band, group, polyline
 from mocapbench.reports.figures.scores.best import CHOICE, best_labels
@@ -34,11 +34,11 @@ def gap_error(
     if not labels:
         return None
     title = results.metrics[metric].title
-    n = counted(max(len(windows[label]) for label in labels), "gap")
+    n = format_count(max(len(windows[label]) for label in labels), "gap")
     banded = {labels[0], labels[-1]}
     caption = (
         f"mean over {n} of all windows and cases with recordings, each stretched to one length, of "
-        f"{CHOICE}. Bands hold the middle half of the gaps, of "
+        f"{CHOICE}. Shaded areas hold the middle half of the gaps, of "
         f"{' and '.join(sorted(banded, key=labels.index))}."
     )
     drawn = _axes({label: windows[label] for label in labels}, title, banded, styles)
@@ -63,8 +63,10 @@ def _axes(
     places = (np.arange(n_places) + 0.5) / n_places
     means = {label: errors.mean(axis=0) for label, errors in windows.items()}
     bands = {label: np.quantile(windows[label], [0.25, 0.75], axis=0) for label in banded}
-    x = linear([0.0, 1.0], LEFT, WIDTH)
-    y = linear(np.concatenate([[0.0], *means.values(), *map(np.ravel, bands.values())]), 0.0, 1.0)
+    x = fit_linear_scale([0.0, 1.0], LEFT, WIDTH)
+    y = fit_linear_scale(
+        np.concatenate([[0.0], *means.values(), *map(np.ravel, bands.values())]), 0.0, 1.0
+    )
     y = type(y)(0.0, y.high, TOP + HEIGHT, TOP)
     at = x.places(places)
     marks = [
@@ -72,4 +74,4 @@ def _axes(
         *(group(styles[n], polyline(at, y.places(m)), title=n) for n, m in means.items()),
     ]
     axes = Axes(x, y, "", "from the first hidden frame to the last", title)
-    return axes.draw(marks, f"{title} along the gap, of {counted(len(windows), 'model')}")
+    return axes.draw(marks, f"{title} along the gap, of {format_count(len(windows), 'model')}")

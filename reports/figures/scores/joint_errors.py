@@ -59,7 +59,7 @@ def _errors(results: TaskResults, parts: ErrorParts) -> dict[str, Array]:
 
 
 def _body(pose: RestPose, errors: Array, largest: float, style: DrawingStyle) -> Markup:
-    places = _placed(pose)
+    places = _place_joints(pose)
     parents = np.array(pose.parents)
     bones = [(joint, parent) for joint, parent in enumerate(parents) if parent >= 0]
     gap = np.full(2, np.nan)
@@ -80,7 +80,7 @@ def _body(pose: RestPose, errors: Array, largest: float, style: DrawingStyle) ->
     return svg(WIDTH, HEIGHT, f"{style.label}: position error by joint, {summary}", marks)
 
 
-def _placed(pose: RestPose) -> Array:
+def _place_joints(pose: RestPose) -> Array:
     """Return where the joints are in the panel, seen from the front: the left is on the right."""
     seen = pose.places[:, :2] * [1.0, -1.0]
     low, high = seen.min(axis=0), seen.max(axis=0)

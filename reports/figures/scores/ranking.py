@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.case_means import case_means
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis
-from mocapbench.reports.figures.fitting import fitted, remark
+from mocapbench.reports.figures.fitting import fit_scale, remark
 from mocapbench.reports.figures.marks import dot, svg, vertical
 from mocapbench.reports.figures.scale import LogScale, Scale
 from mocapbench.reports.figures.scores.rows import NAMES, ROW, TOP, place_of, row
@@ -47,14 +47,14 @@ def ranking(
     if len(lines) < 2:
         return None
     every = (value for line in lines for value in (line.mean, *line.cases))
-    scale, bottom = fitted(every, NAMES, WIDTH - 8.0), TOP + ROW * len(lines)
+    scale, bottom = fit_scale(every, NAMES, WIDTH - 8.0), TOP + ROW * len(lines)
     marks = [
         vertical(map(scale.place, scale.ticks(4)), TOP, bottom, "grid"),
         bottom_axis(scale, bottom, "logarithmic" if isinstance(scale, LogScale) else ""),
         *(_row(line, place, scale, styles[line.label]) for place, line in enumerate(lines)),
     ]
     info = results.metrics[metric]
-    name = f"{info.title} of {counted(len(lines), 'model')}"
+    name = f"{info.title} of {format_count(len(lines), 'model')}"
     several = len(results.representative_cases(metric)) > 1
     ticks = "A dot is a mean over cases, a tick one case." if several else ""
     caption = " ".join(filter(None, (f"{info.better} is better.", ticks, remark(scale))))
@@ -72,5 +72,5 @@ def _lines(results: TaskResults, metric: str) -> list[_Line]:
 def _row(line: _Line, place: int, scale: Scale, style: DrawingStyle) -> str:
     y = place_of(place)
     ticks = vertical(map(scale.place, line.cases), y - 4.0, y + 4.0) if len(line.cases) > 1 else ""
-    summary = f"{line.label}: {line.mean:.4g}, {counted(len(line.cases), 'case')}"
+    summary = f"{line.label}: {line.mean:.4g}, {format_count(len(line.cases), 'case')}"
     return row(style, place, ticks, dot(scale.place(line.mean), y, style.shape), title=summary)

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 
 from markupsafe import Markup
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.reports.analysis.ranks import Ranks
 from mocapbench.reports.figures.axes import BOTTOM, WIDTH, bottom_axis, panels
 from mocapbench.reports.figures.marks import dot, horizontal, svg, text, vertical
@@ -36,7 +36,7 @@ def _diagram(ranks: Ranks, title: str, styles: Mapping[str, DrawingStyle]) -> Ma
     order = sorted(range(n_entrants), key=means.__getitem__)
     stop = WIDTH - 34.0 - BAR_GAP * len(ranks.comparison.groups)
     scale, bottom = LinearScale(0.8, n_entrants, NAMES, stop), TOP + ROW * n_entrants
-    n = counted(ranks.comparison.n, ranks.unit)
+    n = format_count(ranks.comparison.n, ranks.unit)
     marks = [
         text(0.0, 13.0, f"ranks over {n}", "title"),
         bottom_axis(scale, bottom, "mean rank (1 is best)"),
@@ -46,7 +46,7 @@ def _diagram(ranks: Ranks, title: str, styles: Mapping[str, DrawingStyle]) -> Ma
         ),
         *_bars(ranks, {entrant: number for number, entrant in enumerate(order)}),
     ]
-    label = f"{title}: mean ranks of {counted(n_entrants, 'entrant')} over {n}"
+    label = f"{title}: mean ranks of {format_count(n_entrants, 'entrant')} over {n}"
     return svg(WIDTH, bottom + BOTTOM, label, marks)
 
 
@@ -69,7 +69,7 @@ def _bars(ranks: Ranks, rows: Mapping[int, int]) -> Iterator[str]:
 
 def _caption(ranks: Ranks) -> str:
     comparison = ranks.comparison
-    n = counted(comparison.n, ranks.unit)
+    n = format_count(comparison.n, ranks.unit)
     groups = "; ".join(", ".join(ranks.labels[entrant] for entrant in g) for g in comparison.groups)
     together = f"Not separable, joined by a bar: {groups}." if groups else "All are separable."
     left_out = ", ".join(ranks.left_out)

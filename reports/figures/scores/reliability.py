@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from markupsafe import Markup
 
-from mocapbench.basics.words import counted
+from mocapbench.basics.words import format_count
 from mocapbench.metrics.base import Direction
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.figures.axes import LEFT, TOP, WIDTH, Axes, panels
@@ -68,7 +68,7 @@ def _panel(curves: Mapping[str, Curve], styles: Mapping[str, DrawingStyle]) -> M
     ]
     axes = Axes(x, y, "", "nominal coverage", "empirical coverage")
     return axes.draw(
-        marks, f"Nominal against empirical coverage of {counted(len(curves), 'model')}"
+        marks, f"Nominal against empirical coverage of {format_count(len(curves), 'model')}"
     )
 
 

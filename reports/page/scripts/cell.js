@@ -61,13 +61,13 @@
 
   const foldRow = (cell, place) => {
     const fold = cell.folds[place];
-    const trouble = cell.troubles.find(([failed]) => failed === fold);
-    const [, status, message, id] = trouble ?? [];
-    const ending = trouble ? shared[status] : "ok";
+    const failure = cell.failures.find(([failed]) => failed === fold);
+    const [, status, message, id] = failure ?? [];
+    const ending = failure ? shared[status] : "ok";
     const state = document.getElementById(id ?? "") ? element("a", { href: `#${id}` }, ending) : ending;
     const costs = ["fit_seconds", "predict_seconds", "peak_memory_mb"].map((name) => cell[name][place]);
     const numbers = [...cell.scores.map((score) => score?.[0][place] ?? null), ...costs];
-    const note = trouble ? [element("small", {}, shared[message])] : [];
+    const note = failure ? [element("small", {}, shared[message])] : [];
     return element("tr", {}, element("th", { scope: "row" }, String(fold + 1)),
       element("td", { class: "text" }, state, ...note),
       ...numbers.map((value) => element("td", {}, digits(value))));

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-__all__ = ["counted", "encodable", "listed", "printable"]
+__all__ = ["encodable", "format_count", "join_names", "printable"]
 
 _CONTROL = r"\x00-\x08\x0b-\x1f\x7f-\x9f"
 _BIDIRECTIONAL = r"\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"
@@ -22,12 +22,12 @@ _UNPRINTABLE = re.compile(
 )
 
 
-def counted(count: int, noun: str, plural: str = "") -> str:
+def format_count(count: int, noun: str, plural: str = "") -> str:
     """Return a count with its noun: "1 case", "2 cases"; an irregular ``plural`` is named."""
     return f"{count} {noun}" if count == 1 else f"{count} {plural or f'{noun}s'}"
 
 
-def listed(names: Sequence[str], most: int) -> str:
+def join_names(names: Sequence[str], most: int) -> str:
     """Return one or more names in a row, the first ``most`` of them: "a, b and 3 more"."""
     more = len(names) - most
     *others, last = [*names[:most], f"{more} more"] if more > 0 else names

@@ -72,7 +72,7 @@ def test_the_table_has_every_filled_entry(cli, walk, out):
 def test_the_best_model_is_chosen_and_the_page_shows_the_ranking(cli, walk, out):
     assert cli("fill", walk, "--budget", "4", "--out", out) == 0
     page = (out / "walk.csv.html").read_text()
-    assert "trial gap" in page
+    assert "held-out gap" in page
     assert "linear</th>" in page
     assert "cubic-spline" in page
     assert "http" not in page.replace("http://www.w3.org", "").replace("http-equiv", "")

@@ -85,7 +85,7 @@ def test_keys_seeds_and_costs_are_those_of_the_exported_tables(path, cells):
 
 
 def test_a_job_without_a_score_says_why(document, cells):
-    ((fold, status, message, anchor),) = cells[BROKEN[:3]]["troubles"]
+    ((fold, status, message, anchor),) = cells[BROKEN[:3]]["failures"]
     told = (fold, document["shared"][status], document["shared"][message], anchor)
     assert told == (2, "failed", "by run", "job-1")
     assert cells[BROKEN[:3]]["scores"]["mse"][0][2] is None

@@ -104,8 +104,8 @@ def test_units_of_equal_shares_are_too_few_below_five(n):
 def test_units_are_too_few_where_few_of_them_weigh_most(recordings, few):
     found = unit_means(np.arange(len(recordings)), shares_of(recordings))
     assert too_few(found.freedom) == few
-    assert np.isnan(found.tested().p) == few
-    assert found.tested().mean == found.mean
+    assert np.isnan(found.drop_errors_of_few_units().p) == few
+    assert found.drop_errors_of_few_units().mean == found.mean
 
 
 def test_a_single_unit_has_a_mean_and_no_error():

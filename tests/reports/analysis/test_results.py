@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from mocapbench.metrics.statistics import mean_interval
+from mocapbench.reports.analysis.failures import list_failures
 from mocapbench.reports.analysis.fold_mean import FoldMean
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.standings import standings
-from mocapbench.reports.analysis.troubles import troubles
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.front.board_cells import board_cells
 
@@ -90,11 +90,11 @@ def test_only_cases_with_records_are_shown(small):
     ] == ["other"]
 
 
-def test_every_job_without_a_score_is_a_trouble(bundle):
-    found = troubles(bundle)
+def test_every_job_without_a_score_is_a_failure(bundle):
+    found = list_failures(bundle)
     assert len(found) == (bundle.records["status"] != "ok").sum()
-    assert len({trouble.id for trouble in found}) == len(found)
-    assert all(trouble.message for trouble in found)
+    assert len({failure.id for failure in found}) == len(found)
+    assert all(failure.message for failure in found)
 
 
 def test_the_spread_over_samples_is_averaged_over_folds(small):

@@ -7,7 +7,7 @@ from scipy import stats
 
 from mocapbench.metrics.statistics import mean_interval
 from mocapbench.reports.analysis.fold_sample import FoldSample
-from mocapbench.reports.figures.fitting import fitted
+from mocapbench.reports.figures.fitting import fit_scale
 from mocapbench.reports.figures.intervals import centre, interval
 from mocapbench.reports.figures.scale import LinearScale, LogScale
 
@@ -37,7 +37,7 @@ def test_a_log_interval_is_symmetric_on_a_logarithmic_axis(values):
 
 @pytest.mark.parametrize("values", [[1.0, 0.0], [1.0, -2.0], []])
 def test_values_that_are_not_above_zero_get_no_logarithmic_scale(values):
-    assert not isinstance(fitted(values, 0.0, 100.0), LogScale)
+    assert not isinstance(fit_scale(values, 0.0, 100.0), LogScale)
 
 
 @given(positive, st.lists(st.sampled_from("abc"), min_size=12, max_size=12))

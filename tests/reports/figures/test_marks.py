@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from mocapbench.reports.figures.axes import Axes, panels
-from mocapbench.reports.figures.fitting import fitted
+from mocapbench.reports.figures.fitting import fit_scale
 from mocapbench.reports.figures.marks import SHAPES, band, dot, group, polyline, svg, text
 from mocapbench.reports.figures.paths import coordinate, segments
 from mocapbench.reports.figures.styles import DrawingStyle
@@ -74,7 +74,7 @@ def test_names_are_text_whatever_they_hold():
 
 
 def test_a_panel_is_named_and_writes_what_its_axes_are():
-    axes = Axes(fitted([0, 1], 40, 300), fitted([1, 900], 200, 20), "knee", "seconds", "cm")
+    axes = Axes(fit_scale([0, 1], 40, 300), fit_scale([1, 900], 200, 20), "knee", "seconds", "cm")
     line = polyline(axes.x.places(np.array([0.0, 1.0])), axes.y.places(np.array([1.0, 900.0])))
     root = ElementTree.fromstring(panels([axes.draw([line], "the knee")]))
     (panel,) = root

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.reports.figures.axes import written
-from mocapbench.reports.figures.fitting import fitted, remark
+from mocapbench.reports.figures.axes import format_tick
+from mocapbench.reports.figures.fitting import fit_scale, remark
 from mocapbench.reports.figures.scale import LinearScale, LogScale
 
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False).map(lambda x: round(x, 6))
@@ -38,20 +38,20 @@ def test_ticks_are_few_ascending_round_and_within_the_ends(scale_type, low, rati
     assert 1 <= len(ticks) <= 12
     assert ticks == sorted(set(ticks))
     assert all(scale.low - 1e-9 * low <= tick <= scale.high * (1 + 1e-9) for tick in ticks)
-    assert len({written(tick) for tick in ticks}) == len(ticks) or ratio < 1.02
+    assert len({format_tick(tick) for tick in ticks}) == len(ticks) or ratio < 1.02
 
 
 @given(values=st.lists(NUMBERS, min_size=1))
 def test_the_fitted_scale_shows_every_value(values):
-    scale = fitted([*values, math.nan], 10.0, 90.0)
+    scale = fit_scale([*values, math.nan], 10.0, 90.0)
     places = scale.places(np.array(values))
     assert ((places > 10.0) & (places < 90.0)).all()
 
 
 def test_values_over_more_than_a_factor_ten_take_a_logarithmic_scale():
-    assert isinstance(fitted([1.0, 11.0], 0.0, 1.0), LogScale)
-    assert isinstance(fitted([1.0, 9.0], 0.0, 1.0), LinearScale)
-    assert isinstance(fitted([-1.0, 100.0], 0.0, 1.0), LinearScale)
+    assert isinstance(fit_scale([1.0, 11.0], 0.0, 1.0), LogScale)
+    assert isinstance(fit_scale([1.0, 9.0], 0.0, 1.0), LinearScale)
+    assert isinstance(fit_scale([-1.0, 100.0], 0.0, 1.0), LinearScale)
 
 
 def test_an_axis_that_spans_little_says_so():
@@ -64,4 +64,4 @@ def test_an_axis_that_spans_little_says_so():
     [(0.0, "0"), (-1.5, "−1.5"), (0.0002, "2·10⁻⁴"), (1e6, "10⁶"), (2500.0, "2500")],
 )
 def test_ticks_are_written_for_people(tick, text):
-    assert written(tick) == text
+    assert format_tick(tick) == text

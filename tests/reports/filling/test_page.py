@@ -18,7 +18,7 @@ def page():
     return FilledPage(
         file="walk.csv",
         headline="linear filled 4 entries in 1 gap.",
-        verdict="Its lead over hold is more than chance, over 9 trial gaps.",
+        verdict="Its lead over hold is more than chance, over 9 held-out gaps.",
         remarks=("1 longer gap was left open.",),
         curves=(curve,),
         caption="The only gap.",
@@ -36,7 +36,7 @@ def page():
 
 def test_the_page_says_all_that_it_is_given(page):
     text = render_filled(page)
-    said = [page.headline, page.verdict, *page.remarks, page.command, "knee.rx", "9 trial gaps"]
+    said = [page.headline, page.verdict, *page.remarks, page.command, "knee.rx", "9 held-out gaps"]
     said += ["1.25", "3.25", "mohgp", "took longer than 2 s"]
     assert [words for words in said if words not in text] == []
 
@@ -61,7 +61,7 @@ def test_the_same_page_gives_the_same_bytes(page):
     assert render_filled(page) == render_filled(page)
 
 
-def test_without_trials_there_is_no_ranking(page):
+def test_without_held_out_gaps_there_is_no_ranking(page):
     text = render_filled(replace(page, ranking=(), left_out=(), verdict="", n=0))
     assert "How the model was chosen" not in text
 

@@ -104,7 +104,7 @@ def test_a_model_that_failed_wherever_it_was_tried_has_a_row_and_no_rank(small):
     ((_, (a, b)),) = board.groups
     cell = b.cells[0]
     assert (cell.text, cell.note, cell.style) == ("failed", "in 4 of 4", "failed")
-    assert cell.link == results_of(first).troubles["x", "b"][0].id
+    assert cell.link == results_of(first).failures["x", "b"][0].id
     assert (a.cells[0].shade, b.cells[1].shade) == ("best", "best")
     assert not board.has_incomplete
     assert 'data-v="nan"' not in render(first)

@@ -1,11 +1,11 @@
-from mocapbench.reports.analysis.troubles import Trouble
+from mocapbench.reports.analysis.failures import Failure
 from mocapbench.reports.page.missing_data import missing_data
 
 FETCH = "mocapbench data fetch"
 
 
 def job(*names, fetch=FETCH, message="not on this machine", case="row", task="missing-frames"):
-    return Trouble("job-1", task, case, 0, "knn", "data-missing", message, "", names, fetch)
+    return Failure("job-1", task, case, 0, "knn", "data-missing", message, "", names, fetch)
 
 
 def test_a_missing_recording_is_said_once_whatever_the_jobs():

@@ -111,7 +111,7 @@ def test_generated_cases_beside_recordings_have_columns_and_enter_no_mean(small)
 
 def test_a_failed_cell_names_the_failure_and_leads_to_its_cell(bundle):
     found = cell(table_of(bundle), "test 8", "nn")
-    assert (found.text, found.kind, found.value) == ("failed", "trouble", None)
+    assert (found.text, found.kind, found.value) == ("failed", "failure", None)
     assert found.link == cell_anchor("toy-interpolation-1", "test 8", "nn")
 
 
@@ -128,7 +128,7 @@ def test_a_fold_that_another_metric_failed_is_not_lost(small):
     bundle.records.loc[bundle.records["label"] == "a", "status"] = "failed"
     found = cell(table_of(bundle), "one", "a")
     assert (found.text, found.note) == ("2.00", "")
-    assert len(results_of(bundle).troubles["one", "a"]) == 2
+    assert len(results_of(bundle).failures["one", "a"]) == 2
 
 
 def test_missing_recordings_are_told_in_the_head_alone(bundle):

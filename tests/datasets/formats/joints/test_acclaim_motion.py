@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from format_files import KEY, sample, walk
 
-from mocapbench.datasets import AcclaimFormat, FormatError, GaitLibrary, unwrapped
+from mocapbench.datasets import AcclaimFormat, FormatError, GaitLibrary, unwrap_angles
 
 AMC = AcclaimFormat()
 
@@ -18,7 +18,7 @@ def given(tmp_path):
 
 def test_it_reads_what_the_library_reads(given):
     recording = AMC.read(given)
-    expected = unwrapped(walk(40))
+    expected = unwrap_angles(walk(40))
     assert np.array_equal(recording.values, expected.values)
     assert (recording.channels, recording.units) == (expected.channels, expected.units)
     assert np.array_equal(recording.times, walk(40).times)
@@ -126,7 +126,7 @@ def test_recordings_of_the_database(data_dir, cmu, tmp_path, key):
     """08_01 has a thumb that makes whole turns."""
     folder = data_dir / "subjects" / key[:2]
     recording = AMC.read(folder / f"{key}.amc")
-    assert np.array_equal(recording.values, unwrapped(cmu.recording(f"cmu:{key}")).values)
+    assert np.array_equal(recording.values, unwrap_angles(cmu.recording(f"cmu:{key}")).values)
     replaced = np.zeros(recording.values.shape, dtype=bool)
     replaced[50:80, ::7] = True
     out = tmp_path / f"{key}.amc"

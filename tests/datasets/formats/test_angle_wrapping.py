@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.datasets import Recording, unwrapped
-from mocapbench.datasets.formats.turns import wrapped
+from mocapbench.datasets import Recording, unwrap_angles
+from mocapbench.datasets.formats.angle_wrapping import wrap_angles
 
 TURN = {"deg": 360.0, "rad": 2 * np.pi}
 CURVES = st.lists(st.floats(-0.45, 0.45), min_size=2, max_size=40).map(np.cumsum)
@@ -34,7 +34,7 @@ def gaps(draw, curves=CURVES):
 @given(CURVES, UNITS, st.sampled_from([-0.5, 0.0]))
 def test_unwrapping_undoes_wrapping_up_to_whole_turns(curve, unit, low):
     curve = TURN[unit] * curve
-    again = unwrapped(one_channel(fold(curve, low * TURN[unit], TURN[unit]), unit)).values[:, 0]
+    again = unwrap_angles(one_channel(fold(curve, low * TURN[unit], TURN[unit]), unit)).values[:, 0]
     turns = (again - curve) / TURN[unit]
     assert np.allclose(turns, np.round(turns[0]), atol=1e-9)
 
@@ -46,8 +46,10 @@ def test_what_is_filled_returns_to_the_range_of_the_file(curve_and_gap, unit, lo
     file = one_channel(fold(turn * curve, low * turn, turn), unit)
     new = hidden[:, None]
     raw = file.hide(new)
-    filled = unwrapped(file).values + (unwrapped(raw).values[0] - unwrapped(file).values[0])
-    out = wrapped(filled, raw, new)[hidden, 0]
+    filled = unwrap_angles(file).values + (
+        unwrap_angles(raw).values[0] - unwrap_angles(file).values[0]
+    )
+    out = wrap_angles(filled, raw, new)[hidden, 0]
     seen = raw.values[~hidden, 0]
     if (np.abs(seen) <= turn / 2).all():
         assert ((out >= -turn / 2) & (out <= turn / 2)).all()
@@ -65,8 +67,8 @@ def test_a_file_that_counts_turns_goes_on_counting(curve, turns):
     new = np.zeros((len(curve), 1), dtype=bool)
     new[3:6] = True
     raw = one_channel(curve, "deg").hide(new)
-    filled = np.interp(np.arange(len(curve)), np.flatnonzero(~new), unwrapped(raw).values[~new])
-    out = wrapped(filled[:, None], raw, new)[3:6, 0]
+    filled = np.interp(np.arange(len(curve)), np.flatnonzero(~new), unwrap_angles(raw).values[~new])
+    out = wrap_angles(filled[:, None], raw, new)[3:6, 0]
     error = (out - filled[3:6]) / 360.0
     assert np.allclose(error, np.round(error), atol=1e-9)
     assert np.abs(np.diff([curve[2], *out])).max() < 360.0
@@ -76,20 +78,20 @@ def test_a_file_that_counts_turns_goes_on_counting(curve, turns):
 def test_what_is_no_angle_is_left_alone(unit):
     values = np.array([170.0, np.nan, -175.0, 9000.0])
     file = one_channel(values, unit)
-    assert np.array_equal(unwrapped(file).values[:, 0], values, equal_nan=True)
+    assert np.array_equal(unwrap_angles(file).values[:, 0], values, equal_nan=True)
     new = np.isnan(file.values)
-    assert np.array_equal(wrapped(np.full((4, 1), 500.0), file, new), np.full((4, 1), 500.0))
+    assert np.array_equal(wrap_angles(np.full((4, 1), 500.0), file, new), np.full((4, 1), 500.0))
 
 
 def test_neighbours_across_a_gap_are_neighbours():
     file = one_channel([170.0, np.nan, np.nan, -170.0], "deg")
-    assert unwrapped(file).values[3, 0] == 190.0
+    assert unwrap_angles(file).values[3, 0] == 190.0
 
 
 @pytest.mark.parametrize("values", [[np.nan], [np.nan, np.nan, np.nan], [200.0]])
 def test_little_is_enough(values):
     file = one_channel(values, "deg")
-    assert np.array_equal(unwrapped(file).values, file.values, equal_nan=True)
+    assert np.array_equal(unwrap_angles(file).values, file.values, equal_nan=True)
     new = np.ones((len(values), 1), dtype=bool)
-    out = wrapped(np.full((len(values), 1), 190.0), file.hide(new), new)
+    out = wrap_angles(np.full((len(values), 1), 190.0), file.hide(new), new)
     assert (out == -170.0).all()

@@ -11,13 +11,13 @@ import pandas as pd
 
 from mocapbench.reports.bundle.bundle import Bundle
 
-__all__ = ["DATA_MISSING", "Trouble", "troubles"]
+__all__ = ["DATA_MISSING", "Failure", "list_failures"]
 
 DATA_MISSING = "data-missing"
 
 
 @dataclass(frozen=True)
-class Trouble:
+class Failure:
     """A job that did not end well; if only a metric failed, it has the scores of the others.
 
     Parameters
@@ -51,13 +51,13 @@ class Trouble:
 FIELDS = ("task", "case", "label", "status", "message", "traceback", "fetch")
 
 
-def troubles(bundle: Bundle, task: str | None = None) -> tuple[Trouble, ...]:
+def list_failures(bundle: Bundle, task: str | None = None) -> tuple[Failure, ...]:
     """Return the jobs that did not end well, of one task or all, in the order of the records."""
     lost = bundle.records["status"].to_numpy() != "ok"
     wanted = lost if task is None else lost & (bundle.records["task"].to_numpy() == task)
     rows = bundle.records[wanted].reindex(columns=["fold", "missing", *FIELDS])
     return tuple(
-        Trouble(
+        Failure(
             id=f"job-{number}",
             fold=int(row["fold"]),
             missing=tuple(shlex.split(_text(row["missing"]))),

@@ -10,13 +10,13 @@ import numpy as np
 
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recording
 
-__all__ = ["unwrapped", "wrapped"]
+__all__ = ["unwrap_angles", "wrap_angles"]
 
 _TURN = {"deg": 360.0, "rad": 2.0 * np.pi}
 """One turn in each unit of angle."""
 
 
-def unwrapped(recording: Recording) -> Recording:
+def unwrap_angles(recording: Recording) -> Recording:
     """Return the recording with no jump of more than half a turn between visible angles.
 
     Channels whose unit is ``"deg"`` or ``"rad"`` are changed by whole turns, the others not at all.
@@ -30,10 +30,10 @@ def unwrapped(recording: Recording) -> Recording:
 
     Examples
     --------
-    >>> from mocapbench.datasets import Recording, unwrapped
+    >>> from mocapbench.datasets import Recording, unwrap_angles
     >>> turning = Recording("turn", [0.0, 0.1, 0.2], [[170.0], [float("nan")], [-175.0]],
     ...                     ["root.ry"], ["deg"])
-    >>> unwrapped(turning).values.ravel()
+    >>> unwrap_angles(turning).values.ravel()
     array([170.,  nan, 185.])
     """
     values = recording.values.copy()
@@ -43,7 +43,7 @@ def unwrapped(recording: Recording) -> Recording:
     return recording.with_values(values)
 
 
-def wrapped(values: FrameByChannel, original: Recording, new: Mask) -> FrameByChannel:
+def wrap_angles(values: FrameByChannel, original: Recording, new: Mask) -> FrameByChannel:
     """Return unwrapped values in the ranges that the angles of a file keep.
 
     That is [−½, ½) of a turn if all its visible angles of the channel lie there, else [0, 1] of a
@@ -53,7 +53,7 @@ def wrapped(values: FrameByChannel, original: Recording, new: Mask) -> FrameByCh
     Parameters
     ----------
     values : ndarray of shape (N, D)
-        Values that continue ``unwrapped(original)``.
+        Values that continue ``unwrap_angles(original)``.
     original : Recording
         What stays of the file, as it stands there.
     new : ndarray of bool of shape (N, D)
@@ -83,14 +83,14 @@ def _in_range(angles: Frames, kept: Frames, turn: float) -> Frames:
         return _from(-turn / 2, angles, turn)
     if ((visible >= 0.0) & (visible <= turn)).all():
         return _from(0.0, angles, turn)
-    return angles - _held(_continuous(kept, turn) - kept)
+    return angles - _hold_last_value(_continuous(kept, turn) - kept)
 
 
 def _from(low: float, angles: Frames, turn: float) -> Frames:
     return angles - turn * np.floor((angles - low) / turn)
 
 
-def _held(offsets: Frames) -> Frames:
+def _hold_last_value(offsets: Frames) -> Frames:
     """Return (N,) with each NaN replaced by the value before it, or else by the first one."""
     (seen,) = np.nonzero(~np.isnan(offsets))
     before = np.searchsorted(seen, np.arange(len(offsets)), side="right") - 1
