@@ -3,7 +3,9 @@
 Sizes are measured as in `wc -w` and `wc -l`.
 """
 
+import ast
 import json
+import re
 import tomllib
 from pathlib import Path
 
@@ -13,6 +15,16 @@ ROOT = Path(__file__).parents[1]
 GENERATED = ("_build", "generated")  # by the site, from docstrings and helps
 FOLDERS = ("datasets", "metrics", "baselines", "reports", "benchmark")
 MOST_WORDS, MOST_WORDS_OF_A_PAGE = 30_000, 2_000
+CODE = ("metrics", "datasets", "baselines", "reports", "benchmark", "src")
+MOST_PARTICIPLES = 0.015  # of all functions
+IRREGULAR = (
+    "bound|built|caught|chosen|done|drawn|found|given|gone|grown|held|hidden|hurt|kept|known|laid|led|"
+    "left|lost|made|meant|met|paid|said|seen|sent|shown|sold|spent|taken|taught|thought|told|"
+    "understood|won|worn|written"
+)
+VERBS = ["embed", "exceed", "feed", "need", "proceed", "seed", "shed", "speed", "succeed", "wed"]
+"""They end like a participle; read, run, split, put, set, cut, let and spread are both."""
+NOT_CALLED = {"property", "cached_property"}  # a value of an object, which is what its name says
 
 
 def find_pages():
@@ -61,3 +73,37 @@ def test_a_clone_has_the_folders_at_the_top_and_links_to_them_in_the_package():
     links = {path.name: path.readlink() for path in package.iterdir() if path.is_symlink()}
     assert links == {folder: Path("..", "..", folder) for folder in FOLDERS}
     assert not any((ROOT / folder).is_symlink() for folder in FOLDERS)
+
+
+def find_functions():
+    """Yield the functions and methods of the product, but for special methods and properties."""
+    for folder in CODE:
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.FunctionDef) and not node.name.startswith("__"):
+                    marks = {ast.unparse(mark).split(".")[-1] for mark in node.decorator_list}
+                    if not marks & NOT_CALLED:
+                        yield node.name
+
+
+def is_bare_participle(name):
+    """Return whether a name is a past participle alone, such as "filled", but no verb."""
+    word = name.removeprefix("_")
+    return word not in VERBS and re.fullmatch(f"[a-z]+ed|{IRREGULAR}", word) is not None
+
+
+@pytest.mark.parametrize("name", ["filled", "_joined", "_shown", "unwrapped"])
+def test_a_past_participle_alone_is_one(name):
+    assert is_bare_participle(name)
+
+
+@pytest.mark.parametrize("name", ["fill_gaps", "read", "_split", "seed", "is_filled", "_by_name"])
+def test_a_verb_is_no_participle(name):
+    assert not is_bare_participle(name)
+
+
+def test_at_most_1_5_percent_of_functions_are_named_by_a_participle():
+    """They begin with a verb and say what it acts on: `fill_gaps`, not `filled`."""
+    names = list(find_functions())
+    participles = sorted(filter(is_bare_participle, names))
+    assert len(participles) <= MOST_PARTICIPLES * len(names), participles
