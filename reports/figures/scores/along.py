@@ -29,7 +29,9 @@ Curve = Mapping[float, FoldSample]
 HEIGHT, N_BANDS = 220.0, 3
 FEWEST_BANDED = 3
 """Of two units an interval is 13 times as wide as they are apart: it would hide the curves."""
-CAPTION = "intervals are of the {n} models with the least mean, where there are {units} units or more."
+CAPTION = (
+    "intervals are of the {n} models with the least mean, where there are {units} units or more."
+)
 
 
 def curves_along(
