@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -255,3 +257,20 @@ def test_what_cannot_be_filled_is_refused():
         model.impute([gap(walk("new", 0, 5), 0, 5)])
     with pytest.raises(ValueError, match="expected channels"):
         model.impute([walk("new", 0, 5).select(["a"])])
+
+
+def test_where_training_recordings_part_the_intervals_hold_them_all():
+    """All do the same where the new one is visible, so that their paths alone differ."""
+    base, bump = walk("one", 0, 60), np.zeros((60, 3))
+    bump[28:38, 1] = 0.5 * np.hanning(10)
+    away = {"none": 0.0, "forth": 1.0, "back": -1.0}
+    training = [
+        replace(base, name=name, values=base.values + share * bump) for name, share in away.items()
+    ]
+    truth = walk("new", 0, 60, style=0.1)
+    (prediction,) = PoseKriging().fit(training).impute([gap(truth, 26, 40)])
+    middle = slice(31, 35)
+    spread = np.sqrt(prediction.variance[middle, 1])
+    for share in away.values():
+        off = (prediction.mean - truth.values - share * bump)[middle, 1]
+        assert (np.abs(off) < 2.0 * spread).all()

@@ -1,5 +1,6 @@
 """Variances that trials and training recordings in the place of the one to fill bear out."""
 
+from dataclasses import replace
 from itertools import chain
 from typing import ClassVar
 
@@ -186,3 +187,16 @@ def test_a_channel_that_one_training_recording_alone_shows_does_no_harm():
     (prediction,) = model.impute([given])
     assert np.isfinite(prediction.variance).all()
     assert (prediction.variance[~given.visible] > 0.0).all()
+
+
+def test_errors_never_shrink_from_copies_to_gaps():
+    """Training that stands still in the gap halves the claims, and makes them no less."""
+    still = np.ones((200, 1))
+    still[40:160] = 1e-4
+    training = [r.with_values(r.values * still) for r in (noise(name, 1.0) for name in "abcdef")]
+    given = with_gap(noise("new", 1.0), slice(40, 160))
+    check = VarianceCheck.of(given)
+    assert (check.steepest > 1.0).all()
+    check = replace(check, halves=[])
+    (own,) = check.factors(Claiming().as_claimed(check.trials()))
+    assert factor(Claiming(), training, given) == pytest.approx(own / 2.0, rel=0.1)

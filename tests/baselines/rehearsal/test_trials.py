@@ -5,6 +5,7 @@ from hypothesis import strategies as st
 
 from mocapbench.baselines.rehearsal.trials import (
     N_TRIALS,
+    copies,
     copies_or_islands,
     halved,
     long_copies,
@@ -215,3 +216,29 @@ def test_each_channel_of_a_halved_trial_keeps_the_side_of_its_own_gap():
     half = halved(hidden, trial)
     assert np.flatnonzero(half[:, 0]).tolist() == [28, 29]
     assert np.flatnonzero(half[:, 1]).tolist() == [29, 30]
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.integers(1, 12), min_size=2, max_size=10))
+def test_copies_of_several_gaps_hide_at_most_fifteen_percent(lengths):
+    """That is .15 of a channel's visible frames, unless one gap alone is longer."""
+    visible = np.zeros(24, dtype=bool)
+    hidden = np.concatenate([np.r_[visible, np.ones(length, dtype=bool)] for length in lengths])
+    hidden = np.concatenate([hidden, visible])[:, None]
+    for mask in trial_masks(recording(hidden)):
+        assert mask.sum() <= max(0.15 * (~hidden).sum(), max(lengths))
+
+
+def test_copies_of_successive_gaps_are_a_golden_section_of_the_recording_apart():
+    hidden = np.zeros((200, 1), dtype=bool)
+    for start in (50, 90, 150):
+        hidden[start : start + 4] = True
+    asked = []
+
+    def watched(blocked, gap, place):
+        asked.append(place)
+        return copies(blocked, gap, place)
+
+    assert len(trial_masks(recording(hidden), watched)) == N_TRIALS
+    steps = np.diff(np.reshape(asked, (N_TRIALS, 3)), axis=1) % 1.0
+    np.testing.assert_allclose(steps, (np.sqrt(5.0) - 1.0) / 2.0)

@@ -149,3 +149,14 @@ def test_angles_beside_a_named_gap_are_unwrapped_across_it():
 def test_what_cannot_be_filled_is_refused(waves, entries, message):
     with pytest.raises(UsageError, match=message):
         select(waves(), entries)
+
+
+@pytest.mark.parametrize(("frames", "seconds"), [((0, 2), 3), ((2, 4), 9.33), ((6, 8), 96)])
+def test_a_gap_lasts_as_long_as_its_frames_at_the_mean_distance_of_those_within_and_beside(
+    frames, seconds
+):
+    times = 2.0 ** np.arange(8) - 1.0
+    recording = Recording("slowing", times, np.ones((8, 1)), ("a",), ("",))
+    with pytest.raises(UsageError, match=rf"got 1 of {seconds} s or more"):
+        select(recording, NamedEntries(frames=frames, max_gap=seconds - 0.1))
+    assert select(recording, NamedEntries(frames=frames, max_gap=seconds + 0.1)).gaps

@@ -56,3 +56,8 @@ def test_a_window_has_as_much_on_both_sides_of_a_gap():
 def test_a_gap_longer_than_a_window_is_refused():
     with pytest.raises(ValueError, match="gaps of at most 20 frames, got one of 30"):
         windows_of(question([100], 30), 40)
+
+
+@pytest.mark.parametrize(("limit", "n_windows"), [(60, 1), (59, 2)])
+def test_gaps_share_a_window_that_holds_both_and_ten_frames_on_each_side(limit, n_windows):
+    assert len(windows_of(question([100, 130], 10), limit)) == n_windows

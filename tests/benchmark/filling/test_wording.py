@@ -269,3 +269,18 @@ def test_models_that_had_no_time_are_said(filled, choice_of):
     assert "slow 0, slow 1, slow 2, slow 3 and 2 more" in said
     assert "--budget" in said
     assert list(remarks(filled(replace(choice, left_out=(broken,))))) == []
+
+
+@pytest.mark.parametrize(("apart", "slow"), [(0.02, False), (0.5, False), (0.6, True)])
+@pytest.mark.parametrize("start", [0.0, 1000.0])
+def test_times_that_seem_to_be_milliseconds_are_doubted_wherever_they_begin(
+    filled, apart, slow, start
+):
+    one = filled()
+    request = one.source.request
+    times = start + apart * np.arange(len(request.given.times))
+    request = replace(request, given=replace(request.given, times=times))
+    one = replace(one, source=replace(one.source, request=request))
+    said = [remark for remark in remarks(one) if remark.startswith(f"Frames are {apart} s apart")]
+    assert len(said) == slow
+    assert any("s apart" in remark for remark in remarks(one)) is slow

@@ -107,3 +107,13 @@ def test_no_fold_worse_and_one_better_is_better():
 def test_what_cannot_be_paired_is_refused(pair):
     with pytest.raises(ValueError, match="expected finite values in pairs"):
         judge(*pair, MSE, SAME)
+
+
+@pytest.mark.parametrize("absolute", [0.0, 0.5])
+def test_what_changes_by_no_more_than_the_floor_has_not_changed(absolute):
+    """Also where the floor is 0: a metric that is 0 on both sides is the same."""
+    tolerance = Tolerance(relative=0.0, absolute=absolute)
+    for change in (absolute, -absolute):
+        assert _verdict([1.0], [1.0 + change], tolerance=tolerance) is Verdict.SAME
+        assert _verdict([1.0, 1.0], [1.0 + change, 1.0], tolerance=tolerance) is Verdict.SAME
+    assert _verdict([0.0, 0.0], [0.0, 0.0]) is Verdict.SAME

@@ -145,3 +145,18 @@ def test_an_untested_contrast_is_never_separable(small):
     found = contrast_of(results_of(small({"row": {"a": [1.0], "b": [9.0]}})), "a", "b")
     assert (found.tested, found.separable, found.n) == (False, False, 1)
     assert np.isnan(found.t_p_holm)
+
+
+@laws
+@given(st.integers(0, 100_000))
+def test_a_label_without_all_scores_is_in_no_test_of_the_standings(small, seed):
+    folds = np.random.default_rng(seed).normal((1.0, 1.3, 2.0, 2.1), size=(8, 4))
+    folds[3, 3] = np.nan
+    results = results_of(small({"row": dict(zip("abcd", folds.T.tolist(), strict=True))}))
+    by_pair = contrasts(cells(results, "mse"))
+    best, *others = standings(results, "mse")
+    complete = [(best.label, other.label) for other in others if other.complete]
+    rest = [pair for pair in combinations("abcd", 2) if {*pair} not in map(set, complete)]
+    for family in (complete, rest):
+        corrected = holm([by_pair[pair].t_p for pair in family])
+        assert [by_pair[pair].t_p_holm for pair in family] == pytest.approx(corrected)

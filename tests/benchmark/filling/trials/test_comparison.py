@@ -58,3 +58,27 @@ def test_a_model_that_had_fewer_trials_is_not_chosen_otherwise(chosen_of, slow):
     ranking = chosen_of({**{name: off[:n] for name, off in errors.items()}, "slow": slow})
     assert ranking.order == ("linear", "pchip")
     assert ranking.n >= n
+
+
+@pytest.mark.parametrize(("counts", "common"), [([8, 3], 8), ([10, 6], 6), ([9, 9, 1], 9)])
+def test_models_are_compared_by_the_trials_that_most_answers_are_of(counts, common):
+    runners = [Runner(f"model {number}") for number in range(len(counts))]
+    for runner, count in zip(runners, counts, strict=True):
+        runner.found = dict.fromkeys(range(count), FilledEntries(np.zeros(1), None))
+    assert comparison._common(runners) == common
+
+
+def test_a_lead_in_many_gaps_of_few_trials_may_be_chance(waves, hidden):
+    """The gaps of a trial share one fit: five of them in two trials are two findings, not five."""
+    mask = hidden((20, 22, [0]), (60, 62, [1]), (100, 102, [2]), (140, 142, [0]))
+    trials = choice.make_trials(GapQuestion(waves().hide(mask), mask), np.random.default_rng(0))
+    assert sum(len(trial.units) for trial in trials[:2]) >= 5
+    runners = [Runner("usual"), Runner("slow")]
+    for runner, error, n in zip(runners, (1.0, 0.1), (len(trials), 2), strict=True):
+        noise = np.random.default_rng(0)
+        answers = [t.truth + error * noise.uniform(0.9, 1.1, t.truth.shape) for t in trials[:n]]
+        runner.found = dict(enumerate(FilledEntries(answer, None) for answer in answers))
+    few = comparison._ranked(trials[:2], runners)
+    assert comparison._of_all_gaps(trials[:2], trials)
+    assert few.ranking.sharing == ("slow",)
+    assert comparison.compared(trials, runners).ranking.order == ("usual",)

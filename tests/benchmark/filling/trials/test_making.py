@@ -133,3 +133,11 @@ def test_a_repeated_trial_is_not_the_end():
     for seed in range(5):
         trials = make_trials(GapQuestion(whole.hide(hidden), target), np.random.default_rng(seed))
         assert len(trials) > 5
+
+
+def test_a_trial_that_ends_in_a_gap_may_end_anywhere_in_the_last_third():
+    asked = question([(170, 30, 0)])
+    trials = [t for seed in range(5) for t in make_trials(asked, np.random.default_rng(seed))]
+    ends = [len(trial.question.target) for trial in trials]
+    assert {trial.share for trial in trials} == {1.0}
+    assert 133 <= min(ends) < 145 < 160 < max(ends) < 170
