@@ -102,11 +102,10 @@ class MarkerGap:
 
     @property
     def _seconds(self) -> float:
-        """Length of the gaps to leave out; doubled where the gap has one side only."""
+        """Length of the gaps to leave out: twice the time between the frames beside this one."""
         times = self.tracks[0].times
         before, after = max(self.frames[0] - 1, 0), min(self.frames[-1] + 1, len(times) - 1)
-        n_sides = (self.frames[0] > 0) + (self.frames[-1] < len(times) - 1)
-        return float(times[after] - times[before]) * (1 if n_sides == 2 else 2)
+        return 2.0 * float(times[after] - times[before])
 
     @cached_property
     def _rows(self) -> Index:

@@ -1,0 +1,35 @@
+import numpy as np
+import pytest
+
+from mocapbench.baselines.kriging import marker_gap
+from mocapbench.baselines.kriging.marker_gap import MarkerGap, Track
+
+
+@pytest.mark.parametrize(
+    ("frames", "seconds"), [((40, 50), 2.2), ((1, 11), 2.2), ((0, 10), 2.0), ((90, 100), 2.0)]
+)
+def test_it_learns_from_gaps_twice_as_long_as_the_time_between_the_frames_beside_it(
+    monkeypatch, frames, seconds
+):
+    learnt = []
+
+    class Watched(marker_gap.MarkerProcess):
+        @classmethod
+        def learnt(cls, *given):
+            learnt.append(given[-1])
+            return super().learnt(*given)
+
+    monkeypatch.setattr(marker_gap, "MarkerProcess", Watched)
+    rng = np.random.default_rng(0)
+    places = rng.normal(size=(1, 5, 3)) + 0.1 * rng.normal(size=(100, 5, 3))
+    places[slice(*frames), 0] = np.nan
+    gap = MarkerGap(
+        [Track(np.arange(100) / 10.0, places)],
+        marker=0,
+        frames=np.arange(*frames),
+        others=np.arange(1, 5),
+        steady=np.ones(4),
+        power=1.0,
+    )
+    gap.filled()
+    assert learnt == [pytest.approx(seconds)]
