@@ -37,7 +37,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from sklearn.base import BaseEstimator
 
-from mocapbench.baselines.blas import limit_blas
+from mocapbench.basics.blas import limit_blas
 from mocapbench.basics.numbers import real_numbers
 from mocapbench.datasets import FrameByChannel, Frames, Recording, ToyProcess
 

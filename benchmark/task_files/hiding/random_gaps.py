@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from mocapbench.basics.gaps import free_starts
 from mocapbench.benchmark.task_files.hiding.base import HidingError, HidingPlace, columns_of
 from mocapbench.datasets import Mask, Recording, frame_rate
@@ -42,7 +44,7 @@ class RandomGaps:
         """Return a draw of the fold; see `Hiding`."""
         groups, length = self._groups(recording), self.frames(recording)
         free = recording.visible.copy()
-        starts = [free_starts(~free[:, group].all(axis=1), length) for group in groups]
+        starts = [free_starts(np.asarray(~free[:, group].all(axis=1)), length) for group in groups]
         for _ in range(self.count):
             with_room = [index for index, found in enumerate(starts) if len(found)]
             if not with_room:
@@ -50,7 +52,7 @@ class RandomGaps:
             drawn = int(place.rng.choice(with_room))
             start = int(place.rng.choice(starts[drawn]))
             free[start : start + length, groups[drawn]] = False
-            starts[drawn] = free_starts(~free[:, groups[drawn]].all(axis=1), length)
+            starts[drawn] = free_starts(np.asarray(~free[:, groups[drawn]].all(axis=1)), length)
         return recording.visible & ~free
 
     def frames(self, recording: Recording) -> int:

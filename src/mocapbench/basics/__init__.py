@@ -1,1 +1,1 @@
-"""What every part needs: names of arrays, gaps, checks of numbers, words, and whole files."""
+"""What every part needs: names of arrays, gaps, checks of numbers, words, whole files, one thread of BLAS."""

@@ -36,7 +36,8 @@ def stage_file(path: Path) -> Iterator[Path]:
         temporary.chmod(_READABLE)  # temporary files are their owner's alone
         temporary.replace(path)
     except OSError as error:
-        error.filename = error.filename or str(path)  # which errors of writing lack
+        if error.errno is not None and error.filename is None:  # as errors of writing have it
+            error.filename = str(path)
         raise
     finally:
         temporary.unlink(missing_ok=True)

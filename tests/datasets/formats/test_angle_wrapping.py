@@ -102,7 +102,7 @@ def test_an_angle_of_exactly_half_a_turn_lies_in_the_range_of_half_a_turn(seen):
     file = one_channel([*seen, np.nan], "deg")
     new = np.isnan(file.values)
     for filled, written in ((190.0, -170.0), (-190.0, 170.0), (-180.0, -180.0)):
-        assert wrapped(np.array([*seen, filled])[:, None], file, new)[2, 0] == written
+        assert wrap_angles(np.array([*seen, filled])[:, None], file, new)[2, 0] == written
 
 
 @pytest.mark.parametrize("seen", [[0.0, 190.0], [360.0, 190.0]])
@@ -110,4 +110,4 @@ def test_an_angle_of_exactly_none_or_one_turn_lies_in_the_range_of_one_turn(seen
     file = one_channel([*seen, np.nan], "deg")
     new = np.isnan(file.values)
     for filled, written in ((-10.0, 350.0), (370.0, 10.0)):
-        assert wrapped(np.array([*seen, filled])[:, None], file, new)[2, 0] == written
+        assert wrap_angles(np.array([*seen, filled])[:, None], file, new)[2, 0] == written
