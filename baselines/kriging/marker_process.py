@@ -9,10 +9,10 @@ The covariance of frames t and t' of recordings r and r', up to scale, is
 
 a constant, another one for each recording, what follows from the shape :math:`\phi` of the markers
 around, a drift with Matérn's once differentiable kernel m, and noise. :math:`\ell, a, \tau,
-\varepsilon` are those that predict gaps best, twice as long as the one to fill, that are left out of what
-is visible (`left_out_gaps`). Each such gap counts as one frame, since its frames err together, and
-logarithms have normal priors with standard deviation 1. The scale is inferred from G gaps, so that
-predictions are Student's t with G degrees of freedom.
+\varepsilon` are those that predict gaps best, twice as long as the one to fill, that are left out
+of what is visible (`left_out_gaps`). Each such gap counts as one frame, since its frames err
+together, and logarithms have normal priors with standard deviation 1. The scale is inferred from G
+gaps, so that predictions are Student's t with G degrees of freedom.
 """
 
 from __future__ import annotations
