@@ -226,7 +226,7 @@ def test_copies_of_several_gaps_hide_at_most_fifteen_percent(lengths):
     hidden = np.concatenate([np.r_[visible, np.ones(length, dtype=bool)] for length in lengths])
     hidden = np.concatenate([hidden, visible])[:, None]
     for mask in trial_masks(recording(hidden)):
-        assert mask.sum() <= max(0.15 * (~hidden).sum(), max(lengths))
+        assert mask.sum() <= max(0.15 * (~hidden).sum(), *lengths)
 
 
 def test_copies_of_successive_gaps_are_a_golden_section_of_the_recording_apart():
