@@ -42,7 +42,7 @@ from importlib.machinery import SourceFileLoader
 get_code = SourceFileLoader.get_code
 
 def get_changed_code(self, name):
-    if self.path != os.environ["MUTANT_OF"]:
+    if os.path.realpath(self.path) != os.environ["MUTANT_OF"]:
         return get_code(self, name)
     with open(os.environ["MUTANT"], encoding="utf-8") as file:
         return compile(file.read(), self.path, "exec")

@@ -31,5 +31,5 @@ def test_it_learns_from_gaps_twice_as_long_as_the_time_between_the_frames_beside
         steady=np.ones(4),
         power=1.0,
     )
-    gap.filled()
+    gap.fill()
     assert learnt == [pytest.approx(seconds)]
