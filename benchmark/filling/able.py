@@ -35,7 +35,7 @@ def able_models(question: GapQuestion) -> tuple[str, ...]:
     first. `BestOf`, which tries most of the others itself, is last. All models learn from the
     recording that they fill, so that none needs to be `Inductive`.
     """
-    needed, barred = _needed(question), _barred(question)
+    needed, barred = _ability_for(question), _marks_to_leave_out(question)
     names = [
         name
         for name in MODELS.names()
@@ -64,21 +64,21 @@ def require_able(name: str, question: GapQuestion) -> None:
     reason = "frames of which some channels are visible"
     if issubclass(MODELS.get(name), Spatial):
         reason = "channels that are not the x, y and z of markers"
-    elif _needed(question) is FrameImputer:
+    elif _ability_for(question) is FrameImputer:
         reason = "gaps"
     raise UsageError(
         f"--model: expected a model that fills {reason}, got {name!r}; choose {', '.join(able)}"
     )
 
 
-def _needed(question: GapQuestion) -> type[FrameImputer]:
+def _ability_for(question: GapQuestion) -> type[FrameImputer]:
     """Return the ability that it takes: the lesser one where every frame is whole or hidden."""
     visible = without_unseen(question).given.visible
     whole = bool((visible.all(axis=1) == visible.any(axis=1)).all())
     return FrameImputer if whole else Imputer
 
 
-def _barred(question: GapQuestion) -> tuple[type[Model], ...]:
+def _marks_to_leave_out(question: GapQuestion) -> tuple[type[Model], ...]:
     """Return the marks of models that take what there is not: a process, or markers."""
     has_markers = markers_of(question.given.channels, question.given.units)
     return (Informed, Misinformed) if has_markers else (Informed, Misinformed, Spatial)

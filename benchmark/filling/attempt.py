@@ -77,7 +77,9 @@ def attempt(
     try:
         with warnings.catch_warnings(action="ignore"):
             windows = windows_of(question, model.max_frames)
-            merged = _merged(question, [(w, _filled(model, part, method)) for w, part in windows])
+            merged = _merge_windows(
+                question, [(w, _filled(model, part, method)) for w, part in windows]
+            )
             answer = keep_constants(question, merged)
     except MemoryError:
         return Attempt(None, f"needed more than {memory / 2**30:.1f} GiB of memory")
@@ -124,19 +126,19 @@ def _over_channels(
     return full
 
 
-def _merged(question: GapQuestion, parts: list[tuple[Window, Prediction]]) -> FilledEntries:
+def _merge_windows(question: GapQuestion, parts: list[tuple[Window, Prediction]]) -> FilledEntries:
     """Return the wanted entries of all windows in the order of the question's."""
     means = [prediction.mean for _, prediction in parts]
     variances = [prediction.variance for _, prediction in parts if prediction.variance is not None]
     windows = [window for window, _ in parts]
     complete = len(variances) == len(means)
     return FilledEntries(
-        _wanted(question, windows, means),
-        _wanted(question, windows, variances) if complete else None,
+        _place_wanted(question, windows, means),
+        _place_wanted(question, windows, variances) if complete else None,
     )
 
 
-def _wanted(
+def _place_wanted(
     question: GapQuestion, windows: list[Window], values: list[FrameByChannel]
 ) -> NDArray[np.float64]:
     full = np.full(question.target.shape, np.nan)

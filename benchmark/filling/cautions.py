@@ -28,7 +28,7 @@ def cautions(filled: Filled) -> Iterator[str]:
     yield from _few_visible(filled)
     yield from _visible_nowhere(filled)
     yield from _at_the_ends(filled.source.request)
-    yield from _replaced(filled.source.request)
+    yield from _warn_of_replaced_values(filled.source.request)
     yield from _jumps(filled)
     yield from _slow(filled)
     yield from filter(None, [zeros_caution(filled.source.request.given)])
@@ -65,7 +65,7 @@ def _visible_nowhere(filled: Filled) -> Iterator[str]:
     yield caution
 
 
-def _replaced(request: FillRequest) -> Iterator[str]:
+def _warn_of_replaced_values(request: FillRequest) -> Iterator[str]:
     if request.replaced:
         have = "entry that was filled has" if request.replaced == 1 else "filled entries have"
         yield f"{request.replaced} {have} a value in the file, which the filled one replaces."

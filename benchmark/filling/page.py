@@ -29,7 +29,7 @@ _ROOT_PATH = frozenset({"root.tx", "root.ty", "root.tz"})
 def page_of(filled: Filled, command: str) -> FilledPage:
     """Return the page of a filled file, made by ``command``."""
     gaps, recording = filled.source.request.gaps, filled.recording
-    shown = list(_shown(recording, gaps, jumps(recording, filled.source.request.target)))
+    shown = list(_choose_gaps(recording, gaps, jumps(recording, filled.source.request.target)))
     choice = filled.choice
     return FilledPage(
         file=filled.source.path.name,
@@ -47,7 +47,7 @@ def page_of(filled: Filled, command: str) -> FilledPage:
     )
 
 
-def _shown(
+def _choose_gaps(
     recording: Recording, gaps: Sequence[Gap], found: Sequence[Jump]
 ) -> Iterator[tuple[Gap, int]]:
     """Yield gaps, each with its channels that jump at its edges, then those that move most.

@@ -63,11 +63,11 @@ def without_unseen(question: GapQuestion) -> GapQuestion:
 def with_channels(question: GapQuestion, kept: NDArray[np.bool_]) -> GapQuestion:
     """Return the question without channels (D,) that are not kept."""
     names = [question.given.channels[channel] for channel in np.flatnonzero(kept)]
-    given, *train = _selected((question.given, *question.train), names)
+    given, *train = _select_channels((question.given, *question.train), names)
     return GapQuestion(given, question.target[:, kept], tuple(train))
 
 
-def _selected(recordings: Sequence[Recording], names: Sequence[str]) -> list[Recording]:
+def _select_channels(recordings: Sequence[Recording], names: Sequence[str]) -> list[Recording]:
     return [
         recording if len(names) == len(recording.channels) else recording.select(names)
         for recording in recordings

@@ -95,7 +95,9 @@ def _source(
 ) -> Source:
     recording = _read(path, rate)
     train = tuple(
-        _matched(other, recording) for file, other in others.items() if file != path.resolve()
+        _match_channels(other, recording)
+        for file, other in others.items()
+        if file != path.resolve()
     )
     check_alike([recording, *train])
     return Source(path, format_for(path), select(recording, entries, train), train)
@@ -106,7 +108,7 @@ def _read(path: Path, rate: float | None) -> Recording:
     return replace(format_for(path).read(path, rate), name=str(path))
 
 
-def _matched(other: Recording, recording: Recording) -> Recording:
+def _match_channels(other: Recording, recording: Recording) -> Recording:
     """Return the channels of ``recording`` from another one, which stays whole if it lacks any.
 
     An unlabelled marker is nobody's in particular, and a result of a model no marker: where the

@@ -78,7 +78,7 @@ class Workers:
         See `attempt` for the method.
         """
         limits = seconds, self._memory
-        return self._pool.submit(_answered, model, question, method, limits, self._plugins)
+        return self._pool.submit(_attempt_fill, model, question, method, limits, self._plugins)
 
     def ended(self, futures: Collection[Future[Attempt]]) -> Collection[Future[Attempt]]:
         """Wait until one or more of ``futures`` have ended, and return them."""
@@ -92,7 +92,7 @@ class Workers:
             return Attempt(None, f"its worker died with exit code {error.exitcode}")
 
 
-def _answered(
+def _attempt_fill(
     name: str, question: Path, method: str, limits: tuple[float, int], plugins: tuple[Path, ...]
 ) -> Attempt:
     """Return one attempt, made in a child of this process."""

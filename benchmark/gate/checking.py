@@ -50,10 +50,10 @@ def check(
             )
     troubles = {record.address: record for record in records if record.status is not Status.OK}
     unforeseen = _unforeseen(reference, run, troubles)
-    return (*_paired(reference, run, troubles, tolerances), *unforeseen)
+    return (*_pair_values(reference, run, troubles, tolerances), *unforeseen)
 
 
-def _paired(
+def _pair_values(
     reference: Reference, run: Reference, troubles: Troubles, tolerances: Tolerances
 ) -> Iterator[Finding]:
     for series in sorted({*reference.values, *run.values}):

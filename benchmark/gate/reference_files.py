@@ -60,10 +60,10 @@ def read_reference(path: Path) -> Reference | None:
             )
         return of_records(records, store.load_plan())
     files = sorted(path.glob("*.csv")) if path.is_dir() else [path] * path.is_file()
-    return _joined(path, [_parse(file) for file in files]) if files else None
+    return _join_references(path, [_parse(file) for file in files]) if files else None
 
 
-def _joined(path: Path, parts: Sequence[Reference]) -> Reference:
+def _join_references(path: Path, parts: Sequence[Reference]) -> Reference:
     about = gathered([part.about for part in parts], (*REQUEST, *ENVIRONMENT))
     for name in REQUEST:
         if len({part.about.get(name) for part in parts}) > 1:

@@ -77,10 +77,10 @@ def _tolerances(environment: Environment, table: object) -> Tolerances:
     own = _table(f"{environment}.{_METRICS}", options.get(_METRICS, {}))
     _check_names(environment, options, (*_NAMES, _METRICS))
     general = {name: value for name, value in options.items() if name != _METRICS}
-    default = _changed(DEFAULT_TOLERANCES[environment], environment, general)
+    default = _change_tolerance(DEFAULT_TOLERANCES[environment], environment, general)
     names = _names(environment, own)
     by_metric = {
-        metric: _changed(default, f"{environment}.{_METRICS}.{name}", own[name])
+        metric: _change_tolerance(default, f"{environment}.{_METRICS}.{name}", own[name])
         for metric, name in names.items()
     }
     return Tolerances(default, by_metric)
@@ -100,7 +100,7 @@ def _names(environment: Environment, tables: Iterable[str]) -> Mapping[str, str]
     return names
 
 
-def _changed(tolerance: Tolerance, where: str, table: object) -> Tolerance:
+def _change_tolerance(tolerance: Tolerance, where: str, table: object) -> Tolerance:
     options = _table(where, table)
     _check_names(where, options, _NAMES)
     for name, value in options.items():

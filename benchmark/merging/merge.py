@@ -63,18 +63,18 @@ def merge(paths: Sequence[Path], out: Path) -> Merged:
     """
     Store.require_usable(out)
     if not Store.is_run(out):
-        merged = _united(paths)
+        merged = _unite_runs(paths)
         with _made_at_once(out) as folder:
             _write(merged, Store.create(folder))
         return merged
     with Store.open(out).locked():
         named = [out if path.resolve() == out.resolve() else path for path in paths]
-        merged = _united(named if out in named else [out, *named], locked=out)
+        merged = _unite_runs(named if out in named else [out, *named], locked=out)
         _write(merged, Store.open(out))
     return merged
 
 
-def _united(paths: Sequence[Path], locked: Path | None = None) -> Merged:
+def _unite_runs(paths: Sequence[Path], locked: Path | None = None) -> Merged:
     if len(paths) < 2:
         raise UsageError(f"expected two run directories or more, got {paths[0]}; name another")
     distinct = {path.resolve(): path for path in paths}

@@ -127,7 +127,7 @@ class Record:
             If the text is not a whole record of this format.
         """
         try:
-            document = _parsed(text)
+            document = _parse_json(text)
             if document.pop("format") != FORMAT:
                 raise RecordError("the record has another format")
             document["status"] = Status(document["status"])
@@ -157,7 +157,7 @@ _LONG = re.compile(rb"(?<![0-9.])[0-9]{19}")
 """An integer that may need more than 64 bits; not the digits behind a point."""
 
 
-def _parsed(text: str | bytes) -> Any:
+def _parse_json(text: str | bytes) -> Any:
     """Return what a JSON text says; integers of any length stay whole, which orjson rounds."""
     data = text.encode() if isinstance(text, str) else text
     return json.loads(data) if _LONG.search(data) else orjson.loads(data)

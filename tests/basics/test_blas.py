@@ -8,7 +8,8 @@ from threading import Event
 import pytest
 from threadpoolctl import ThreadpoolController, threadpool_info, threadpool_limits
 
-from mocapbench.baselines import FrameImputer, Imputer, Interpolator, Model, Synthesiser, blas
+from mocapbench.baselines import FrameImputer, Imputer, Interpolator, Model, Synthesiser
+from mocapbench.basics import blas
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.testing.subject import GAP, TIMES, Subject, problem
 

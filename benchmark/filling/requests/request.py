@@ -93,7 +93,7 @@ def select(
     UsageError
         If frames or channels are not in the recording, or nothing is visible.
     """
-    asked = _asked(recording, entries)
+    asked = _select_entries(recording, entries)
     incomplete = _incomplete(recording, asked)
     unlabelled = tuple(filter(is_unlabelled, incomplete))
     outputs = tuple(name for name in model_outputs(recording.channels) if name in incomplete)
@@ -132,7 +132,7 @@ def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[G
     return longer
 
 
-def _asked(recording: Recording, entries: NamedEntries) -> Mask:
+def _select_entries(recording: Recording, entries: NamedEntries) -> Mask:
     """Return the entries (N, D) that are asked for: given frames, or else what is hidden."""
     rows = ~recording.visible if entries.frames is None else _rows(recording, entries.frames)
     return rows & chosen(recording, entries.channels)

@@ -67,7 +67,7 @@ class C3DFormat(Format):
         places = marker_places(parameters, point_labels(parameters, layout.n_points))
         given = layout.points(like, "r")[:, places]
         new = new & _whole_points(new | ~np.isnan(_visible_positions(layout, given)))
-        stored = _stored(like, layout, values[new])
+        stored = _encode_coordinates(like, layout, values[new])
         shutil.copyfile(like, path)
         points = layout.points(path, "r+")
         frames, channels = np.nonzero(new)
@@ -90,7 +90,7 @@ def _whole_points(known: Mask) -> Mask:
     return np.repeat(whole, 3, axis=1)
 
 
-def _stored(like: Path, layout: C3DLayout, values: Frames) -> NDArray[Any]:
+def _encode_coordinates(like: Path, layout: C3DLayout, values: Frames) -> NDArray[Any]:
     """Return coordinates as the file stores them."""
     if len(values) and np.abs(values).max() > layout.largest:
         raise FormatError(

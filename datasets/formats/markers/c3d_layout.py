@@ -135,7 +135,7 @@ def find_layout(path: Path, parameters: C3DParameters) -> C3DLayout:
     kept = [layout for layout in whole if used <= layout.end or stop < layout.end + BLOCK]
     covering = [layout for layout in kept if used <= layout.end]
     if _n_shapes(kept) != 1 or (_n_shapes(layouts) > 1 and not covering):
-        return _undisputed(path.name, claims, layouts, size)
+        return _take_only_layout(path.name, claims, layouts, size)
     return min(covering, key=lambda layout: layout.n_frames, default=kept[0])
 
 
@@ -145,13 +145,15 @@ def _n_shapes(layouts: Iterable[C3DLayout]) -> int:
 
 def _stop(parameters: C3DParameters, start: int, size: int) -> int:
     """Return the byte at which what follows the frames begins: parameters, rotations or nothing."""
-    rotations = [(int(n) - 1) * BLOCK for _, n in _named(parameters, "ROTATION:DATA_START")]
+    rotations = [
+        (int(n) - 1) * BLOCK for _, n in _number_by_name(parameters, "ROTATION:DATA_START")
+    ]
     return min(
         stop for stop in (size, parameters.start, *rotations) if stop > start or stop == size
     )
 
 
-def _undisputed(
+def _take_only_layout(
     file: str, claims: dict[str, _Claims], layouts: list[C3DLayout], size: int
 ) -> C3DLayout:
     """Return the only layout that is claimed, with a warning that the file does not end with it.
@@ -170,7 +172,7 @@ def _undisputed(
         expected = f"header and parameters that agree, or of which one fits the file's {size} bytes"
         raise FormatError(file, expected, "; ".join(disputed), _AGAIN)
     if layouts[0].n_frames == _MOST:
-        raise _uncounted(file)
+        raise _too_many_frames(file)
     warnings.warn(
         f"{file}: expected no more than {layouts[0].end} bytes, as its header says, got {size}; "
         "what follows is left alone: if positions jump from frame to frame, export the file again",
@@ -208,7 +210,7 @@ def _layout(processor: Processor, claimed: tuple[float, ...]) -> C3DLayout:
 
 def _starts(parameters: C3DParameters) -> _Claims:
     """Return the blocks at which data may begin; behind the parameters if none is named."""
-    named = [(_HEADER, parameters.header_word(9)), *_named(parameters, "POINT:DATA_START")]
+    named = [(_HEADER, parameters.header_word(9)), *_number_by_name(parameters, "POINT:DATA_START")]
     claims = _first_of_each((block, where) for where, block in named if block >= 2)
     return claims or {parameters.stop // BLOCK + 1: "the length of its parameters"}
 
@@ -221,10 +223,10 @@ def _frame_counts(parameters: C3DParameters) -> _Claims:
     """
     first, last = parameters.header_word(4), parameters.header_word(5)
     named = [
-        *_named(parameters, "POINT:LONG_FRAMES"),
+        *_number_by_name(parameters, "POINT:LONG_FRAMES"),
         *_field_span(parameters),
         (_HEADER, (last - first) % (_MOST + 1) + 1),
-        *_named(parameters, "POINT:FRAMES"),
+        *_number_by_name(parameters, "POINT:FRAMES"),
     ]
     return _first_of_each((frames, where) for where, frames in named if frames >= 1)
 
@@ -232,7 +234,7 @@ def _frame_counts(parameters: C3DParameters) -> _Claims:
 def _field_span(parameters: C3DParameters) -> list[tuple[str, float]]:
     """Return the number of frames from the first to the last field of a trial."""
     first, last = (
-        [number for _, number in _named(parameters, f"TRIAL:ACTUAL_{end}_FIELD")]
+        [number for _, number in _number_by_name(parameters, f"TRIAL:ACTUAL_{end}_FIELD")]
         for end in ("START", "END")
     )
     spans = [last[0] - first[0] + 1] if first and last else []
@@ -240,7 +242,7 @@ def _field_span(parameters: C3DParameters) -> list[tuple[str, float]]:
 
 
 def _point_counts(parameters: C3DParameters) -> _Claims:
-    named = [(_HEADER, parameters.header_word(2)), *_named(parameters, "POINT:USED")]
+    named = [(_HEADER, parameters.header_word(2)), *_number_by_name(parameters, "POINT:USED")]
     return _first_of_each((points, where) for where, points in named)
 
 
@@ -249,7 +251,7 @@ def _sample_counts(parameters: C3DParameters) -> _Claims:
     total, each = (float(parameters.header_word(number)) for number in (3, 10))
     products = [
         (channels * each, f"{name} and {_HEADER}")
-        for name, channels in _named(parameters, "ANALOG:USED")
+        for name, channels in _number_by_name(parameters, "ANALOG:USED")
     ]
     return _first_of_each([(total, _HEADER), *products, *_rated_counts(parameters).items()])
 
@@ -257,7 +259,7 @@ def _sample_counts(parameters: C3DParameters) -> _Claims:
 def _rated_counts(parameters: C3DParameters) -> _Claims:
     """Return how many analogue numbers a frame has by the rates of the parameters."""
     names = ("ANALOG:USED", "ANALOG:RATE", "POINT:RATE")
-    stated = [number for name in names for _, number in _named(parameters, name)]
+    stated = [number for name in names for _, number in _number_by_name(parameters, name)]
     if len(stated) < len(names) or stated[2] <= 0:
         return {}
     channels, analogue, points = stated
@@ -269,14 +271,14 @@ def _scales(parameters: C3DParameters) -> _Claims:
 
     In floating-point files the size of the scale says nothing about coordinates.
     """
-    named = [(_HEADER, parameters.header_number(7)), *_named(parameters, "POINT:SCALE")]
+    named = [(_HEADER, parameters.header_number(7)), *_number_by_name(parameters, "POINT:SCALE")]
     scales = [(scale, where) for where, scale in named if scale]
     floats = [(-1.0, where) for scale, where in scales if scale < 0]
     integers = [(scale, where) for scale, where in scales if scale > 0]
     return _first_of_each((*floats[:1], *integers[:1]))
 
 
-def _named(parameters: C3DParameters, name: str) -> list[tuple[str, float]]:
+def _number_by_name(parameters: C3DParameters, name: str) -> list[tuple[str, float]]:
     """Return the number of a parameter under its name, or nothing if it has none.
 
     Two words are one number, the low word first.
@@ -295,7 +297,7 @@ def _first_of_each(claims: Iterable[tuple[float, str]]) -> _Claims:
     return found
 
 
-def _uncounted(file: str) -> FormatError:
+def _too_many_frames(file: str) -> FormatError:
     expected = (
         "the number of frames in POINT:LONG_FRAMES or TRIAL:ACTUAL_END_FIELD, as there are more "
         f"than the {_MOST} that the header can count"

@@ -35,7 +35,7 @@ class TRCFormat(Format):
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""
-        head, table = _parsed(path)
+        head, table = _parse_table(path)
         values = table.numbers(range(1, table.width))
         _check_count(path.name, head, len(values))
         times = values[:, 0] if rate is None else even_times(len(values), rate)
@@ -45,7 +45,7 @@ class TRCFormat(Format):
 
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's lines with the new coordinates."""
-        _, table = _parsed(like)
+        _, table = _parse_table(like)
         columns = range(_LEADING, table.width)
         write_lines(path, table.with_numbers(columns, values, new), like)
 
@@ -65,7 +65,7 @@ class _Head:
     markers: Sequence[str]
 
 
-def _parsed(path: Path) -> tuple[_Head, TextTable]:
+def _parse_table(path: Path) -> tuple[_Head, TextTable]:
     lines = read_lines(path)
     rows = [[cell.strip() for cell in _CELLS.split(line)] for line in lines[:_HEAD]]
     if len(rows) < _HEAD or rows[0][:1] != ["PathFileType"] or rows[3][:1] != ["Frame#"]:

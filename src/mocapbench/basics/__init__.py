@@ -1,1 +1,1 @@
-"""What every part needs: names of arrays, gaps, checks of numbers, words, whole files, one thread of BLAS."""
+"""What every part needs: arrays, gaps, numbers, words, whole files, and one thread of BLAS."""
