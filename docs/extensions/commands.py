@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from sphinx.application import Sphinx
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
 from mocapbench.benchmark.cli.commands import COMMANDS, app
+
+if TYPE_CHECKING:  # tests read the tree where Sphinx is not installed
+    from sphinx.application import Sphinx
 
 __all__ = ["describe_commands", "find_commands", "setup", "tabulate_options"]
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from sphinx.application import Sphinx
+if TYPE_CHECKING:  # tests read the tree where Sphinx is not installed
+    from sphinx.application import Sphinx
+
 
 __all__ = ["describe_folders", "find_packages", "setup"]
 

@@ -29,4 +29,5 @@ def test_false_alarms_stay_within_normal_theory(n_folds):
 
 @pytest.mark.slow
 def test_the_page_holds_what_the_simulation_gives():
-    assert gate.report() in PAGE.read_text(encoding="utf-8")
+    report, page = gate.report(), PAGE.read_text(encoding="utf-8")
+    assert " ".join(report.split()) in " ".join(page.split())  # the page breaks lines elsewhere
