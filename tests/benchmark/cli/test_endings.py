@@ -8,12 +8,12 @@ import signal
 import subprocess
 import sys
 import time
-from contextlib import suppress
 from pathlib import Path
 
 import psutil
 import pytest
 from own_files import write_csv
+from sessions import list_session
 
 from mocapbench.benchmark.cli.commands import COMMANDS
 from mocapbench.benchmark.cli.main import main
@@ -94,20 +94,10 @@ def _ended(arguments, folder, **options):
 
 
 def _require_nothing_left(process, folder):
-    psutil.wait_procs(_session(process), timeout=30)
-    assert not _session(process)
+    psutil.wait_procs(list_session(process), timeout=30)
+    assert not list_session(process)
     assert not [*(folder / "tmp").iterdir()]
     assert not [path for path in folder.rglob(".*") if path.name != ".lock"]
-
-
-def _session(process):
-    """Return what runs in the session of a process that was started with one of its own."""
-    found = []
-    for each in psutil.process_iter():
-        with suppress(OSError, psutil.Error):
-            if os.getsid(each.pid) == process.pid and each.status() != psutil.STATUS_ZOMBIE:
-                found.append(each)
-    return found
 
 
 def test_every_command_is_given():

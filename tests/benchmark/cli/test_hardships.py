@@ -6,10 +6,10 @@ import signal
 import subprocess
 import sys
 import time
-from contextlib import suppress
 
 import psutil
 import pytest
+from sessions import list_session
 
 TOY = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
 FAST = (*TOY, "--models", "trivial,cubic-spline")
@@ -31,16 +31,6 @@ def _wait_for_records(process, out, count=3):
     while len([*out.glob("records/*/*.json")]) < count:
         assert process.poll() is None
         time.sleep(0.01)
-
-
-def _session(process):
-    """Return what runs in the session of a process that was started with one of its own."""
-    found = []
-    for each in psutil.process_iter():
-        with suppress(OSError, psutil.Error):
-            if os.getsid(each.pid) == process.pid and each.status() != psutil.STATUS_ZOMBIE:
-                found.append(each)
-    return found
 
 
 @pytest.fixture(scope="module")
@@ -79,8 +69,8 @@ def test_an_interrupted_run_resumes_to_the_same_scores(cli, records, tmp_path, w
     assert process.returncode == ENDINGS[how]
     assert "mocapbench" not in stderr  # where a traceback of ours would name its files
     assert ("the same command resumes" in stdout) is (ENDINGS[how] > 0)
-    psutil.wait_procs(_session(process), timeout=60)
-    assert not _session(process)
+    psutil.wait_procs(list_session(process), timeout=60)
+    assert not list_session(process)
     _resumes(cli, records, out, whole)
 
 
@@ -89,12 +79,12 @@ def test_an_interrupted_run_resumes_to_the_same_scores(cli, records, tmp_path, w
 def test_nothing_outlives_the_run_when_it_alone_is_ended(tmp_path, how):
     process = _start((*LONG, "--out", tmp_path / "run"), stdout=subprocess.DEVNULL)
     _wait_for_records(process, tmp_path / "run")
-    others = [each for each in _session(process) if each.pid != process.pid]
+    others = [each for each in list_session(process) if each.pid != process.pid]
     assert others
     process.send_signal(how)
     process.wait(timeout=60)
-    psutil.wait_procs(_session(process), timeout=60)
-    assert not _session(process)
+    psutil.wait_procs(list_session(process), timeout=60)
+    assert not list_session(process)
 
 
 @pytest.mark.slow
