@@ -183,12 +183,13 @@ def _take_only_layout(
 
 def _last_byte(path: Path, start: int, stop: int) -> int:
     """Return the byte after the last one between ``start`` and ``stop`` that is not 0."""
-    for first in range(stop - _PIECE, start - _PIECE, -_PIECE):
-        with path.open("rb") as stream:
-            stream.seek(max(first, start))
-            used = len(stream.read(first + _PIECE - max(first, start)).rstrip(b"\0"))
-        if used:
-            return max(first, start) + used
+    with path.open("rb") as stream:
+        for stop_of_piece in range(stop, start, -_PIECE):
+            first = max(stop_of_piece - _PIECE, start)
+            stream.seek(first)
+            used = len(stream.read(stop_of_piece - first).rstrip(b"\0"))
+            if used:
+                return first + used
     return start
 
 
