@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.angle_wrapping import mean_directions, wrapping_offsets
 from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.pose_units import from_pose_units, in_pose_units
 from mocapbench.baselines.common.recordings import visible_frames, with_steps
@@ -35,6 +34,7 @@ from mocapbench.baselines.kriging.symmetry import symmetries
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
+from mocapbench.datasets.formats.angle_wrapping import mean_directions, wrapping_offsets
 
 __all__ = ["PoseKriging"]
 

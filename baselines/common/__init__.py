@@ -3,7 +3,6 @@
 * `validation`, `checks`: checks of parameters and of recordings;
 * `recordings`: several of them together, their complete frames, and lines across their gaps;
 * `scaling`, `own_means`, `pose_units`: units in which channels count alike;
-* `angle_wrapping`: angles that differ by whole turns, brought together;
 * `markers`, `rigid`: channels that are coordinates of markers, and how these move together;
 * `ascent`: steps that raise an objective; `shortest_path`, `transitions`: paths of frames;
 * `prototypes`: recordings grouped by their cycles; `signs`: of eigenvectors;

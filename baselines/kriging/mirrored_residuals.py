@@ -72,6 +72,7 @@ class MirroredResiduals:
         """
         prior, each = self.covariance(matched), np.tile(visible, len(self.images))
         constants = np.repeat(np.eye(len(self.images)), len(visible), axis=0)
+        # Without symmetry the two sides have nothing in common, their constants neither.
         free = self._middle | (self.symmetry == 0.0)
         if free.any():
             yield free, ConditionedFrames(prior, _NOISE, each, constants)

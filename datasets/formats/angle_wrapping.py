@@ -2,15 +2,22 @@
 
 A file that keeps angles within [−180°, 180°) has a jump of a turn wherever a joint passes 180°. No
 model should see that jump, and no file should be given angles outside the range that it keeps.
+
+Angles of several recordings that differ by whole turns are the same: one may have turned before it
+began, and another program counts from 0° where the database counts from −180°. Such turns are told
+from the mean direction of an angle in training, which whole turns of a recording do not change.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recording
 
-__all__ = ["unwrap_angles", "wrap_angles"]
+__all__ = ["mean_directions", "unwrap_angles", "wrap_angles", "wrapping_offsets"]
 
 _TURN = {"deg": 360.0, "rad": 2.0 * np.pi}
 """One turn in each unit of angle."""
@@ -68,6 +75,41 @@ def wrap_angles(values: FrameByChannel, original: Recording, new: Mask) -> Frame
     return result
 
 
+def mean_directions(recordings: Sequence[Recording]) -> Array:
+    """Return the circular mean (D,) of each angle over visible entries, in its unit.
+
+    It is 0 for channels that are no angles, or have no visible entry.
+    """
+    values = np.concatenate([recording.values for recording in recordings])
+    turns, angles = _turns(recordings[0]), np.zeros(values.shape[1])
+    known = ~np.isnan(turns)
+    around = 2j * np.pi * values[:, known] / turns[known]
+    angles[known] = np.angle(np.nansum(np.exp(around), axis=0)) * turns[known] / (2.0 * np.pi)
+    return angles
+
+
+def wrapping_offsets(recording: Recording, directions: Array) -> Array:
+    """Return the whole turns (D,), in each channel's unit, by which its mean is away.
+
+    Parameters
+    ----------
+    recording : Recording
+        N frames of D channels, unwrapped.
+    directions : ndarray of shape (D,)
+        As `mean_directions` returns them.
+
+    Returns
+    -------
+    ndarray of shape (D,)
+        What to subtract, so that the mean of each angle is within half a turn of ``directions``;
+        0 for channels that are no angles, or have no visible entry.
+    """
+    turns, seen = _turns(recording), recording.visible
+    means = np.where(seen, recording.values, 0.0).sum(axis=0) / np.maximum(seen.sum(axis=0), 1)
+    away = turns * np.round((means - directions) / turns)
+    return np.where(seen.any(axis=0), np.nan_to_num(away), 0.0)
+
+
 def _continuous(angles: Frames, turn: float) -> Frames:
     """Return the angles, less the turns by which neighbours among the visible ones jump."""
     result, seen = angles.copy(), ~np.isnan(angles)
@@ -95,3 +137,8 @@ def _hold_last_value(offsets: Frames) -> Frames:
     (seen,) = np.nonzero(~np.isnan(offsets))
     before = np.searchsorted(seen, np.arange(len(offsets)), side="right") - 1
     return offsets[seen[np.maximum(before, 0)]]
+
+
+def _turns(recording: Recording) -> Array:
+    """Return one turn in the unit of each channel (D,); NaN for what is no angle."""
+    return np.array([_TURN.get(unit, np.nan) for unit in recording.units])

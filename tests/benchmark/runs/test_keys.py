@@ -138,7 +138,7 @@ FIT_PATH = [
     ("datasets.features", "missing-frames", "trivial"),
     ("baselines.protocols", "toy-interpolation-1", "trivial"),
     ("baselines.trivial", "toy-interpolation-1", "trivial"),
-    ("baselines.common.angle_wrapping", "missing-frames", "pose-kriging"),
+    ("datasets.formats.angle_wrapping", "missing-frames", "pose-kriging"),
     ("baselines.common.ascent", "missing-frames", "lds"),
     ("baselines.common.cholesky", "toy-interpolation-1", "mohgp"),
     ("basics.gaps", "missing-frames", "knn"),

@@ -6,7 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.datasets import Recording, unwrap_angles
-from mocapbench.datasets.formats.angle_wrapping import wrap_angles
+from mocapbench.datasets.formats.angle_wrapping import (
+    mean_directions,
+    wrap_angles,
+    wrapping_offsets,
+)
 
 TURN = {"deg": 360.0, "rad": 2 * np.pi}
 CURVES = st.lists(st.floats(-0.45, 0.45), min_size=2, max_size=40).map(np.cumsum)
@@ -111,3 +115,37 @@ def test_an_angle_of_exactly_none_or_one_turn_lies_in_the_range_of_one_turn(seen
     new = np.isnan(file.values)
     for filled, written in ((-10.0, 350.0), (370.0, 10.0)):
         assert wrap_angles(np.array([*seen, filled])[:, None], file, new)[2, 0] == written
+
+
+TURNS = np.array([360.0, 2 * np.pi, 0.0])
+"""Of each channel of `of_three_units`."""
+
+
+def of_three_units(values):
+    values = np.asarray(values, dtype=float)
+    return Recording(
+        "r", np.arange(len(values)) / 30, values, ("a", "b", "c"), ("deg", "rad", "cm")
+    )
+
+
+@given(st.lists(st.integers(-5, 5), min_size=2, max_size=2), st.floats(-179.0, 179.0))
+def test_whole_turns_are_told_and_do_not_change_the_mean_direction(turns, angle):
+    values = np.tile([angle, np.deg2rad(angle), angle], (4, 1)) + 0.01 * np.eye(4)[:, :3]
+    near, moved = of_three_units(values), of_three_units(values + TURNS * [*turns, 0])
+    directions = mean_directions([near])
+    np.testing.assert_allclose(mean_directions([moved]), directions, atol=1e-9)
+    np.testing.assert_array_equal(wrapping_offsets(near, directions), 0.0)
+    np.testing.assert_allclose(wrapping_offsets(moved, directions), TURNS * [*turns, 0], atol=1e-9)
+
+
+def test_directions_on_both_sides_of_half_a_turn_have_their_mean_there():
+    around = of_three_units([[170.0, 0.0, 0.0], [-170.0, 0.0, 0.0]])
+    assert abs(mean_directions([around])[0]) == pytest.approx(180.0)
+
+
+def test_hidden_entries_say_nothing():
+    values = np.array([[720.0, np.nan, 5.0], [720.0, np.nan, np.nan]])
+    np.testing.assert_array_equal(mean_directions([of_three_units(values)])[1:], 0.0)
+    np.testing.assert_array_equal(
+        wrapping_offsets(of_three_units(values), np.zeros(3)), [720.0, 0.0, 0.0]
+    )
