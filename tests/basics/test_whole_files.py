@@ -1,3 +1,5 @@
+import os
+
 import pytest
 
 from mocapbench.basics.whole_files import atomic_write, stage_file, target_of, write_text
@@ -28,8 +30,17 @@ def test_others_see_a_staged_file_only_once_it_is_whole(tmp_path):
         assert target_of(temporary) == "file"
         temporary.write_text("whole")
     assert path.read_text() == "whole"
-    assert path.stat().st_mode & 0o777 == 0o644
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("umask, mode", [(0o022, 0o644), (0o077, 0o600), (0o007, 0o660)])
+def test_who_may_read_a_file_is_as_the_umask_says(tmp_path, umask, mode):
+    before = os.umask(umask)
+    try:
+        write_text(tmp_path / "file", "text")
+    finally:
+        os.umask(before)
+    assert (tmp_path / "file").stat().st_mode & 0o777 == mode
 
 
 def test_a_staged_file_that_fails_leaves_nothing_and_names_what_was_meant(tmp_path):

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import re
-import tempfile
+import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,11 +13,10 @@ from mocapbench.basics.words import encodable
 
 __all__ = ["LONGEST_NAME", "atomic_write", "stage_file", "target_of", "write_bytes", "write_text"]
 
-_READABLE = 0o644
 _SUFFIX = ".tmp"
 LONGEST_NAME = 255 - len("..12345678") - len(_SUFFIX)
 """In bytes, of what file systems take, with room for what `stage_file` puts around a name."""
-_TEMPORARY = re.compile(r"\.(?P<target>.+)\.[a-z0-9_]{8}\.tmp")
+_TEMPORARY = re.compile(r"\.(?P<target>.+)\.[a-z0-9]{8}\.tmp")
 """The names that `stage_file` gives."""
 
 
@@ -26,14 +24,13 @@ _TEMPORARY = re.compile(r"\.(?P<target>.+)\.[a-z0-9_]{8}\.tmp")
 def stage_file(path: Path) -> Iterator[Path]:
     """Yield an empty file beside ``path``, which takes its name if nothing goes wrong.
 
-    A process that is killed leaves no part of the file under its name.
+    A process that is killed leaves no part of the file under its name. Who may read it is as the
+    user's umask says, which `tempfile` does not ask.
     """
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=_SUFFIX)
-    os.close(handle)
-    temporary = Path(name)
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}{_SUFFIX}")
+    temporary.touch(exist_ok=False)
     try:
         yield temporary
-        temporary.chmod(_READABLE)  # temporary files are their owner's alone
         temporary.replace(path)
     except OSError as error:
         if error.errno is not None and error.filename is None:  # as errors of writing have it
