@@ -128,6 +128,17 @@ class Archive:
             library.fetch(key)
         return self.verify(uris)
 
+    def renew(self, uri: str) -> None:
+        """Take a recording that is here, or that can be had, as right from now on.
+
+        Raises
+        ------
+        FetchError, DigestMismatch
+            If there is none, or it is not the registered one.
+        """
+        library, key = self._resolve(uri)
+        library.renew(key)
+
     def status(self, uris: Iterable[str]) -> list[RecordingStatus]:
         """Return which recordings are here, without reading them."""
         return [self._status(uri) for uri in uris]

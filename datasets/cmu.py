@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import platformdirs
 
+from mocapbench.datasets.acclaim.errors import AcclaimError
 from mocapbench.datasets.acclaim.motion import Motion
 from mocapbench.datasets.acclaim.motion_reader import read_motion
 from mocapbench.datasets.acclaim.skeleton import Skeleton
@@ -26,6 +27,7 @@ from mocapbench.datasets.digests import (
     read_digests,
     with_unix_line_ends,
 )
+from mocapbench.datasets.errors import FetchError
 from mocapbench.datasets.keys import split_key
 from mocapbench.datasets.library import Library
 from mocapbench.datasets.recording import Recording
@@ -133,7 +135,7 @@ class CMULibrary(Library):
         AcclaimError
             If a file cannot be parsed.
         """
-        skeleton_file, motion_file = (self._find_intact_file(path) for path in _paths(key))
+        skeleton_file, motion_file = self._find_intact_files(key)
         return read_motion(motion_file, read_skeleton(skeleton_file))
 
     def skeleton(self, key: str) -> Skeleton:
@@ -144,11 +146,11 @@ class CMULibrary(Library):
         FileNotFoundError, DigestMismatch, AcclaimError
             As `motion`.
         """
-        return read_skeleton(self._find_intact_file(_paths(key)[0]))
+        return read_skeleton(self._find_intact_files(key)[0])
 
     def digest(self, key: str) -> str:
         """Return the SHA-256 of the .asf followed by the .amc, line ends normalised to LF."""
-        files = (self._find_intact_file(path) for path in _paths(key))
+        files = self._find_intact_files(key)
         return sha256(b"".join(with_unix_line_ends(f.read_bytes()) for f in files)).hexdigest()
 
     def fetch(self, key: str) -> None:
@@ -157,14 +159,38 @@ class CMULibrary(Library):
         Raises
         ------
         FetchError
-            If the server does not deliver a file.
+            If the server does not deliver a file, or delivers one that is no motion; or if one in
+            the user's folder is none.
         DigestMismatch
             If a downloaded file, or one in the user's folder, is not the registered one.
         """
         for path in _paths(key):
-            self._discard_wrong_download(path)
+            self._discard_wrong_download(key, path)
             if self._find(path) is None:
-                self._downloader().fetch(path, partial(self.digests.check, path))
+                check = partial(self.digests.check, path, renewal=_renewal(key))
+                self._downloader().fetch(path, check)
+        try:
+            self._find_intact_files(key)
+        except AcclaimError as problem:
+            self._discard_new_downloads(key)
+            raise FetchError(
+                key,
+                f"expected a skeleton and a motion, got {problem}",
+                "try again later, or name a folder that holds the recordings with --data-dir",
+            ) from problem
+
+    def renew(self, key: str) -> None:
+        """Take the files that are here, or those of the server, as right from now on.
+
+        Files with a registered digest stay as they must be.
+
+        Raises
+        ------
+        FetchError, DigestMismatch
+            As `fetch`.
+        """
+        self.digests.forget(_paths(key))
+        self.fetch(key)
 
     def _downloader(self) -> Downloader:
         # Its libraries take .1 s and 3 MB, which whoever downloads nothing should not pay.
@@ -179,18 +205,29 @@ class CMULibrary(Library):
         files = (folder / path for folder in self._list_folders())
         return next((file for file in files if file.is_file()), None)
 
-    def _find_intact_file(self, path: str) -> Path:
+    def _find_intact_files(self, key: str) -> tuple[Path, Path]:
+        """Return both files; what nobody has seen before is recorded once both were read."""
+        paths = _paths(key)
+        files = self._find_intact_file(key, paths[0]), self._find_intact_file(key, paths[1])
+        new = [i for i in range(2) if self.digests.is_new(paths[i], files[i].read_bytes())]
+        if new:
+            read_motion(files[1], read_skeleton(files[0]))
+        for i in new:
+            self.digests.record(paths[i], files[i].read_bytes(), str(files[i]))
+        return files
+
+    def _find_intact_file(self, key: str, path: str) -> Path:
         file = self._find(path)
         if file is None:
             raise FileNotFoundError(
                 f"{path} is in none of {', '.join(map(str, self._list_folders()))}"
             )
-        self.digests.check(path, file.read_bytes(), str(file))
+        self.digests.check(path, file.read_bytes(), str(file), _renewal(key))
         return file
 
-    def _discard_wrong_download(self, path: str) -> None:
+    def _discard_wrong_download(self, key: str, path: str) -> None:
         try:
-            self._find_intact_file(path)
+            self._find_intact_file(key, path)
         except FileNotFoundError:
             return
         except DigestMismatch as problem:
@@ -198,7 +235,17 @@ class CMULibrary(Library):
                 raise
             Path(problem.file).unlink()
 
+    def _discard_new_downloads(self, key: str) -> None:
+        for path in _paths(key):
+            file = self.cache_dir / path
+            if file == self._find(path) and self.digests.is_new(path, file.read_bytes()):
+                file.unlink()
+
 
 def _paths(key: str) -> tuple[str, str]:
     subject, _ = split_key(key)
     return f"subjects/{subject}/{subject}.asf", f"subjects/{subject}/{key}.amc"
+
+
+def _renewal(key: str) -> str:
+    return f"mocapbench data renew {key}"

@@ -13,6 +13,7 @@ from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 
+from mocapbench.basics.whole_files import write_text
 from mocapbench.datasets.recording import Recording
 
 __all__ = [
@@ -27,6 +28,9 @@ __all__ = [
 _ROW = re.compile(r"^(\S+)\t([0-9a-f]{64})$", re.MULTILINE)
 
 
+_REMOVE = "the file is damaged or another edition: remove it and fetch it again"
+
+
 class DigestMismatch(ValueError):  # noqa: N818
     """A file whose digest is not the expected one.
 
@@ -36,18 +40,21 @@ class DigestMismatch(ValueError):  # noqa: N818
         Its path or address.
     expected, got : str
         SHA-256 of the content with line ends normalised to LF.
+    remedy : str, default="the file is damaged or another edition: …"
+        What to do.
     """
 
-    def __init__(self, file: str, expected: str, got: str) -> None:
-        super().__init__(file, expected, got)
+    def __init__(self, file: str, expected: str, got: str, remedy: str = _REMOVE) -> None:
+        super().__init__(file, expected, got, remedy)
         self.file = file
         self.expected = expected
         self.got = got
+        self.remedy = remedy
 
     def __str__(self) -> str:
         return (
             f"{self.file}: expected SHA-256 (of LF lines) {self.expected}, got {self.got}; "
-            "the file is damaged or another edition: remove it and fetch it again"
+            f"{self.remedy}"
         )
 
 
@@ -91,30 +98,52 @@ class DigestRegistry:
         self.pins = pins
         self.diverse = diverse
 
-    def check(self, path: str, data: bytes, file: str) -> None:
-        """Verify the content of ``file``, which claims to be ``path``; record it if it is new.
+    def check(self, path: str, data: bytes, file: str, renewal: str) -> None:
+        """Verify the content of ``file``, which claims to be ``path``.
+
+        Parameters
+        ----------
+        path : str
+        data : bytes
+        file : str
+            A path or an address, for messages.
+        renewal : str
+            The command that records its digest anew.
 
         Raises
         ------
         DigestMismatch
-            If its digest is not the known or pinned one, unless different copies are in use.
+            If its digest is neither new nor the known or recorded one.
+        """
+        expected, got = self._expect(path), _digest(data)
+        if got == expected or self.is_new(path, data):
+            return
+        if path in self.known:
+            raise DigestMismatch(file, str(expected), got)
+        raise DigestMismatch(
+            file,
+            str(expected),
+            got,
+            f"expected is the first copy that this machine saw ({self.pins}); if this one is "
+            f"right, take it from now on with: {renewal}",
+        )
+
+    def is_new(self, path: str, data: bytes) -> bool:
+        """Return whether nothing is known of the content, and no other is expected."""
+        expected = self._expect(path)
+        return expected is None or (path in self.diverse and _digest(data) != expected)
+
+    def record(self, path: str, data: bytes, file: str) -> None:
+        """Expect this content from now on, unless different copies are in use.
 
         Warns
         -----
         UnregisteredDigestWarning
-            If there was neither, or another copy before.
+            Always.
         """
-        got = sha256(with_unix_line_ends(data)).hexdigest()
-        expected = (read_digests(self.pins) | dict(self.known)).get(path)
-        if expected is None or (path in self.diverse and got != expected):
-            self._record(path, got, file)
-        elif got != expected:
-            raise DigestMismatch(file, expected, got)
-
-    def _record(self, path: str, digest: str, file: str) -> None:
-        from_now_on = (
-            "not pinned: different copies are in use" if path in self.diverse else "now expected"
-        )
+        digest = _digest(data)
+        diverse = path in self.diverse
+        from_now_on = "not pinned: different copies are in use" if diverse else "now expected"
         warnings.warn(
             f"{file}: no digest is registered for {path}; accepted as {digest} "
             f"(recorded in {self.pins}) and {from_now_on}",
@@ -125,3 +154,17 @@ class DigestRegistry:
             self.pins.parent.mkdir(parents=True, exist_ok=True)
             with self.pins.open("a", encoding="utf-8") as stream:
                 stream.write(f"{path}\t{digest}\n")
+
+    def forget(self, paths: Collection[str]) -> None:
+        """Forget which content of files was recorded when they were first seen."""
+        recorded = read_digests(self.pins)
+        if recorded.keys() & set(paths):
+            kept = {path: digest for path, digest in recorded.items() if path not in paths}
+            write_text(self.pins, "".join(f"{path}\t{digest}\n" for path, digest in kept.items()))
+
+    def _expect(self, path: str) -> str | None:
+        return (read_digests(self.pins) | dict(self.known)).get(path)
+
+
+def _digest(data: bytes) -> str:
+    return sha256(with_unix_line_ends(data)).hexdigest()

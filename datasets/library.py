@@ -121,6 +121,18 @@ class Library(ABC):
                 "with --data-dir",
             )
 
+    def renew(self, key: str) -> None:
+        """Take what is here as right from now on, if another copy was recorded as right.
+
+        The base class records nothing of what it saw, and makes the recording available.
+
+        Raises
+        ------
+        FetchError
+            As `fetch`.
+        """
+        self.fetch(key)
+
     def skeleton(self, key: str) -> Skeleton:
         """Return the skeleton of a recording for which `where` is not empty.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -29,6 +29,8 @@ app = typer.Typer(
 Trials = Annotated[
     list[str] | None, typer.Argument(help="Such as 35_02; all that the tasks use if none.")
 ]
+
+NamedTrials = Annotated[list[str], typer.Argument(help="Such as 35_02.")]
 
 
 def fetch_missing(archive: Archive, uris: Sequence[str], console: LiteralConsole) -> None:
@@ -66,21 +68,21 @@ def status(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
 def fetch(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = None) -> None:
     """Download recordings; those that are here and right are left alone."""
     load_plugins(plugin)
-    archive, console = open_archive(data_dir), LiteralConsole()
-    addresses = _addresses(trials, archive)
-    failures = []
-    for uri in _track_fetching(addresses, console):
-        try:
-            archive.fetch([uri])
-        except datasets.ServerUnreachable as error:
-            raise UsageError(str(error)) from error
-        except (datasets.FetchError, datasets.DigestMismatch) as error:
-            failures.append(str(error))
-    rows = archive.status(addresses)
-    _show(rows, data_dir, console)
-    if failures:
-        raise UsageError("\n".join(failures))
-    _suggest(rows, bench.DataRequest(trials, data_dir, plugin), console)
+    archive = open_archive(data_dir)
+    _get_each(
+        archive, lambda uri: archive.fetch([uri]), bench.DataRequest(trials, data_dir, plugin)
+    )
+
+
+@app.command()
+def renew(trials: NamedTrials, data_dir: DataDir = None, plugin: Plugins = None) -> None:
+    """Take the copies that are here as right from now on, or those of the server.
+
+    Of a recording that no registry lists, the first copy is recorded as right. This forgets it.
+    """
+    load_plugins(plugin)
+    archive = open_archive(data_dir)
+    _get_each(archive, archive.renew, bench.DataRequest(trials, data_dir, plugin))
 
 
 @app.command()
@@ -94,6 +96,24 @@ def verify(trials: Trials = None, data_dir: DataDir = None, plugin: Plugins = No
     _suggest(rows, bench.DataRequest(trials, data_dir, plugin), console)
     if any(row.state == "wrong" for row in rows):
         raise typer.Exit(ExitCode.USAGE)
+
+
+def _get_each(archive: Archive, get: Callable[[str], object], request: bench.DataRequest) -> None:
+    """Get all recordings that can be had, show what is here, and say what failed."""
+    console, addresses = LiteralConsole(), _addresses(request.trials, archive)
+    failures = []
+    for uri in _track_fetching(addresses, console):
+        try:
+            get(uri)
+        except datasets.ServerUnreachable as error:
+            raise UsageError(str(error)) from error
+        except (datasets.FetchError, datasets.DigestMismatch) as error:
+            failures.append(str(error))
+    rows = archive.status(addresses)
+    _show(rows, request.data_dir, console)
+    if failures:
+        raise UsageError("\n".join(failures))
+    _suggest(rows, request, console)
 
 
 def _addresses(trials: Iterable[str] | None, archive: Archive) -> list[str]:

@@ -2,7 +2,9 @@
 
 import os
 import threading
+import time
 from collections import Counter
+from contextlib import suppress
 from functools import partial
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -154,8 +156,19 @@ class Tree(BaseHTTPRequestHandler):
         else:
             self.send_response(200)
             self.send_header("Content-Type", self.state.content_type)
+            for name, value in self.state.headers.items():
+                self.send_header(name, value)
             self.end_headers()
-            self.wfile.write(self.state.files[path])
+            self._send(self.state.files[path])
+
+    def _send(self, content):
+        if not self.state.pause:
+            self.wfile.write(content)
+            return
+        with suppress(BrokenPipeError, ConnectionResetError):
+            for byte in content:
+                self.wfile.write(bytes([byte]))
+                time.sleep(self.state.pause)
 
     def log_message(self, *arguments):
         pass
@@ -169,6 +182,9 @@ class ServerState:
         self.failures = []
         self.requests = Counter()
         self.content_type = "text/plain"
+        self.headers = {}
+        self.pause = 0.0
+        """Seconds after each byte."""
         self.url = ""
 
 

@@ -153,6 +153,54 @@ def test_without_a_registered_digest_the_first_one_is_pinned(library, known, fil
         library.motion("01_02")
 
 
+@pytest.mark.parametrize("page", [b"Please log in to this network", b"", b":FULLY-SPECIFIED\n"])
+@pytest.mark.parametrize("wrong", [ASF, AMC])
+def test_what_is_no_motion_is_neither_kept_nor_expected_from_then_on(
+    library, server, files, page, wrong
+):
+    library.digests.known = {}
+    server.files[wrong] = page
+    with pytest.raises(FetchError, match="expected a skeleton and a motion"):
+        library.fetch("01_02")
+    assert library.where("01_02") == ""
+    assert not library.digests.pins.exists()
+    server.files[wrong] = files[wrong]
+    with pytest.warns(UnregisteredDigestWarning):
+        library.fetch("01_02")
+    assert library.motion("01_02").values.shape == (3, 12)
+
+
+def test_what_is_no_motion_in_the_users_folder_is_not_expected_and_left_alone(
+    library, known, files, tmp_path
+):
+    known.clear()
+    store(tmp_path / "data", {**files, AMC: b"nonsense\n"})
+    with pytest.raises(AcclaimError, match="line 1: expected a header"):
+        library.digest("01_02")
+    with pytest.raises(FetchError, match="line 1: expected a header"):
+        library.fetch("01_02")
+    assert not library.digests.pins.exists()
+    assert (tmp_path / "data" / AMC).exists()
+
+
+def test_another_copy_is_taken_as_right_when_the_user_says_so(library, known, files, tmp_path):
+    del known[AMC]
+    with pytest.warns(UnregisteredDigestWarning):
+        library.fetch("01_02")
+    store(tmp_path / "data", {AMC: files[AMC].replace(b"shin 42", b"shin 43")})
+    with pytest.raises(DigestMismatch, match="mocapbench data renew 01_02"):
+        library.motion("01_02")
+    with pytest.warns(UnregisteredDigestWarning, match=AMC):
+        library.renew("01_02")
+    assert library.motion("01_02").values[-1, -1] == 43
+
+
+def test_a_registered_file_is_not_renewed(library, files, tmp_path):
+    store(tmp_path / "data", {**files, AMC: b"mine"})
+    with pytest.raises(DigestMismatch, match="data"):
+        library.renew("01_02")
+
+
 @pytest.mark.parametrize("trial", [13, 14, 19, 23, 24, 25, 26])
 def test_of_a_recording_with_interpolated_copies_any_is_read(trial, server, known, files, tmp_path):
     key, asf, amc = f"35_{trial}", "subjects/35/35.asf", f"subjects/35/35_{trial}.amc"

@@ -1,5 +1,6 @@
 """Downloads from a real server on the loopback interface."""
 
+import gzip
 import pickle
 import socket
 import subprocess
@@ -8,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from mocapbench.datasets import FetchError, ServerUnreachable
+from mocapbench.datasets import FetchError, ServerUnreachable, download
 from mocapbench.datasets.download import Downloader
 
 PATH = "subjects/01/01.asf"
@@ -58,6 +59,26 @@ def test_a_web_page_is_no_recording(downloader, server):
     server.content_type = "text/html; charset=utf-8"
     with pytest.raises(FetchError, match="text/html"):
         downloader.fetch(PATH, accept)
+
+
+def test_a_file_that_unpacks_to_more_than_the_limit_is_not_kept(
+    downloader, server, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(download, "_MOST_BYTES", 2**20)
+    server.files[PATH] = gzip.compress(bytes(2**22))
+    server.headers["Content-Encoding"] = "gzip"
+    with pytest.raises(FetchError, match="more than 1 MiB"):
+        downloader.fetch(PATH, accept)
+    assert not list(tmp_path.rglob("*.asf"))
+
+
+def test_a_server_that_sends_a_byte_now_and_then_is_left(downloader, server, tmp_path, monkeypatch):
+    monkeypatch.setattr(download, "_MOST_SECONDS", 0.3)
+    server.files[PATH] = bytes(100)
+    server.pause = 0.05
+    with pytest.raises(ServerUnreachable, match="takes more than"):
+        downloader.fetch(PATH, accept)
+    assert not list(tmp_path.rglob("*.asf"))
 
 
 def test_what_the_check_refuses_is_not_kept(downloader, tmp_path):

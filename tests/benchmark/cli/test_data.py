@@ -8,7 +8,12 @@ import pytest
 
 from mocapbench.benchmark import archive_at, full_paths
 from mocapbench.benchmark.registry import LIBRARIES
-from mocapbench.datasets import CMULibrary, GaitLibrary, format_motion, format_skeleton
+from mocapbench.datasets import (
+    CMULibrary,
+    GaitLibrary,
+    format_motion,
+    format_skeleton,
+)
 
 NOBODY = "http://127.0.0.1:9/"
 
@@ -25,6 +30,16 @@ def database(tmp_path, monkeypatch):
     monkeypatch.setenv("MOCAPBENCH_CACHE", str(tmp_path / "cache"))
     LIBRARIES.add("cmu", partial(CMULibrary, base_url=NOBODY, retries=0))
     return tmp_path / "database"
+
+
+def test_renewing_takes_another_copy_as_right(cli, database):
+    motion = database / "subjects" / "99" / "99_01.amc"
+    assert cli("data", "verify", "99_01", "--data-dir", database) == 0
+    motion.write_text(motion.read_text().rstrip())
+    assert cli("data", "verify", "99_01", "--data-dir", database) == 2
+    assert "with: mocapbench data renew 99_01" in cli.printed
+    assert cli("data", "renew", "99_01", "--data-dir", database) == 0
+    assert cli("data", "verify", "99_01", "--data-dir", database) == 0
 
 
 def test_status_says_what_is_here_and_what_is_not(cli, database):
