@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import Counter
 from collections.abc import Sequence
 
@@ -10,14 +11,29 @@ import numpy as np
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
 
-__all__ = ["even_times", "recording_of"]
+__all__ = ["even_times", "recording_of", "warn_of_missing_rows"]
 
 _HUGE = 1e100  # far from where arithmetic on the values could overflow
+_JUMP = 1.5  # steps of time
 
 
 def even_times(n_frames: int, rate: float) -> Frames:
     """Return the times of frames at ``rate`` per second, in seconds from 0."""
     return np.arange(n_frames) / rate
+
+
+def warn_of_missing_rows(file: str, times: Frames) -> None:
+    """Warn where times (N,) jump by as much as two frames or more, for rows were left out there."""
+    steps = np.diff(times)
+    usual = np.median(steps) if len(steps) else np.nan
+    jumps = np.flatnonzero(steps > _JUMP * usual) if usual > 0 else ()
+    if len(jumps):
+        n_missing = int(np.sum(np.round(steps[jumps] / usual) - 1))
+        warnings.warn(
+            f"{file}: expected a frame every {usual:g} s, got {len(jumps)} longer steps, the first "
+            f"after {times[jumps[0]]:g} s: about {n_missing} rows are missing, which stay so",
+            stacklevel=2,
+        )
 
 
 def recording_of(

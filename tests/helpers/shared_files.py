@@ -8,6 +8,11 @@ import pytest
 BESIDE = Path(__file__).resolve().parents[3] / "shared"
 
 
+def shared_like(pattern):
+    """Return the files below that folder whose names match; none where the folder is absent."""
+    return sorted(Path(os.environ.get("MOCAPBENCH_SHARED") or BESIDE).glob(pattern))
+
+
 def shared(*parts):
     """Return a path below the folder that MOCAPBENCH_SHARED names, or ``../shared``; else skip."""
     path = Path(os.environ.get("MOCAPBENCH_SHARED") or BESIDE).joinpath(*parts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -35,7 +36,8 @@ class BVHFormat(Format):
 
     The channels are ``Hips.tx``, ``Hips.rz``, ``LeftKnee.rx`` and so on, in the order of the file;
     rotations are in degrees. The word ``nan`` is a hidden entry, which some programs write; in
-    other files the gaps are those that the user names. Every line keeps its numbers, but for those
+    other files the gaps are those that the user names. All rows are read, with a warning if
+    they are more than the file states, or one fewer. Every line keeps its numbers, but for those
     that are filled.
     """
 
@@ -46,10 +48,7 @@ class BVHFormat(Format):
         """Return the recording with the values that the file has."""
         head = _head(path.name, read_lines(path))
         values = head.table.numbers(range(head.table.width))
-        if len(values) != head.n_frames:
-            advice = "the file may be cut short: export it again"
-            expected = f"{head.n_frames:g} frames, as 'Frames:' says"
-            raise FormatError(path.name, expected, f"{len(values)} rows", advice)
+        _check_count(path.name, head.n_frames, len(values))
         times = even_times(len(values), rate or 1.0 / head.frame_time)
         return recording_of(path.name, times, values, head.channels, head.units)
 
@@ -98,6 +97,19 @@ def _head(file: str, text: Sequence[str]) -> _Head:
     table = TextTable(file, text, lines.index + 1, Words(), len(named), len(named))
     units = [unit for _, unit in named]
     return _Head([name for name, _ in named], units, n_frames, frame_time, table)
+
+
+def _check_count(file: str, stated: float, n_rows: int) -> None:
+    """Warn of rows that are not stated, or of one that is missing; refuse a file that lacks more.
+
+    Rokoko counts the steps between frames, which are one fewer.
+    """
+    expected, got = f"{stated:g} frames, as 'Frames:' says", f"{n_rows} rows"
+    if n_rows < stated - 1:
+        advice = "the file may be cut short: export it again, or correct 'Frames:'"
+        raise FormatError(file, expected, got, advice)
+    if n_rows != stated:
+        warnings.warn(f"{file}: expected {expected}, got {got}, which are read", stacklevel=2)
 
 
 def _hierarchy(lines: _Lines) -> Iterator[tuple[str, str]]:

@@ -2,32 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+import warnings
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
 from mocapbench.datasets.formats.base import Format
-from mocapbench.datasets.formats.building import even_times, recording_of
+from mocapbench.datasets.formats.building import (
+    even_times,
+    recording_of,
+    warn_of_missing_rows,
+)
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.markers.channels import marker_channels
-from mocapbench.datasets.formats.text.cells import Separated
+from mocapbench.datasets.formats.markers.trc_head import LEADING, TRCHead, parse_head
+from mocapbench.datasets.formats.text.cells import CellSplitter, Separated
 from mocapbench.datasets.formats.text.lines import read_lines, write_lines
 from mocapbench.datasets.formats.text.rows import TextTable
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["TRCFormat"]
 
-_CELLS = Separated("\t")
-_HEAD = 5
-_LEADING = 2  # the number of the frame, and its time
-
 
 class TRCFormat(Format):
-    """Positions of markers (.trc), as OpenSim and Motion Analysis write them.
+    """Positions of markers (.trc), as OpenSim, Cortex, Mokka and people write them.
 
-    The channels are ``LKNE.x``, ``LKNE.y``, ``LKNE.z`` and so on, in the unit that the file states.
-    Coordinates whose cells are empty or NaN are hidden; a marker at the origin is one at the
-    origin. Every line keeps its numbers, but for the coordinates that are filled.
+    The channels are ``LKNE.x``, ``LKNE.y``, ``LKNE.z`` and so on, in the unit that the file states;
+    columns without a name are those of a marker ``unlabelled``. Coordinates whose cells are empty
+    or NaN are hidden; a marker at the origin is one at the origin. The rows that there are count:
+    what the head says of them otherwise is warned of. Every line keeps its numbers, but for the
+    coordinates that are filled.
     """
 
     suffixes = (".trc",)
@@ -35,60 +40,88 @@ class TRCFormat(Format):
 
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""
-        head, table = _parse_table(path)
-        values = table.numbers(range(1, table.width))
-        _check_count(path.name, head, len(values))
+        parsed = _parse(path)
+        values = parsed.table.numbers(range(LEADING - 1, parsed.table.width))
+        _check_end(path.name, parsed, len(values))
+        _warn_of_counts(path.name, parsed, len(values))
         times = values[:, 0] if rate is None else even_times(len(values), rate)
-        channels = marker_channels(head.markers)
-        units = [head.facts.get("Units", "")] * len(channels)
+        warn_of_missing_rows(path.name, times)
+        channels = marker_channels(parsed.markers)
+        units = [parsed.head.facts.get("Units", "")] * len(channels)
         return recording_of(path.name, times, values[:, 1:], channels, units)
 
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's lines with the new coordinates."""
-        _, table = _parse_table(like)
-        columns = range(_LEADING, table.width)
+        table = _parse(like).table
+        columns = range(LEADING, table.width)
         write_lines(path, table.with_numbers(columns, values, new), like)
 
 
-@dataclass(frozen=True)
-class _Head:
-    """The first five lines.
+class _SpacedTable(TextTable):
+    """Rows among which lines may be blank."""
 
-    Parameters
-    ----------
-    facts : mapping of str to str
-        What the second and third line state, such as ``NumFrames``.
-    markers : sequence of str
-    """
+    @property
+    def rows(self) -> Sequence[int]:
+        """Indices of the lines that are rows."""
+        return [k for k in super().rows if self.lines[k].strip()]
 
-    facts: Mapping[str, str]
+
+class _Parsed(NamedTuple):
+    """The parts of a file."""
+
+    head: TRCHead
     markers: Sequence[str]
+    table: TextTable
 
 
-def _parse_table(path: Path) -> tuple[_Head, TextTable]:
+def _parse(path: Path) -> _Parsed:
     lines = read_lines(path)
-    rows = [[cell.strip() for cell in _CELLS.split(line)] for line in lines[:_HEAD]]
-    if len(rows) < _HEAD or rows[0][:1] != ["PathFileType"] or rows[3][:1] != ["Frame#"]:
-        raise FormatError(
-            path.name,
-            f"{_HEAD} lines of head, the first with 'PathFileType' and the fourth with 'Frame#'",
-            repr(lines[0][:60].rstrip()) if lines else "an empty file",
-            "export the markers as TRC, with tabs between cells",
-        )
-    facts = dict(zip(rows[1], rows[2], strict=False))
-    markers = [name for name in rows[3][_LEADING:] if name]
-    if facts.get("NumMarkers") != str(len(markers)):
-        advice = "correct NumMarkers, or export the markers again"
-        expected = f"{facts.get('NumMarkers', 'NumMarkers')} markers, as line 3 says"
-        raise FormatError(path.name, expected, f"{len(markers)} names", advice, line=4)
-    start = next((k for k in range(_HEAD, len(lines)) if lines[k].strip()), len(lines))
-    width = _LEADING + 3 * len(markers)
-    return _Head(facts, markers), TextTable(path.name, lines, start, _CELLS, width, _LEADING)
+    head = parse_head(path.name, lines)
+    table = _SpacedTable(path.name, lines, head.start, head.cells, LEADING, LEADING)
+    widest = max((_n_used(head.cells.split(lines[k])) for k in table.rows), default=LEADING)
+    markers = head.markers(path.name, max(widest - LEADING, 0))
+    width, decimal = LEADING + 3 * len(markers), _decimal_mark(head.cells, table)
+    return _Parsed(head, markers, replace(table, width=width, decimal=decimal))
 
 
-def _check_count(file: str, head: _Head, n_frames: int) -> None:
-    stated = head.facts.get("NumFrames", "")
-    if stated != str(n_frames):
-        advice = "the file may be cut short: export it again, or correct NumFrames"
-        got = f"{n_frames} rows"
-        raise FormatError(file, f"{stated or 'NumFrames'} frames, as line 3 says", got, advice)
+def _n_used(cells: Sequence[str]) -> int:
+    """Return how many cells there are up to the last one that is not empty."""
+    n_cells = len(cells)
+    while n_cells and not cells[n_cells - 1].strip():
+        n_cells -= 1
+    return n_cells
+
+
+def _decimal_mark(cells: CellSplitter, table: TextTable) -> str:
+    """Return the mark that the first row with a point or a comma has."""
+    if cells == Separated(","):
+        return "."
+    marked = (table.lines[k] for k in table.rows if "." in table.lines[k] or "," in table.lines[k])
+    return "." if "." in next(marked, ".") else ","
+
+
+def _check_end(file: str, parsed: _Parsed, n_frames: int) -> None:
+    """Refuse a last row that is cut off, where more rows are stated."""
+    table, stated = parsed.table, parsed.head.count("NumFrames")
+    if n_frames < 2 or stated is None or n_frames >= stated:
+        return
+    before, last = table.rows[-2:]
+    usual, n_cells = (len(table.cells.split(table.lines[k])) for k in (before, last))
+    if n_cells < usual and not table.lines[last].endswith(("\r", "\n")):
+        advice = "copy or export the file again, or delete this line"
+        raise FormatError(file, f"{usual} cells, as above", f"{n_cells} cells", advice, last + 1)
+
+
+def _warn_of_counts(file: str, parsed: _Parsed, n_frames: int) -> None:
+    """Warn of what the head says otherwise than the rows."""
+    n_markers, n_named = len(parsed.markers), sum(map(bool, parsed.markers))
+    columns = f"columns of {n_markers}" + f", {n_named} with names" * (n_named < n_markers)
+    found = {"NumFrames": (n_frames, f"{n_frames} rows"), "NumMarkers": (n_markers, columns)}
+    for fact, (count, got) in found.items():
+        stated = parsed.head.count(fact)
+        if stated is not None and stated != count:
+            warnings.warn(
+                f"{file}: expected {fact} to be {stated:g}, as line 3 says, got {got}, which are "
+                "read; if something is missing, copy or export the file again",
+                stacklevel=2,
+            )

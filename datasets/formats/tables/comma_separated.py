@@ -81,7 +81,7 @@ def _are_numbers(table: TextTable) -> list[bool]:
     first = _first_cells(table)
     unsure = [column for column, cell in first.items() if not looks_numeric(cell)]
     different: dict[int, set[str]] = {column: set() for column in unsure}
-    for index in range(table.start, table.stop) if unsure else ():
+    for index in table.rows if unsure else ():
         row = table.row(index)
         for column in unsure:
             different[column].add(row[column])
@@ -92,7 +92,7 @@ def _are_numbers(table: TextTable) -> list[bool]:
 def _first_cells(table: TextTable) -> dict[int, str]:
     """Return the first cell of each column that is not missing, if there is one."""
     first: dict[int, str] = {}
-    for index in range(table.start, table.stop):
+    for index in table.rows:
         row = enumerate(table.row(index)[: table.width])
         first |= {k: cell for k, cell in row if k not in first and not is_missing(cell)}
         if len(first) == table.width:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from string import printable
 
 from mocapbench.datasets.encoding import MARK, encoding_of
 from mocapbench.datasets.formats.errors import FormatError
@@ -11,27 +12,38 @@ from mocapbench.datasets.formats.errors import FormatError
 __all__ = ["read_lines", "write_lines"]
 
 _ADVICE = "save it as text in UTF-8"
+_TEXT = "text in UTF-8, in Windows-1252, or in UTF-16 or UTF-32 with a byte order mark"
+_START = 4096  # bytes by which text is told from other files
+_NULS = {1: "UTF-16", 3: "UTF-32"}
+"""Encodings by the NUL bytes that stand beside each letter of English."""
+_EBCDIC = "cp037"
+_KEYS = frozenset(printable + "\x85")  # also the end of a line in EBCDIC
+_LEAST_SHARE = 0.9  # of such characters in text
 
 
 def read_lines(path: Path) -> list[str]:
     """Return the lines of a text file with their ends, without a byte order mark.
 
+    Lines end with LF or CR LF, or, if there is no LF in the file, with CR.
+
     Raises
     ------
     FormatError
-        If it is not in the encoding that its byte order mark names, or a line has a NUL byte.
+        If it is not in the encoding that its byte order mark names, is in another that nothing
+        names, or a line has a NUL byte.
     """
     encoding = encoding_of(path)
     try:
-        with path.open(encoding=encoding, newline="\n") as file:
-            lines = file.readlines()
+        lines = _split_file(path, encoding, "\n")
+        if len(lines) == 1 and "\r" in lines[0].rstrip("\r\n"):
+            lines = _split_file(path, encoding, "\r")
     except UnicodeDecodeError as error:
         expected = f"text in {encoding.upper()}, as its byte order mark says"
         raise FormatError(path.name, expected, error.reason, _ADVICE) from error
+    _check_encoding(path, encoding)
     for number, line in enumerate(lines, start=1):
         if "\0" in line:
-            expected = "text in UTF-8, or in UTF-16 with a byte order mark"
-            raise FormatError(path.name, expected, "a NUL byte", _ADVICE, number)
+            raise FormatError(path.name, _TEXT, "a NUL byte", _ADVICE, number)
     return [line.removeprefix(MARK) for line in lines[:1]] + lines[1:]
 
 
@@ -43,3 +55,29 @@ def write_lines(path: Path, lines: Sequence[str], like: Path) -> None:
     with path.open("w", encoding=encoding, newline="\n") as file:
         file.write(MARK * mark)
         file.writelines(lines)
+
+
+def _split_file(path: Path, encoding: str, end: str) -> list[str]:
+    with path.open(encoding=encoding, newline=end) as file:
+        return file.readlines()
+
+
+def _check_encoding(path: Path, encoding: str) -> None:
+    """Refuse text in an encoding that nothing in the file names."""
+    with path.open("rb") as file:
+        data = file.read(_START)
+    if encoding.startswith("utf-") and encoding != "utf-8":
+        return
+    beside = round(data.count(0) / max(len(data) - data.count(0), 1))
+    if beside in _NULS:
+        got = f"{_NULS[beside]} without that mark"
+        raise FormatError(path.name, _TEXT, got, _ADVICE)
+    if _share_of_ascii(data, _EBCDIC) >= _LEAST_SHARE > _share_of_ascii(data, "latin-1"):
+        got = "EBCDIC, as mainframes write it"
+        raise FormatError(path.name, _TEXT, got, _ADVICE)
+
+
+def _share_of_ascii(data: bytes, encoding: str) -> float:
+    """Return the share of characters that a keyboard of English has."""
+    found = (one in _KEYS for one in data.decode(encoding))
+    return sum(found) / max(len(data), 1)

@@ -56,12 +56,12 @@ class TextTable:
     names: Sequence[str] = ()
 
     @property
-    def stop(self) -> int:
-        """Index after the last row."""
-        end = len(self.lines)
-        while end > self.start and not self.lines[end - 1].strip():
-            end -= 1
-        return end
+    def rows(self) -> Sequence[int]:
+        """Indices of the lines that are rows: all up to those at the end that are blank."""
+        stop = len(self.lines)
+        while stop > self.start and not self.lines[stop - 1].strip():
+            stop -= 1
+        return range(self.start, stop)
 
     def row(self, index: int) -> list[str]:
         """Return the cells of the line at ``index``.
@@ -90,7 +90,7 @@ class TextTable:
             If a row has not all cells, or one of the cells is not a number.
         """
         values = array("d")  # lists would take four times the memory
-        for index in range(self.start, self.stop):
+        for index in self.rows:
             row = self.row(index)
             try:
                 values.extend(numeric([row[column] for column in columns], self.decimal))
@@ -100,11 +100,12 @@ class TextTable:
 
     def with_numbers(self, columns: Sequence[int], values: FrameByChannel, new: Mask) -> list[str]:
         """Return the lines of the file with the ``new`` (N, columns) cells replaced."""
-        lines = list(self.lines)
+        lines, indices = list(self.lines), self.rows
         for row in np.flatnonzero(new.any(axis=1)).tolist():
             places = np.flatnonzero(new[row]).tolist()
             cells = {columns[k]: format_number(values[row, k], self.decimal) for k in places}
-            lines[self.start + row] = self.cells.replace_cells(lines[self.start + row], cells)
+            index = indices[row]
+            lines[index] = self.cells.replace_cells(lines[index], cells)
         return lines
 
     def _not_a_number(self, row: Sequence[str], columns: Sequence[int], index: int) -> FormatError:

@@ -59,12 +59,33 @@ def test_a_byte_order_mark_belongs_to_no_name_and_stays(tmp_path, name, encoding
     assert (tmp_path / f"marked{path.suffix}").read_bytes() == expected
 
 
-@pytest.mark.parametrize("name", ["acclaim", "bvh", "csv", "trc"])
-def test_a_file_of_two_bytes_a_character_without_a_mark_is_refused(tmp_path, name):
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be", "utf-32-le", "utf-32-be", "cp500"])
+@pytest.mark.parametrize("name", ["bvh", "csv", "trc"])
+def test_an_encoding_that_nothing_names_is_refused_in_few_words(tmp_path, name, encoding):
     path = sample(name, tmp_path)
+    path.write_bytes(path.read_bytes().decode().replace("\n", "\x85").encode(encoding))
+    called = "EBCDIC" if encoding == "cp500" else f"{encoding[:6].upper()} without that mark"
+    with pytest.raises(FormatError, match=f"expected text in UTF-8.* got {called}") as caught:
+        format_for(path).read(path)
+    assert len(str(caught.value)) < 300
+
+
+def test_an_acclaim_motion_of_two_bytes_a_character_is_refused(tmp_path):
+    path = sample("acclaim", tmp_path)
     path.write_bytes(path.read_bytes().decode().encode("utf-16-le"))
     with pytest.raises(FormatError, match=r"line 1: expected text in UTF-8.* got a NUL byte"):
         format_for(path).read(path)
+
+
+@pytest.mark.parametrize("name", ["bvh", "csv", "trc"])
+def test_lines_may_end_as_on_an_old_macintosh(tmp_path, name):
+    path = sample(name, tmp_path)
+    plain = fill(path, tmp_path / f"plain{path.suffix}")
+    path.write_bytes(path.read_bytes().replace(b"\r\n", b"\n").replace(b"\n", b"\r"))
+    old = fill(path, tmp_path / f"old{path.suffix}")
+    assert np.array_equal(old.values, plain.values, equal_nan=True)
+    before, after = ((tmp_path / f"{one}{path.suffix}").read_bytes() for one in ("plain", "old"))
+    assert after == before.replace(b"\r\n", b"\n").replace(b"\n", b"\r")
 
 
 def test_a_file_that_is_not_what_its_mark_says_is_refused(tmp_path):

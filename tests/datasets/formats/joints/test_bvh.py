@@ -84,7 +84,7 @@ WRONG = {
     SMALL.replace("}\nMOTION", "MOTION"): "line 15: expected a hierarchy .*, got 'MOTION'",
     SMALL.replace("}\nMOTION", "}\n}\nMOTION"): "line 16: expected a hierarchy .*, got '}'",
     SMALL.replace("Left Knee", "Hips"): "channels with different names, got 'Hips.rx' 2 times",
-    SMALL.replace(":\t4", ":\t5"): "expected 5 frames, as 'Frames:' says, got 4 rows; the file may",
+    SMALL.replace(":\t4", ":\t6"): "expected 6 frames, as 'Frames:' says, got 4 rows; the file may",
     SMALL.replace(
         ":\t4", ":\t0"
     ): "line 17: expected 'Frames:' with a positive number, got 'Frames:",
@@ -105,3 +105,15 @@ WRONG = {
 def test_what_is_wrong_is_said_plainly(read, text):
     with pytest.raises(FormatError, match=WRONG[text]):
         read(text)
+
+
+@pytest.mark.parametrize("stated", [1, 3, 5])
+def test_rows_that_the_count_does_not_know_are_read_and_one_may_be_missing(read, tmp_path, stated):
+    text = SMALL.replace(":\t4", f":\t{stated}")
+    with pytest.warns(UserWarning, match=f"expected {stated} frames, as .* got 4 rows, which are"):
+        odd = read(text)
+    assert np.array_equal(odd.values, read(SMALL).values, equal_nan=True)
+    (tmp_path / "walk.bvh").write_text(text)
+    with pytest.warns(UserWarning, match="which are read"):
+        BVH.write(tmp_path / "out.bvh", odd, like=tmp_path / "walk.bvh")
+    assert (tmp_path / "out.bvh").read_text() == text

@@ -1,5 +1,8 @@
 """TRC files: heads, empty cells, line ends, and what is wrong with some."""
 
+import re
+import warnings
+
 import numpy as np
 import pytest
 from format_files import markers, with_gap, write_trc
@@ -54,21 +57,23 @@ def test_a_marker_at_the_origin_is_visible(given):
 
 
 WRONG = {
-    "an empty file": (lambda t: "", "5 lines of head, .*, got an empty file; export the markers"),
-    "another file": (lambda t: "time,hip\n0,1\n" * 9, "5 lines of head, .*, got 'time,hip'"),
-    "only a head": (lambda t: "".join(t.splitlines(keepends=True)[:6]), "40 frames, .* got 0 rows"),
-    "cut short": (lambda t: t[: len(t) // 2], "expected (40 frames, .* got|17 cells)"),
-    "markers": (
-        lambda t: t.replace("\t40\t5\t", "\t40\t6\t"),
-        "6 markers, as line 3 says, got 5 n",
+    "an empty file": (lambda t: "", "begins with 'Frame#' .*, got an empty file; export the mark"),
+    "another file": (lambda t: "time,hip\n0,1\n" * 9, "begins with 'Frame#' .*, got 'time,hip'"),
+    "only a head": (
+        lambda t: "".join(t.splitlines(keepends=True)[:6]),
+        "one frame .* got 0 frames and 15 ch",
     ),
-    "no count": (
-        lambda t: t.replace("NumFrames", "Frames"),
-        "expected NumFrames frames, as line 3",
+    "cut short": (
+        lambda t: t[: t.index("\r\n9\t") + 40],
+        "line 15: expected 17 cells, as above, got [2-9] cells; copy or export",
     ),
     "words": (
         lambda t: t.replace("\r\n9\t", "\r\n9\tsoon\t"),
         "line 15: expected 17 cells, got 18",
+    ),
+    "names in between": (
+        lambda t: t.replace("root\t\t\t", "root\thip\t\t"),
+        "line 4: expected a name for every three columns, got 6 names for 15 columns; write",
     ),
     "a word": (
         lambda t: t.replace("\t0.066667\t", "\tsoon\t"),
@@ -91,3 +96,109 @@ def test_what_is_wrong_is_said_plainly(given, change):
     given.write_text(alter(given.read_bytes().decode()), newline="")
     with pytest.raises(FormatError, match=complaint):
         TRC.read(given)
+
+
+def with_cells(text, change):
+    """Return a text whose rows of numbers are changed, each a list of cells."""
+    head, rows = text.split("\r\n\r\n")
+    changed = ["\t".join(change(row.split("\t"))) for row in rows.splitlines()]
+    return "\r\n".join([head, "", *changed, ""])
+
+
+def without_rows(text, first, stop):
+    """Return a text without some lines, counted from 0."""
+    lines = text.splitlines(keepends=True)
+    return "".join(lines[:first] + lines[stop:])
+
+
+NAMES = ("root", "lowerback", "upperback", "thorax", "lowerneck")
+HEAD = "Frame#\tTime\t" + "\t\t\t".join(NAMES) + "\t\t"
+UNNAMED = "expected NumMarkers to be 5, as line 3 says, got columns of 6, 5 with names"
+ODD = {  # each with what it warns of
+    "more frames stated": (lambda t: t.replace("\t40\t", "\t900\t"), "NumFrames to be 900, .* 40"),
+    "fewer frames stated": (
+        lambda t: t.replace("\t40\t", "\t3\t"),
+        "NumFrames to be 3, .* 40 rows",
+    ),
+    "more markers stated": (
+        lambda t: t.replace("\t5\tmm", "\t10\tmm"),
+        "NumMarkers to be 10, .* 5",
+    ),
+    "columns without names": (lambda t: with_cells(t, lambda row: [*row, *"789"]), UNNAMED),
+    "a gap between names": (
+        lambda t: with_cells(
+            t.replace("upperback", "\t\t\tupperback"), lambda row: [*row[:8], *"789", *row[8:]]
+        ),
+        UNNAMED,
+    ),
+    "missing rows": (
+        lambda t: without_rows(t, 40, 43).replace("\t40\t", "\t37\t"),
+        "every 0.008333 s, got 1 longer steps, the first after 0.275 s: about 3 rows are miss",
+    ),
+    "decimal counts": (lambda t: t.replace("\t40\t5\t", "\t40.00\t5.0\t"), ""),
+    "counts in words": (lambda t: t.replace("\t40\t5\t", "\tmany\tfew\t"), ""),
+    "no counts": (lambda t: t.replace("NumFrames", "Frames"), ""),
+    "no facts": (lambda t: without_rows(t, 0, 3), ""),
+    "no axes": (lambda t: without_rows(t, 4, 6), ""),
+    "blanks for tabs in the head": (
+        lambda t: t.replace("Type\t4\t", "Type  4 ").replace("\t40\t5\tmm\t", "  40 \t\t5  mm "),
+        "",
+    ),
+    "blanks around names": (lambda t: t.replace("Time\troot", " Time\t root "), ""),
+    "names side by side": (lambda t: t.replace(HEAD, HEAD.replace("\t\t\t", "\t")), ""),
+    "names far apart": (lambda t: t.replace(HEAD, HEAD.replace("\t\t\t", "\t" * 6)), ""),
+    "quotes": (lambda t: t.replace("root", '"root"'), ""),
+    "decimal commas": (lambda t: t.replace("markers.", "markers").replace(".", ","), ""),
+    "commas for tabs": (lambda t: t.replace("\t", ","), ""),
+    "semicolons for tabs": (lambda t: t.replace("\t", ";").replace(".", ","), ""),
+    "blank lines": (lambda t: t.replace("\r\n", "\r\n\r\n"), ""),
+    "tabs at the ends of lines": (lambda t: t.replace("\r\n", "\t \t\r\n"), ""),
+    "line ends of Unix": (lambda t: t.replace("\r\n", "\n"), ""),
+    "line ends of old Macintoshes": (lambda t: t.replace("\r\n", "\r"), ""),
+    "line ends of both": (lambda t: t.replace("\r\n", "\n", 20), ""),
+    "line ends twice": (lambda t: t.replace("\r\n", "\r\r\n"), ""),
+    "no line end": (lambda t: t.rstrip(), ""),
+    "blank cells at the end": (lambda t: t + "\t\t\r\n \r\n", ""),
+}
+
+
+def read_odd(path, change, tmp_path):
+    """Return what is read of a changed file, and its text."""
+    alter, complaint = ODD[change]
+    text = alter(path.read_bytes().decode())
+    (tmp_path / "odd.trc").write_text(text, newline="")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        recording = TRC.read(tmp_path / "odd.trc")
+    said = [str(warning.message) for warning in caught]
+    assert len(said) == bool(complaint)
+    assert all(re.search(complaint, one) for one in said)
+    return recording, text
+
+
+@pytest.mark.parametrize("change", ODD)
+def test_the_rows_that_there_are_count_whatever_else_is_said(given, tmp_path, change):
+    odd, _ = read_odd(given, change, tmp_path)
+    plain = TRC.read(given)
+    kept = np.isin(np.round(plain.times, 5), np.round(odd.times, 5))
+    assert len(odd.times) == kept.sum() >= 37
+    assert np.array_equal(odd.select(plain.channels).values, plain.values[kept], equal_nan=True)
+    extra = {*odd.channels} - {*plain.channels}
+    assert extra <= {"unlabelled.x", "unlabelled.y", "unlabelled.z"}
+    assert all(odd.select([name]).values[0] in (7, 8, 9) for name in extra)
+
+
+@pytest.mark.filterwarnings("ignore:odd.trc. expected")
+@pytest.mark.parametrize("change", ODD)
+def test_no_other_character_is_written(given, tmp_path, change):
+    odd, text = read_odd(given, change, tmp_path)
+    like, out = tmp_path / "odd.trc", tmp_path / "out.trc"
+    TRC.write(out, odd, like)
+    assert out.read_bytes().decode() == text
+    TRC.write(out, odd.with_values(np.where(odd.visible, odd.values, 12345.5)), like)
+    written = out.read_bytes().decode().replace("12345,5", "12345.5")
+    assert written.count("12345.5") == (~odd.visible).sum() == 30
+    assert written.replace("12345.5", "") == text.replace("12345,5", "")
+    again = TRC.read(out)
+    assert np.array_equal(again.values[odd.visible], odd.values[odd.visible])
+    assert (again.values[~odd.visible] == 12345.5).all()
