@@ -1,4 +1,4 @@
-"""The registered format of a file."""
+"""The registered format of a file, and what was measured of all that the file has."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from pathlib import Path
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import FORMATS
-from mocapbench.datasets import Format, FormatError
+from mocapbench.datasets import Format, FormatError, Recording
+from mocapbench.datasets.formats.strays import is_unlabelled
 
-__all__ = ["format_for"]
+__all__ = ["format_for", "read_measured"]
 
 
 def format_for(path: str | Path) -> Format:
@@ -35,3 +36,24 @@ def format_for(path: str | Path) -> Format:
             "remove the package or --plugin of all but one"
         )
     return formats[fitting[0]]()
+
+
+def read_measured(path: str | Path, rate: float | None = None) -> Recording:
+    """Return the recording of a file without what no model is to be judged by.
+
+    These are results of a model of the body and markers that nobody named. A file that has nothing
+    else is read as it is.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read.
+    UsageError
+        As `format_for`.
+    """
+    file = format_for(path)
+    recording = file.read(path, rate)
+    results = file.results(Path(path), recording.channels)
+    others = {*results, *filter(is_unlabelled, recording.channels)}
+    kept = [name for name in recording.channels if name not in others]
+    return recording.select(kept) if others and kept else recording

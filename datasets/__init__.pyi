@@ -10,7 +10,7 @@ from .errors import FetchError, RecordingUnavailable, ServerUnreachable, Skeleto
 from .features import THESIS_CHANNELS, gpdm_features, hlm_features
 from .formats.angle_wrapping import unwrap_angles
 from .formats.base import Extra, Format
-from .formats.errors import FormatError, MissingExtraError, TextColumnsWarning
+from .formats.errors import FormatError, FormatWarning, MissingExtraError, TextColumnsWarning
 from .formats.joints.acclaim_motion import AcclaimFormat
 from .formats.joints.bvh import BVHFormat
 from .formats.markers.c3d import C3DFormat
@@ -57,6 +57,7 @@ __all__ = [
     "FetchError",
     "Format",
     "FormatError",
+    "FormatWarning",
     "FrameByChannel",
     "FrameByJointBy3",
     "Frames",

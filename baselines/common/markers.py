@@ -12,14 +12,16 @@ from numpy.typing import NDArray
 __all__ = ["marker_places", "markers_of"]
 
 _COORDINATE = re.compile(r"(.+)[._: -]([xyz])", re.IGNORECASE)
-_ANGLES = frozenset({"deg", "rad"})
+_NO_LENGTHS = frozenset(["deg", "rad", "n", "nm", "n.m", "nmm", "n.mm", "w"])
+"""Units of angles, forces, moments and powers, in lower case, also of those per kilogram."""
 
 
 def markers_of(channels: Sequence[str], units: Sequence[str]) -> Mapping[str, tuple[int, ...]]:
     """Return the places of the coordinates x, y and z of each marker among D channels, by its name.
 
     They are named such as ``LKNE.x``, ``LKNE.y`` and ``LKNE.z``, as in C3D and TRC files and for
-    joints in `mocapbench.datasets.joint_trajectories`, or ``LKNE_X``, and are not angles.
+    joints in `mocapbench.datasets.joint_trajectories`, or ``LKNE_X``, and have no unit of angles or
+    forces.
 
     Examples
     --------
@@ -29,7 +31,7 @@ def markers_of(channels: Sequence[str], units: Sequence[str]) -> Mapping[str, tu
     places: dict[str, dict[str, int]] = defaultdict(dict)
     for place, (channel, unit) in enumerate(zip(channels, units, strict=True)):
         found = _COORDINATE.fullmatch(channel)
-        if found and unit not in _ANGLES:
+        if found and unit.lower().removesuffix("/kg") not in _NO_LENGTHS:
             places[found[1]][found[2].lower()] = place
     return {
         marker: tuple(axes[axis] for axis in "xyz")

@@ -10,12 +10,11 @@ import numpy as np
 
 from mocapbench.benchmark.filling.question import GapQuestion, with_channels
 from mocapbench.benchmark.filling.requests.channels import chosen
-from mocapbench.benchmark.filling.requests.model_outputs import model_outputs
-from mocapbench.benchmark.filling.requests.names import is_unlabelled
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
 from mocapbench.benchmark.formats import format_for
 from mocapbench.datasets import Format, Recording, check_alike
+from mocapbench.datasets.formats.strays import is_unlabelled
 
 __all__ = ["Source", "read_sources"]
 
@@ -49,7 +48,7 @@ class Source:
         be filled.
         """
         request = self.request
-        wanted = chosen(request.given, None) | request.target.any(axis=0)
+        wanted = chosen(request.given, None, request.results) | request.target.any(axis=0)
         return with_channels(GapQuestion(request.given, request.target, self.train), wanted)
 
 
@@ -93,14 +92,15 @@ def read_sources(
 def _source(
     path: Path, others: dict[Path, Recording], rate: float | None, entries: NamedEntries
 ) -> Source:
-    recording = _read(path, rate)
+    file, recording = format_for(path), _read(path, rate)
+    results = file.results(path, recording.channels)
     train = tuple(
-        _match_channels(other, recording)
+        _match_channels(other, recording, results)
         for file, other in others.items()
         if file != path.resolve()
     )
     check_alike([recording, *train])
-    return Source(path, format_for(path), select(recording, entries, train), train)
+    return Source(path, file, select(recording, entries, train, results), train)
 
 
 def _read(path: Path, rate: float | None) -> Recording:
@@ -108,7 +108,7 @@ def _read(path: Path, rate: float | None) -> Recording:
     return replace(format_for(path).read(path, rate), name=str(path))
 
 
-def _match_channels(other: Recording, recording: Recording) -> Recording:
+def _match_channels(other: Recording, recording: Recording, results: Sequence[str]) -> Recording:
     """Return the channels of ``recording`` from another one, which stays whole if it lacks any.
 
     An unlabelled marker is nobody's in particular, and a result of a model no marker: where the
@@ -116,7 +116,7 @@ def _match_channels(other: Recording, recording: Recording) -> Recording:
     """
     units = dict(zip(recording.channels, recording.units, strict=True))
     lacking = [name for name in recording.channels if name not in other.channels]
-    if not {*lacking} <= {*filter(is_unlabelled, lacking), *model_outputs(recording.channels)}:
+    if not {*lacking} <= {*filter(is_unlabelled, lacking), *results}:
         return other
     hidden = np.full((len(other.times), len(lacking)), np.nan)
     padded = replace(

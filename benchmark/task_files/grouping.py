@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.formats import format_for
+from mocapbench.benchmark.formats import read_measured
 from mocapbench.benchmark.task_files.finding import readable_files
 from mocapbench.benchmark.task_files.library import require_addressable
 from mocapbench.datasets import FormatError, Recording, check_alike
@@ -70,7 +70,7 @@ def _read(folder: Path, rate: float | None) -> tuple[list[Recording], list[str]]
 
 def _recording(folder: Path, path: str, rate: float | None) -> Recording:
     require_addressable(path)
-    recording = format_for(path).read(folder / path, rate)
+    recording = read_measured(folder / path, rate)
     if len(recording.times) < 2:
         raise FormatError(path, "two or more frames", "1", "leave the file out")
     return replace(recording, name=path)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path, PurePosixPath
 
 from mocapbench.basics.words import encodable
-from mocapbench.benchmark.formats import format_for
+from mocapbench.benchmark.formats import format_for, read_measured
 from mocapbench.datasets import FormatError, Library, Recording, Skeleton, SkeletonUnavailable
 from mocapbench.datasets.digests import content_digest
 
@@ -43,13 +43,15 @@ class FolderLibrary(Library):
     def recording(self, key: str) -> Recording:
         """Return a recording, its missing entries hidden and its angles unwrapped.
 
+        Results of a model of the body and markers without names are left out.
+
         Raises
         ------
         FormatError
             If it cannot be read.
         """
         path = self.where(key)
-        recording = format_for(path).read(path, _split(key)[1])
+        recording = read_measured(path, _split(key)[1])
         self._digests[key] = content_digest(recording)
         return recording
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib.util import find_spec
 from math import isfinite
@@ -17,6 +17,7 @@ from mocapbench.datasets.acclaim.skeleton import Skeleton
 from mocapbench.datasets.formats.angle_wrapping import unwrap_angles, wrap_angles
 from mocapbench.datasets.formats.errors import FormatError, MissingExtraError
 from mocapbench.datasets.formats.memory import check_fits
+from mocapbench.datasets.formats.model_outputs import model_outputs
 from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
 
 __all__ = ["Extra", "Format"]
@@ -124,6 +125,22 @@ class Format(ABC):
         """Return the skeleton by which the channels move; None if the format has none."""
         del path
         return None
+
+    def results(self, path: Path, channels: Sequence[str]) -> tuple[str, ...]:
+        """Return the channels that are results of a model of the body, not measured.
+
+        They follow from the others, and are left alone where nobody names them. By default they are
+        those that Plug-in Gait calls so, in any format.
+
+        Parameters
+        ----------
+        path : Path
+            A file that `read` has read.
+        channels : sequence of str
+            Its channels.
+        """
+        del path
+        return model_outputs(channels)
 
     def read(self, path: str | Path, rate: float | None = None) -> Recording:
         """Return the recording of a file, under the file's name.

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
 
 __all__ = ["even_times", "recording_of", "warn_of_missing_rows"]
@@ -32,6 +32,7 @@ def warn_of_missing_rows(file: str, times: Frames) -> None:
         warnings.warn(
             f"{file}: expected a frame every {usual:g} s, got {len(jumps)} longer steps, the first "
             f"after {times[jumps[0]]:g} s: about {n_missing} rows are missing, which stay so",
+            FormatWarning,
             stacklevel=2,
         )
 

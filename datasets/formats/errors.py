@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["FormatError", "MissingExtraError", "TextColumnsWarning"]
+__all__ = ["FormatError", "FormatWarning", "MissingExtraError", "TextColumnsWarning"]
 
 
 class FormatError(ValueError):
@@ -61,5 +61,9 @@ class MissingExtraError(FormatError):
         return f"{self.file}: reading {suffix} needs {self.package}; {self.advice}"
 
 
-class TextColumnsWarning(UserWarning):
+class FormatWarning(UserWarning):
+    """A file that is read, and of which something is not as the format or the file itself says."""
+
+
+class TextColumnsWarning(FormatWarning):
     """Columns of a table are not channels, because they are not numbers."""

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.requests.model_outputs import model_outputs
-from mocapbench.benchmark.filling.requests.names import is_unlabelled
 from mocapbench.datasets import Recording
+from mocapbench.datasets.formats.strays import is_unlabelled
 
 __all__ = ["chosen"]
 
 
-def chosen(recording: Recording, pattern: str | None) -> NDArray[np.bool_]:
+def chosen(
+    recording: Recording, pattern: str | None, results: Collection[str]
+) -> NDArray[np.bool_]:
     """Return which channels (D,) a regular expression matches.
 
     Without one, they are all that are of labelled markers, not results of a model of the body.
@@ -26,7 +28,7 @@ def chosen(recording: Recording, pattern: str | None) -> NDArray[np.bool_]:
         If it is not a regular expression, or matches no channel.
     """
     if pattern is None:
-        others = {*filter(is_unlabelled, recording.channels), *model_outputs(recording.channels)}
+        others = {*filter(is_unlabelled, recording.channels), *results}
         return np.array([name not in others for name in recording.channels], dtype=bool)
     matches = np.array([_matches(pattern, name) for name in recording.channels], dtype=bool)
     if not matches.any():

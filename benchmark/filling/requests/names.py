@@ -1,20 +1,12 @@
-"""What messages call channels: markers by their names, and which markers have none."""
+"""What messages call channels: markers by their names."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 from mocapbench.baselines.common.markers import markers_of
 
-__all__ = ["is_unlabelled", "marker_names"]
-
-_UNLABELLED = re.compile(r"\*\d|unlabelled(-\d+)?\.")
-
-
-def is_unlabelled(channel: str) -> bool:
-    """Return whether it is of a marker that nobody named: ``*12.x``, ``unlabelled-2.x``."""
-    return _UNLABELLED.match(channel) is not None
+__all__ = ["marker_names"]
 
 
 def marker_names(channels: Sequence[str]) -> tuple[str, ...]:

@@ -11,14 +11,13 @@ from numpy.typing import ArrayLike
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.gaps import Gap, gaps_of, mask_of
 from mocapbench.benchmark.filling.requests.channels import chosen
-from mocapbench.benchmark.filling.requests.model_outputs import model_outputs
-from mocapbench.benchmark.filling.requests.names import is_unlabelled
 from mocapbench.benchmark.filling.requests.refusals import (
     NothingToFillError,
     no_gap,
     nothing_known,
 )
 from mocapbench.datasets import Mask, Recording, unwrap_angles
+from mocapbench.datasets.formats.strays import is_unlabelled
 
 __all__ = ["FillRequest", "NamedEntries", "select"]
 
@@ -63,6 +62,8 @@ class FillRequest:
         How many of the entries to fill had a value.
     outputs : tuple of str
         Channels of results of a model of the body that have hidden entries, and that nobody named.
+    results : tuple of str
+        All channels of results of a model of the body.
     """
 
     given: Recording
@@ -72,6 +73,7 @@ class FillRequest:
     unknown: tuple[str, ...] = ()
     replaced: int = 0
     outputs: tuple[str, ...] = ()
+    results: tuple[str, ...] = ()
 
     @property
     def gaps(self) -> tuple[Gap, ...]:
@@ -80,11 +82,15 @@ class FillRequest:
 
 
 def select(
-    recording: Recording, entries: NamedEntries, train: Sequence[Recording] = ()
+    recording: Recording,
+    entries: NamedEntries,
+    train: Sequence[Recording] = (),
+    results: Sequence[str] = (),
 ) -> FillRequest:
     """Return the request of filling the entries named.
 
-    Channels of which nothing is visible, here or in recordings to learn from, stay as they are.
+    Channels of which nothing is visible, here or in recordings to learn from, stay as they are, and
+    results of a model of the body do unless they are named.
 
     Raises
     ------
@@ -93,10 +99,10 @@ def select(
     UsageError
         If frames or channels are not in the recording, or nothing is visible.
     """
-    asked = _select_entries(recording, entries)
+    asked = _select_entries(recording, entries, results)
     incomplete = _incomplete(recording, asked)
     unlabelled = tuple(filter(is_unlabelled, incomplete))
-    outputs = tuple(name for name in model_outputs(recording.channels) if name in incomplete)
+    outputs = tuple(name for name in results if name in incomplete)
     if not asked.any():
         raise NothingToFillError(no_gap(recording, entries.channels, unlabelled, outputs))
     given = recording.hide(asked)
@@ -115,7 +121,14 @@ def select(
     replaced = int((target & recording.visible).sum())
     open_too = recording.hide(named)
     return FillRequest(
-        unwrap_angles(open_too), target, left_open, unlabelled, unknown, replaced, outputs
+        unwrap_angles(open_too),
+        target,
+        left_open,
+        unlabelled,
+        unknown,
+        replaced,
+        outputs,
+        tuple(results),
     )
 
 
@@ -132,10 +145,10 @@ def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[G
     return longer
 
 
-def _select_entries(recording: Recording, entries: NamedEntries) -> Mask:
+def _select_entries(recording: Recording, entries: NamedEntries, results: Sequence[str]) -> Mask:
     """Return the entries (N, D) that are asked for: given frames, or else what is hidden."""
     rows = ~recording.visible if entries.frames is None else _rows(recording, entries.frames)
-    return rows & chosen(recording, entries.channels)
+    return rows & chosen(recording, entries.channels, results)
 
 
 def _rows(recording: Recording, frames: tuple[int, int]) -> Mask:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import even_times, recording_of
-from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.text.cells import Words
 from mocapbench.datasets.formats.text.lines import read_lines, write_lines
 from mocapbench.datasets.formats.text.numbers import numeric
@@ -109,7 +109,9 @@ def _check_count(file: str, stated: float, n_rows: int) -> None:
         advice = "the file may be cut short: export it again, or correct 'Frames:'"
         raise FormatError(file, expected, got, advice)
     if n_rows != stated:
-        warnings.warn(f"{file}: expected {expected}, got {got}, which are read", stacklevel=2)
+        warnings.warn(
+            f"{file}: expected {expected}, got {got}, which are read", FormatWarning, stacklevel=2
+        )
 
 
 def _hierarchy(lines: _Lines) -> Iterator[tuple[str, str]]:

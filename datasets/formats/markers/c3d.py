@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,14 +14,16 @@ from mocapbench.datasets.formats.base import Format
 from mocapbench.datasets.formats.building import even_times, recording_of
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.markers.c3d_layout import C3DLayout, find_layout
-from mocapbench.datasets.formats.markers.c3d_parameters import read_parameters
+from mocapbench.datasets.formats.markers.c3d_parameters import C3DParameters, read_parameters
 from mocapbench.datasets.formats.markers.c3d_points import (
     frame_rate,
-    marker_places,
     point_labels,
+    result_groups,
+    unit_of_group,
     warn_of_scales,
 )
 from mocapbench.datasets.formats.markers.channels import marker_channels
+from mocapbench.datasets.formats.model_outputs import POSITIONS
 from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recording
 
 __all__ = ["C3DFormat"]
@@ -31,8 +34,8 @@ class C3DFormat(Format):
 
     The channels are ``LKNE.x``, ``LKNE.y``, ``LKNE.z`` and so on, in the unit that the file states.
     A point is hidden if its residual is negative, a coordinate is NaN, or it is exactly at the
-    origin. Angles, forces and other results of a model of the body, as parameters name them, are
-    not channels.
+    origin, where angles, forces and other results that are no positions may well be. `results`
+    names the channels of results of a model of the body.
 
     Only the coordinates that are filled are changed, and the residuals of their points, which
     become 0: calculated, not measured. All other bytes stay: residuals, analogue samples, events.
@@ -47,40 +50,50 @@ class C3DFormat(Format):
         """Return the recording with the values that the file has."""
         parameters = read_parameters(path)
         layout = find_layout(path, parameters)
-        labels = point_labels(parameters, layout.n_points)
-        places = marker_places(parameters, labels)
-        if not len(places):
-            advice = "export the positions of the markers too"
-            raise FormatError(path.name, "positions of markers", "other signals alone", advice)
         if layout.scale > 0:
             warn_of_scales(path.name, parameters)
-        values = _visible_positions(layout, layout.points(path, "r")[:, places])
-        channels = marker_channels(labels[place] for place in places)
+        labels, groups = _name_points(layout, parameters)
+        values = _visible_points(layout, layout.points(path, "r"), groups)
         times = even_times(layout.n_frames, rate or frame_rate(path.name, parameters))
-        unit = next(parameters.texts("POINT:UNITS"), "")
-        return recording_of(path.name, times, values, channels, [unit] * len(channels))
+        units = [unit for group in groups for unit in 3 * [unit_of_group(parameters, group)]]
+        return recording_of(path.name, times, values, marker_channels(labels), units)
 
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's bytes with the new coordinates."""
         parameters = read_parameters(like)
         layout = find_layout(like, parameters)
-        places = marker_places(parameters, point_labels(parameters, layout.n_points))
-        given = layout.points(like, "r")[:, places]
-        new = new & _whole_points(new | ~np.isnan(_visible_positions(layout, given)))
+        _, groups = _name_points(layout, parameters)
+        given = _visible_points(layout, layout.points(like, "r"), groups)
+        new = new & _whole_points(new | ~np.isnan(given))
         stored = _encode_coordinates(like, layout, values[new])
         shutil.copyfile(like, path)
         points = layout.points(path, "r+")
         frames, channels = np.nonzero(new)
-        points[frames, places[channels // 3], channels % 3] = stored
-        points[frames, places[channels // 3], 3] = 0  # residual: calculated, in any format
+        points[frames, channels // 3, channels % 3] = stored
+        points[frames, channels // 3, 3] = 0  # residual: calculated, in any format
+
+    def results(self, path: Path, channels: Sequence[str]) -> tuple[str, ...]:
+        """Return the channels of results, as the file's parameters or their names say."""
+        parameters = read_parameters(path)
+        _, groups = _name_points(find_layout(path, parameters), parameters)
+        return tuple(name for place, name in enumerate(channels) if groups[place // 3])
 
 
-def _visible_positions(layout: C3DLayout, points: NDArray[Any]) -> FrameByChannel:
-    """Return the coordinates of points (N, M, 4) as (N, 3 · M), NaN where they are not valid."""
+def _name_points(layout: C3DLayout, parameters: C3DParameters) -> tuple[list[str], list[str]]:
+    """Return the label of each point, and its group if it is a result of a model of the body."""
+    labels = point_labels(parameters, layout.n_points)
+    return labels, result_groups(parameters, labels)
+
+
+def _visible_points(
+    layout: C3DLayout, points: NDArray[Any], groups: Sequence[str]
+) -> FrameByChannel:
+    """Return the numbers of points (N, M, 4) as (N, 3 · M), NaN where they are not valid."""
     positions = layout.decode(points[..., :3])
     measured = layout.decode(points[..., 3]) >= 0
-    valid = measured & np.isfinite(positions).all(axis=2) & (positions != 0).any(axis=2)
-    positions[~valid] = np.nan
+    may_be_zero = [group not in {"", POSITIONS} for group in groups]
+    placed = (positions != 0).any(axis=2) | may_be_zero
+    positions[~(measured & np.isfinite(positions).all(axis=2) & placed)] = np.nan
     return positions.reshape(len(points), -1)
 
 

@@ -20,7 +20,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.markers.c3d_numbers import Processor
 from mocapbench.datasets.formats.markers.c3d_parameters import BLOCK, WORD, C3DParameters
 from mocapbench.datasets.recording import Frames
@@ -176,6 +176,7 @@ def _take_only_layout(
     warnings.warn(
         f"{file}: expected no more than {layouts[0].end} bytes, as its header says, got {size}; "
         "what follows is left alone: if positions jump from frame to frame, export the file again",
+        FormatWarning,
         stacklevel=2,
     )
     return layouts[0]

@@ -1,21 +1,33 @@
-"""What the parameters of a C3D file say of its points: names, unit, rate, and which are markers."""
+"""What the parameters of a C3D file say of its points: names, kinds, units and rate."""
 
 from __future__ import annotations
 
 import warnings
-from itertools import islice
+from collections.abc import Mapping, Sequence
+from itertools import islice, repeat
 from math import isclose, isfinite
 
-import numpy as np
-
-from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.markers.c3d_parameters import C3DParameters
+from mocapbench.datasets.formats.model_outputs import POSITIONS, output_kinds
 
-__all__ = ["frame_rate", "marker_places", "point_labels", "warn_of_scales"]
+__all__ = [
+    "frame_rate",
+    "point_labels",
+    "result_groups",
+    "unit_of_group",
+    "warn_of_scales",
+]
 
-_OUTPUTS = ("ANGLES", "FORCES", "MOMENTS", "POWERS", "SCALARS")
-"""Parameters that name the points which are not positions, but results of a model of the body."""
-_POSITIONS = "MODELED_MARKERS"
+_SINGULARS = {
+    "ANGLES": "ANGLE",
+    "FORCES": "FORCE",
+    "MOMENTS": "MOMENT",
+    "POWERS": "POWER",
+    "SCALARS": "SCALAR",
+    POSITIONS: "MODELED_MARKER",
+}
+"""Parameters that name results of a model of the body, and how those of their units begin."""
 _ROUNDING = 1e-3  # relative
 
 
@@ -25,22 +37,35 @@ def point_labels(parameters: C3DParameters, n_points: int) -> list[str]:
     return labels + [""] * (n_points - len(labels))
 
 
-def marker_places(
-    parameters: C3DParameters, labels: list[str]
-) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
-    """Return which points are positions, not results of a model of the body.
+def result_groups(parameters: C3DParameters, labels: Sequence[str]) -> list[str]:
+    """Return the group of each point that is a result of a model of the body; "" for a marker.
 
-    Results may be named with the subject, as labels are ("Anna:LKneeAngles"), or without.
+    Parameters name results with the subject, as labels are ("Anna:LKneeAngles"), or without. Those
+    of Plug-in Gait are known where no parameter names them.
     """
-    groups = {*_OUTPUTS, *islice(parameters.texts("POINT:TYPE_GROUPS"), 0, None, 2)}
-    named = (parameters.texts(f"POINT:{group}") for group in groups - {_POSITIONS, ""})
-    results = {label for texts in named for label in texts} - {""}
-    places = [
-        place
-        for place, label in enumerate(labels)
-        if label not in results and label.rpartition(":")[2] not in results
+    groups: dict[str, str] = {}
+    for group in _singulars(parameters):
+        for label in filter(None, parameters.texts(f"POINT:{group}")):
+            groups.setdefault(label, group)
+    known = output_kinds(labels) | groups
+    return [
+        known.get(one) or groups.get(one.rpartition(":")[2], "") if one else "" for one in labels
     ]
-    return np.array(places, dtype=np.intp)
+
+
+def unit_of_group(parameters: C3DParameters, group: str) -> str:
+    """Return the unit of the points of a group; no group is that of markers."""
+    positions = next(parameters.texts("POINT:UNITS"), "")
+    singular = _singulars(parameters).get(group, "")
+    units = parameters.texts(f"POINT:{singular}_UNITS" if group else "POINT:UNITS")
+    return next(units, positions if group in {"", POSITIONS} else "")
+
+
+def _singulars(parameters: C3DParameters) -> Mapping[str, str]:
+    """Return the groups that the format or the file knows: TYPE_GROUPS names each with a type."""
+    named = list(parameters.texts("POINT:TYPE_GROUPS"))
+    pairs = zip(named[::2], [*named[1::2], *repeat("", len(named) % 2)], strict=True)
+    return _SINGULARS | {group: singular for group, singular in pairs if group}
 
 
 def frame_rate(file: str, parameters: C3DParameters) -> float:
@@ -60,6 +85,7 @@ def frame_rate(file: str, parameters: C3DParameters) -> float:
         warnings.warn(
             f"{file}: expected one frame rate, got {rates[0]:g} in POINT:RATE and {rates[-1]:g} in "
             f"the header; the first is taken: name the right one with --rate",
+            FormatWarning,
             stacklevel=2,
         )
     return rates[0]
@@ -75,5 +101,6 @@ def warn_of_scales(file: str, parameters: C3DParameters) -> None:
             f"{file}: expected one scale of its integers, got {scale:g} in the header and "
             f"{others[0]:g} in POINT:SCALE; the first is taken: if positions are too large or "
             "small, only units are wrong, not what is filled",
+            FormatWarning,
             stacklevel=2,
         )

@@ -14,7 +14,7 @@ from mocapbench.datasets.formats.building import (
     recording_of,
     warn_of_missing_rows,
 )
-from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.errors import FormatError, FormatWarning
 from mocapbench.datasets.formats.markers.channels import marker_channels
 from mocapbench.datasets.formats.markers.trc_head import LEADING, TRCHead, parse_head
 from mocapbench.datasets.formats.text.cells import CellSplitter, Separated
@@ -123,5 +123,6 @@ def _warn_of_counts(file: str, parsed: _Parsed, n_frames: int) -> None:
             warnings.warn(
                 f"{file}: expected {fact} to be {stated:g}, as line 3 says, got {got}, which are "
                 "read; if something is missing, copy or export the file again",
+                FormatWarning,
                 stacklevel=2,
             )

@@ -1,6 +1,7 @@
 import pytest
 
-from mocapbench.benchmark.filling.requests.names import is_unlabelled, marker_names
+from mocapbench.benchmark.filling.requests.names import marker_names
+from mocapbench.datasets.formats.strays import is_unlabelled
 
 
 def test_one_name_stands_for_the_channels_of_a_marker():
@@ -14,6 +15,27 @@ def test_one_name_stands_for_the_channels_of_a_marker():
         ("*12.x", True),
         ("unlabelled.x", True),
         ("unlabelled-2.z", True),
+        ("unlabelled", True),
+        ("Ann:*3.y", True),
+        ("*Unnamed_58.x", True),
+        ("Unnamed_58.x", True),
+        ("New 0000.x", True),
+        ("New 0001-2.y", True),
+        ("Unlabeled 1200.x", True),
+        ("UNLABELED1200.x", True),
+        ("Unlabeled_7.Z", True),
+        ("U_3.x", True),
+        ("uname*3.x", True),
+        ("unidentified 4_X", True),
+        ("?7.x", True),
+        ("Newton.x", False),
+        ("New.x", False),
+        ("LKNE New 1.x", False),
+        ("U.x", False),
+        ("UN_3.x", False),
+        ("U_LEG.x", False),
+        ("Unlabeled knee.x", False),
+        ("12.x", False),
         ("LKNE.x", False),
         ("*LKNE.x", False),
         ("LKNE*1.x", False),

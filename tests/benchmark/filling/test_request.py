@@ -6,7 +6,6 @@ import pytest
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.gaps import Gap
-from mocapbench.benchmark.filling.requests.model_outputs import model_outputs
 from mocapbench.benchmark.filling.requests.request import NamedEntries, select
 from mocapbench.datasets import Recording
 
@@ -63,37 +62,24 @@ def test_where_only_unlabelled_markers_have_gaps_that_is_said(starred, hidden):
         select(recording, NamedEntries())
 
 
-@pytest.mark.parametrize("point", ["LFEO", "Ann:HEDO", "CentreOfMassFloor", "Ann:LKneeAngles-2"])
 @pytest.mark.parametrize("frames", [None, (20, 30)])
-def test_results_of_a_model_stay_as_they_are_unless_they_are_named(waves, hidden, point, frames):
-    names = tuple(f"{point}.{axis}" for axis in "xyz")
+def test_results_of_a_model_stay_as_they_are_unless_they_are_named(waves, hidden, frames):
+    names = ("LFEO.x", "LFEO.y", "LFEO.z")
     recording = waves().hide(hidden((5, 190, [0, 1, 2]), (20, 30, [3])))
     recording = replace(recording, channels=(*names, "root.ty"))
-    request = select(recording, NamedEntries(frames))
+    request = select(recording, NamedEntries(frames), results=names)
     assert request.gaps == (Gap(20, 30, (3,)),)
-    assert request.outputs == names
-    named = select(recording, NamedEntries(frames, channels=".*"))
+    assert request.outputs == request.results == names
+    named = select(recording, NamedEntries(frames, channels=".*"), results=names)
     assert named.target[:, :3].any()
     assert not named.outputs
-
-
-def test_axes_of_a_segment_are_results_beside_its_origin_alone():
-    axes = ["LTIA.x", "LTIP.x", "Bob:LTIL.x"]
-    assert model_outputs(axes) == ()
-    assert model_outputs(["LTIO.x", *axes]) == ("LTIO.x", "LTIA.x", "LTIP.x")
-    assert model_outputs(["Bob:LTIO.x", *axes]) == ("Bob:LTIO.x", "Bob:LTIL.x")
-
-
-def test_markers_are_no_results_of_a_model():
-    names = ["LTOE", "LHEE", "LTIB", "C7", "LPSI", "LKNE", "RSHO", "HEAD", "Ann:LFIN", "PELVIS"]
-    assert model_outputs([f"{name}.{axis}" for name in names for axis in "xyz"]) == ()
 
 
 def test_where_only_results_of_a_model_have_gaps_that_is_said(waves, hidden):
     names = ("LFEO.x", "LFEO.y", "LFEO.z", "root.ty")
     recording = replace(waves().hide(hidden((5, 90, [0, 1, 2]))), channels=names)
     with pytest.raises(UsageError, match=r"entries of 1 result of a model only \(LFEO\); --chan"):
-        select(recording, NamedEntries())
+        select(recording, NamedEntries(), results=names[:3])
 
 
 @pytest.mark.parametrize(

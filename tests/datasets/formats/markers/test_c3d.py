@@ -116,17 +116,57 @@ def test_a_file_of_integers_refuses_what_it_cannot_hold(given, tmp_path):
         C3D.write(tmp_path / "out.c3d", filled(given, -4000.0), like=given)
 
 
-def test_results_of_a_model_are_no_channels(given, tmp_path):
-    file = ezc3d.c3d(str(given))
-    labels = file["parameters"]["POINT"]["LABELS"]["value"]
-    file.add_parameter("POINT", "ANGLES", [labels[1]])
-    file.write(str(tmp_path / "modelled.c3d"))
-    recording = C3D.read(tmp_path / "modelled.c3d")
-    assert recording.channels == (*markers().channels[:3], *markers().channels[6:])
-    C3D.write(tmp_path / "out.c3d", filled(tmp_path / "modelled.c3d"), tmp_path / "modelled.c3d")
-    expected = numbers(tmp_path / "modelled.c3d")
-    expected[20:30, :4] = [0.5, 0.5, 0.5, 0.0]
+def modelled(path, group, label, unit=None):
+    """Have a file name the point with a label as one of a group, whose values have a unit."""
+    file = ezc3d.c3d(str(path))
+    file.add_parameter("POINT", group, [label])
+    file.add_parameter("POINT", "TYPE_GROUPS", ["OWN", "OWN"])
+    if unit:
+        file.add_parameter("POINT", f"{group.removesuffix('S')}_UNITS", [unit])
+    out = path.with_name("modelled.c3d")
+    file.write(str(out))
+    return out
+
+
+GROUPS = [("ANGLES", "deg"), ("FORCES", "N"), ("MOMENTS", "Nmm"), ("POWERS", "W"), ("OWN", "l")]
+
+
+@pytest.mark.parametrize(("group", "unit"), [*GROUPS, ("SCALARS", ""), ("MODELED_MARKERS", "mm")])
+def test_results_of_a_model_are_channels_of_their_own_unit(given, tmp_path, group, unit):
+    names = markers().channels
+    path = modelled(given, group, "lowerback", unit if group != "MODELED_MARKERS" else None)
+    recording = C3D.read(path)
+    assert recording.channels == names
+    assert recording.units == ("mm",) * 3 + (unit,) * 3 + ("mm",) * 9
+    assert C3D.results(path, names) == names[3:6]
+    assert C3D.results(given, names) == ()
+    change(path, 3, 4, np.nan)
+    assert C3D.read(path).visible[3].tolist() == [True] * 3 + [False] * 3 + [True] * 9
+    C3D.write(tmp_path / "out.c3d", filled(path), path)
+    expected = numbers(path)
+    expected[20:30, :4] = expected[3, 4:8] = [0.5, 0.5, 0.5, 0.0]
     assert np.array_equal(numbers(tmp_path / "out.c3d"), expected)
+
+
+def test_a_subject_before_the_name_makes_no_difference(given):
+    path = modelled(given, "ANGLES", "Ann:lowerback")
+    assert C3D.results(path, markers().channels) == ()
+    path.write_bytes(
+        path.read_bytes().replace(b"upperback", b"Ann:lower").replace(b"thorax", b"Bob:lo")
+    )
+    path = modelled(path, "FORCES", "lower")
+    assert C3D.results(path, C3D.read(path).channels) == (
+        "Ann:lower.x",
+        "Ann:lower.y",
+        "Ann:lower.z",
+    )
+
+
+def test_forces_may_be_zero_and_positions_may_not(given):
+    force = modelled(given, "FORCES", "lowerback", "N")
+    points = read_layout(force).points(force, "r+")
+    points[3, :, :3] = 0.0
+    assert C3D.read(force).visible[3].tolist() == [False] * 3 + [True] * 3 + [False] * 9
 
 
 def header(path, at, *values):
@@ -152,14 +192,6 @@ WRONG = {
     "no computer": (lambda p: header(p, 515, 9), r"DEC or MIPS computers .*, got the type 9; exp"),
     "more points": (more_points, "expected [0-9]{5} bytes, as its header says, got [0-9]{4}; the"),
 }
-
-
-def test_a_file_without_markers_says_so(given, tmp_path):
-    file = ezc3d.c3d(str(given))
-    file.add_parameter("POINT", "ANGLES", file["parameters"]["POINT"]["LABELS"]["value"])
-    file.write(str(tmp_path / "angles.c3d"))
-    with pytest.raises(FormatError, match="expected positions of markers, got other signals alone"):
-        C3D.read(tmp_path / "angles.c3d")
 
 
 @pytest.mark.parametrize("damage", WRONG)

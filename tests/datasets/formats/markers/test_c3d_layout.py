@@ -226,7 +226,8 @@ def test_results_of_a_model_are_known_with_and_without_the_subject(tmp_path):
         "POINT:LABELS": text(*labels, width=12),
     }
     path = write_bytes(tmp_path / "given.c3d", np.ones((2, 5, 3)), labels=[], parameters=results)
-    assert C3D.read(path).channels[::3] == ("Anna:HIP.x", "HAND.x")
+    named = C3D.results(path, C3D.read(path).channels)
+    assert named[::3] == ("Anna:KNEE_A.x", "Anna:KNEE_F.x", "Bob:KNEE_A.x")
 
 
 def test_a_file_of_no_scale_is_refused(tmp_path):
