@@ -1,20 +1,38 @@
-"""What the columns of a table are, by their names: time, a count of frames, or channels."""
+"""What the columns of a table are, by their names: times, frames, likelihoods, or channels."""
 
 from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from mocapbench.datasets.formats.building import even_times, recording_of
-from mocapbench.datasets.formats.errors import FormatError, TextColumnsWarning
-from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
+from mocapbench.datasets.formats.errors import TextColumnsWarning
 
-__all__ = ["TableColumns", "sort_columns", "table_recording"]
+__all__ = [
+    "TableColumns",
+    "is_index",
+    "is_likelihood",
+    "sort_columns",
+    "split_unit",
+    "time_unit",
+    "warn_of_text",
+]
 
-_TIME = frozenset({"time", "time [s]", "time (s)", "time_s", "t", "seconds"})
-_COUNT = frozenset({"", "frame", "frame#", "frames", "__index_level_0__"})  # pandas' own index
+_TIME = re.compile(
+    r"""(?:(?:elapsed|relative|capture|recording|video|unix|epoch|system|camera|frame)[ _]?)?
+    (?:time(?:[ _]?stamp)?s?|t|sec(?:ond)?s?)
+    (?:[ _]*[\[(]?\s*(s|sec|secs|seconds?|ms|msec|milliseconds?|[uµμ]s|microseconds?|ns|
+    nanoseconds?)\s*[\])]?)?""",
+    re.VERBOSE,
+)
+_FRAME = re.compile(r"(?:frame|field)s?(?:[ _]?(?:#|idx|index|id|no\.?|nr\.?|num|number))?|coords")
+_COUNT = frozenset({"", "__index_level_0__", "sub frame", "subframe", "sub_frame", "unnamed: 0"})
+"""Counts of pandas, and of samples within a frame."""
+_OF_INSTANCE = frozenset({"instance.score"})
+_SURE = r"likelihood|visibility|presence|confidence|conf|score|prob(?:ability)?"
+_LIKELIHOOD = re.compile(rf"(?:(.*?)[._: -])?(?:{_SURE})(_?\d+)?|v(_?\d+)", re.IGNORECASE)
+_COORDINATE = re.compile(r"(?:(.*?)[._: -])?[xyz](_?\d+)?", re.IGNORECASE)
 _SYNONYMS = {"°": "deg", "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad"}
 _KNOWN = "|".join(["deg", "rad", "mm", "cm", "m", *_SYNONYMS])
 _IN_BRACKETS = re.compile(r"(.*\S)\s*\[([^\]]*)\]")
@@ -26,87 +44,81 @@ class TableColumns(NamedTuple):
     """Indices of columns."""
 
     time: int | None
-    """The column of seconds, if there is one."""
+    """The column of times, if there is one."""
+    frame: int | None
+    """The column that counts frames, if there is one."""
     channels: tuple[int, ...]
     """Those of numbers."""
     left_out: tuple[int, ...]
     """Those of something else."""
+    likelihoods: Mapping[int, int]
+    """From those of coordinates to the one that says how likely these are."""
 
 
-def sort_columns(names: Sequence[str], is_number: Sequence[bool]) -> TableColumns:
-    """Return which columns are time and channels.
+def is_index(name: str) -> bool:
+    """Return whether a column of this name has times or counts frames."""
+    plain = name.strip().lower()
+    return any(pattern.fullmatch(plain) for pattern in (_TIME, _FRAME)) or plain in _COUNT
+
+
+def is_likelihood(name: str) -> bool:
+    """Return whether a column of this name says how likely something is."""
+    return _LIKELIHOOD.fullmatch(name) is not None
+
+
+def time_unit(name: str) -> str:
+    """Return the unit that the name of a column of times states, by its first letter, or none."""
+    found = _TIME.fullmatch(name.strip().lower())
+    unit = (found[1] or "") if found else ""
+    return "s" if unit.startswith("s") else unit[:1].replace("u", "μ").replace("µ", "μ")
+
+
+def sort_columns(
+    names: Sequence[str], is_number: Sequence[bool], left_alone: frozenset[int] = frozenset()
+) -> TableColumns:
+    """Return which columns are times, frames, likelihoods and channels.
 
     Parameters
     ----------
     names : sequence of str
-        Column ``time`` is in seconds (also ``time [s]``, ``time_s``, ``t``, ``seconds``); ``frame``
-        and a column without a name count the frames. Case does not matter.
+        Such as ``time`` (also ``time [s]``, ``Time (Seconds)``, ``timestamp``, ``time_ms``); such
+        as ``frame`` or ``frame_idx``, which counts the frames as a column without a name does; such
+        as ``nose.likelihood`` beside ``nose.x``. Case does not matter.
     is_number : sequence of bool
         Whether a column has numbers; others are left out.
+    left_alone : frozenset of int
+        Columns of numbers that are no channels either.
     """
     plain = [name.strip().lower() for name in names]
-    times = [index for index, name in enumerate(plain) if name in _TIME]
-    apart = {*times[:1], *(index for index, name in enumerate(plain) if name in _COUNT)}
-    others = [index for index in range(len(names)) if index not in apart]
-    channels = tuple(index for index in others if is_number[index])
-    left_out = tuple(index for index in others if not is_number[index])
-    return TableColumns(times[0] if times else None, channels, left_out)
+    numbers = [k for k in range(len(names)) if is_number[k]]
+    times = [k for k in numbers if _TIME.fullmatch(plain[k])]
+    frames = [k for k in numbers if _FRAME.fullmatch(plain[k])]
+    others = [k for k, name in enumerate(plain) if name in _COUNT or name in _OF_INSTANCE]
+    likelihoods = _match_likelihoods({k: names[k] for k in numbers})
+    apart = {*times, *frames, *others, *left_alone, *likelihoods.values()}
+    channels = tuple(k for k in numbers if k not in apart)
+    left_out = tuple(k for k in range(len(names)) if not is_number[k] and k not in apart)
+    return TableColumns(_first(times), _first(frames), channels, left_out, likelihoods)
 
 
-def table_recording(
-    file: str,
-    names: Sequence[str],
-    columns: TableColumns,
-    values: tuple[Frames | None, FrameByChannel],
-    rate: float | None,
-) -> Recording:
-    """Return the recording of a table.
-
-    Parameters
-    ----------
-    file : str
-        Name of the file.
-    names : sequence of str
-        Names of all columns; a channel such as ``knee.rx [deg]`` has the unit in brackets, or
-        a known one in parentheses.
-    columns : TableColumns
-    values : tuple of ndarray (N,) or None and ndarray (N, D)
-        The column of times, if there is one, and the channels.
-    rate : float or None
-        Frames per second in place of the times.
-
-    Raises
-    ------
-    FormatError
-        If neither a rate nor a column of times is given, or as `recording_of`.
-
-    Warns
-    -----
-    TextColumnsWarning
-        If columns are left out, as they are not numbers.
-    """
-    times, channels = values
-    if rate is not None:
-        times = even_times(len(channels), rate)
-    if times is None:
-        raise FormatError(
-            file,
-            "a column 'time' in seconds, or a rate",
-            f"the columns {', '.join(names[:4])}{', …' if len(names) > 4 else ''}",
-            "name the rate in frames per second, such as --rate 100",
-        )
-    if columns.left_out:
-        left_out = ", ".join(names[index] for index in columns.left_out)
-        text = f"{file}: left out, as they are not numbers: {left_out}"
-        warnings.warn(text, TextColumnsWarning, stacklevel=2)
-    named = [_channel(names[index]) for index in columns.channels]
-    return recording_of(
-        file, times, channels, [name for name, _ in named], [unit for _, unit in named]
-    )
+def _first(columns: Sequence[int]) -> int | None:
+    return columns[0] if columns else None
 
 
-def _channel(name: str) -> tuple[str, str]:
-    """Return the name and the unit that a column's name states."""
+def _match_likelihoods(names: Mapping[int, str]) -> dict[int, int]:
+    """Return the column of likelihoods for each coordinate of the same marker that has one."""
+    sure = {}
+    for column, name in names.items():
+        found = _LIKELIHOOD.fullmatch(name.strip())
+        if found:
+            sure[(found[1] or "") + (found[2] or found[3] or "")] = column
+    coordinates = {k: _COORDINATE.fullmatch(name.strip()) for k, name in names.items()}
+    stems = {k: (one[1] or "") + (one[2] or "") for k, one in coordinates.items() if one}
+    return {column: sure[stem] for column, stem in stems.items() if stem in sure}
+
+
+def split_unit(name: str) -> tuple[str, str]:
+    """Return the name and the unit that a column's name states, such as ``knee.rx [deg]``."""
     name = name.strip()
     known = _IN_PARENTHESES.fullmatch(name)
     found = known or _IN_BRACKETS.fullmatch(name)
@@ -114,3 +126,10 @@ def _channel(name: str) -> tuple[str, str]:
         return name, ""
     unit = found[2].lower() if known else found[2].strip()
     return found[1], _SYNONYMS.get(unit.lower(), unit)
+
+
+def warn_of_text(file: str, names: Sequence[str]) -> None:
+    """Warn that some columns are left out, as they are not numbers."""
+    if names:
+        text = f"{file}: left out, as they are not numbers: {', '.join(names)}"
+        warnings.warn(text, TextColumnsWarning, stacklevel=2)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mocapbench.datasets.formats.errors import FormatError
-from mocapbench.datasets.formats.text.cells import Separated
+from mocapbench.datasets.formats.tables.notation import Notation
 from mocapbench.datasets.formats.text.numbers import is_missing, looks_numeric
 
 __all__ = ["check_lines", "column_names"]
@@ -30,7 +30,7 @@ def check_lines(file: str, lines: Sequence[str]) -> None:
         raise FormatError(file, expected, got, "save it with other line ends", line=1)
 
 
-def column_names(file: str, lines: Sequence[str], cells: Separated) -> list[str]:
+def column_names(file: str, lines: Sequence[str], notation: Notation) -> list[str]:
     """Return the names of the columns, which are in the first line.
 
     Raises
@@ -38,6 +38,7 @@ def column_names(file: str, lines: Sequence[str], cells: Separated) -> list[str]
     FormatError
         If that line has something else, or the one below has more cells than there are names.
     """
+    cells = notation.cells
     names = [name.strip() for name in cells.split(lines[0])]
     below = cells.split(lines[1]) if len(lines) > 1 else []
     if _stands_above(names, below):
@@ -45,7 +46,7 @@ def column_names(file: str, lines: Sequence[str], cells: Separated) -> list[str]
         raise FormatError(file, _EXPECTED, _quote_line(lines[0]), advice, line=1)
     if all(is_missing(name) or looks_numeric(name) for name in names):
         raise FormatError(file, _EXPECTED, _quote_line(lines[0]), _EXAMPLE, line=1)
-    if cells.separator == "," and len(names) < len(below) and all(map(looks_numeric, below)):
+    if notation.separator == "," and len(names) < len(below) and all(map(looks_numeric, below)):
         advice = (
             "if commas are decimal marks here, put semicolons between columns, else name every "
             "column in the first line"

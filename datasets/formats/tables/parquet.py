@@ -5,11 +5,21 @@ from __future__ import annotations
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
+
 from mocapbench.datasets.formats.base import Extra, Format
+from mocapbench.datasets.formats.building import recording_of
 from mocapbench.datasets.formats.errors import FormatError
 from mocapbench.datasets.formats.isolation.calls import IsolatedCallError, call_isolated
-from mocapbench.datasets.formats.tables.columns import TableColumns, sort_columns, table_recording
-from mocapbench.datasets.recording import FrameByChannel, Mask, Recording
+from mocapbench.datasets.formats.tables.clock import Clock
+from mocapbench.datasets.formats.tables.columns import (
+    TableColumns,
+    sort_columns,
+    split_unit,
+    time_unit,
+    warn_of_text,
+)
+from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recording
 
 __all__ = ["ParquetFormat"]
 
@@ -33,9 +43,20 @@ class ParquetFormat(Format):
     def load(self, path: Path, rate: float | None) -> Recording:
         """Return the recording with the values that the file has."""
         names, columns, values = _read_table(path)
-        times = None if columns.time is None else values[:, columns.time]
-        channels = values[:, list(columns.channels)]
-        return table_recording(path.name, names, columns, (times, channels), rate)
+        times, frames = (None if k is None else values[:, k] for k in (columns.time, columns.frame))
+        if times is None and frames is not None:
+            _check_one_row_a_frame(path.name, frames)
+        unit = "" if columns.time is None else time_unit(names[columns.time])
+        clock = Clock(path.name, times, unit, frames, None, names)
+        warn_of_text(path.name, [names[column] for column in columns.left_out])
+        named = [split_unit(names[column]) for column in columns.channels]
+        return recording_of(
+            path.name,
+            clock.seconds(len(values), rate),
+            values[:, list(columns.channels)],
+            [name for name, _ in named],
+            [unit for _, unit in named],
+        )
 
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's columns with the new entries."""
@@ -56,3 +77,11 @@ def _read_table(path: Path) -> tuple[list[str], TableColumns, FrameByChannel]:
         raise FormatError(path.name, "a Parquet file", str(error), advice) from error
     names = read["names"].tolist()
     return names, sort_columns(names, read["is_number"].tolist()), read["values"]
+
+
+def _check_one_row_a_frame(file: str, frames: Frames) -> None:
+    """Refuse a table with a row for each marker of each frame, of which rows are no frames."""
+    values, counts = np.unique(frames, return_counts=True)
+    for value in values[counts > 1][:1]:
+        advice = "write one row a frame, with a column for each coordinate, or export it as CSV"
+        raise FormatError(file, "one row a frame", f"several of frame {value:g}", advice)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
-__all__ = ["CellSplitter", "Separated", "Words"]
+__all__ = ["CellSplitter", "Parts", "Separated", "Words"]
 
 _ENDS = "\r\n"
 
@@ -57,6 +57,31 @@ class Separated:
             else:
                 cells.append(piece)
         return cells
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Cells between any of several separators, which all stay.
+
+    Parameters
+    ----------
+    separators : str
+        Some characters.
+    """
+
+    separators: str
+
+    def split(self, line: str) -> list[str]:
+        """Return the cells of a line, whichever separators are between them."""
+        return re.split(f"[{re.escape(self.separators)}]", line.rstrip(_ENDS))
+
+    def replace_cells(self, line: str, new: Mapping[int, str]) -> str:
+        """Return the line with the cells of some indices replaced."""
+        body = line.rstrip(_ENDS)
+        pieces = re.split(f"([{re.escape(self.separators)}])", body)  # every other one a separator
+        for index, cell in new.items():
+            pieces[2 * index] = cell
+        return "".join(pieces) + line[len(body) :]
 
 
 class Words:

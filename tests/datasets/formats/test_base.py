@@ -54,7 +54,8 @@ def test_a_file_that_is_not_there(name, tmp_path):
 @pytest.mark.parametrize("name", NAMES)
 def test_a_wrong_suffix_names_the_right_one(name, tmp_path):
     kind = FORMATS.get(name)()
-    expected = rf"expected a file called \*\{kind.suffixes[0]}, got '.doc'; name a file"
+    known = " or ".join(rf"\*\{suffix}" for suffix in kind.suffixes)
+    expected = rf"expected a file called {known}, got '.doc'; name a file"
     with pytest.raises(FormatError, match=expected):
         kind.read(tmp_path / "walk.doc")
 

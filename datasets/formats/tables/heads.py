@@ -1,0 +1,203 @@
+"""The head of a table: where its rows are, and what its columns are called.
+
+A table of a program that `DIALECTS` describes is known by its first lines. If its head does not go
+on as that program writes it, the table is a damaged one, and is refused by that name. All other
+tables have the names of their columns in the first line.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from math import isfinite
+
+from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.tables.dialects import DIALECTS, PLAIN, Dialect, Place
+from mocapbench.datasets.formats.tables.header import check_lines, column_names
+from mocapbench.datasets.formats.tables.labels import (
+    HeadRows,
+    Label,
+    expand_parts,
+    label_columns,
+)
+from mocapbench.datasets.formats.tables.notation import Notation, notation_of
+from mocapbench.datasets.formats.text.cells import CellSplitter, Parts
+
+__all__ = ["Head", "read_head"]
+
+_LONGEST = 300
+"""Lines that a head has at most."""
+
+
+@dataclass(frozen=True)
+class Head:
+    """What stands above the rows of a table.
+
+    Parameters
+    ----------
+    dialect : Dialect
+    notation : Notation
+    start, stop : int
+        The lines [start, stop) of the rows.
+    labels : list of Label
+        One for each column.
+    rate, n_rows : float or None
+        Frames per second, and how many rows there should be.
+    """
+
+    dialect: Dialect
+    notation: Notation
+    start: int
+    stop: int
+    labels: list[Label]
+    rate: float | None = None
+    n_rows: float | None = None
+
+
+def read_head(file: str, lines: Sequence[str]) -> Head:
+    """Return the head of a table.
+
+    Raises
+    ------
+    FormatError
+        If the file is empty, or its head is not whole.
+    """
+    check_lines(file, lines)
+    text = "".join(lines[:_LONGEST])
+    dialect = next((one for one in DIALECTS if re.match(one.sign, text)), PLAIN)
+    if dialect is not PLAIN:
+        return _HeadLines(file, lines, dialect).head()
+    notation = notation_of(lines)
+    labels = [Label(name) for name in column_names(file, lines, notation)]
+    return Head(PLAIN, notation, 1, _end_of_rows(lines, 1), labels)
+
+
+def _end_of_rows(lines: Sequence[str], start: int) -> int:
+    """Return the index after the last line that is not blank."""
+    end = len(lines)
+    while end > start and not lines[end - 1].strip():
+        end -= 1
+    return end
+
+
+def _is_blank(line: str) -> bool:
+    return not line.strip(' ,;\t\r\n"')
+
+
+class _HeadLines:
+    """The lines of a head, found by what a dialect says of them."""
+
+    def __init__(self, file: str, lines: Sequence[str], dialect: Dialect) -> None:
+        self.file, self.lines, self.dialect = file, lines, dialect
+        self.first = self._first()
+        self.last = self._last()
+        self.text = "".join(lines[self.first : self.last + 1])
+
+    def head(self) -> Head:
+        """Return what they say."""
+        rows = range(self.last + 1, len(self.lines))
+        start = next((k for k in rows if self.lines[k].strip(" \r\n")), len(self.lines))
+        stop = self._stop(start)
+        notation = notation_of(
+            [self.lines[self._naming_line()], *self.lines[start:stop]], by_blanks=True
+        )
+        cells = notation.cells
+        axes = self._axes(cells, start)
+        places = (self.dialect.names, self.dialect.kinds, self.dialect.groups, self.dialect.units)
+        above = (self._cells(cells, place, len(axes)) for place in places)
+        labels = label_columns(self.dialect, HeadRows(axes, *above), self._fact)
+        parted = expand_parts(labels, self._fact(self.dialect.parts))
+        if len(parted) > len(labels):
+            notation = notation._replace(cells=Parts(f"{notation.separator},"))
+        rate, n_rows = self._number(self.dialect.rate), self._number(self.dialect.rows)
+        return Head(self.dialect, notation, start, stop, parted, rate, n_rows)
+
+    def _first(self) -> int:
+        """Return the line with which the block begins that is to be read."""
+        for title in self.dialect.blocks:
+            pattern = re.compile(rf'"?{title}"?[,;\t ]*\r?\n', re.IGNORECASE)
+            for index, line in enumerate(self.lines):
+                if pattern.match(line):
+                    return index
+        if not self.dialect.blocks:
+            return 0
+        titles = " or ".join(self.dialect.blocks)
+        expected = f"a block {titles} in a table of {self.dialect.program}"
+        got, advice = repr(self.lines[0].strip(' ,;\t\r\n"')[:60]), "export the trajectories too"
+        raise FormatError(self.file, expected, f"{got} only", advice, line=1)
+
+    def _last(self) -> int:
+        """Return the last line of the head."""
+        found = self._find(self.dialect.ends, len(self.lines))
+        if found is None:
+            got = f"none in the first {min(_LONGEST, len(self.lines) - self.first)} lines"
+            raise self._damaged(f"the line {self.dialect.ends_with!r}", got)
+        for index in self._filled(found + 1):
+            if not re.match(self.dialect.further, self.lines[index]):
+                break
+            found = index
+        return found
+
+    def _stop(self, start: int) -> int:
+        """Return the end of the rows, which is a blank line where there are several blocks."""
+        end = _end_of_rows(self.lines, start)
+        if not self.dialect.blocks:
+            return end
+        return next((k for k in range(start, end) if _is_blank(self.lines[k])), end)
+
+    def _naming_line(self) -> int:
+        """Return the line that names the columns, or else the markers."""
+        for pattern in (self.dialect.columns, self.dialect.listed):
+            found = self._find(pattern, self.last + 1)
+            if found is not None:
+                return found
+        expected = "a line that names the columns"
+        raise self._damaged(expected, repr(self.lines[self.last].strip()[:60]))
+
+    def _axes(self, cells: CellSplitter, start: int) -> list[str]:
+        """Return the cells of the line that names the columns, or those that it would have."""
+        line = self._naming_line()
+        found = [cell.strip() for cell in cells.split(self.lines[line])]
+        if re.match(self.dialect.columns, self.lines[line]):
+            return found
+        axes = [f"{name} {axis}" for name in found[1:] if name for axis in "XYZ"]
+        below = cells.split(self.lines[start].rstrip()) if start < len(self.lines) else []
+        counted = len(below) == len(axes) + 2  # a frame and a time that no line names
+        return [*["Frame", "Time"][: 2 * counted], *axes]
+
+    def _cells(self, cells: CellSplitter, place: Place, width: int) -> list[str]:
+        """Return the cells of another line of the head, as many as there are columns."""
+        pattern, below = place
+        found = self._find(pattern, self.last + 1)
+        if found is None or not self.first <= found + below <= self.last:
+            return []
+        row = [cell.strip() for cell in cells.split(self.lines[found + below])]
+        return (row + [""] * width)[:width]
+
+    def _fact(self, pattern: str) -> str:
+        found = re.search(pattern, self.text)
+        return found[1] if found else ""
+
+    def _number(self, pattern: str) -> float | None:
+        with suppress(ValueError):
+            number = float(self._fact(pattern))
+            return number if isfinite(number) and number > 0 else None
+        return None
+
+    def _find(self, pattern: str, stop: int) -> int | None:
+        within = range(self.first, min(stop, self.first + _LONGEST))
+        return next((k for k in within if re.match(pattern, self.lines[k])), None)
+
+    def _filled(self, start: int) -> Iterator[int]:
+        return (k for k in range(start, len(self.lines)) if not _is_blank(self.lines[k]))
+
+    def _damaged(self, expected: str, got: str) -> FormatError:
+        return FormatError(
+            self.file,
+            f"{expected} in a table of {self.dialect.program}",
+            got,
+            "its head may be cut short: export the recording again, with the whole head",
+            self.first + 1,
+        )

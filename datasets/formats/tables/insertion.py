@@ -1,0 +1,82 @@
+"""A table of text with some cells changed, and rows inserted where it has none."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from mocapbench.datasets.formats.tables.sheet import Sheet
+from mocapbench.datasets.formats.text.numbers import format_number
+from mocapbench.datasets.recording import FrameByChannel, Frames, Mask
+
+__all__ = ["lines_with"]
+
+
+def lines_with(sheet: Sheet, values: FrameByChannel, new: Mask) -> list[str]:
+    """Return the lines of a table's file with the ``new`` entries (N, D) of some values."""
+    lines = _change_rows(sheet, values, new)
+    inserted = _insert_rows(sheet, values, new)
+    for row, index in enumerate(sheet.table.rows):
+        lines[index] = _join_lines(lines[index], inserted.get(row, ()), like=lines[0])
+    return [*lines, *sheet.below]
+
+
+def _change_rows(sheet: Sheet, values: FrameByChannel, new: Mask) -> list[str]:
+    """Return the lines with the new cells of rows that there are."""
+    rows, columns = sheet.plan.rows, sheet.columns.channels
+    shape = (*rows.shape, len(columns))
+    there = rows >= 0
+    cells = np.zeros((len(sheet.table.rows), len(columns)))
+    changed = np.zeros(cells.shape, dtype=bool)
+    cells[rows[there]] = values.reshape(shape)[there]
+    changed[rows[there]] = new.reshape(shape)[there]
+    return sheet.table.with_numbers(columns, cells, changed)
+
+
+def _insert_rows(sheet: Sheet, values: FrameByChannel, new: Mask) -> dict[int, list[str]]:
+    """Return lines to insert, by the row behind which they belong."""
+    rows, columns = sheet.plan.rows, sheet.columns.channels
+    shape = (*rows.shape, len(columns))
+    values, new = values.reshape(shape), new.reshape(shape)
+    inserted, before = defaultdict(list), 0
+    for frame, group in np.ndindex(*rows.shape):
+        if rows[frame, group] >= 0:
+            before = int(rows[frame, group])
+        elif new[frame, group].any() or (rows[frame] < 0).all():
+            cells: dict[int, str] = {
+                column: format_number(values[frame, group, k], sheet.table.decimal)
+                for k, column in enumerate(columns)
+                if new[frame, group, k]
+            }
+            line = _make_row(sheet, frame, before, {**cells, **sheet.plan.groups[group]})
+            inserted[before].append(line)
+    return dict(inserted)
+
+
+def _make_row(sheet: Sheet, frame: int, before: int, cells: Mapping[int, str]) -> str:
+    """Return a line like that of the row before, with other cells and no others."""
+    table = sheet.table
+    index = (sheet.columns.frame, sheet.columns.time)
+    told = {k: _index_cell(sheet, k, frame, before) for k in index if k is not None}
+    missing = "" if sheet.head.notation.separator else "nan"
+    empty = dict.fromkeys(range(table.width), missing)
+    return table.cells.replace_cells(table.lines[table.rows[before]], empty | told | dict(cells))
+
+
+def _index_cell(sheet: Sheet, column: int, frame: int, before: int) -> str:
+    """Return the cell with the frame or time of a frame, written as those of other rows."""
+    of_frame = sheet.plan.rows[frame].max()
+    if of_frame >= 0:
+        return sheet.table.row(sheet.table.rows[int(of_frame)])[column]
+    like = sheet.table.row(sheet.table.rows[before])[column].strip()
+    digits = len(like.partition(sheet.table.decimal)[2])
+    values: Frames = sheet.index(column)  # type: ignore[assignment]
+    return f"{values[frame]:.{digits}f}".replace(".", sheet.table.decimal)
+
+
+def _join_lines(line: str, behind: Sequence[str], like: str) -> str:
+    """Return a line and those behind it, which end as another does but where the file ends."""
+    ended = line != line.rstrip("\r\n")
+    return ("" if ended else like[len(like.rstrip("\r\n")) :]).join([line, *behind])

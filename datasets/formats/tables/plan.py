@@ -1,0 +1,126 @@
+"""Which row of a table has which frame: one row a frame, or one for each marker of each frame."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.recording import Frames
+
+__all__ = ["RowPlan", "is_key", "plan_long", "plan_wide"]
+
+_KEY = re.compile(
+    r"""(?:(?:marker|keypoint|key[ _]point|landmark|joint|node|point|body[ _]?part|part|segment|
+    bone|track|person|individual|instance|animal|subject|name|label|object|hand|model)s?
+    (?:[ _]?(?:id|idx|index|name|no|nr|num|number|label))?|id)""",
+    re.VERBOSE | re.IGNORECASE,
+)
+_SPARSE = 8
+"""Rows that a table could have, at most, for each that it has."""
+_FEW = 100_000
+
+
+class RowPlan(NamedTuple):
+    """Where the entries of each frame are.
+
+    Parameters
+    ----------
+    rows : ndarray of int of shape (N, G)
+        The row of each frame and group of channels, −1 where there is none.
+    groups : tuple of G dict of int to str
+        The cells that tell the rows of a group from others, by their columns.
+    """
+
+    rows: NDArray[np.intp]
+    groups: tuple[Mapping[int, str], ...] = ({},)
+
+    def first_rows(self) -> NDArray[np.intp]:
+        """Return a row of each frame (N,), −1 where there is none."""
+        return np.asarray(self.rows.max(axis=1))
+
+    def with_lacking(self, lacking: NDArray[np.intp]) -> RowPlan:
+        """Return the plan with frames between others, of which there are no rows."""
+        behind = np.repeat(np.arange(1, len(self.rows)), lacking)
+        return self._replace(rows=np.insert(self.rows, behind, -1, axis=0))
+
+
+def is_key(name: str) -> bool:
+    """Return whether a column of this name says of which marker, or whom, a row is."""
+    return _KEY.fullmatch(name.strip()) is not None
+
+
+def plan_wide(n_rows: int) -> RowPlan:
+    """Return the plan of a table with one row a frame."""
+    return RowPlan(np.arange(n_rows)[:, np.newaxis])
+
+
+def plan_long(
+    file: str, index: Frames, keys: Mapping[int, Sequence[str]], lines: Sequence[int]
+) -> RowPlan:
+    """Return the plan of a table with several rows a frame, by the columns that tell them apart.
+
+    Parameters
+    ----------
+    file : str
+    index : ndarray of shape (R,)
+        The frame or time of each row.
+    keys : mapping of int to sequence of R str
+        Cells of the columns that may tell the rows of a frame apart.
+    lines : sequence of R int
+        Indices of their lines.
+
+    Raises
+    ------
+    FormatError
+        If no column does.
+    """
+    if not np.isfinite(index).all():
+        row = int(np.flatnonzero(~np.isfinite(index))[0])
+        raise FormatError(file, "a frame or time in every row", "none", "add it", lines[row] + 1)
+    frames, frame_of = np.unique(index, return_inverse=True)
+    for columns in _candidates(keys):
+        cells = list(zip(*(keys[column] for column in columns), strict=True))
+        codes = {cell: code for code, cell in enumerate(dict.fromkeys(cells))}
+        group_of = np.array([codes[cell] for cell in cells])
+        if len(frames) * len(codes) > max(_SPARSE * len(index), _FEW):
+            continue
+        rows = np.full((len(frames), len(codes)), -1)
+        rows[frame_of, group_of] = np.arange(len(index))
+        if (rows >= 0).sum() == len(index):
+            groups = tuple(dict(zip(columns, cell, strict=True)) for cell in codes)
+            return RowPlan(rows, groups)
+    raise _ambiguous(file, index, frame_of, keys, lines)
+
+
+def _candidates(keys: Mapping[int, Sequence[str]]) -> Iterable[tuple[int, ...]]:
+    """Yield one column, two, and so on, those with fewest different cells first."""
+    columns = sorted(keys, key=lambda column: len(set(keys[column])))
+    for size in range(1, min(len(columns), 4) + 1):
+        yield from combinations(columns, size)
+
+
+def _ambiguous(
+    file: str,
+    index: Frames,
+    frame_of: NDArray[np.intp],
+    keys: Mapping[int, Sequence[str]],
+    lines: Sequence[int],
+) -> FormatError:
+    repeated = np.bincount(frame_of)[frame_of] > 1
+    first = int(np.flatnonzero(repeated)[0])
+    again = int(np.flatnonzero(frame_of == frame_of[first])[1])
+    told = "that columns of text tell apart" if keys else "or a column that tells rows apart"
+    return FormatError(
+        file,
+        f"one row for each frame, {told}",
+        f"{index[first]:g} again, after line {lines[first] + 1}",
+        "split a table of several recordings or people, or name the marker of each row in a column "
+        "'keypoint'",
+        lines[again] + 1,
+    )

@@ -1,0 +1,292 @@
+"""A table of text: its head, its rows, and where each entry of a recording is in it."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.datasets.formats.building import recording_of
+from mocapbench.datasets.formats.errors import FormatError
+from mocapbench.datasets.formats.tables.clock import Clock, lacking_rows
+from mocapbench.datasets.formats.tables.columns import (
+    TableColumns,
+    is_index,
+    sort_columns,
+    split_unit,
+    time_unit,
+    warn_of_text,
+)
+from mocapbench.datasets.formats.tables.dialects import PLAIN
+from mocapbench.datasets.formats.tables.heads import Head, read_head
+from mocapbench.datasets.formats.tables.kinds import are_numbers
+from mocapbench.datasets.formats.tables.plan import RowPlan, is_key, plan_long, plan_wide
+from mocapbench.datasets.formats.text.lines import read_lines
+from mocapbench.datasets.formats.text.numbers import looks_numeric
+from mocapbench.datasets.formats.text.rows import TextTable
+from mocapbench.datasets.recording import FrameByChannel, Frames, Recording
+
+__all__ = ["Sheet", "read_sheet"]
+
+_MOST_INSERTED = 10
+"""Rows that are inserted at most, for each that there is."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A table of R rows that holds N frames of D channels.
+
+    Parameters
+    ----------
+    table : TextTable
+        The rows, and the lines of the file down to the last one.
+    below : sequence of str
+        The lines below.
+    head : Head
+    columns : TableColumns
+        What the columns are; C of them are channels.
+    numbers : mapping of int to ndarray of shape (R,)
+        The columns of numbers, NaN where a cell is missing.
+    plan : RowPlan
+        Which row has which frame, and which of G groups of channels.
+    """
+
+    table: TextTable
+    below: Sequence[str]
+    head: Head
+    columns: TableColumns
+    numbers: Mapping[int, Frames]
+    plan: RowPlan
+
+    def recording(self, rate: float | None) -> Recording:
+        """Return the recording, at a rate in place of the times of the table if one is given."""
+        file, n_frames = self.table.file, len(self.plan.rows)
+        clock = Clock(
+            file,
+            self.index(self.columns.time),
+            "" if self.columns.time is None else time_unit(self.table.names[self.columns.time]),
+            self.index(self.columns.frame),
+            self.head.rate,
+            self.table.names,
+        )
+        labels = [self._label(column) for column in self.columns.channels]
+        prefixes = [self._prefix(group) for group in self.plan.groups]
+        channels = [f"{prefix}{name}" for prefix in prefixes for name, _ in labels]
+        units = [unit for _ in prefixes for _, unit in labels]
+        values = self._spread(self.columns.channels)
+        if self.head.dialect.zeros:
+            values = _hide_zeros(values, channels)
+        return recording_of(file, clock.seconds(n_frames, rate), values, channels, units)
+
+    def likelihoods(self) -> FrameByChannel:
+        """Return how likely the table says each entry is (N, D), NaN where it does not say it."""
+        none = np.full(len(self.table.rows), np.nan)
+        numbers = dict(self.numbers) | {-1: none}
+        likely = [self.columns.likelihoods.get(column, -1) for column in self.columns.channels]
+        return replace(self, numbers=numbers)._spread(likely)
+
+    def warn_of_lacking(self, advice: str) -> None:
+        """Say which rows are missing."""
+        lacking = self.lacking()
+        places = np.flatnonzero(lacking)
+        if len(places):
+            line = self.table.rows[int(self.plan.rows[places[0]].max())] + 1
+            n_rows, more = int(lacking.sum()), f" and {len(places) - 1} later places"
+            are = "row is" if n_rows == 1 else "rows are"
+            warnings.warn(
+                f"{self.table.file}: {n_rows} {are} missing, behind line {line}"
+                f"{more if len(places) > 2 else ' and once later' if len(places) == 2 else ''}, "
+                f"by the steps of {self._named_index()}{advice}",
+                stacklevel=2,
+            )
+
+    def lacking(self) -> NDArray[np.intp]:
+        """Return how many frames are missing behind each but the last (N − 1,)."""
+        return lacking_rows(self.index(self.columns.frame), self.index(self.columns.time))
+
+    def with_lacking(self) -> Sheet:
+        """Return the sheet with the frames of which there is no row.
+
+        Raises
+        ------
+        FormatError
+            If they are so many that a time or a frame is probably wrong.
+        """
+        lacking = self.lacking()
+        most = _MOST_INSERTED * len(self.plan.rows)
+        if lacking.sum() > most:
+            row = int(self.plan.rows[lacking.argmax()].max())
+            raise FormatError(
+                self.table.file,
+                f"{most} rows or fewer to insert",
+                f"{lacking.sum()} by the steps of {self._named_index()}",
+                "correct the frame or time",
+                self.table.rows[row] + 2,
+            )
+        return replace(self, plan=self.plan.with_lacking(lacking))
+
+    def _named_index(self) -> str:
+        by = self.columns.frame if self.columns.frame is not None else self.columns.time
+        return repr(self.table.names[by]) if by is not None else "time"
+
+    def index(self, column: int | None) -> Frames | None:
+        """Return the frames or times of the frames (N,), between others where there is no row."""
+        if column is None:
+            return None
+        rows = self.plan.rows.max(axis=1)
+        there = np.flatnonzero(rows >= 0)
+        values: Frames = self.numbers[column][rows[there]]
+        return np.interp(np.arange(len(rows)), there, values) if len(there) < len(rows) else values
+
+    def _label(self, column: int) -> tuple[str, str]:
+        label = self.head.labels[column]
+        return split_unit(label.name) if self.head.dialect is PLAIN else (label.name, label.unit)
+
+    def _prefix(self, group: Mapping[int, str]) -> str:
+        cells = (
+            f"{self.table.names[column].strip()}_{cell.strip()}" if looks_numeric(cell) else cell
+            for column, cell in group.items()
+        )
+        return "".join(f"{cell.strip()}." for cell in cells if cell.strip())
+
+    def _spread(self, columns: Sequence[int]) -> FrameByChannel:
+        """Return the numbers of C columns as (N, G · C)."""
+        rows = self.plan.rows
+        spread = np.full((*rows.shape, len(columns)), np.nan)
+        for place, column in enumerate(columns):
+            spread[..., place][rows >= 0] = self.numbers[column][rows[rows >= 0]]
+        return spread.reshape(len(rows), rows.shape[1] * len(columns))
+
+
+def read_sheet(path: Path) -> Sheet:
+    """Return the table of a file.
+
+    Raises
+    ------
+    FormatError
+        If it is none, or is damaged. Which program's table it looks like is said.
+    """
+    lines = read_lines(path)
+    head = read_head(path.name, lines)
+    try:
+        return _read_rows(path.name, lines, head)
+    except FormatError as error:
+        if head.dialect is not PLAIN:
+            error.expected += f", in a table of {head.dialect.program}"
+        raise
+
+
+def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
+    names = [label.name for label in head.labels]
+    _check_named(file, head, names)
+    width = len(names)
+    while width > 1 and not names[width - 1] and head.dialect is not PLAIN:
+        width -= 1  # a separator may end the line
+    above = lines[: head.stop]
+    cells, decimal = head.notation.cells, head.notation.decimal
+    table = TextTable(file, above, head.start, cells, width, width, decimal, names)
+    is_number = are_numbers(table) if head.dialect is PLAIN else _are_labelled(table, head)
+    left_alone = frozenset(k for k, label in enumerate(head.labels) if label.left_alone)
+    columns = sort_columns(names, is_number, left_alone)
+    wanted = sorted({*columns.channels, *columns.likelihoods.values(), *_index_columns(columns)})
+    values = table.numbers(wanted)
+    numbers = {column: values[:, place] for place, column in enumerate(wanted)}
+    plan, columns = _plan_rows(table, columns, numbers)
+    keys = {column for group in plan.groups for column in group}
+    if head.dialect is PLAIN:
+        warn_of_text(file, [names[k] for k in columns.left_out if k not in keys])
+    _compare_counts(file, head, len(values))
+    return Sheet(table, lines[head.stop :], head, columns, numbers, plan)
+
+
+def _check_named(file: str, head: Head, names: Sequence[str]) -> None:
+    """Refuse columns called X, Y, Z again and again, which lost the lines with the markers."""
+    axes = sum(name.strip().upper() in {"X", "Y", "Z"} for name in names)
+    if head.dialect is PLAIN and axes > 3 and len({*names}) < len(names):
+        raise FormatError(
+            file,
+            "a line with names of markers above the axes X, Y, Z",
+            "the axes alone",
+            "this looks like a table of OptiTrack Motive or Vicon Nexus whose head was cut: export "
+            "it again, with the whole head",
+            line=1,
+        )
+
+
+def _are_labelled(table: TextTable, head: Head) -> list[bool]:
+    """Return which columns are read as numbers: channels, and what counts frames or times."""
+    first = table.row(table.rows[0]) if table.rows else []
+    shown = dict(enumerate(cell.strip() for cell in first))
+    return [
+        looks_numeric(shown.get(k) or "0") if is_index(label.name) else not label.left_alone
+        for k, label in enumerate(head.labels)
+    ]
+
+
+def _index_columns(columns: TableColumns) -> list[int]:
+    return [column for column in (columns.time, columns.frame) if column is not None]
+
+
+def _plan_rows(
+    table: TextTable, columns: TableColumns, numbers: Mapping[int, Frames]
+) -> tuple[RowPlan, TableColumns]:
+    """Return where the frames are, and the columns but those that tell rows of a frame apart."""
+    keys = [k for k in columns.channels if is_key(table.names[k])] + list(columns.left_out)
+    index = [numbers[column] for column in _index_columns(columns)]
+    if not index:
+        _check_keys(table, keys)
+    timed = columns.time is not None and (not keys or (np.diff(index[0]) > 0).all())
+    if not index or timed or not _repeats(index[-1]):
+        return plan_wide(len(table.rows)), columns
+    rows = [table.row(line) for line in table.rows]
+    cells = {column: [row[column] for row in rows] for column in keys}
+    plan = plan_long(table.file, index[-1], cells, table.rows)
+    told = {column for group in plan.groups for column in group}
+    channels = tuple(column for column in columns.channels if column not in told)
+    return plan, columns._replace(channels=channels)
+
+
+def _repeats(index: Frames) -> bool:
+    known = index[~np.isnan(index)]
+    return len(np.unique(known)) < len(known)
+
+
+def _check_keys(table: TextTable, keys: Iterable[int]) -> None:
+    """Refuse rows of several markers where nothing says of which frames they are."""
+    for column in (key for key in keys if is_key(table.names[key])):
+        cells = [table.row(line)[column] for line in table.rows]
+        if 1 < len({*cells}) < len(cells):
+            raise FormatError(
+                table.file,
+                "a column 'frame' in a table with a row for each marker of each frame",
+                f"none beside {table.names[column]!r}",
+                "add it, or write one row a frame",
+                line=1,
+            )
+
+
+def _compare_counts(file: str, head: Head, n_rows: int) -> None:
+    if head.n_rows is not None and head.n_rows != n_rows:
+        warnings.warn(
+            f"{file}: expected {head.n_rows:g} rows, as its head says, got {n_rows}: the file may "
+            "be cut short; all that are there are read",
+            stacklevel=2,
+        )
+
+
+def _hide_zeros(values: FrameByChannel, channels: Sequence[str]) -> FrameByChannel:
+    """Return values of which those of a marker or body are hidden where it is at 0, 0, 0."""
+    values = values.copy()
+    bodies: dict[str, dict[str, int]] = {}
+    for column, name in enumerate(channels):
+        body, _, axis = name.rpartition(".")
+        bodies.setdefault(body, {})[axis] = column
+    for axes in bodies.values():
+        if {"x", "y", "z"} <= axes.keys():
+            lost = (values[:, [axes["x"], axes["y"], axes["z"]]] == 0.0).all(axis=1)
+            values[np.ix_(lost, [*axes.values()])] = np.nan
+    return values
