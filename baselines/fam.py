@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import ClassVar, Self
 
 import numpy as np
@@ -11,22 +12,35 @@ from numpy.typing import NDArray
 from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.functional.components import infer_scores, principal_axes
-from mocapbench.baselines.functional.cycles import Cycles
-from mocapbench.baselines.functional.fitting import fit_components, start
-from mocapbench.baselines.functional.period import cycle_periods, elapsed_times, frame_step
-from mocapbench.baselines.functional.placement import place
-from mocapbench.baselines.functional.prediction import cycle_moments, prototypes, sample_curves
-from mocapbench.baselines.functional.shifts import SHIFTS, Aligned, shift_together
-from mocapbench.baselines.functional.statistics import CurveStatistics
-from mocapbench.baselines.functional.validation import check_settings
+from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
+from mocapbench.baselines.functional.components import (
+    cycle_moments,
+    find_principal_axes,
+    fit_components,
+    infer_scores,
+    prototypes,
+    sample_curves,
+    start_components,
+)
+from mocapbench.baselines.functional.cycle_period import cycle_periods, elapsed_times, frame_step
+from mocapbench.baselines.functional.fourier_series import CurveStatistics
+from mocapbench.baselines.functional.phases import (
+    SHIFTS,
+    cut_cycles,
+    place_recording,
+    shift_together,
+)
 from mocapbench.baselines.protocols import Aligner, Imputer, Inductive, Prediction, StatePath
 from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning
 from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
-__all__ = ["FAM"]
+__all__ = ["FAM", "check_settings"]
+
+
+_SAME = 1.0 + 1e-9
+"""Objectives whose ratio is below it are the same but for rounding."""
 
 
 class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
@@ -153,7 +167,7 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
             If a parameter is of the wrong type or out of range, there is no recording, a recording
             has no frame, channels differ, a name repeats, or a channel is nowhere visible.
         """
-        check_settings(**self.get_params())
+        check_settings(self.get_params())
         checked = check_recordings(recordings)
         self.recordings_ = checked
         self.channels_, self.units_ = checked[0].channels, checked[0].units
@@ -161,15 +175,16 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         self.scaling_ = Standardisation.of(ordered)
         scaled = [self.scaling_.apply(recording) for recording in ordered]
         periods = cycle_periods(scaled)
-        aligned = self._shift_together(scaled, periods)
+        self.reference_, shifts = self._shift_together(scaled, periods)
         phases = [
             SHIFTS[shift] + elapsed_times(recording) / period
-            for shift, recording, period in zip(aligned.shifts, scaled, periods, strict=True)
+            for shift, recording, period in zip(shifts, scaled, periods, strict=True)
         ]
-        self.reference_, self.cycle_length_ = aligned.curve, self._n_states(scaled, periods)
-        self.periods_, self.offsets_ = periods[places], SHIFTS[aligned.shifts][places]
+        self.cycle_length_ = self._n_states(scaled, periods)
+        self.periods_, self.offsets_ = periods[places], SHIFTS[shifts][places]
         self.path_ = tuple(self._states(phases[k]) for k in places)
-        self._learn(Cycles.of(scaled, phases, self.n_harmonics), places)
+        curves, owners = cut_cycles(scaled, phases)
+        self._learn(CurveStatistics.of(curves, self.n_harmonics), owners, places)
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -200,7 +215,10 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         self._check_given(recordings)
         return [self._states(self._place_recording(recording)) for recording in recordings]
 
-    def _shift_together(self, scaled: Sequence[Recording], periods: Array) -> Aligned:
+    def _shift_together(
+        self, scaled: Sequence[Recording], periods: Array
+    ) -> tuple[Array, NDArray[np.intp]]:
+        """Return the reference curve, and the shift of each recording to it."""
         curves = [
             (elapsed_times(recording) / period, recording.values)
             for recording, period in zip(scaled, periods, strict=True)
@@ -209,27 +227,32 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         rng = np.random.default_rng(self.random_state)
         firsts = rng.permutation(len(scaled))[: self.n_restarts]
         runs = [shift_together(statistics, int(first), self.smoothness) for first in firsts]
-        least = min(run.objectives[-1] for run in runs)
+        least = min(objectives[-1] for *_, objectives in runs)
         # Runs often end alike but for a shift of all recordings: rounding must not choose.
-        return next(run for run in runs if run.objectives[-1] <= least * (1.0 + 1e-9))
+        return next(
+            (curve, shifts) for curve, shifts, course in runs if course[-1] <= least * _SAME
+        )
 
-    def _learn(self, cycles: Cycles, places: NDArray[np.intp]) -> None:
+    def _learn(
+        self, cycles: CurveStatistics, owners: NDArray[np.intp], places: NDArray[np.intp]
+    ) -> None:
         """Set the mean, the components and, of the recordings at ``places`` (K,), prototypes."""
-        n_components = min(self.n_components, len(cycles.phases) - 1)
+        n_components = min(self.n_components, len(owners) - 1)
         fit = fit_components(
-            cycles.statistics,
-            start(cycles.statistics, self.reference_, n_components, self.smoothness),
+            cycles,
+            start_components(cycles, self.reference_, n_components, self.smoothness),
             self.smoothness,
             max_iter=self.max_iter,
             tol=self.tol,
         )
         self.log_likelihood_, self.converged_ = np.array(fit.objectives), fit.converged
         self.n_iterations_ = fit.n_iterations
-        self.model_ = principal_axes(fit.state.components)
-        curves = sample_curves(self.model_.coefficients, self.cycle_length_)
+        self.coefficients_ = find_principal_axes(fit.state.coefficients)
+        self.noise_ = fit.state.noise
+        curves = sample_curves(self.coefficients_, self.cycle_length_)
         self.mean_cycle_ = self.scaling_.restore(curves[0])
         self.components_ = curves[1:] * self.scaling_.scale
-        cycle = prototypes(fit.state.components, fit.state.scores, cycles)[places]
+        cycle = prototypes(fit.state, cycles.counts.sum(axis=1), owners)[places]
         self.prototypes_ = self.scaling_.restore(sample_curves(cycle, self.cycle_length_))
 
     def _n_states(self, scaled: Sequence[Recording], periods: Array) -> int:
@@ -242,13 +265,36 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         return np.asarray(states % self.cycle_length_)
 
     def _place_recording(self, recording: Recording) -> Array:
-        return place(self.scaling_.apply(recording), self.reference_, self.periods_)
+        return place_recording(self.scaling_.apply(recording), self.reference_, self.periods_)
 
     def _claimed(self, recording: Recording) -> Prediction:
         scaled = self.scaling_.apply(recording)
-        cycles = Cycles.of([scaled], [self._place_recording(recording)], self.n_harmonics)
-        scores = infer_scores(cycles.statistics, self.model_)
-        mean, variance = cycle_moments(cycles.phases, self.model_, scores)
+        curves, _ = cut_cycles([scaled], [self._place_recording(recording)])
+        statistics = CurveStatistics.of(curves, self.n_harmonics)
+        fit = infer_scores(statistics, self.coefficients_, self.noise_)
+        mean, variance = cycle_moments([phases for phases, _ in curves], fit)
         return Prediction.around(
             recording, self.scaling_.restore(mean), variance * self.scaling_.scale**2
         )
+
+
+_CHECKS: Mapping[str, Callable[[str, object], None]] = {
+    **dict.fromkeys(
+        ("n_styles", "n_harmonics", "n_restarts", "max_iter"), partial(check_count, least=1)
+    ),
+    "n_components": partial(check_count, least=0),
+    **dict.fromkeys(("smoothness", "tol"), check_positive),
+    "random_state": check_seed,
+}
+
+
+def check_settings(parameters: Mapping[str, object]) -> None:
+    """Check the parameters of a model, which have the names of those of `KFAM`.
+
+    Raises
+    ------
+    ValueError
+        If one is of the wrong type or out of range.
+    """
+    for name, value in parameters.items():
+        _CHECKS[name](name, value)

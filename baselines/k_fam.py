@@ -9,8 +9,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.prototypes import cluster_cycles
-from mocapbench.baselines.fam import FAM
-from mocapbench.baselines.functional.validation import check_settings
+from mocapbench.baselines.fam import FAM, check_settings
 from mocapbench.baselines.protocols import Aligner, Clusterer, StatePath
 from mocapbench.datasets import Recording
 
@@ -108,7 +107,7 @@ class KFAM(Clusterer, Aligner):
         ValueError
             As `FAM.fit`, or if ``n_styles`` is not a positive integer.
         """
-        check_settings(**self.get_params())
+        check_settings(self.get_params())
         rng = np.random.default_rng(self.random_state)
         parameters = {k: v for k, v in self.get_params().items() if k != "n_styles"}
         self.fam_ = FAM(**{**parameters, "random_state": rng}).fit(recordings)

@@ -3,10 +3,7 @@
 ``docs/mathematics/functional.md`` has the mathematics, and what differs from the paper. One idea a
 module:
 
-* `basis`: Fourier series; `statistics`: sums over visible entries;
-* `period`: the length of a cycle; `shifts`: recordings shifted to a common curve;
-* `cycles`: recordings cut into cycles; `components`: the model of cycles, its posterior and its
-  update; `fitting`: the rounds;
-* `placement`: new recordings on the cycle; `prediction`: entries that the model predicts;
-* `validation`: checks of the estimators' parameters.
+* `fourier_series`: periodic functions, and sums over the visible entries of curves;
+* `cycle_period`: the length of a cycle; `phases`: recordings on it, and cut into cycles;
+* `components`: the model of cycles, how it is fitted, and the entries that it predicts.
 """

@@ -110,7 +110,7 @@ def test_nothing_visible_in_a_cycle_gives_the_mean_with_the_components_variance(
     assert (prediction.mean[late] > around.min(axis=0) - 0.1).all()
     assert (prediction.mean[late] < around.max(axis=0) + 0.1).all()
     spread = (fitted.components_**2).sum(axis=0)[path[late]]
-    noise = fitted.model_.noise * fitted.scaling_.scale**2
+    noise = fitted.noise_ * fitted.scaling_.scale**2
     # Over a cycle, because a state is wider than a frame's distance from it
     expected = spread.mean(axis=0) + noise
     np.testing.assert_allclose(prediction.variance[late].mean(axis=0), expected, rtol=0.1)

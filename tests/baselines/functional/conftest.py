@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.functional.statistics import CurveStatistics
+from mocapbench.baselines.functional.fourier_series import CurveStatistics
 from mocapbench.datasets import Recording
 
 

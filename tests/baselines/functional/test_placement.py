@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.functional.placement import place
-from mocapbench.baselines.functional.shifts import periodic_curve
-from mocapbench.baselines.functional.statistics import CurveStatistics
+from mocapbench.baselines.functional.fourier_series import CurveStatistics
+from mocapbench.baselines.functional.phases import periodic_curve, place_recording
 
 
 @pytest.fixture(scope="module")
@@ -18,10 +17,10 @@ def test_a_new_recording_is_placed_by_what_is_visible(waves, curve, visible):
     new = waves([22.0], seed=3)
     hidden = ~np.isin(np.arange(90), visible)
     given = new.recordings[0].hide(np.repeat(hidden[:, None], 2, axis=1))
-    gaps = place(given, curve, np.array([20.0, 25.0]) / 30.0) - new.phases[0]
+    gaps = place_recording(given, curve, np.array([20.0, 25.0]) / 30.0) - new.phases[0]
     np.testing.assert_allclose((gaps[:50] + 0.5) % 1.0, 0.5, atol=0.05)
 
 
 def test_a_recording_that_shows_nothing_has_rising_phases(waves, curve):
     (recording,) = waves([22.0], hidden=1.0).recordings
-    assert (np.diff(place(recording, curve, np.array([0.7]))) > 0).all()
+    assert (np.diff(place_recording(recording, curve, np.array([0.7]))) > 0).all()

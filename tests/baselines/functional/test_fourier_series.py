@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.baselines.functional.basis import fourier, norms, roughness, shift_matrices
+from mocapbench.baselines.functional.fourier_series import fourier, norms, roughness, shift_matrices
 
 H = 3
 GRID = np.arange(200) / 200

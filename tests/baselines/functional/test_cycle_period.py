@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.functional.period import (
+from mocapbench.baselines.functional.cycle_period import (
     complete_blocks,
     cycle_periods,
     signal_to_noise,

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from mocapbench.baselines.functional.basis import fourier, roughness
+from mocapbench.baselines.functional.fourier_series import fourier, roughness
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 

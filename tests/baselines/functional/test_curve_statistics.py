@@ -2,8 +2,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.functional.basis import fourier, shift_matrices
-from mocapbench.baselines.functional.statistics import CurveStatistics
+from mocapbench.baselines.functional.fourier_series import CurveStatistics, fourier, shift_matrices
 
 
 def _errors(statistics, coefficients):
