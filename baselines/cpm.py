@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.alignment.estimator import CycleAligner
-from mocapbench.baselines.alignment.fitting import random_cycle
-from mocapbench.baselines.alignment.model import Hyperparameters, State
+from mocapbench.baselines.alignment.aligner import CycleAligner
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters, State
+from mocapbench.baselines.alignment.cycle_start import prototypes
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.profile import fit_profile
-from mocapbench.baselines.alignment.start import prototypes
+from mocapbench.baselines.alignment.restarts import random_cycle
 from mocapbench.baselines.common.ascent import Ascent
 
 __all__ = ["CPM"]
@@ -116,7 +116,9 @@ class CPM(CycleAligner):
         self.random_state = random_state
 
     def _hyperparameters(self) -> Hyperparameters:
-        return Hyperparameters(self.regularisation, PRIORS["normalised"])
+        return Hyperparameters(
+            self.regularisation, PRIORS["normalised"], max_jump=self.max_jump, tol=self.tol
+        )
 
     def _learn(self, rng: np.random.Generator) -> Ascent[State]:
         runs = [
@@ -124,9 +126,7 @@ class CPM(CycleAligner):
                 random_cycle(self.sequences_, self.cycle_length_, rng),
                 self.sequences_,
                 self.hyper_,
-                max_jump=self.max_jump,
-                max_iter=self.max_iter,
-                tol=self.tol,
+                self.max_iter,
             )
             for _ in range(self.n_restarts)
         ]

@@ -12,13 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.alignment.estimator import CycleAligner
-from mocapbench.baselines.alignment.expectations import moments
-from mocapbench.baselines.alignment.fitting import EMSettings, restarts
-from mocapbench.baselines.alignment.inference import correct_means, refine
-from mocapbench.baselines.alignment.model import Hyperparameters, State
+from mocapbench.baselines.alignment.aligner import CycleAligner
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters, State, entry_moments
+from mocapbench.baselines.alignment.inference import correct_means, refine_state
+from mocapbench.baselines.alignment.new_motion import blend_cycles, draw_sequences
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.synthesis import blend_cycles, draw_sequences
+from mocapbench.baselines.alignment.restarts import restart_em
 from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.validation import (
     check_sampling,
@@ -257,24 +256,24 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         return self._restore_units(blend_cycles(self.state_, real_numbers("weights", weights)))
 
     def _hyperparameters(self) -> Hyperparameters:
-        return Hyperparameters(self.regularisation, PRIORS[self.prior])
-
-    def _learn(self, rng: np.random.Generator) -> Ascent[State]:
-        self.settings_ = EMSettings(
-            n_styles=self.n_styles,
-            n_states=self.cycle_length_,
-            max_jump=self.max_jump,
+        return Hyperparameters(
+            self.regularisation,
+            PRIORS[self.prior],
             closeness=self.closeness,
-            learn_closeness=self.learn_closeness,
             smoothness=self.smoothness,
-            hyper=self.hyper_,
+            learn_closeness=self.learn_closeness,
+            max_jump=self.max_jump,
+            n_styles=self.n_styles,
+            grouping=self.grouping,
             n_inner=self.n_inner,
             tol=self.tol,
-            grouping=self.grouping,
         )
-        self.runs_ = restarts(
+
+    def _learn(self, rng: np.random.Generator) -> Ascent[State]:
+        self.runs_ = restart_em(
             self.sequences_,
-            self.settings_,
+            self.cycle_length_,
+            self.hyper_,
             n_restarts=self.n_restarts,
             max_iter=self.max_iter,
             rng=rng,
@@ -302,6 +301,6 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         """Return mean and variance (N, D) of a standardised recording by one run."""
         index = np.flatnonzero([name != recording.name for name in self.names_])
         new, others = self._sequences([recording]), self.sequences_.rows(index)
-        state = refine(new, fitted.rows(index), others, self.settings_, self.refine_iter)
-        mean, variance = moments(state)
+        state = refine_state(new, fitted.rows(index), others, self.hyper_, self.refine_iter)
+        mean, variance = entry_moments(state)
         return correct_means(mean, others.join(new)), variance[-1, : len(recording.times)]

@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.alignment.validation import check_settings
+from mocapbench.baselines.alignment.aligner import check_settings
 from mocapbench.baselines.common.checks import check_recordings
 from mocapbench.baselines.common.prototypes import cluster_cycles
 from mocapbench.baselines.cpm import CPM
@@ -112,7 +112,7 @@ class KCPM(Clusterer, Aligner):
         ValueError
             As `CPM.fit`, or if ``n_styles`` is not a positive integer.
         """
-        check_settings(**self.get_params())
+        check_settings(self.get_params())
         checked = check_recordings(recordings)
         rng = np.random.default_rng(self.random_state)
         parameters = {k: v for k, v in self.get_params().items() if k != "n_styles"}

@@ -7,12 +7,12 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from mocapbench.baselines.alignment.period import cycle_length
-from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.validation import check_settings
+from mocapbench.baselines.alignment.aligner import check_settings
+from mocapbench.baselines.alignment.cycle_start import cycle_length
 from mocapbench.baselines.common.checks import check_recordings, check_visible
+from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.baselines.common.prototypes import group_rows
-from mocapbench.baselines.common.recordings import interpolated, visible_moments
+from mocapbench.baselines.common.recordings import interpolate_channels, visible_moments
 from mocapbench.baselines.protocols import Clusterer
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
@@ -98,7 +98,7 @@ class KMeans(Clusterer):
             If a parameter is of the wrong type or out of range, there is no recording, channels
             differ, a name repeats, or a channel is hidden in all recordings.
         """
-        check_settings(**self.get_params())
+        check_settings(self.get_params())
         checked = check_recordings(recordings)
         check_visible(checked)
         mean, _ = visible_moments(checked)
@@ -114,5 +114,5 @@ def _cycle(recording: Recording, n_frames: int, mean: Array) -> FrameByChannel:
     period = cycle_length(Sequences.of([recording.values]))
     frames = np.arange(len(recording.times), dtype=np.float64)
     places = period * np.arange(n_frames) / n_frames
-    cycle = interpolated(recording.values, frames, places)
+    cycle = interpolate_channels(recording.values, frames, places)
     return np.where(np.isnan(cycle), mean, cycle)

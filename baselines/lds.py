@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from typing import ClassVar, Self
 
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_recordings
+from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_sampling
@@ -21,13 +23,19 @@ from mocapbench.baselines.protocols import (
 )
 from mocapbench.baselines.rehearsal.checkable import Relearning
 from mocapbench.baselines.rehearsal.widening import widened
-from mocapbench.baselines.state_space.em import expectation_maximisation
-from mocapbench.baselines.state_space.model import PRIORS, StateSpaceParameters
-from mocapbench.baselines.state_space.noise import NoiseShown
-from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.prediction import draw_sequences, moments
-from mocapbench.baselines.state_space.smoothing import smooth_states
-from mocapbench.baselines.state_space.start import initial_states, start
+from mocapbench.baselines.state_space.expectation_maximisation import (
+    expectation_maximisation,
+    initial_states,
+    show_noise,
+    start_parameters,
+)
+from mocapbench.baselines.state_space.kalman import smooth_states
+from mocapbench.baselines.state_space.linear_gaussian import (
+    PRIORS,
+    StateSpaceParameters,
+    draw_sequences,
+    entry_moments,
+)
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["LDS"]
@@ -128,12 +136,13 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         self.channels_, self.units_ = self.recordings_[0].channels, self.recordings_[0].units
         self.scaling_ = Standardisation.of(self.recordings_)
         data = self._observations(self.recordings_)
-        first = start(initial_states(data, self.n_states), data, PRIORS)
+        first = start_parameters(initial_states(data, self.n_states), data, PRIORS)
         run = expectation_maximisation(first, data, PRIORS, max_iter=self.max_iter, tol=self.tol)
-        self.parameters_, self.converged_ = run.state.parameters, run.converged
+        (self.parameters_, _), self.converged_ = run.state, run.converged
         self.objective_, self.n_iterations_ = np.array(run.objectives), run.n_iterations
         self.n_states_ = self.parameters_.n_states
-        self._noise = NoiseShown(self.parameters_, data)
+        self._data = data
+        vars(self).pop("_with_noise_shown", None)  # that of an earlier fit
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -163,7 +172,12 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         claim is that prior.
         """
         self._check_given(recordings)
-        return self._smooth_recordings(recordings, self._noise.shown) if recordings else []
+        return self._smooth_recordings(recordings, self._with_noise_shown) if recordings else []
+
+    @cached_property
+    def _with_noise_shown(self) -> StateSpaceParameters:
+        """The parameters with the noise that the data show, found when it is asked for."""
+        return show_noise(self.parameters_, self._data)
 
     def _smooth_recordings(
         self, recordings: Sequence[Recording], parameters: StateSpaceParameters
@@ -171,7 +185,8 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         if not len(recordings):
             return []
         data = self._observations(recordings)
-        mean, variance = moments(parameters, smooth_states(parameters, data))
+        states = smooth_states(parameters, data)
+        mean, variance = entry_moments(parameters, states.mean, states.covariance)
         means = map(self.scaling_.restore, data.unpad(mean))
         variances = data.unpad(variance * self.scaling_.scale**2)
         return list(map(Prediction.around, recordings, means, variances))
@@ -193,5 +208,5 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         rng = np.random.default_rng(random_state)
         return self.scaling_.restore(draw_sequences(self.parameters_, n_samples, len(times), rng))
 
-    def _observations(self, recordings: Sequence[Recording]) -> Observations:
-        return Observations.of([self.scaling_.apply(recording).values for recording in recordings])
+    def _observations(self, recordings: Sequence[Recording]) -> Sequences:
+        return Sequences.of([self.scaling_.apply(recording).values for recording in recordings])

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.checks import check_recordings
+from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
 from mocapbench.baselines.protocols import Clusterer
+from mocapbench.baselines.state_space.expectation_maximisation import initial_states
+from mocapbench.baselines.state_space.linear_gaussian import PRIORS
 from mocapbench.baselines.state_space.mixture import Mixture, classification_em, seed_mixture
-from mocapbench.baselines.state_space.model import PRIORS
-from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.start import initial_states
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
@@ -132,7 +132,7 @@ class LGSSM(Clusterer):
         checked = check_recordings(recordings)
         ordered = by_name(checked)
         self.scaling_ = Standardisation.of(ordered)
-        data = Observations.of([self.scaling_.apply(recording).values for recording in ordered])
+        data = Sequences.of([self.scaling_.apply(recording).values for recording in ordered])
         states, rng = initial_states(data, self.n_states), np.random.default_rng(self.random_state)
         runs = [self._run(states, data, rng) for _ in range(self.n_restarts)]
         self.restart_objectives_ = np.array([run.state.objective for run in runs])
@@ -149,7 +149,7 @@ class LGSSM(Clusterer):
         check_positive("tol", self.tol)
         check_seed("random_state", self.random_state)
 
-    def _run(self, states: Array, data: Observations, rng: np.random.Generator) -> Ascent[Mixture]:
+    def _run(self, states: Array, data: Sequences, rng: np.random.Generator) -> Ascent[Mixture]:
         n_sequences = len(data.lengths)
         seeds = rng.choice(n_sequences, min(self.n_styles, n_sequences), replace=False)
         return classification_em(

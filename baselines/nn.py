@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.pose_units import pose_factors
-from mocapbench.baselines.common.recordings import interpolated, stack
+from mocapbench.baselines.common.recordings import interpolate_channels, stack
 from mocapbench.baselines.common.validation import check_not_negative
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array
@@ -166,5 +166,5 @@ def _poses(recording: Recording) -> FrameByChannel:
     """Return the values with wholly hidden frames interpolated linearly in time."""
     poses = recording.values.copy()
     blank = ~recording.visible.any(axis=1)
-    poses[blank] = interpolated(recording.values, recording.times, recording.times[blank])
+    poses[blank] = interpolate_channels(recording.values, recording.times, recording.times[blank])
     return poses

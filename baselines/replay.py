@@ -9,7 +9,7 @@ import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_recordings
-from mocapbench.baselines.common.recordings import interpolated
+from mocapbench.baselines.common.recordings import interpolate_channels
 from mocapbench.baselines.common.validation import check_sampling
 from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
 from mocapbench.datasets import Frames, Recording
@@ -83,7 +83,7 @@ class Replay(Synthesiser):
         times = check_sampling(times, n_samples, random_state)
         chosen = np.random.default_rng(random_state).choice(len(self.recordings_), n_samples)
         replayed = np.stack(
-            [interpolated(one.values, one.times, times) for one in self.recordings_]
+            [interpolate_channels(one.values, one.times, times) for one in self.recordings_]
         )
         return np.asarray(replayed[chosen])
 

@@ -4,12 +4,10 @@ The model is that of W. Pan and L. Torresani (2009), *Unsupervised Hierarchical 
 Locomotion Styles*, ICML, cited as HLM. ``docs/mathematics/alignment.md`` has the
 mathematics. One idea a module:
 
-* `sequences`: padded arrays; `ring`: Gaussians on a cycle; `chain`: the hidden Markov chain;
-* `priors`: the prior of a cycle; `model`: the variables; `expectations`, `updates`, `bound`: the
-  quantities of variational EM;
-* `period`: the length of a cycle; `start`: initial states and styles; `em`: the algorithm;
-  `fitting`: EM with restarts; `inference`: new sequences and hidden entries; `synthesis`: new
-  motion;
-* `profile`: the continuous profile model; `estimator`: what all estimators share; `validation`:
-  checks of their parameters.
+* `ring`: Gaussians on a cycle; `chain`: the hidden Markov chain; `priors`: the prior of a cycle;
+* `cycle_model`: the variables, expectations and the bound; `updates`: variational EM;
+* `cycle_start`: where EM starts; `restarts`: EM from random starts; `profile`: the continuous
+  profile model;
+* `inference`: new sequences and hidden entries; `new_motion`: new cycles and sequences;
+* `aligner`: what all estimators share.
 """

@@ -14,36 +14,17 @@ as HLM.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Paths", "forward_backward", "viterbi"]
+__all__ = ["forward_backward", "viterbi"]
 
 
-@dataclass(frozen=True)
-class Paths:
-    """The posterior of the state sequences of K sequences.
-
-    Parameters
-    ----------
-    occupancy : ndarray of shape (K, N, M)
-        Probability of each state at each frame; 0 at the padding.
-    jumps : ndarray of shape (K, J)
-        Expected number of jumps of each length.
-    entropy : ndarray of shape (K,)
-        Entropy of the posterior over paths.
-    """
-
-    occupancy: Array
-    jumps: Array
-    entropy: Array
-
-
-def forward_backward(emission: Array, jumps: Array, frames: NDArray[np.bool_]) -> Paths:
+def forward_backward(
+    emission: Array, jumps: Array, frames: NDArray[np.bool_]
+) -> tuple[Array, Array, Array]:
     """Return the posterior of the paths; the prior of the first state is uniform.
 
     Parameters
@@ -54,13 +35,23 @@ def forward_backward(emission: Array, jumps: Array, frames: NDArray[np.bool_]) -
         Probabilities of the jumps.
     frames : ndarray of bool, shape (K, N)
         False at the padding.
+
+    Returns
+    -------
+    occupancy : ndarray of shape (K, N, M)
+        Probability of each state at each frame; 0 at the padding.
+    counts : ndarray of shape (K, J)
+        Expected number of jumps of each length.
+    entropy : ndarray of shape (K,)
+        Entropy of the posterior over paths.
     """
     log_jumps = np.log(jumps)
     filtered, shares = _forward(np.ascontiguousarray(emission.transpose(1, 2, 0)), log_jumps.T)
     evidence = _log_sum(filtered)
     occupancy, counts = _backward(np.exp(filtered - evidence), shares, frames.T)
+    # The entropy is the evidence less the expected log-probability of a path and its frames.
     expected = (occupancy * emission).sum(axis=(1, 2)) + (counts * log_jumps).sum(axis=1)
-    return Paths(occupancy, counts, evidence - expected)
+    return occupancy, counts, evidence - expected
 
 
 def viterbi(
@@ -75,7 +66,7 @@ def viterbi(
         choices[i] = candidates.argmax(axis=0)
         scores[i] += candidates.max(axis=0)
     return tuple(
-        _trace(scores[length - 1, :, k], choices[:length, :, k])
+        _trace_path(scores[length - 1, :, k], choices[:length, :, k])
         for k, length in enumerate(frames.sum(axis=1))
     )
 
@@ -96,6 +87,7 @@ def _forward(emission: Array, log_jumps: Array) -> tuple[Array, Array]:
             terms, _gather_origins(filtered, max_jump), log_jumps, strict=True
         ):
             np.add(origins, log_jump, out=term)
+        # log Σ exp of the terms, less their maximum, and each term's share of the sum.
         top = terms.max(axis=0)
         terms -= top
         np.exp(terms, out=terms)
@@ -111,6 +103,7 @@ def _backward(last: Array, shares: Array, frames: NDArray[np.bool_]) -> tuple[Ar
     occupancy[-1] = last
     counts = np.zeros((shares.shape[1], last.shape[1]))
     for i in reversed(range(len(shares))):
+        # γ_{i+1}(m) s_ij(m), the probability of each jump into each state.
         flow = occupancy[i + 1] * shares[i]
         counts += flow.sum(axis=1) * frames[i + 1]
         occupancy[i] = _sum_over_jumps(flow)
@@ -134,7 +127,7 @@ def _sum_over_jumps(flow: Array) -> Array:
     return total
 
 
-def _trace(final: Array, choices: NDArray[np.intp]) -> NDArray[np.intp]:
+def _trace_path(final: Array, choices: NDArray[np.intp]) -> NDArray[np.intp]:
     """Return the path (N,) by the best jumps (N, M), minus one, back from the best final state."""
     n_frames, n_states = choices.shape
     path = np.empty(n_frames, dtype=np.intp)

@@ -15,22 +15,21 @@ from dataclasses import replace
 import numpy as np
 from sklearn.covariance import ledoit_wolf
 
-from mocapbench.baselines.alignment.bound import sequence_bounds
-from mocapbench.baselines.alignment.em import Update, expectation_maximisation
-from mocapbench.baselines.alignment.fitting import EMSettings, run
-from mocapbench.baselines.alignment.model import Hyperparameters, State
-from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters, State, sequence_bounds
+from mocapbench.baselines.alignment.restarts import run_em
 from mocapbench.baselines.alignment.updates import (
+    expectation_maximisation,
     update_cycles,
     update_jumps,
     update_labels,
     update_paths,
     update_precisions,
 )
+from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.gaps import frames_alike
 
-__all__ = ["correct_means", "error_correlation", "infer", "refine"]
+__all__ = ["correct_means", "error_correlation", "infer_path", "refine_state"]
 
 _MAX_ITER = 30
 _TOLERANCE = 1e-8
@@ -38,31 +37,31 @@ _OWN = 1e-3  # least variance of a channel's own error, so that channels without
 _EMPTY = 0.5  # a style with fewer expected sequences counts as empty
 
 
-def infer(sequence: Sequences, fitted: State, hyper: Hyperparameters) -> State:
+def infer_path(sequence: Sequences, fitted: State, hyper: Hyperparameters) -> State:
     """Return Q(l), Q(π) and the jumps of one new sequence, given the fitted cycles.
 
     EM starts from the style with the highest bound when the sequence belongs to one style only.
     """
-    styles = np.eye(len(fitted.parameters.weights))
-    max_jump = fitted.parameters.jumps.shape[1]
+    styles = np.eye(len(fitted.weights))
+    max_jump = fitted.jumps.shape[1]
     jumps = np.full((1, max_jump), 1.0 / max_jump)
+    # The sequence in every style alone, as copies that share nothing but the cycles.
     copies = Sequences.of(sequence.arrays() * len(styles))
-    alone = update_paths(_with(fitted, styles, jumps.repeat(len(styles), axis=0)), copies, hyper)
+    in_each = replace(fitted, labels=styles, jumps=jumps.repeat(len(styles), axis=0))
+    alone = update_paths(in_each, copies, hyper)
     best = sequence_bounds(alone, copies, hyper).argmax()
     return expectation_maximisation(
-        update_paths(_with(fitted, styles[[best]], jumps), sequence, hyper),
+        update_paths(replace(fitted, labels=styles[[best]], jumps=jumps), sequence, hyper),
         sequence,
-        hyper,
+        replace(hyper, n_inner=1, tol=_TOLERANCE),
         e_step=(update_labels, update_paths),
         m_step=(update_jumps,),
-        n_inner=1,
         max_iter=_MAX_ITER,
-        tol=_TOLERANCE,
     ).state
 
 
-def refine(
-    sequence: Sequences, fitted: State, sequences: Sequences, settings: EMSettings, max_iter: int
+def refine_state(
+    sequence: Sequences, fitted: State, sequences: Sequences, hyper: Hyperparameters, max_iter: int
 ) -> State:
     """Return the state after further EM with one new sequence, which comes last.
 
@@ -71,10 +70,10 @@ def refine(
     is returned.
     """
     joined = sequences.join(sequence)
-    first = _join_states(fitted, infer(sequence, fitted, settings.hyper))
+    first = _join_states(fitted, infer_path(sequence, fitted, hyper))
     runs = [
-        run(update_paths(state, joined, settings.hyper), joined, settings, max_iter)
-        for state in (first, *_in_empty_style(first, joined, settings.hyper))
+        run_em(update_paths(state, joined, hyper), joined, hyper, max_iter)
+        for state in (first, *_in_empty_style(first, joined, hyper))
     ]
     return max(runs, key=lambda result: result.objectives[-1]).state
 
@@ -111,6 +110,7 @@ def correct_means(mean: Array, sequences: Sequences) -> Array:
     for frames, known in frames_alike(visible):
         if known.all() or not known.any():
             continue
+        # The regression Σ_uk Σ_kk⁻¹ of unknown on known errors, in units of the channels.
         gain = np.linalg.solve(
             correlation[np.ix_(known, known)], correlation[np.ix_(known, ~known)]
         )
@@ -118,19 +118,19 @@ def correct_means(mean: Array, sequences: Sequences) -> Array:
     return filled
 
 
-def _with(state: State, labels: Array, jumps: Array) -> State:
-    """Return the state with the labels and jumps of other sequences."""
-    return replace(state, labels=labels, parameters=replace(state.parameters, jumps=jumps))
-
-
 def _join_states(fitted: State, new: State) -> State:
-    """Return the state of the fitted and new sequences; the paths are left as they were."""
-    joined = _with(
-        fitted,
-        np.concatenate([fitted.labels, new.labels]),
-        np.concatenate([fitted.parameters.jumps, new.parameters.jumps]),
+    """Return the state of the fitted and new sequences, but for the paths' posterior."""
+    paths = replace(
+        fitted.paths,
+        counts=np.concatenate([fitted.paths.counts, new.paths.counts]),
+        sums=np.concatenate([fitted.paths.sums, new.paths.sums]),
     )
-    return replace(joined, evidence=fitted.evidence.join(new.evidence))
+    return replace(
+        fitted,
+        labels=np.concatenate([fitted.labels, new.labels]),
+        jumps=np.concatenate([fitted.jumps, new.jumps]),
+        paths=paths,
+    )
 
 
 def _in_empty_style(state: State, sequences: Sequences, hyper: Hyperparameters) -> list[State]:
@@ -139,8 +139,7 @@ def _in_empty_style(state: State, sequences: Sequences, hyper: Hyperparameters) 
     if sizes.min() > _EMPTY:
         return []
     labels = np.concatenate([state.labels[:-1], np.eye(len(sizes))[[sizes.argmin()]]])
-    steps: tuple[Update, ...] = (update_cycles, update_precisions, update_cycles)
     alone = replace(state, labels=labels)
-    for update in steps:
+    for update in (update_cycles, update_precisions, update_cycles):
         alone = update(alone, sequences, hyper)
     return [alone]

@@ -13,51 +13,45 @@ from dataclasses import replace
 
 import numpy as np
 
-from mocapbench.baselines.alignment import ring
-from mocapbench.baselines.alignment.bound import sequence_bounds
-from mocapbench.baselines.alignment.em import expectation_maximisation
-from mocapbench.baselines.alignment.model import Hyperparameters, State
-from mocapbench.baselines.alignment.ring import Ring
-from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.start import start
-from mocapbench.baselines.alignment.updates import update_jumps, update_paths, update_precisions
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters, State, sequence_bounds
+from mocapbench.baselines.alignment.cycle_start import start_em
+from mocapbench.baselines.alignment.ring import Ring, solve_rings
+from mocapbench.baselines.alignment.updates import (
+    expectation_maximisation,
+    update_jumps,
+    update_paths,
+    update_precisions,
+)
 from mocapbench.baselines.common.ascent import Ascent
+from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.basics.arrays import Array
 
 __all__ = ["fit_profile", "penalised_likelihood", "update_trace"]
 
 
 def fit_profile(
-    trace: Array,
-    sequences: Sequences,
-    hyper: Hyperparameters,
-    *,
-    max_jump: int,
-    max_iter: int,
-    tol: float,
+    trace: Array, sequences: Sequences, hyper: Hyperparameters, max_iter: int
 ) -> Ascent[State]:
     """Run EM from a trace (M, F)."""
-    state = start(trace, sequences, closeness=1.0, smoothness=1.0, max_jump=max_jump, hyper=hyper)
-    pointed = replace(state, cycles=_point(trace[:, None]))
+    state = start_em(trace, sequences, hyper)
+    certain = replace(state, cycles=_without_variance(trace[:, None]))
     return expectation_maximisation(
-        update_paths(pointed, sequences, hyper),
+        update_paths(certain, sequences, hyper),
         sequences,
         hyper,
         e_step=(update_trace, update_paths),
         m_step=(update_precisions, update_jumps, update_paths),
-        n_inner=1,
         max_iter=max_iter,
-        tol=tol,
         objective=penalised_likelihood,
     )
 
 
 def update_trace(state: State, _: Sequences, hyper: Hyperparameters) -> State:
     """Maximise the expected log-likelihood less η times the trace's squared steps."""
-    counts, sums = state.evidence.by_style(state.labels)
-    precisions = state.parameters.precisions
-    solved = ring.solve(2.0 * hyper.regularisation, precisions * counts, precisions * sums)
-    return replace(state, cycles=_point(solved.mean))
+    counts, sums = state.paths.by_style(state.labels)
+    precisions = state.precisions
+    solved = solve_rings(2.0 * hyper.regularisation, precisions * counts, precisions * sums)
+    return replace(state, cycles=_without_variance(solved.mean))
 
 
 def penalised_likelihood(state: State, sequences: Sequences, hyper: Hyperparameters) -> float:
@@ -70,7 +64,7 @@ def penalised_likelihood(state: State, sequences: Sequences, hyper: Hyperparamet
     return float(sequence_bounds(state, sequences, hyper).sum() - penalty)
 
 
-def _point(mean: Array) -> Ring:
+def _without_variance(mean: Array) -> Ring:
     """Return a cycle (M, 1, F) without uncertainty."""
     zero = np.zeros_like(mean)
     return Ring(mean, zero, zero, zero[0])

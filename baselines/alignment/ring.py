@@ -17,7 +17,7 @@ import numpy as np
 
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Elimination", "Ring", "eliminate", "solve"]
+__all__ = ["Ring", "eliminate", "solve_rings", "sweep_back"]
 
 
 @dataclass(frozen=True)
@@ -42,42 +42,10 @@ class Ring:
     log_determinant: Array
 
 
-@dataclass(frozen=True)
-class Elimination:
-    """A factorisation of the precision: states are eliminated in order 0 … M − 1.
+def eliminate(edge: float, ground: Array) -> tuple[Array, Array, Array]:
+    r"""Factorise :math:`\lambda L + \mathrm{diag}(r)`, eliminating states in order 0 … M − 1.
 
     When a state is eliminated, it has two neighbours left: the next state and the last one.
-
-    Parameters
-    ----------
-    pivots : ndarray of shape (M, …)
-        Total conductance of each state when it is eliminated, to the ground included.
-    near, far : ndarray of shape (M − 1, …)
-        The fractions of it that lead to the next state and to the last state.
-    """
-
-    pivots: Array
-    near: Array
-    far: Array
-
-    def forward(self, right: Array) -> Array:
-        """Return the current at each state for the inflow ``right`` (M, …): forward sweep."""
-        flow = right.copy()
-        for m, (near, far) in enumerate(zip(self.near, self.far, strict=True)):
-            flow[m + 1] += near * flow[m]
-            flow[-1] += far * flow[m]
-        return flow
-
-    def backward(self, potential: Array) -> Array:
-        """Return the potentials given those (M, …) against the remaining states: backward sweep."""
-        potential = potential.copy()
-        for m in reversed(range(len(self.near))):
-            potential[m] += self.near[m] * potential[m + 1] + self.far[m] * potential[-1]
-        return potential
-
-
-def eliminate(edge: float, ground: Array) -> Elimination:
-    r"""Factorise :math:`\lambda L + \mathrm{diag}(r)`.
 
     Parameters
     ----------
@@ -85,22 +53,38 @@ def eliminate(edge: float, ground: Array) -> Elimination:
         :math:`\lambda \geq 0`.
     ground : ndarray of shape (M, …)
         :math:`r > 0`.
+
+    Returns
+    -------
+    pivots : ndarray of shape (M, …)
+        Total conductance of each state when it is eliminated, to the ground included.
+    near, far : ndarray of shape (M − 1, …)
+        The fractions of it that lead to the next state and to the last state.
     """
     pivots = ground.copy()
     near, far = np.empty_like(ground[1:]), np.empty_like(ground[1:])
     chord: float | Array = edge  # conductance between state m and the last state
     for m in range(len(near)):
-        leak = pivots[m].copy()
+        leak = pivots[m].copy()  # its own conductance to the ground
         pivots[m] += edge + chord
         near[m] = edge / pivots[m]
         far[m] = chord / pivots[m]
+        # The star–mesh transform: the product of two edges over the pivot joins their other ends.
         pivots[m + 1] += near[m] * leak
         pivots[-1] += far[m] * leak
         chord = near[m] * chord
-    return Elimination(pivots, near, far)
+    return pivots, near, far
 
 
-def solve(edge: float, ground: Array, right: Array) -> Ring:
+def sweep_back(near: Array, far: Array, potential: Array) -> Array:
+    """Return the potentials given those (M, …) against the remaining states: backward sweep."""
+    potential = potential.copy()
+    for m in reversed(range(len(near))):
+        potential[m] += near[m] * potential[m + 1] + far[m] * potential[-1]
+    return potential
+
+
+def solve_rings(edge: float, ground: Array, right: Array) -> Ring:
     r"""Return the Gaussians of precision :math:`\lambda L + \mathrm{diag}(r)`.
 
     Parameters
@@ -112,14 +96,24 @@ def solve(edge: float, ground: Array, right: Array) -> Ring:
     right : ndarray of shape (M, …)
         Precision times mean.
     """
-    factor = eliminate(edge, ground)
-    mean = factor.backward(factor.forward(right) / factor.pivots)
-    variance = 1.0 / factor.pivots
+    pivots, near, far = eliminate(edge, ground)
+    mean = sweep_back(near, far, _sweep_forward(near, far, right) / pivots)
+    variance = 1.0 / pivots
     neighbour = np.empty_like(variance)
+    # Backwards, each covariance is the average of those of the two states eliminated into.
     corner = variance[-1]  # covariance of the state with the last
     for m in reversed(range(len(ground) - 1)):
-        neighbour[m] = factor.near[m] * variance[m + 1] + factor.far[m] * corner
-        corner = factor.near[m] * corner + factor.far[m] * variance[-1]
-        variance[m] += factor.near[m] * neighbour[m] + factor.far[m] * corner
+        neighbour[m] = near[m] * variance[m + 1] + far[m] * corner
+        corner = near[m] * corner + far[m] * variance[-1]
+        variance[m] += near[m] * neighbour[m] + far[m] * corner
     neighbour[-1] = corner
-    return Ring(mean, variance, neighbour, np.log(factor.pivots).sum(axis=0))
+    return Ring(mean, variance, neighbour, np.log(pivots).sum(axis=0))
+
+
+def _sweep_forward(near: Array, far: Array, right: Array) -> Array:
+    """Return the current at each state for the inflow ``right`` (M, …): forward sweep."""
+    flow = right.copy()
+    for m, (to_next, to_last) in enumerate(zip(near, far, strict=True)):
+        flow[m + 1] += to_next * flow[m]
+        flow[-1] += to_last * flow[m]
+    return flow

@@ -1,7 +1,7 @@
-"""The updates of HLM §3, one function each. No update lowers the bound.
+"""Variational expectation–maximisation: the updates of HLM §3, one function each.
 
-Equation numbers are those of HLM. Where a printed formula is wrong, the docstring gives the
-corrected one.
+No update lowers the bound. Equation numbers are those of HLM. Where a printed formula is wrong, the
+docstring gives the corrected one.
 
 Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
 as HLM.
@@ -9,26 +9,34 @@ as HLM.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from functools import reduce
 
 import numpy as np
 from scipy.linalg import solve_circulant
 
-from mocapbench.baselines.alignment import ring
 from mocapbench.baselines.alignment.chain import forward_backward
-from mocapbench.baselines.alignment.expectations import (
+from mocapbench.baselines.alignment.cycle_model import (
+    Hyperparameters,
+    Paths,
+    State,
     distance,
     emission,
     log_likelihood,
+    lower_bound,
     residuals,
     roughness,
 )
-from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hyperparameters, State
-from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.alignment.ring import solve_rings
+from mocapbench.baselines.common.ascent import Ascent, ascend
+from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.basics.arrays import Array
 
 __all__ = [
+    "Objective",
+    "Update",
+    "expectation_maximisation",
     "update_closeness",
     "update_cycles",
     "update_jumps",
@@ -40,18 +48,45 @@ __all__ = [
     "update_weights",
 ]
 
+Objective = Callable[[State, Sequences, Hyperparameters], float]
+Update = Callable[[State, Sequences, Hyperparameters], State]
+
+
+def expectation_maximisation(
+    state: State,
+    sequences: Sequences,
+    hyper: Hyperparameters,
+    *,
+    e_step: Sequence[Update],
+    m_step: Sequence[Update],
+    max_iter: int,
+    objective: Objective = lower_bound,
+) -> Ascent[State]:
+    """Alternate ``hyper.n_inner`` sweeps of the E-step with one of the M-step.
+
+    Stops when the objective rises by less than ``hyper.tol`` per visible entry, and after
+    ``max_iter`` iterations at the latest.
+    """
+    updates = (*e_step,) * hyper.n_inner + (*m_step,)
+    return ascend(
+        state,
+        lambda before: reduce(lambda now, update: update(now, sequences, hyper), updates, before),
+        lambda now: objective(now, sequences, hyper),
+        max_iter=max_iter,
+        threshold=hyper.tol * sequences.counts.sum(),
+    )
+
 
 def update_paths(state: State, sequences: Sequences, _: Hyperparameters) -> State:
     """Update Q(π), eq. (7), by forward–backward on the expected log-likelihoods, eq. (10)."""
-    parameters = state.parameters
-    expected = emission(sequences, state.cycles, parameters.precisions, state.labels)
-    paths = forward_backward(expected, parameters.jumps, sequences.frames)
-    return replace(state, paths=paths, evidence=Evidence.of(sequences, paths))
+    expected = emission(sequences, state.cycles, state.precisions, state.labels)
+    posterior = forward_backward(expected, state.jumps, sequences.frames)
+    return replace(state, paths=Paths.of(sequences, posterior))
 
 
 def update_labels(state: State, sequences: Sequences, _: Hyperparameters) -> State:
     """Update Q(l), eq. (11), over visible entries."""
-    score = np.log(state.parameters.weights) + log_likelihood(state, sequences)
+    score = np.log(state.weights) + log_likelihood(state, sequences)
     score -= score.max(axis=1, keepdims=True)
     labels = np.exp(score)
     return replace(state, labels=labels / labels.sum(axis=1, keepdims=True))
@@ -64,11 +99,10 @@ def update_cycles(state: State, _: Sequences, hyper: Hyperparameters) -> State:
     of visible entries of state m, and the mean is S⁻¹ (λ_z̄ z̄ + λ_f Σ γ x). HLM divides the sum by
     n_m and omits S⁻¹.
     """
-    theta = state.parameters
-    counts, sums = state.evidence.by_style(state.labels)
-    ground = theta.closeness + theta.precisions * counts
-    right = _pull(theta.parent, theta, hyper)[:, None] + theta.precisions * sums
-    return replace(state, cycles=ring.solve(theta.smoothness, ground, right))
+    counts, sums = state.paths.by_style(state.labels)
+    ground = state.closeness + state.precisions * counts
+    right = _pull_of_parent(state.parent, state, hyper)[:, None] + state.precisions * sums
+    return replace(state, cycles=solve_rings(state.smoothness, ground, right))
 
 
 def update_parent(state: State, _: Sequences, hyper: Hyperparameters) -> State:
@@ -77,29 +111,30 @@ def update_parent(state: State, _: Sequences, hyper: Hyperparameters) -> State:
     It solves (Cλ_z̄ + 4η) z̄_m − 2η (z̄_{m−1} + z̄_{m+1}) = λ_z̄ Σ_c ⟨z_m^c⟩. For the centred prior the
     precision matrix of a cycle takes the place of λ_z̄.
     """
-    theta, (n_states, n_styles, _channels) = state.parameters, state.cycles.mean.shape
+    n_states, n_styles, _ = state.cycles.mean.shape
+    # The matrix of the system is circulant: its first column is what it makes of an impulse.
     impulse = np.eye(n_states)[0]
-    column = n_styles * _pull(impulse, theta, hyper)
+    column = n_styles * _pull_of_parent(impulse, state, hyper)
     column += 2.0 * hyper.regularisation * _curvature(impulse)
-    right = _pull(state.cycles.mean.sum(axis=1), theta, hyper)
-    return _learnt(state, parent=solve_circulant(column, right))
+    right = _pull_of_parent(state.cycles.mean.sum(axis=1), state, hyper)
+    return replace(state, parent=solve_circulant(column, right))
 
 
 def update_smoothness(state: State, _: Sequences, hyper: Hyperparameters) -> State:
     """Update λ_s: eq. (13) or its equivalent for the chosen prior."""
     n_states, *batch = state.cycles.mean.shape
-    reference = hyper.prior.reference(state.parameters.parent)
+    reference = hyper.prior.reference(state.parent)
     mean = roughness(state.cycles, reference) / np.prod(batch)
-    best = hyper.prior.smoothness(state.parameters.closeness, n_states, mean)
-    return _learnt(state, smoothness=best)
+    best = hyper.prior.smoothness(state.closeness, n_states, mean)
+    return replace(state, smoothness=best)
 
 
 def update_closeness(state: State, _: Sequences, hyper: Hyperparameters) -> State:
     """Update λ_z̄: eq. (12) or its equivalent for the chosen prior."""
     n_states, *batch = state.cycles.mean.shape
-    mean = distance(state.cycles, state.parameters.parent) / np.prod(batch)
-    best = hyper.prior.closeness(state.parameters.smoothness, n_states, mean)
-    return _learnt(state, closeness=best)
+    mean = distance(state.cycles, state.parent) / np.prod(batch)
+    best = hyper.prior.closeness(state.smoothness, n_states, mean)
+    return replace(state, closeness=best)
 
 
 def update_precisions(state: State, sequences: Sequences, hyper: Hyperparameters) -> State:
@@ -107,32 +142,27 @@ def update_precisions(state: State, sequences: Sequences, hyper: Hyperparameters
     counts = state.labels.T @ sequences.counts
     squares = np.einsum("kc,kcf->cf", state.labels, residuals(state, sequences))
     best = counts / np.maximum(squares, counts / hyper.max_precision + np.finfo(float).tiny)
-    return _learnt(state, precisions=np.where(best > 0, best, state.parameters.precisions))
+    return replace(state, precisions=np.where(best > 0, best, state.precisions))
 
 
 def update_weights(state: State, _: Sequences, hyper: Hyperparameters) -> State:
     """Update τ, eq. (15)."""
     weights = hyper.regularisation + state.labels.sum(axis=0)
-    return _learnt(state, weights=weights / weights.sum())
+    return replace(state, weights=weights / weights.sum())
 
 
 def update_jumps(state: State, _: Sequences, hyper: Hyperparameters) -> State:
     """Update d, eq. (16), where ξ is the joint posterior of two consecutive states."""
-    jumps = hyper.regularisation + state.paths.jumps
-    return _learnt(state, jumps=jumps / jumps.sum(axis=1, keepdims=True))
+    jumps = hyper.regularisation + state.paths.n_jumps
+    return replace(state, jumps=jumps / jumps.sum(axis=1, keepdims=True))
 
 
-def _pull(curves: Array, theta: CycleParameters, hyper: Hyperparameters) -> Array:
+def _pull_of_parent(curves: Array, state: State, hyper: Hyperparameters) -> Array:
     """Return a parent's contribution to precision times mean of its cycles: λ_z̄ z̄ in HLM."""
-    shape = theta.smoothness * _curvature(hyper.prior.reference(curves))
-    return theta.closeness * curves + shape
+    shape = state.smoothness * _curvature(hyper.prior.reference(curves))
+    return state.closeness * curves + shape
 
 
 def _curvature(curves: Array) -> Array:
     """Return the Laplacian of the ring times curves (M, …)."""
     return 2.0 * curves - np.roll(curves, 1, axis=0) - np.roll(curves, -1, axis=0)
-
-
-def _learnt(state: State, **parameters: Any) -> State:
-    """Return the state with some parameters of θ replaced."""
-    return replace(state, parameters=replace(state.parameters, **parameters))

@@ -15,7 +15,7 @@ __all__ = [
     "by_name",
     "complete_stretches",
     "hidden_frames",
-    "interpolated",
+    "interpolate_channels",
     "places_by_name",
     "stack",
     "stretches",
@@ -129,7 +129,7 @@ def with_steps(recordings: Sequence[Recording]) -> list[Recording]:
     return usable
 
 
-def interpolated(
+def interpolate_channels(
     values: FrameByChannel, times: Frames, wanted: Frames | None = None
 ) -> FrameByChannel:
     """Return channels on lines between their visible entries, held at the ends: (M, D).

@@ -9,7 +9,7 @@ from typing import Self
 import numpy as np
 from sklearn.linear_model import Ridge
 
-from mocapbench.baselines.common.recordings import interpolated, stack
+from mocapbench.baselines.common.recordings import interpolate_channels, stack
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -85,6 +85,6 @@ class StackedFrames:
 
 def _windows(recording: Recording) -> Array:
     """Return each frame with others beside it (N, W, D); the ends are held."""
-    values = np.nan_to_num(interpolated(recording.values, recording.times))
+    values = np.nan_to_num(interpolate_channels(recording.values, recording.times))
     places = np.arange(len(values))[:, None] + _BESIDE
     return np.asarray(values[np.clip(places, 0, len(values) - 1)])

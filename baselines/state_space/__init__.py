@@ -7,9 +7,7 @@ The model of a recording y_1 … y_N in standardised units, with q states:
 with u ~ N(0, P), w_t ~ N(0, Q) and v_t ~ N(0, diag(r)). ``docs/mathematics/state-space.md`` has the
 derivations and the choices. One idea a module:
 
-* `model`: the parameters and their priors; `observations`: recordings as padded sequences;
-* `filtering`, `smoothing`: the distribution of the states;
-* `start`, `maximisation`, `regression`, `em`: how parameters are learnt; `mixture`: of several
-  models;
-* `noise`: the noise that data show; `prediction`: what is said about channels.
+* `linear_gaussian`: the parameters, their priors, and what they say about channels;
+* `kalman`: the distribution of the states, by the Kalman filter and the smoother;
+* `expectation_maximisation`: how parameters are learnt; `mixture`: of several models.
 """

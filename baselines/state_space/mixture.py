@@ -18,12 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.ascent import Ascent, ascend
-from mocapbench.baselines.state_space.filtering import filter_states
-from mocapbench.baselines.state_space.maximisation import maximise_parameters
-from mocapbench.baselines.state_space.model import Priors, StateSpaceParameters
-from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.smoothing import smooth_states
-from mocapbench.baselines.state_space.start import start
+from mocapbench.baselines.common.padded_sequences import Sequences
+from mocapbench.baselines.state_space.expectation_maximisation import (
+    maximise_parameters,
+    start_parameters,
+)
+from mocapbench.baselines.state_space.kalman import filter_states, smooth_states
+from mocapbench.baselines.state_space.linear_gaussian import Priors, StateSpaceParameters
 from mocapbench.basics.arrays import Array
 
 __all__ = ["Mixture", "classification_em", "seed_mixture"]
@@ -57,17 +58,18 @@ class Mixture:
         cls,
         components: Sequence[StateSpaceParameters],
         weights: Array,
-        data: Observations,
+        data: Sequences,
         priors: Priors,
     ) -> Mixture:
         """Return the mixture with every sequence in the component that explains it best."""
-        evidence = [filter_states(parameters, data).log_likelihood for parameters in components]
+        # log p(y_k | component) + log weight; filter_states returns the first of these last.
+        evidence = [filter_states(parameters, data)[-1] for parameters in components]
         joint = np.column_stack(evidence) + np.log(weights)
         prior = sum(parameters.log_prior(priors) for parameters in components)
         value = joint.max(axis=1).sum() + np.log(weights).sum() + prior
         return cls(tuple(components), weights, joint.argmax(axis=1), float(value))
 
-    def improve(self, data: Observations, priors: Priors) -> Mixture:
+    def improve(self, data: Sequences, priors: Priors) -> Mixture:
         """Return the mixture after a step of EM in each component and a new assignment."""
         sizes = np.bincount(self.labels, minlength=len(self.weights))
         components = list(self.components)
@@ -79,7 +81,7 @@ class Mixture:
         return self.assign_sequences(components, (sizes + 1.0) / (sizes + 1.0).sum(), data, priors)
 
 
-def seed_mixture(states: Array, data: Observations, seeds: Labels, priors: Priors) -> Mixture:
+def seed_mixture(states: Array, data: Sequences, seeds: Labels, priors: Priors) -> Mixture:
     """Return a mixture whose components each fit one sequence, of those at ``seeds`` (C,).
 
     Parameters
@@ -89,14 +91,14 @@ def seed_mixture(states: Array, data: Observations, seeds: Labels, priors: Prior
     """
     alone = [data.rows(np.array([seed])) for seed in seeds]
     components = [
-        start(states[[seed], : one.lengths[0]], one, priors)
+        start_parameters(states[[seed], : one.lengths[0]], one, priors)
         for seed, one in zip(seeds, alone, strict=True)
     ]
     return Mixture.assign_sequences(components, np.full(len(seeds), 1.0 / len(seeds)), data, priors)
 
 
 def classification_em(
-    mixture: Mixture, data: Observations, priors: Priors, *, max_iter: int, tol: float
+    mixture: Mixture, data: Sequences, priors: Priors, *, max_iter: int, tol: float
 ) -> Ascent[Mixture]:
     """Improve a mixture, ``max_iter`` times at most.
 

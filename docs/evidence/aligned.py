@@ -22,8 +22,8 @@ import numpy as np
 
 from mocapbench import benchmark as bench
 from mocapbench.baselines import CyclicAlignment
-from mocapbench.baselines.alignment.fitting import run, split
-from mocapbench.baselines.alignment.start import best_paths, prototypes
+from mocapbench.baselines.alignment.cycle_start import best_paths, prototypes
+from mocapbench.baselines.alignment.restarts import copy_style, run_em
 from mocapbench.baselines.common.prototypes import group_rows, of_unit_variance, tempi
 from mocapbench.benchmark.tasks.hlm_recordings import CMU, Corpus
 from mocapbench.datasets import Recording
@@ -78,8 +78,8 @@ def _by_tempo(
     found = []
     for chosen in (features, both):
         labels = group_rows(chosen, n_styles, 10, rng)
-        state = split(model.state_, np.eye(n_styles)[labels])
-        ended = run(state, model.sequences_, model.settings_, 40).state.labels.argmax(axis=1)
+        state = copy_style(model.state_, np.eye(n_styles)[labels])
+        ended = run_em(state, model.sequences_, model.hyper_, 40).state.labels.argmax(axis=1)
         found += [purity(labels, corpus), purity(ended, corpus)]
     return found
 

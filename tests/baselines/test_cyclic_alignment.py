@@ -160,7 +160,7 @@ def test_a_blend_lies_between_the_styles_that_it_mixes(fitted):
 
 
 def test_a_style_by_itself_is_its_cycle_at_the_mean_pace(fitted):
-    jumps = fitted.state_.parameters.jumps.mean(axis=0)
+    jumps = fitted.state_.jumps.mean(axis=0)
     position = np.arange(30) * (jumps @ [1, 2, 3])
     n_states = fitted.cycle_length_
     for style, cycle in enumerate(fitted.cycles_):

@@ -5,8 +5,8 @@ import warnings
 import numpy as np
 import pytest
 
+from mocapbench.baselines import lds
 from mocapbench.baselines.lds import LDS
-from mocapbench.baselines.state_space import noise
 from mocapbench.datasets import Recording
 
 CHANNELS, UNITS = ("knee.rx", "hip.rx", "hip.ry"), ("deg",) * 3
@@ -178,8 +178,8 @@ def test_the_objective_is_that_of_the_start_and_of_each_iteration(max_iter):
 
 
 def test_what_noise_is_shown_is_learnt_once_and_only_where_trials_can_narrow(monkeypatch):
-    calls, learn = [], noise.with_noise_shown
-    monkeypatch.setattr(noise, "with_noise_shown", lambda *given: calls.append(1) or learn(*given))
+    calls, learn = [], lds.show_noise
+    monkeypatch.setattr(lds, "show_noise", lambda *given: calls.append(1) or learn(*given))
     model = LDS(2).fit(WALKS)
     model.impute([walk("complete")])
     assert not calls

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.alignment.fitting import split
-from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters
+from mocapbench.baselines.alignment.cycle_start import start_em
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.start import start
+from mocapbench.baselines.alignment.restarts import copy_style
+from mocapbench.baselines.common.padded_sequences import Sequences
 
 
 class Problem:
@@ -21,16 +21,16 @@ class Problem:
         self.sequences = Sequences.of(
             [np.where(rng.random(a.shape) < hidden, np.nan, a) for a in arrays]
         )
-        self.hyper = Hyperparameters(eta, PRIORS[prior], 1e6)
-        common = start(
-            rng.normal(size=(n_states, 3)),
-            self.sequences,
+        parent = rng.normal(size=(n_states, 3))
+        self.hyper = Hyperparameters(
+            eta,
+            PRIORS[prior],
             closeness=10.0 ** rng.uniform(-2, 1),
             smoothness=10.0 ** rng.uniform(-2, 2),
             max_jump=max_jump,
-            hyper=self.hyper,
         )
-        self.state = split(common, rng.dirichlet(np.ones(n_styles), 4))
+        common = start_em(parent, self.sequences, self.hyper)
+        self.state = copy_style(common, rng.dirichlet(np.ones(n_styles), 4))
 
 
 @pytest.fixture(scope="session")

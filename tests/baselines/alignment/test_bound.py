@@ -10,13 +10,11 @@ from hypothesis import strategies as st
 from scipy.stats import multivariate_normal
 
 from mocapbench.baselines.alignment import updates
-from mocapbench.baselines.alignment.bound import lower_bound
-from mocapbench.baselines.alignment.em import expectation_maximisation
-from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters, lower_bound
+from mocapbench.baselines.alignment.cycle_start import start_em
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.start import start
-from mocapbench.baselines.alignment.updates import update_paths
+from mocapbench.baselines.alignment.updates import expectation_maximisation, update_paths
+from mocapbench.baselines.common.padded_sequences import Sequences
 
 E_STEP = (updates.update_cycles, updates.update_labels, updates.update_paths)
 M_STEP = (
@@ -62,12 +60,10 @@ def test_em_never_lowers_the_bound(pose, n_inner, **problem):
     run = expectation_maximisation(
         posed.state,
         posed.sequences,
-        posed.hyper,
+        replace(posed.hyper, n_inner=n_inner, tol=0.0),
         e_step=E_STEP,
         m_step=M_STEP,
-        n_inner=n_inner,
         max_iter=12,
-        tol=0.0,
     )
     bounds = np.array([lower_bound(posed.state, posed.sequences, posed.hyper), *run.objectives])
     assert (np.diff(bounds) >= -_slack(bounds[1:])).all()
@@ -79,7 +75,7 @@ def test_with_nothing_visible_the_bound_is_the_prior_of_the_parameters(pose, pri
     state = posed.state
     for update in E_STEP * 20:
         state = update(state, posed.sequences, posed.hyper)
-    theta = state.parameters
+    theta = state
     penalty = np.log(theta.weights).sum() + np.log(theta.jumps).sum()
     penalty -= ((theta.parent - np.roll(theta.parent, 1, axis=0)) ** 2).sum()
     expected = 0.1 * penalty + len(theta.weights) * _prior_of_parent(theta, prior)
@@ -95,7 +91,7 @@ def test_the_bound_is_below_the_evidence_and_tight_where_the_posterior_factorise
     hyper = Hyperparameters(0.0, PRIORS[prior], 1e6)
     for update in E_STEP * 50:
         state = update(state, sequences, hyper)
-    theta = state.parameters
+    theta = state
     evidence = _log_evidence(sequences, theta, prior) + _prior_of_parent(theta, prior)
     assert evidence - slack <= lower_bound(state, sequences, hyper) <= evidence + 1e-6
 
@@ -107,10 +103,10 @@ def _walk_round_a_ring(separation):
     arrays = [parent[path] + rng.normal(size=(len(path), 2)) for path in ([0, 2, 3], [3, 4])]
     arrays[0][1, 0] = np.nan
     sequences = Sequences.of(arrays)
-    hyper = Hyperparameters(0.1, PRIORS["normalised"], 1e6)
-    state = start(parent, sequences, closeness=1.0, smoothness=0.5, max_jump=2, hyper=hyper)
-    sharp = replace(state.parameters, precisions=np.array([[1.5, 0.7]]))
-    return sequences, update_paths(replace(state, parameters=sharp), sequences, hyper)
+    hyper = Hyperparameters(0.1, PRIORS["normalised"], smoothness=0.5, max_jump=2)
+    state = start_em(parent, sequences, hyper)
+    sharp = replace(state, precisions=np.array([[1.5, 0.7]]))
+    return sequences, update_paths(sharp, sequences, hyper)
 
 
 def _log_evidence(sequences, theta, prior):

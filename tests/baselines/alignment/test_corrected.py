@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.alignment.inference import correct_means, error_correlation
-from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.common.padded_sequences import Sequences
 
 LOST, KNOWN = [0, 1], [2, 3]
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from mocapbench.baselines.alignment.em import expectation_maximisation
+from mocapbench.baselines.alignment.updates import expectation_maximisation
 
 
 def run(posed, gains, *, tol, max_iter=10, calls=None):
@@ -21,12 +21,10 @@ def run(posed, gains, *, tol, max_iter=10, calls=None):
     outcome = expectation_maximisation(
         posed.state,
         posed.sequences,
-        posed.hyper,
+        replace(posed.hyper, n_inner=2, tol=tol),
         e_step=(update("E"),),
         m_step=(update("M"),),
-        n_inner=2,
         max_iter=max_iter,
-        tol=tol,
         objective=lambda *_: next(values),
     )
     return outcome, log

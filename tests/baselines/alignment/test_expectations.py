@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.alignment.expectations import (
+from mocapbench.baselines.alignment.cycle_model import (
     distance,
     emission,
     log_likelihood,
     residuals,
     roughness,
 )
-from mocapbench.baselines.alignment.ring import solve
+from mocapbench.baselines.alignment.ring import solve_rings
 
 
 @pytest.fixture
@@ -21,7 +21,7 @@ def posed(pose):
 def expected_log_density(posed, k, i, m, c):
     """Return the expected log-density of the visible entries of one frame in one state."""
     sequences, state = posed.sequences, posed.state
-    precision, seen = state.parameters.precisions[c], sequences.visible[k, i] > 0
+    precision, seen = state.precisions[c], sequences.visible[k, i] > 0
     deviation = sequences.values[k, i] - state.cycles.mean[m, c]
     squares = deviation**2 + state.cycles.variance[m, c]
     terms = 0.5 * np.log(precision / (2 * np.pi)) - 0.5 * precision * squares
@@ -30,7 +30,7 @@ def expected_log_density(posed, k, i, m, c):
 
 def test_the_emission_is_averaged_over_styles(posed):
     sequences, state = posed.sequences, posed.state
-    precisions = state.parameters.precisions
+    precisions = state.precisions
     terms = emission(sequences, state.cycles, precisions, state.labels)
     for k, length in enumerate(sequences.lengths):
         for i in range(length):
@@ -61,7 +61,7 @@ def test_roughness_and_distance_are_expectations_under_a_gaussian():
     """Against the dense covariance of one ring."""
     rng = np.random.default_rng(0)
     n_states, edge, ground = 6, 2.0, rng.uniform(0.5, 2.0, 6)
-    ring = solve(edge, ground[:, None, None], rng.normal(size=(6, 1, 1)))
+    ring = solve_rings(edge, ground[:, None, None], rng.normal(size=(6, 1, 1)))
     identity = np.eye(n_states)
     laplacian = 2 * identity - np.roll(identity, 1, axis=0) - np.roll(identity, -1, axis=0)
     covariance = np.linalg.inv(edge * laplacian + np.diag(ground))

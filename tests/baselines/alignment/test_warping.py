@@ -3,28 +3,19 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.alignment.fitting import EMSettings, random_start
-from mocapbench.baselines.alignment.model import Hyperparameters
-from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.start import (
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters
+from mocapbench.baselines.alignment.cycle_start import (
     best_paths,
     prototype,
     prototypes,
     similar_styles,
 )
+from mocapbench.baselines.alignment.priors import PRIORS
+from mocapbench.baselines.alignment.restarts import random_start
+from mocapbench.baselines.common.padded_sequences import Sequences
 
-STEADY = EMSettings(
-    n_styles=1,
-    n_states=12,
-    max_jump=3,
-    closeness=0.1,
-    learn_closeness=False,
-    smoothness=0.1,
-    hyper=Hyperparameters(0.1, PRIORS["normalised"]),
-    n_inner=1,
-    tol=1e-4,
-)
+STEADY = Hyperparameters(0.1, PRIORS["normalised"], closeness=0.1, smoothness=0.1, tol=1e-4)
+START = "mocapbench.baselines.alignment.cycle_start"
 SIZES = np.array([1.0, 2.0, 1.0, 2.0, 2.0, 1.0, 1.0])
 
 
@@ -37,7 +28,7 @@ def _aligned(seed):
         for size, phase in zip(SIZES, phases, strict=True)
     ]
     sequences = Sequences.of([wave + 0.05 * rng.normal(size=wave.shape) for wave in waves])
-    return random_start(sequences, STEADY, rng), sequences, rng
+    return random_start(sequences, 12, STEADY, rng), sequences, rng
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -61,11 +52,11 @@ def test_two_sizes_at_two_tempi_are_four_styles_only_by_their_tempi(monkeypatch)
     def kinds():
         """Return how many different pairs there are of a style and a kind of wave."""
         rng = np.random.default_rng(0)
-        styles = similar_styles(random_start(sequences, STEADY, rng), sequences, 4, rng)
+        styles = similar_styles(random_start(sequences, 12, STEADY, rng), sequences, 4, rng)
         return len({*zip(styles, steps, sizes, strict=True)})
 
     assert kinds() == 4
-    monkeypatch.setattr("mocapbench.baselines.alignment.start.tempi", lambda p, _: np.zeros(len(p)))
+    monkeypatch.setattr(START + ".tempi", lambda p, _: np.zeros(len(p)))
     assert kinds() > 4
 
 

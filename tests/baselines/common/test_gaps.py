@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.baselines.common.recordings import interpolated
+from mocapbench.baselines.common.recordings import interpolate_channels
 from mocapbench.basics.gaps import runs
 
 
@@ -23,7 +23,7 @@ def test_lines_stay_lines_between_visible_entries_and_are_held_beyond(seed, shar
     times, slopes = np.cumsum(rng.uniform(0.1, 1.0, 12)), rng.normal(size=3)
     line = 2.0 + np.outer(times, slopes)
     values = np.where(rng.random((12, 3)) < share, np.nan, line)
-    found = interpolated(values, times)
+    found = interpolate_channels(values, times)
     for column, given_, whole in zip(found.T, values.T, line.T, strict=True):
         seen = np.flatnonzero(~np.isnan(given_))
         if not len(seen):
@@ -34,5 +34,5 @@ def test_lines_stay_lines_between_visible_entries_and_are_held_beyond(seed, shar
 
 def test_other_times_may_be_asked_for():
     values = np.array([[0.0], [np.nan], [4.0]])
-    read = interpolated(values, np.arange(3.0), np.array([-1.0, 0.5, 9.0]))
+    read = interpolate_channels(values, np.arange(3.0), np.array([-1.0, 0.5, 9.0]))
     np.testing.assert_array_equal(read, [[0.0], [1.0], [4.0]])

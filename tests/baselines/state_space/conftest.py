@@ -5,9 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from mocapbench.baselines.state_space.model import StateSpaceParameters
-from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.regression import Regression
+from mocapbench.baselines.common.padded_sequences import Sequences
+from mocapbench.baselines.state_space.linear_gaussian import Regression, StateSpaceParameters
 
 
 def spd(rng, size):
@@ -69,7 +68,7 @@ class Problem:
         )
         arrays = [rng.normal(size=(n, n_channels)).cumsum(axis=0) for n in lengths]
         self.arrays = [np.where(rng.random(a.shape) < hidden, np.nan, a) for a in arrays]
-        self.data = Observations.of(self.arrays)
+        self.data = Sequences.of(self.arrays)
 
     def exact(self):
         return [Exact.of(self.parameters, array) for array in self.arrays]

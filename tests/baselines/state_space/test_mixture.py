@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.state_space.filtering import filter_states
+from mocapbench.baselines.state_space.expectation_maximisation import initial_states
+from mocapbench.baselines.state_space.kalman import filter_states
+from mocapbench.baselines.state_space.linear_gaussian import PRIORS
 from mocapbench.baselines.state_space.mixture import Mixture, classification_em, seed_mixture
-from mocapbench.baselines.state_space.model import PRIORS
-from mocapbench.baselines.state_space.start import initial_states
 
 SEEDS = np.array([0, 2, 3])
 
@@ -29,7 +29,7 @@ def test_every_sequence_is_where_it_is_most_probable(pose):
     problem = pose(0, lengths=(6, 3, 9, 4), hidden=0.2)
     mixture = mixture_of(problem).improve(problem.data, PRIORS)
     evidence = np.column_stack(
-        [filter_states(component, problem.data).log_likelihood for component in mixture.components]
+        [filter_states(component, problem.data)[-1] for component in mixture.components]
     )
     joint = evidence + np.log(mixture.weights)
     np.testing.assert_array_equal(mixture.labels, joint.argmax(axis=1))

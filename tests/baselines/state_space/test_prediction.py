@@ -2,14 +2,15 @@
 
 import numpy as np
 
-from mocapbench.baselines.state_space.observations import Observations
-from mocapbench.baselines.state_space.prediction import draw_sequences, moments
-from mocapbench.baselines.state_space.smoothing import smooth_states
+from mocapbench.baselines.common.padded_sequences import Sequences
+from mocapbench.baselines.state_space.kalman import smooth_states
+from mocapbench.baselines.state_space.linear_gaussian import draw_sequences, entry_moments
 
 
 def test_moments_of_entries_are_those_of_the_joint_gaussian(pose):
     problem = pose(1, n_channels=3)
-    mean, variance = moments(problem.parameters, smooth_states(problem.parameters, problem.data))
+    states = smooth_states(problem.parameters, problem.data)
+    mean, variance = entry_moments(problem.parameters, states.mean, states.covariance)
     loadings = problem.parameters.loadings
     for k, exact in enumerate(problem.exact()):
         n = len(exact.mean)
@@ -22,8 +23,9 @@ def test_moments_of_entries_are_those_of_the_joint_gaussian(pose):
 
 def test_draws_have_the_moments_of_a_sequence_without_visible_entries(pose):
     problem = pose(2, n_channels=2)
-    hidden = Observations.of([np.full((4, 2), np.nan)])
-    mean, variance = moments(problem.parameters, smooth_states(problem.parameters, hidden))
+    hidden = Sequences.of([np.full((4, 2), np.nan)])
+    states = smooth_states(problem.parameters, hidden)
+    mean, variance = entry_moments(problem.parameters, states.mean, states.covariance)
     draws = draw_sequences(problem.parameters, 20_000, 4, np.random.default_rng(0))
     assert draws.shape == (20_000, 4, 2)
     error = (draws.mean(axis=0) - mean[0]) / np.sqrt(variance[0] / len(draws))

@@ -3,21 +3,21 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.state_space.regression import Prior, Regression, Sums
+from mocapbench.baselines.state_space.linear_gaussian import Prior, Regression
 
 PRIOR = Prior(frames=3.0, variance=0.5, ridge=0.7)
 
 
 def sums_of(y, x):
-    return Sums(y.T @ y, y.T @ x, x.T @ x, np.full((1, 1), float(len(y))))
+    return y.T @ y, y.T @ x, x.T @ x, np.full((1, 1), float(len(y)))
 
 
 def objective(regression, sums, prior):
     """Return the expected log-density plus log-prior."""
-    b, v = regression.coefficients, regression.covariance
-    residual = sums.yy - b @ sums.yx.T - sums.yx @ b.T + b @ sums.xx @ b.T
+    b, v, (yy, yx, xx, count) = regression.coefficients, regression.covariance, sums
+    residual = yy - b @ yx.T - yx @ b.T + b @ xx @ b.T
     _, log_determinant = np.linalg.slogdet(v)
-    density = -0.5 * (sums.count[0, 0] * log_determinant + np.trace(np.linalg.solve(v, residual)))
+    density = -0.5 * (count[0, 0] * log_determinant + np.trace(np.linalg.solve(v, residual)))
     return density + regression.log_prior(prior)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.state_space.smoothing import smooth_states
+from mocapbench.baselines.state_space.kalman import smooth_states
 
 SIZES = st.fixed_dictionaries(
     {

@@ -170,7 +170,7 @@ FIT_PATH = [
     ("baselines.gp.prior.kernels", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.solvers.latent_split.gradient", "toy-interpolation-1", "mohgp"),
     ("baselines.gpdm.process", "missing-frames", "gpdm"),
-    ("baselines.alignment.estimator", "missing-frames", "cyclic-alignment"),
+    ("baselines.alignment.aligner", "missing-frames", "cyclic-alignment"),
     ("baselines.functional.components", "missing-frames", "fam"),
 ]
 

@@ -1,30 +1,37 @@
-"""The common estimator of models that align recordings to one cycle."""
+"""The common estimator of models that align recordings to one cycle, and checks of parameters."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
-from typing import ClassVar, Self
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.alignment.inference import infer
-from mocapbench.baselines.alignment.model import Hyperparameters, State
-from mocapbench.baselines.alignment.period import default_states
-from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.start import best_paths
-from mocapbench.baselines.alignment.validation import check_settings
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters, State
+from mocapbench.baselines.alignment.cycle_start import GROUPINGS, best_paths, default_states
+from mocapbench.baselines.alignment.inference import infer_path
+from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.common.ascent import Ascent
 from mocapbench.baselines.common.checks import check_channels, check_recordings
+from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
+from mocapbench.baselines.common.validation import (
+    check_choice,
+    check_count,
+    check_flag,
+    check_positive,
+    check_seed,
+)
 from mocapbench.baselines.protocols import Aligner, StatePath
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
-__all__ = ["CycleAligner"]
+__all__ = ["CycleAligner", "check_settings"]
 
 
 class CycleAligner(Aligner):
@@ -49,7 +56,7 @@ class CycleAligner(Aligner):
             If a parameter is of the wrong type or out of range, there is no recording, channels
             differ, a name repeats, or a channel is nowhere visible.
         """
-        check_settings(**self.get_params())
+        check_settings(self.get_params())
         checked = check_recordings(recordings)
         self.channels_, self.units_ = checked[0].channels, checked[0].units
         ordered, places = by_name(checked), places_by_name(checked)
@@ -107,10 +114,40 @@ class CycleAligner(Aligner):
             if np.array_equal(fitted.values, recording.values, equal_nan=True):
                 return path
         sequence = self._sequences([recording])
-        return best_paths(infer(sequence, self.state_, self.hyper_), sequence)[0]
+        return best_paths(infer_path(sequence, self.state_, self.hyper_), sequence)[0]
 
     def _sequences(self, recordings: Sequence[Recording]) -> Sequences:
         return Sequences.of([self.scaling_.apply(recording).values for recording in recordings])
 
     def _restore_units(self, values: Array) -> Array:
         return np.asarray(self.scaling_.restore(values))
+
+
+_CHECKS: Mapping[str, Callable[[str, object], None]] = {
+    **dict.fromkeys(
+        ("n_styles", "n_frames", "max_jump", "n_restarts", "max_iter", "n_inner"),
+        partial(check_count, least=1),
+    ),
+    "refine_iter": partial(check_count, least=0),
+    **dict.fromkeys(("regularisation", "closeness", "smoothness", "tol"), check_positive),
+    "learn_closeness": check_flag,
+    "prior": partial(check_choice, choices=PRIORS),
+    "grouping": partial(check_choice, choices=GROUPINGS),
+    "random_state": check_seed,
+}
+
+
+def check_settings(parameters: Mapping[str, Any]) -> None:
+    """Check the parameters of an estimator, which have the names of `CyclicAlignment` or `KMeans`.
+
+    Raises
+    ------
+    ValueError
+        If one is of the wrong type or out of range.
+    """
+    for name, check in _CHECKS.items():
+        if name in parameters:
+            check(name, parameters[name])
+    if parameters.get("n_states") is not None:
+        least = max(3, 2 * parameters["max_jump"] + 1)
+        check_count("n_states (more than twice max_jump)", parameters["n_states"], least)

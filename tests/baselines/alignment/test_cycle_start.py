@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.alignment.model import Hyperparameters
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters
+from mocapbench.baselines.alignment.cycle_start import first_cycle, start_em
 from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.start import first_cycle, start
+from mocapbench.baselines.common.padded_sequences import Sequences
 
 
 def test_a_line_is_resampled_to_a_line():
@@ -27,20 +27,20 @@ def test_a_start_has_one_style_with_the_given_cycle_and_normalised_posteriors():
     rng = np.random.default_rng(0)
     sequences = Sequences.of([rng.normal(size=(n, 2)) for n in (6, 4)])
     parent = rng.normal(size=(7, 2))
-    hyper = Hyperparameters(0.1, PRIORS["normalised"])
-    state = start(parent, sequences, closeness=0.1, smoothness=0.2, max_jump=3, hyper=hyper)
+    hyper = Hyperparameters(0.1, PRIORS["normalised"], closeness=0.1, smoothness=0.2)
+    state = start_em(parent, sequences, hyper)
+    assert (state.closeness, state.smoothness) == (0.1, 0.2)
     np.testing.assert_array_equal(state.cycles.mean[:, 0], parent)
     np.testing.assert_array_equal(state.labels, np.ones((2, 1)))
-    np.testing.assert_allclose(state.parameters.jumps, np.full((2, 3), 1 / 3))
+    np.testing.assert_allclose(state.jumps, np.full((2, 3), 1 / 3))
     occupancy = state.paths.occupancy.sum(axis=2)
     np.testing.assert_allclose(occupancy, sequences.frames.astype(float), atol=1e-12)
     variance = sequences.squares.sum(axis=0) / sequences.counts.sum(axis=0)
-    np.testing.assert_allclose(state.parameters.precisions, 1 / variance[None])
+    np.testing.assert_allclose(state.precisions, 1 / variance[None])
 
 
 def test_the_precision_of_a_still_channel_is_limited():
     sequences = Sequences.of([np.zeros((5, 1))])
-    hyper = Hyperparameters(0.1, PRIORS["normalised"], max_precision=100.0)
-    parent = np.zeros((5, 1))
-    state = start(parent, sequences, closeness=1.0, smoothness=1.0, max_jump=2, hyper=hyper)
-    assert state.parameters.precisions.item() == pytest.approx(100.0)
+    hyper = Hyperparameters(0.1, PRIORS["normalised"], max_precision=100.0, max_jump=2)
+    state = start_em(np.zeros((5, 1)), sequences, hyper)
+    assert state.precisions.item() == pytest.approx(100.0)

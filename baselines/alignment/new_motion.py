@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.alignment import ring
-from mocapbench.baselines.alignment.model import State
+from mocapbench.baselines.alignment.cycle_model import State
+from mocapbench.baselines.alignment.ring import eliminate, sweep_back
 from mocapbench.basics.arrays import Array
 
 __all__ = ["blend_cycles", "draw_cycles", "draw_path", "draw_sequences"]
@@ -28,21 +28,21 @@ def draw_sequences(state: State, n: int, n_frames: int, rng: np.random.Generator
         (drawn,) = np.nonzero(styles == style)
         cycles = draw_cycles(state, style, len(drawn), rng)
         for index, cycle in zip(drawn, cycles, strict=True):
-            jumps = state.parameters.jumps[sequences[index]]
+            jumps = state.jumps[sequences[index]]
             poses[index] = cycle[draw_path(jumps, len(cycle), n_frames, rng)]
     noise = rng.standard_normal(poses.shape)
-    return np.asarray(poses + noise / np.sqrt(state.parameters.precisions[styles])[:, None])
+    return np.asarray(poses + noise / np.sqrt(state.precisions[styles])[:, None])
 
 
 def draw_cycles(state: State, style: int, n: int, rng: np.random.Generator) -> Array:
     """Return draws (n, M, F) from Q(Z) of a style, by one factorisation."""
-    theta = state.parameters
-    counts, _ = state.evidence.by_style(state.labels[:, [style]])
-    ground = theta.closeness + theta.precisions[style] * counts[:, 0]
-    factor = ring.eliminate(theta.smoothness, ground)
+    counts, _ = state.paths.by_style(state.labels[:, [style]])
+    ground = state.closeness + state.precisions[style] * counts[:, 0]
+    # The precision is R⁻ᵀ diag(pivots) R⁻¹, with R the backward sweep: R white has its inverse.
+    pivots, near, far = eliminate(state.smoothness, ground)
     n_states, n_channels = ground.shape
-    white = rng.standard_normal((n_states, n, n_channels)) / np.sqrt(factor.pivots)[:, None]
-    draws = state.cycles.mean[:, style, None] + factor.backward(white)
+    white = rng.standard_normal((n_states, n, n_channels)) / np.sqrt(pivots)[:, None]
+    draws = state.cycles.mean[:, style, None] + sweep_back(near, far, white)
     return np.asarray(draws.transpose(1, 0, 2))
 
 
@@ -65,7 +65,7 @@ def blend_cycles(state: State, weights: Array) -> Array:
         If the weights are not (N, C), are negative, or a row's sum is not 1.
     """
     _check_weights(weights, state.labels.shape[1])
-    jumps = state.parameters.jumps.mean(axis=0)
+    jumps = state.jumps.mean(axis=0)
     pace = jumps @ np.arange(1, len(jumps) + 1)
     position = pace * np.arange(len(weights))
     return np.asarray(np.einsum("nc,ncf->nf", weights, _poses(state.cycles.mean, position)))

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.alignment.period import autocorrelation, cycle_length
-from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.alignment.cycle_start import autocorrelation, cycle_length
+from mocapbench.baselines.common.padded_sequences import Sequences
 
 
 def _waves(period, lengths, hidden=0.0):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.alignment.synthesis import (
+from mocapbench.baselines.alignment.new_motion import (
     blend_cycles,
     draw_cycles,
     draw_path,
@@ -49,7 +49,7 @@ def test_sequences_are_seeded_and_of_any_length(state):
 
 
 def test_a_blend_of_one_style_runs_through_its_cycle(state):
-    jumps = state.parameters.jumps.mean(axis=0)
+    jumps = state.jumps.mean(axis=0)
     pace = jumps @ np.arange(1, len(jumps) + 1)
     motion = blend_cycles(state, np.tile([1.0, 0.0], (9, 1)))
     closed = np.concatenate([state.cycles.mean[:, 0], state.cycles.mean[:1, 0]])

@@ -1,6 +1,6 @@
-"""The initial state of EM, and the groups of aligned sequences that styles start from.
+"""Where EM starts: the length of a cycle, the initial state, and the groups that styles start from.
 
-HLM §4, "Comparison".
+HLM §4, "Comparison". The length of a cycle is estimated by autocorrelation.
 
 Pan and Torresani (2009), *Unsupervised Hierarchical Modeling of Locomotion Styles*, ICML, is cited
 as HLM.
@@ -13,41 +13,39 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.alignment.chain import Paths, viterbi
-from mocapbench.baselines.alignment.expectations import emission
-from mocapbench.baselines.alignment.model import CycleParameters, Evidence, Hyperparameters, State
+from mocapbench.baselines.alignment.chain import viterbi
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters, Paths, State, emission
 from mocapbench.baselines.alignment.ring import Ring
-from mocapbench.baselines.alignment.sequences import Sequences
 from mocapbench.baselines.alignment.updates import update_paths
+from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.baselines.common.prototypes import group_rows, of_unit_variance, tempi
-from mocapbench.baselines.common.recordings import interpolated
+from mocapbench.baselines.common.recordings import interpolate_channels
 from mocapbench.basics.arrays import Array
 
 __all__ = [
     "GROUPINGS",
+    "autocorrelation",
     "best_paths",
+    "cycle_length",
+    "default_states",
     "first_cycle",
     "prototype",
     "prototypes",
     "random_styles",
     "similar_styles",
-    "start",
+    "start_em",
 ]
 
 Grouping = Callable[[State, Sequences, int, np.random.Generator], NDArray[np.intp]]
 
 _N_STARTS = 10  # of K-means, which costs little beside an iteration of EM
+_FEWEST_REPEATS = 2  # a sequence is at least this many times as long as a lag that is considered
+# A lag of two cycles correlates as highly as one of a single cycle, up to noise: of all peaks this
+# close to the highest, the first is the cycle.
+_AS_GOOD = 0.9
 
 
-def start(
-    parent: Array,
-    sequences: Sequences,
-    *,
-    closeness: float,
-    smoothness: float,
-    max_jump: int,
-    hyper: Hyperparameters,
-) -> State:
+def start_em(parent: Array, sequences: Sequences, hyper: Hyperparameters) -> State:
     """Return the state with one style, whose cycle is ``parent`` (M, F).
 
     The noise variances are those of the visible entries, and the variances of the cycle are equal
@@ -56,14 +54,6 @@ def start(
     n_sequences, (n_states, n_channels) = len(sequences.lengths), parent.shape
     variance = sequences.squares.sum(axis=0) / np.maximum(sequences.counts.sum(axis=0), 1.0)
     precision = 1.0 / np.maximum(variance, 1.0 / hyper.max_precision)
-    parameters = CycleParameters(
-        parent,
-        smoothness,
-        closeness,
-        precision[None],
-        np.ones(1),
-        np.full((n_sequences, max_jump), 1.0 / max_jump),
-    )
     shape = (n_states, 1, n_channels)
     cycles = Ring(
         parent[:, None],
@@ -71,10 +61,19 @@ def start(
         np.zeros(shape),
         n_states * np.log(precision)[None],
     )
-    no_paths = Paths(np.zeros((0, 0, n_states)), np.zeros((0, max_jump)), np.zeros(0))
-    no_evidence = Evidence(np.zeros(0), np.zeros(0))
-    labels = np.ones((n_sequences, 1))
-    return update_paths(State(parameters, cycles, labels, no_paths, no_evidence), sequences, hyper)
+    no_paths = Paths(*np.zeros((5, 0)))
+    state = State(
+        parent,
+        hyper.smoothness,
+        hyper.closeness,
+        precision[None],
+        weights=np.ones(1),
+        jumps=np.full((n_sequences, hyper.max_jump), 1.0 / hyper.max_jump),
+        cycles=cycles,
+        labels=np.ones((n_sequences, 1)),
+        paths=no_paths,
+    )
+    return update_paths(state, sequences, hyper)
 
 
 def first_cycle(frames: Array, n_frames: int, n_states: int) -> Array:
@@ -85,14 +84,13 @@ def first_cycle(frames: Array, n_frames: int, n_states: int) -> Array:
     given = frames[:n_frames]
     positions = np.linspace(0.0, len(given), n_states, endpoint=False)
     numbers = np.arange(len(given), dtype=np.float64)
-    return np.nan_to_num(interpolated(given, numbers, positions))
+    return np.nan_to_num(interpolate_channels(given, numbers, positions))
 
 
 def best_paths(state: State, sequences: Sequences) -> tuple[NDArray[np.intp], ...]:
     """Return the most likely path (N_k,) of each sequence."""
-    theta = state.parameters
-    expected = emission(sequences, state.cycles, theta.precisions, state.labels)
-    return viterbi(expected, theta.jumps, sequences.frames)
+    expected = emission(sequences, state.cycles, state.precisions, state.labels)
+    return viterbi(expected, state.jumps, sequences.frames)
 
 
 def prototypes(paths: tuple[NDArray[np.intp], ...], sequences: Sequences, trace: Array) -> Array:
@@ -108,6 +106,7 @@ def prototype(frames: Array, path: NDArray[np.intp], trace: Array) -> Array:
     sequence does not reach it equals the trace (M, F).
     """
     n_states = len(trace)
+    # Positions count states on through the cycles, so that they rise with the frames.
     position = path[0] + np.concatenate([[0], np.cumsum(np.diff(path) % n_states)])
     cycle = trace.copy()
     for channel, values in zip(cycle.T, frames.T, strict=True):
@@ -149,3 +148,63 @@ def similar_styles(
 
 GROUPINGS: dict[str, Grouping] = {"random": random_styles, "similar": similar_styles}
 """How the first styles are made, by name."""
+
+
+def autocorrelation(sequences: Sequences) -> Array:
+    """Return the autocorrelation of each sequence at lags 0 to N − 1: (K, N).
+
+    It is pooled over channels and averaged over the pairs of entries that are both visible; NaN at
+    a lag without such pairs.
+    """
+    visible = sequences.visible
+    n_frames = visible.shape[1]
+    seen = np.maximum(sequences.counts, 1.0)
+    mean = sequences.values.sum(axis=1) / seen
+    centred = (sequences.values - mean[:, None]) * visible
+    # The autocorrelations of values and of masks: sums of products, and numbers of pairs.
+    products, pairs = (_lagged_products(array)[:, :n_frames] for array in (centred, visible))
+    pairs = np.round(pairs)
+    covariance = np.divide(products, pairs, out=np.full_like(pairs, np.nan), where=pairs > 0)
+    variance = np.where(covariance[:, :1] > 0, covariance[:, :1], np.nan)
+    return np.asarray(covariance / variance)
+
+
+def cycle_length(sequences: Sequences) -> int:
+    """Return the expected number of frames of a cycle, N of HLM.
+
+    It is the median over sequences of the first lag at which a sequence recurs: the first peak of
+    the autocorrelation after its first negative value, within half the sequence, that is at least
+    0.9 times as high as the highest such peak. If no sequence has one, each sequence counts as one
+    cycle, and the median length is returned.
+    """
+    lags = [
+        _first_return(correlation[: length // _FEWEST_REPEATS + 1])
+        for correlation, length in zip(autocorrelation(sequences), sequences.lengths, strict=True)
+    ]
+    periods = [lag for lag in lags if lag]
+    return int(np.median(periods if periods else sequences.lengths))
+
+
+def default_states(sequences: Sequences, max_jump: int) -> int:
+    """Return M = 2N as in HLM §2, but at least ``2 * max_jump + 1``."""
+    return max(2 * cycle_length(sequences), 2 * max_jump + 1)
+
+
+def _lagged_products(array: Array) -> Array:
+    """Return Σ_f Σ_i a_i a_{i+lag} for each lag, by the Fourier transform."""
+    size = 2 * array.shape[1]
+    power = np.abs(np.fft.rfft(array, size, axis=1)) ** 2
+    return np.fft.irfft(power.sum(axis=2), size, axis=1)
+
+
+def _first_return(correlation: Array) -> int:
+    """Return the lag of the first high peak after the first negative value; 0 if none."""
+    negative = np.flatnonzero(correlation < 0)
+    if not len(negative):
+        return 0
+    inner = correlation[1:-1]
+    peak = (inner > correlation[:-2]) & (inner >= correlation[2:])
+    peaks = np.flatnonzero(peak) + 1
+    peaks = peaks[(peaks > negative[0]) & (correlation[peaks] > 0)]
+    heights = correlation[peaks]
+    return int(peaks[np.argmax(heights >= _AS_GOOD * heights.max())]) if len(peaks) else 0

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.alignment.sequences import Sequences
+from mocapbench.baselines.common.padded_sequences import Sequences
 
 
 @pytest.fixture

@@ -10,7 +10,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.basics.arrays import Array
+from mocapbench.baselines.common.recordings import interpolate_channels
+from mocapbench.basics.arrays import Array, Index
 
 __all__ = ["Sequences"]
 
@@ -19,8 +20,8 @@ __all__ = ["Sequences"]
 class Sequences:
     """K sequences, padded to the longest.
 
-    Hidden entries and padding have weight zero. This integrates them out exactly, because the noise
-    is independent between channels.
+    Hidden entries and padding have weight zero. This integrates them out exactly where the noise is
+    independent between channels.
 
     Parameters
     ----------
@@ -34,7 +35,7 @@ class Sequences:
 
     values: Array
     visible: Array
-    lengths: NDArray[np.intp]
+    lengths: Index
 
     @classmethod
     def of(cls, arrays: Sequence[Array]) -> Self:
@@ -61,9 +62,42 @@ class Sequences:
         """(K, F) sum of the squares of the visible entries."""
         return np.asarray((self.values**2).sum(axis=1))
 
-    def rows(self, index: NDArray[np.intp]) -> Sequences:
-        """Return the sequences at ``index``."""
-        return Sequences(self.values[index], self.visible[index], self.lengths[index])
+    @cached_property
+    def leaders(self) -> Index:
+        """(U,) the longest sequence of each group of sequences with the same mask.
+
+        A Kalman filter's covariances depend on what was visible so far, and not on values.
+        Sequences whose masks agree as far as both go share them: complete recordings of any length
+        are one group.
+        """
+        return np.asarray(np.unique(self._leader_of))
+
+    @cached_property
+    def groups(self) -> Index:
+        """(K,) the group of each sequence, an index into `leaders`."""
+        return np.asarray(np.searchsorted(self.leaders, self._leader_of))
+
+    @cached_property
+    def _leader_of(self) -> Index:
+        leaders: dict[int, list[int]] = {}
+        for k in np.argsort(-self.lengths, kind="stable").tolist():
+            leader = next((j for j in leaders if self._continues(j, k)), k)
+            leaders.setdefault(leader, []).append(k)
+        found = np.empty(len(self.lengths), dtype=np.intp)
+        for leader, members in leaders.items():
+            found[members] = leader
+        return found
+
+    def _continues(self, longer: int, k: int) -> bool:
+        """Return whether the mask of sequence ``longer`` begins with that of sequence ``k``."""
+        seen = slice(self.lengths[k])
+        return np.array_equal(self.visible[longer, seen], self.visible[k, seen])
+
+    def rows(self, index: Index) -> Self:
+        """Return the sequences at ``index``, padded to the longest of them."""
+        lengths = self.lengths[index]
+        kept = slice(lengths.max(initial=0))
+        return type(self)(self.values[index][:, kept], self.visible[index][:, kept], lengths)
 
     def join(self, other: Sequences) -> Sequences:
         """Return these sequences followed by the others."""
@@ -76,3 +110,11 @@ class Sequences:
     def unpad(self, array: Array) -> list[Array]:
         """Return the rows (N_k, …) of each sequence of an array (K, N, …)."""
         return [row[:length] for row, length in zip(array, self.lengths, strict=True)]
+
+    def interpolate_hidden(self) -> list[Array]:
+        """Return each sequence (N_k, F) with hidden entries on lines between visible ones.
+
+        A channel that a sequence never shows is 0, its mean over all sequences.
+        """
+        frames = np.arange(self.values.shape[1], dtype=np.float64)
+        return [np.nan_to_num(interpolate_channels(y, frames[: len(y)])) for y in self.arrays()]

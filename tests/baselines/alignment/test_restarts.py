@@ -5,27 +5,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocapbench.baselines.alignment.fitting import (
-    EMSettings,
+from mocapbench.baselines.alignment.cycle_model import Hyperparameters
+from mocapbench.baselines.alignment.cycle_start import GROUPINGS
+from mocapbench.baselines.alignment.priors import PRIORS
+from mocapbench.baselines.alignment.restarts import (
+    copy_style,
     random_cycle,
     random_start,
-    restarts,
-    split,
+    restart_em,
 )
-from mocapbench.baselines.alignment.model import Hyperparameters
-from mocapbench.baselines.alignment.priors import PRIORS
-from mocapbench.baselines.alignment.sequences import Sequences
-from mocapbench.baselines.alignment.start import GROUPINGS
+from mocapbench.baselines.common.padded_sequences import Sequences
 
-SETTINGS = EMSettings(
-    n_styles=2,
-    n_states=8,
-    max_jump=2,
+HYPER = Hyperparameters(
+    0.1,
+    PRIORS["normalised"],
     closeness=0.1,
-    learn_closeness=False,
     smoothness=0.1,
-    hyper=Hyperparameters(0.1, PRIORS["normalised"]),
-    n_inner=1,
+    max_jump=2,
+    n_styles=2,
     tol=1e-4,
 )
 
@@ -39,7 +36,7 @@ def sequences():
 
 def test_no_run_ever_lowers_the_bound(sequences):
     rng = np.random.default_rng(0)
-    runs = restarts(sequences, SETTINGS, n_restarts=3, max_iter=4, rng=rng)
+    runs = restart_em(sequences, 8, HYPER, n_restarts=3, max_iter=4, rng=rng)
     assert len(runs) == 3
     for run in runs:
         assert (np.diff(run.objectives) >= -1e-9 * np.abs(run.objectives[1:])).all()
@@ -47,21 +44,21 @@ def test_no_run_ever_lowers_the_bound(sequences):
 
 @pytest.mark.parametrize("grouping", GROUPINGS)
 def test_a_start_has_styles_that_are_all_in_use_with_one_cycle(sequences, grouping):
-    settings = replace(SETTINGS, grouping=grouping)
-    state = random_start(sequences, settings, np.random.default_rng(0))
+    hyper = replace(HYPER, grouping=grouping)
+    state = random_start(sequences, 8, hyper, np.random.default_rng(0))
     assert (state.labels.sum(axis=0) >= 1).all()
     assert set(state.labels.ravel()) == {0.0, 1.0}
     assert state.cycles.mean.shape == (8, 2, 2)
     np.testing.assert_array_equal(state.cycles.mean[:, 0], state.cycles.mean[:, 1])
 
 
-def test_a_split_copies_the_one_style(sequences):
-    one = EMSettings(**{**vars(SETTINGS), "n_styles": 1})
-    state = random_start(sequences, one, np.random.default_rng(0))
+def test_it_copies_the_one_style(sequences):
+    one = replace(HYPER, n_styles=1)
+    state = random_start(sequences, 8, one, np.random.default_rng(0))
     labels = np.eye(3)[[0, 1, 2, 0]]
-    copies = split(state, labels)
+    copies = copy_style(state, labels)
     np.testing.assert_array_equal(copies.labels, labels)
-    np.testing.assert_allclose(copies.parameters.weights, np.full(3, 1 / 3))
+    np.testing.assert_allclose(copies.weights, np.full(3, 1 / 3))
     for name in ("mean", "variance", "neighbour"):
         original = getattr(state.cycles, name)
         np.testing.assert_array_equal(getattr(copies.cycles, name), original.repeat(3, axis=1))

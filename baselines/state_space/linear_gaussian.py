@@ -1,0 +1,187 @@
+r"""The parameters of a linear Gaussian state-space model, their weak priors, and what they imply.
+
+Each of the three parts of the model is a regression :math:`y = B x + e`, :math:`e \sim N(0, V)`,
+which is learnt from the sums :math:`S_{yy} = \sum \langle y y^\top\rangle`, :math:`S_{yx}` and
+:math:`S_{xx}` over n frames. Its conjugate prior counts as data: :math:`\nu` frames with residuals
+of variance :math:`s^2`, and :math:`\lambda` frames in which each regressor in turn is 1 and the
+response 0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocapbench.basics.arrays import Array
+
+__all__ = [
+    "PRIORS",
+    "Prior",
+    "Priors",
+    "Regression",
+    "StateSpaceParameters",
+    "Sums",
+    "draw_sequences",
+    "entry_moments",
+    "transpose_each",
+]
+
+Sums = tuple[Array, Array, Array, Array]
+"""S_yy (…, p, p), S_yx (…, p, m), S_xx (…, m, m) and the number n of frames (…, 1, 1)."""
+
+
+@dataclass(frozen=True)
+class Prior:
+    """The prior of a regression, as frames that nobody saw.
+
+    Parameters
+    ----------
+    frames : float
+        Their number ν, which weighs the prior of the noise.
+    variance : float
+        Their residual variance s².
+    ridge : float
+        The weight λ of coefficients of zero.
+    """
+
+    frames: float
+    variance: float
+    ridge: float
+
+
+@dataclass(frozen=True, eq=False)
+class Regression:
+    """Coefficients (…, p, m) and noise covariance (…, p, p)."""
+
+    coefficients: Array
+    covariance: Array
+
+    @classmethod
+    def of(cls, sums: Sums, prior: Prior) -> Regression:
+        """Return the regression with the highest posterior density."""
+        yy, yx, xx, count = sums
+        # B = S_yx (S_xx + λ I)⁻¹
+        ridge = xx + prior.ridge * np.eye(xx.shape[-1])
+        coefficients = transpose_each(np.linalg.solve(ridge, transpose_each(yx)))
+        # The residuals, λ B Bᵀ included: S_yy − B S_xy where B minimises.
+        residual = yy - coefficients @ transpose_each(yx)
+        residual = 0.5 * (residual + transpose_each(residual))
+        # V = (residuals + ν s² I) / (n + ν)
+        scale = prior.frames * prior.variance * np.eye(residual.shape[-1])
+        return cls(coefficients, (residual + scale) / (count + prior.frames))
+
+    def log_prior(self, prior: Prior) -> float:
+        """Return −½ (ν log |V| + tr V⁻¹(ν s² I + λ B Bᵀ)), summed over the leading axes."""
+        _, log_determinant = np.linalg.slogdet(self.covariance)
+        squares = self.coefficients @ transpose_each(self.coefficients)
+        scale = prior.frames * prior.variance * np.eye(squares.shape[-1]) + prior.ridge * squares
+        trace = np.trace(np.linalg.solve(self.covariance, scale), axis1=-2, axis2=-1)
+        return -0.5 * float(np.sum(prior.frames * log_determinant + trace))
+
+
+Priors = tuple[Prior, Prior, Prior]
+"""Of the first state, a regression on 1; of the next state on the state; of each channel on the
+state and 1."""
+
+PRIORS: Priors = (
+    Prior(frames=10.0, variance=1.0, ridge=1.0),
+    Prior(frames=1.0, variance=1e-2, ridge=1e-2),
+    Prior(frames=10.0, variance=1.0, ridge=1.0),
+)
+"""A recording is one frame of the start, so that a few recordings leave it nearly N(0, I)."""
+
+
+@dataclass(frozen=True, eq=False)
+class StateSpaceParameters:
+    """The parameters of the model of q states and D channels.
+
+    Parameters
+    ----------
+    start : Regression
+        Mean m as (q, 1) and covariance P (q, q) of the first state.
+    dynamics : Regression
+        Transition A (q, q) and covariance Q (q, q) of its noise.
+    emission : Regression
+        By channel the row of (C, d) as (D, 1, q + 1), and the variance r as (D, 1, 1).
+    """
+
+    start: Regression
+    dynamics: Regression
+    emission: Regression
+
+    @property
+    def n_states(self) -> int:
+        """The number q of states."""
+        return len(self.dynamics.coefficients)
+
+    @property
+    def loadings(self) -> Array:
+        """C (D, q)."""
+        return self.emission.coefficients[:, 0, :-1]
+
+    @property
+    def offset(self) -> Array:
+        """The offset d (D,) of the channels."""
+        return self.emission.coefficients[:, 0, -1]
+
+    @property
+    def noise(self) -> Array:
+        """The variance r (D,) of the channels' noise."""
+        return self.emission.covariance[:, 0, 0]
+
+    @cached_property
+    def squares(self) -> Array:
+        """(D, q²) the outer product of each channel's loadings with themselves."""
+        products = self.loadings[:, :, None] * self.loadings[:, None, :]
+        return np.asarray(products.reshape(len(products), -1))
+
+    def log_prior(self, priors: Priors) -> float:
+        """Return the log-density of the priors up to a constant."""
+        start, dynamics, emission = priors
+        return (
+            self.start.log_prior(start)
+            + self.dynamics.log_prior(dynamics)
+            + self.emission.log_prior(emission)
+        )
+
+
+def entry_moments(
+    parameters: StateSpaceParameters, mean: Array, covariance: Array
+) -> tuple[Array, Array]:
+    """Return the mean and variance of every entry, noise included: (K, N, D) each.
+
+    Parameters
+    ----------
+    parameters : StateSpaceParameters
+    mean, covariance : ndarray of shapes (K, N, q) and (K, N, q, q)
+        Those of the states.
+    """
+    # c_d' P c_d of all channels at once, as products of P and c_d c_d'.
+    signal = covariance.reshape(*covariance.shape[:2], -1) @ parameters.squares.T
+    variance = np.maximum(signal, 0.0) + parameters.noise
+    return mean @ parameters.loadings.T + parameters.offset, variance
+
+
+def draw_sequences(
+    parameters: StateSpaceParameters, n_samples: int, n_frames: int, rng: np.random.Generator
+) -> Array:
+    """Return new sequences in standard units, noise included: (n, N, D)."""
+    q, n_channels = parameters.n_states, len(parameters.noise)
+    shocks = rng.standard_normal((n_frames, n_samples, q))
+    noise = rng.standard_normal((n_samples, n_frames, n_channels)) * np.sqrt(parameters.noise)
+    first = shocks[0] @ np.linalg.cholesky(parameters.start.covariance).T
+    states = [parameters.start.coefficients[:, 0] + first]
+    later = shocks[1:] @ np.linalg.cholesky(parameters.dynamics.covariance).T
+    for shock in later:
+        states.append(states[-1] @ parameters.dynamics.coefficients.T + shock)
+    paths = np.stack(states, axis=1)
+    return np.asarray(paths @ parameters.loadings.T + parameters.offset + noise)
+
+
+def transpose_each(matrices: NDArray[Any]) -> Array:
+    """Return the transpose of each matrix of (…, a, b)."""
+    return np.swapaxes(matrices, -1, -2)
