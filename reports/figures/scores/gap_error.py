@@ -35,11 +35,11 @@ def gap_error(
         return None
     title = results.metrics[metric].title
     n = format_count(max(len(windows[label]) for label in labels), "gap")
-    banded = {labels[0], labels[-1]}
+    banded = list(dict.fromkeys([labels[0], labels[-1]]))
     caption = (
         f"mean over {n} of all windows and cases with recordings, each stretched to one length, of "
         f"{CHOICE}. Shaded areas hold the middle half of the gaps, of "
-        f"{' and '.join(sorted(banded, key=labels.index))}."
+        f"{' and '.join(banded)}."
     )
     drawn = _axes({label: windows[label] for label in labels}, title, banded, styles)
     legend = line_keys({label: styles[label] for label in labels})
@@ -57,7 +57,7 @@ def _windows(results: TaskResults, parts: ErrorParts, metric: str) -> dict[str, 
 
 
 def _axes(
-    windows: Mapping[str, Array], title: str, banded: set[str], styles: Mapping[str, DrawingStyle]
+    windows: Mapping[str, Array], title: str, banded: list[str], styles: Mapping[str, DrawingStyle]
 ) -> Markup:
     n_places = next(iter(windows.values())).shape[1]
     places = (np.arange(n_places) + 0.5) / n_places

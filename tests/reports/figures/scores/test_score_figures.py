@@ -231,8 +231,15 @@ def test_the_error_along_the_gap_is_of_the_best_over_all_windows(drawn):
     parts = ErrorParts({"small": "mse"}, _parts(LABELS, windows))
     figure = gap_error(results, parts, styles)
     (root,) = _roots(figure)
-    lines = [g for g in root.iter("g") if any(p.get("class") == "line" for p in g.iter("path"))]
-    assert [g.attrib["data-model"] for g in lines] == ["knn", "linear", "nn"]
+    labels = {
+        kind: [
+            g.get("data-model")
+            for g in root.iter("g")
+            if g.find(f"path[@class='{kind}']") is not None
+        ]
+        for kind in ("band", "line")
+    }
+    assert labels == {"band": ["knn", "nn"], "line": ["knn", "linear", "nn"]}
     assert "mean over 7 gaps" in figure.caption
 
 
