@@ -19,8 +19,8 @@ from .bundle.pictures import (
 )
 from .bundle.regression_check import RegressionCheck
 from .bundle.task_page import Figure, RowNotes, TaskPage
-from .filling.page import render_filled
-from .filling.values import FilledCurve, FilledPage, RankedModel
+from .filling.curves import FilledCurve
+from .filling.page import FilledPage, render_filled
 from .page.page import render
 from .slopes.page import render_changes
 from .slopes.values import (
@@ -60,7 +60,6 @@ __all__ = [
     "Panel",
     "Path3D",
     "Picture",
-    "RankedModel",
     "RegressionCheck",
     "RestPose",
     "RowNotes",

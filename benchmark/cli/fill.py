@@ -20,7 +20,7 @@ from mocapbench.benchmark.cli.options import Plugins, load_plugins
 from mocapbench.benchmark.errors import UsageError
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark.filling import Filled, Outputs, Source, Workers
+    from mocapbench.benchmark.filling import FilledFile, InputFile, OutputPaths, Workers
 
 __all__ = ["app"]
 
@@ -38,7 +38,7 @@ def fill(
         list[Path] | None, typer.Option(help="A recording to learn from besides; may be repeated.")
     ] = None,
     model: Annotated[
-        str, typer.Option(help="A model, or best: the one that does best in trials.")
+        str, typer.Option(help="A model, or best: the one that errs least in held-out gaps.")
     ] = "best",
     frames: Annotated[
         str | None, typer.Option(help="Fill frames A:B (0-based, without B), not the gaps.")
@@ -53,7 +53,7 @@ def fill(
         float | None, typer.Option(min=0.0, help="Seconds; leave longer gaps open.")
     ] = None,
     budget: Annotated[
-        float, typer.Option(min=1.0, help="Seconds for the trials of each file.")
+        float, typer.Option(min=1.0, help="Seconds to compare models on each file.")
     ] = 30.0,
     rate: Annotated[
         float | None, typer.Option(help="Frames per second, in place of what the files say.")
@@ -66,51 +66,52 @@ def fill(
     shows them.
     """
     console, plugins = LiteralConsole(), load_plugins(plugin)
-    outputs = dict(zip(files, filling.outputs_of(files, out), strict=True))
-    entries = filling.NamedEntries(_range(frames), channels, max_gap)
-    sources, left_out = filling.read_sources(files, train or (), rate, entries)
-    for source in sources:
+    outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
+    entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap)
+    inputs, left_out = filling.read_input_files(files, train or (), rate, entries)
+    for source in inputs:
         if model == filling.BEST:
-            filling.require_room(source.question)
+            filling.require_room(source.problem)
         else:
-            filling.require_able(model, source.question)
+            filling.require_candidate(model, source.problem)
     for reason in left_out:
         console.print(f"left out: {reason}", soft_wrap=True, highlight=False)
     try:
         with filling.Workers(bench.n_cores(), plugins) as workers:
-            for source in sources:
-                _fill(source, model, workers, budget, outputs[source.path], console)
+            for source in inputs:
+                _fill_file(source, model, workers, budget, outputs[source.path], console)
     except KeyboardInterrupt:
         console.print("interrupted; files that were filled are kept, others were not written")
         raise
 
 
-def _fill(
-    source: Source,
+def _fill_file(
+    source: InputFile,
     model: str,
     workers: Workers,
     budget: float,
-    outputs: Outputs,
+    outputs: OutputPaths,
     console: LiteralConsole,
 ) -> None:
-    with console.status(f"{source.path.name}: trials") as status:
-        show = status.update if console.is_terminal else _now_and_then(console)
-        watch = _watch(source.path.name, show)
+    with console.status(f"{source.path.name}: comparing models") as status:
+        show = status.update if console.is_terminal else _print_now_and_then(console)
+        watch = _make_watch(source.path.name, show)
         filled = filling.fill(source, model, workers, budget, watch)
-    filling.write(filled, outputs, reports.render_filled(filling.page_of(filled, _command())))
-    _say(filled, outputs, console)
+    page = filling.compose_page(filled, _quote_command())
+    filling.write(filled, outputs, reports.render_filled(page))
+    _print_result(filled, outputs, console)
 
 
-def _watch(name: str, show: Callable[[str], object]) -> Callable[[int, int], None]:
+def _make_watch(name: str, show: Callable[[str], object]) -> Callable[[int, int], None]:
     started = time.monotonic()
 
     def watch(done: int, total: int) -> None:
-        show(f"{name}: {done} of {total} trials, {time.monotonic() - started:.0f} s")
+        show(f"{name}: {done} of {total} hold-outs filled, {time.monotonic() - started:.0f} s")
 
     return watch
 
 
-def _now_and_then(console: LiteralConsole) -> Callable[[str], None]:
+def _print_now_and_then(console: LiteralConsole) -> Callable[[str], None]:
     """Return what prints a line unless it printed one just before, where there is no terminal."""
     shown = time.monotonic()
 
@@ -123,15 +124,19 @@ def _now_and_then(console: LiteralConsole) -> Callable[[str], None]:
     return show
 
 
-def _say(filled: Filled, outputs: Outputs, console: LiteralConsole) -> None:
-    sentences = (filling.headline(filled), filling.verdict(filled), *filling.remarks(filled))
+def _print_result(filled: FilledFile, outputs: OutputPaths, console: LiteralConsole) -> None:
+    sentences = (
+        filling.describe_fill(filled),
+        filling.describe_choice(filled),
+        *filling.list_remarks(filled),
+    )
     for text in filter(None, sentences):
         console.print(f"{filled.source.path.name}: {text}", soft_wrap=True, highlight=False)
     for path in outputs:
         console.print(f"  {path}", soft_wrap=True, highlight=False)
 
 
-def _range(frames: str | None) -> tuple[int, int] | None:
+def _parse_frames(frames: str | None) -> tuple[int, int] | None:
     if frames is None:
         return None
     found = _FRAMES.fullmatch(frames)
@@ -140,5 +145,5 @@ def _range(frames: str | None) -> tuple[int, int] | None:
     return int(found[1]), int(found[2])
 
 
-def _command() -> str:
+def _quote_command() -> str:
     return join(["mocapbench", *sys.argv[1:]])

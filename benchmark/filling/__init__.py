@@ -1,7 +1,7 @@
 """Filling the gaps of a user's own recordings: by which model, and what it puts there.
 
-`read_sources` reads files and finds what is to be filled, `fill` has models try themselves on gaps
-like these and the best fill them, and `write` writes the results.
+`read_input_files` reads files and finds what is to be filled, `fill` compares models in held-out
+gaps and has the best fill the real ones, and `write` writes the results.
 """
 
 import lazy_loader

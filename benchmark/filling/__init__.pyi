@@ -1,28 +1,28 @@
-from .able import require_able
-from .filler import BEST, Filled, fill
-from .page import page_of
+from .candidates import require_candidate
+from .choosing.choice import require_room
+from .filled_file import BEST, FilledFile, fill
+from .input_files import InputFile, read_input_files
+from .messages import describe_choice, describe_fill, list_remarks
+from .output_files import OutputPaths, name_output_files, write
+from .page import compose_page
 from .requests.request import NamedEntries
-from .sources import Source, read_sources
-from .trials.choice import require_room
-from .wording import headline, remarks, verdict
 from .workers import Workers
-from .writing import Outputs, outputs_of, write
 
 __all__ = [
     "BEST",
-    "Filled",
+    "FilledFile",
+    "InputFile",
     "NamedEntries",
-    "Outputs",
-    "Source",
+    "OutputPaths",
     "Workers",
+    "compose_page",
+    "describe_choice",
+    "describe_fill",
     "fill",
-    "headline",
-    "outputs_of",
-    "page_of",
-    "read_sources",
-    "remarks",
-    "require_able",
+    "list_remarks",
+    "name_output_files",
+    "read_input_files",
+    "require_candidate",
     "require_room",
-    "verdict",
     "write",
 ]

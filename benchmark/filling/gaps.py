@@ -12,7 +12,7 @@ import numpy as np
 from mocapbench.basics.gaps import run_bounds
 from mocapbench.datasets import Mask
 
-__all__ = ["Episode", "Gap", "episodes_of", "gaps_of", "mask_of"]
+__all__ = ["Episode", "Gap", "find_gaps", "group_gaps", "mask_gaps"]
 
 
 @dataclass(frozen=True, order=True)
@@ -34,7 +34,7 @@ class Gap:
     def __len__(self) -> int:
         return self.stop - self.start
 
-    def moved(self, frames: int) -> Self:
+    def move(self, frames: int) -> Self:
         """Return the gap so many frames later."""
         return replace(self, start=self.start + frames, stop=self.stop + frames)
 
@@ -69,11 +69,11 @@ class Episode:
         """The number of hidden entries."""
         return sum(len(gap) * len(gap.channels) for gap in self.gaps)
 
-    def moved(self, frames: int) -> Self:
+    def move(self, frames: int) -> Self:
         """Return the episode so many frames later."""
-        return replace(self, gaps=tuple(gap.moved(frames) for gap in self.gaps))
+        return replace(self, gaps=tuple(gap.move(frames) for gap in self.gaps))
 
-    def shortened(self, share: float) -> Self:
+    def shorten(self, share: float) -> Self:
         """Return the episode with all its times, from its start on, cut to a share of them."""
         start = self.start
 
@@ -86,7 +86,7 @@ class Episode:
         return replace(self, gaps=tuple(gaps))
 
 
-def gaps_of(hidden: Mask) -> tuple[Gap, ...]:
+def find_gaps(hidden: Mask) -> tuple[Gap, ...]:
     """Return the gaps of a mask (N, D), by their first frame; together they are the mask."""
     alike: dict[tuple[int, int], list[int]] = defaultdict(list)
     for channel, column in enumerate(hidden.T):
@@ -95,7 +95,7 @@ def gaps_of(hidden: Mask) -> tuple[Gap, ...]:
     return tuple(Gap(start, stop, tuple(alike[start, stop])) for start, stop in sorted(alike))
 
 
-def mask_of(gaps: Iterable[Gap], shape: tuple[int, ...]) -> Mask:
+def mask_gaps(gaps: Iterable[Gap], shape: tuple[int, ...]) -> Mask:
     """Return the mask (N, D) of the entries in any of the gaps."""
     hidden = np.zeros(shape, dtype=bool)
     for gap in gaps:
@@ -103,7 +103,7 @@ def mask_of(gaps: Iterable[Gap], shape: tuple[int, ...]) -> Mask:
     return hidden
 
 
-def episodes_of(gaps: Sequence[Gap]) -> tuple[Episode, ...]:
+def group_gaps(gaps: Sequence[Gap]) -> tuple[Episode, ...]:
     """Return the gaps grouped into episodes, by their first frame."""
     groups: list[list[Gap]] = []
     reach = 0

@@ -8,6 +8,7 @@ import time
 from collections.abc import Collection
 from concurrent.futures import Future
 from contextlib import ExitStack
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from types import TracebackType
@@ -15,8 +16,8 @@ from typing import Self
 
 from pebble import ProcessExpired
 
-from mocapbench.benchmark.filling.attempt import Attempt, attempt
-from mocapbench.benchmark.filling.question import GapQuestion
+from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
+from mocapbench.benchmark.filling.problem import GapProblem
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.runs.execution.child import (
     ProcessDiedError,
@@ -32,7 +33,7 @@ __all__ = ["Workers"]
 
 
 class Workers:
-    """Processes on this machine that answer questions; they end with the context.
+    """Processes on this machine that fill gaps; they end with the context.
 
     Parameters
     ----------
@@ -64,55 +65,59 @@ class Workers:
         self._pool.stop()
         self._resources.close()
 
-    def keep(self, question: GapQuestion) -> Path:
-        """Write a question where the workers read it, and return the file."""
-        path = self._folder / f"question-{next(self._numbers)}"
-        path.write_bytes(pickle.dumps(question, protocol=pickle.HIGHEST_PROTOCOL))
+    def keep(self, problem: GapProblem) -> Path:
+        """Write a problem where the workers read it, and return the file."""
+        path = self._folder / f"problem-{next(self._numbers)}"
+        path.write_bytes(pickle.dumps(problem, protocol=pickle.HIGHEST_PROTOCOL))
         return path
 
     def submit(
-        self, model: str, question: Path, seconds: float, method: str = "impute"
-    ) -> Future[Attempt]:
-        """Have a model answer a question as soon as a worker is free, within so many seconds.
+        self, model: str, problem: Path, seconds: float, method: str = "impute"
+    ) -> Future[FillAttempt]:
+        """Have a model solve a problem as soon as a worker is free, within so many seconds.
 
-        See `attempt` for the method.
+        See `attempt_fill` for the method.
         """
         limits = seconds, self._memory
-        return self._pool.submit(_attempt_fill, model, question, method, limits, self._plugins)
+        return self._pool.submit(_attempt_in_child, model, problem, method, limits, self._plugins)
 
-    def ended(self, futures: Collection[Future[Attempt]]) -> Collection[Future[Attempt]]:
+    def wait_for_any(
+        self, futures: Collection[Future[FillAttempt]]
+    ) -> Collection[Future[FillAttempt]]:
         """Wait until one or more of ``futures`` have ended, and return them."""
         return self._pool.wait_for_any(futures)
 
-    def result(self, future: Future[Attempt]) -> Attempt:
+    def collect(self, future: Future[FillAttempt]) -> FillAttempt:
         """Return how an attempt ended, whose worker may have died."""
         try:
             return future.result()
         except ProcessExpired as error:
-            return Attempt(None, f"its worker died with exit code {error.exitcode}")
+            return FillAttempt(None, f"its worker died with exit code {error.exitcode}")
 
 
-def _attempt_fill(
-    name: str, question: Path, method: str, limits: tuple[float, int], plugins: tuple[Path, ...]
-) -> Attempt:
+def _attempt_in_child(
+    name: str, problem: Path, method: str, limits: tuple[float, int], plugins: tuple[Path, ...]
+) -> FillAttempt:
     """Return one attempt, made in a child of this process."""
     started, (seconds, memory) = time.perf_counter(), limits
     load_plugins_once(plugins)
-    model, asked = MODELS.get(name), _question(question)
+    model, given = MODELS.get(name), _read_problem(problem)
     try:
-        made: Attempt = call_in_child(attempt, model, asked, memory, method, timeout=seconds)
+        made: FillAttempt = call_in_child(
+            attempt_fill, model, given, memory, method, timeout=seconds
+        )
     except TimeoutError:
-        made = Attempt(
-            None, f"was stopped after {round(seconds, 2):g} s, when its time was up", slow=True
+        made = FillAttempt(
+            None, f"was stopped after {round(seconds, 2):g} s, when its time was up", timed_out=True
         )
     except ProcessDiedError as error:
-        made = Attempt(None, f"its process died with exit code {error.exit_code}")
+        made = FillAttempt(None, f"its process died with exit code {error.exit_code}")
     finally:
         kill_children()  # what the model started and left running
-    return made.taking(time.perf_counter() - started)
+    return replace(made, seconds=time.perf_counter() - started)
 
 
 @lru_cache(maxsize=2)
-def _question(path: Path) -> GapQuestion:
-    question: GapQuestion = pickle.loads(path.read_bytes())
-    return question
+def _read_problem(path: Path) -> GapProblem:
+    problem: GapProblem = pickle.loads(path.read_bytes())
+    return problem

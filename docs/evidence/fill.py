@@ -19,11 +19,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.benchmark.filling.able import able_models
-from mocapbench.benchmark.filling.gaps import gaps_of
-from mocapbench.benchmark.filling.question import GapQuestion
-from mocapbench.benchmark.filling.trials.choice import choose
-from mocapbench.benchmark.filling.trials.comparison import Choice
+from mocapbench.benchmark.filling.candidates import find_candidates
+from mocapbench.benchmark.filling.choosing.choice import Choice, choose
+from mocapbench.benchmark.filling.gaps import find_gaps
+from mocapbench.benchmark.filling.problem import GapProblem
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.datasets import AcclaimFormat, Mask, Recording, unwrap_angles
 
@@ -67,10 +66,10 @@ class Cut(NamedTuple):
 
 
 class Result(NamedTuple):
-    """Errors of each model in the file itself, and how they did in trials."""
+    """Errors of each model in the file itself, and how they did in held-out gaps."""
 
     squares: dict[str, Array]
-    """Sums of squared errors in each gap (n, 2): of angles, in square degrees; of place, in cm²."""
+    """Sums of squared errors in each gap (n, 2): of angles, in deg²; of position, in cm²."""
     counts: Array
     """The number of angles and of coordinates in each gap (n, 2)."""
     choice: Choice
@@ -104,7 +103,7 @@ def cuts(recording: Recording) -> dict[str, Cut]:
 
 
 def mask_of(recording: Recording, cut: Cut, rng: np.random.Generator) -> Mask:
-    """Return a mask with gaps at random places, none of which touch."""
+    """Return a mask with gaps at random positions, none of which touch."""
     owners = np.array([name.split(".")[0] for name in recording.channels])
     hidden, n_frames = np.zeros(recording.values.shape, dtype=bool), len(recording.times)
     for _ in range(cut.n_gaps):
@@ -132,27 +131,27 @@ def problems(
 
 def evaluate(recording: Recording, hidden: Mask, workers: Workers, budget: float) -> Result:
     """Return how the choice and every other able model fill the gaps."""
-    question = GapQuestion(unwrap_angles(recording.hide(hidden)), hidden)
-    choice = choose(question, workers, budget, lambda *_: None)
-    kept = workers.keep(question)
-    able = [model for model in able_models(question) if model in choice.ranking.order]
+    problem = GapProblem(unwrap_angles(recording.hide(hidden)), hidden)
+    choice = choose(problem, workers, budget, lambda *_: None)
+    kept = workers.keep(problem)
+    able = [model for model in find_candidates(problem) if model in choice.ranking.order]
     futures = {model: workers.submit(model, kept, 600.0) for model in able}
-    answers = {model: workers.result(future).answer for model, future in futures.items()}
+    predictions = {model: workers.collect(future).prediction for model, future in futures.items()}
     squares = {
-        model: by_gap(recording, hidden, answer.mean)
-        for model, answer in answers.items()
-        if answer is not None
+        model: by_gap(recording, hidden, prediction.mean)
+        for model, prediction in predictions.items()
+        if prediction is not None
     }
     angles = np.array(recording.units) == "deg"
     counts = [
         [len(gap) * kind[list(gap.channels)].sum() for kind in (angles, ~angles)]
-        for gap in gaps_of(hidden)
+        for gap in find_gaps(hidden)
     ]
     return Result(squares, np.array(counts, dtype=float), choice)
 
 
 def by_gap(recording: Recording, hidden: Mask, mean: Array) -> Array:
-    """Return the sums of squared errors of angles and place in each gap (n, 2).
+    """Return the sums of squared errors of angles and position in each gap (n, 2).
 
     Whole turns are no error.
     """
@@ -161,7 +160,7 @@ def by_gap(recording: Recording, hidden: Mask, mean: Array) -> Array:
     off[hidden] = mean - recording.values[hidden]
     off[:, angles] -= 360.0 * np.round(off[:, angles] / 360.0)
     off[:, ~angles] *= CENTIMETRES
-    within = [(off[gap.start : gap.stop], list(gap.channels)) for gap in gaps_of(hidden)]
+    within = [(off[gap.start : gap.stop], list(gap.channels)) for gap in find_gaps(hidden)]
     return np.array(
         [
             [(block[:, channels][:, kind[channels]] ** 2).sum() for kind in (angles, ~angles)]
@@ -190,7 +189,7 @@ def row(what: Sequence[str], result: Result, best: str, hindsight: str) -> str:
         model: " | ".join("" if np.isnan(error) else f"{error:.2f}" for error in errors[model])
         for model in (best, hindsight, "linear")
     }
-    n = str(result.choice.ranking.n)
+    n = str(result.choice.ranking.n_gaps)
     cells = (*what, n, best, pairs[best], hindsight, pairs[hindsight], pairs["linear"])
     return f"| {' | '.join(cells)} |"
 
@@ -219,11 +218,11 @@ def main() -> None:
             print(row((f"{name} {RECORDINGS[name]}", kind), result, best, hindsight), flush=True)
             relative = [scores[best] / scores[other] for other in (hindsight, "linear")]
             rows.append([*relative, *(errors[best] / errors["linear"])])
-    to_hindsight, to_linear, angles, place = np.array(rows).T
+    to_hindsight, to_linear, angles, position = np.array(rows).T
     report("Scores", "hindsight", to_hindsight, 1.10)
     report("Scores", "linear", to_linear, 1.05)
     report("Angles", "linear", angles, 1.05)
-    report("Place", "linear", place, 1.05)
+    report("Position", "linear", position, 1.05)
     ratio = np.concatenate(halves)
     print(
         f"\nA model chosen by the truth in half of the gaps, relative to hindsight in the others: "

@@ -34,8 +34,8 @@ from mocapbench.baselines import (
     Prediction,
     RigidBody,
 )
-from mocapbench.benchmark.filling.question import GapQuestion
-from mocapbench.benchmark.filling.trials.choice import choose
+from mocapbench.benchmark.filling.choosing.choice import choose
+from mocapbench.benchmark.filling.problem import GapProblem
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.datasets import (
@@ -133,7 +133,7 @@ def fills(
 ) -> Iterator[tuple[str, float, float]]:
     """Yield what fills, its error, and the share that intervals hold, if it has any."""
     given = recording.hide(hidden)
-    chosen = choose(GapQuestion(given, hidden), workers, budget, lambda *_: None).ranking.order[0]
+    chosen = choose(GapProblem(given, hidden), workers, budget, lambda *_: None).ranking.order[0]
     for name, model in {**MODELS_ALONE, f"best: {chosen}": MODELS.get(chosen)()}.items():
         (prediction,) = model.fit([given]).impute([given])
         share = np.nan if prediction.variance is None else held(recording, hidden, prediction)

@@ -1,6 +1,8 @@
-"""Draw filled channels, their gaps shaded."""
+"""A filled channel around some of its gaps, and its drawing, in which gaps are shaded."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 from markupsafe import Markup
@@ -14,15 +16,49 @@ from mocapbench.reports.figures.marks import band, group, horizontal, polyline, 
 from mocapbench.reports.figures.pictures.thinning import thin_points
 from mocapbench.reports.figures.styles import TRUTH, DrawingStyle
 from mocapbench.reports.figures.svg_figure import Key
-from mocapbench.reports.filling.values import FILLED_FRAMES, FilledCurve
 
-__all__ = ["MOTION_STYLES", "draw_curve", "legend"]
+__all__ = [
+    "FILLED_FRAMES",
+    "GIVEN_FRAMES",
+    "MOTION_STYLES",
+    "FilledCurve",
+    "draw_curve",
+    "draw_legend",
+]
 
+FILLED_FRAMES, GIVEN_FRAMES = "filled", "in the file"
+"""The groups of the figures of a motion: with filled entries, and without."""
 HEIGHT = 120.0
 FILLED = DrawingStyle("h0", 1)
 MOTION_STYLES = {FILLED_FRAMES: FILLED}
 """Of the figures of a motion; those in the file are drawn as the truth is everywhere."""
 _WITHIN_95 = 1.96
+
+
+@dataclass(frozen=True, eq=False)
+class FilledCurve:
+    """A channel around some of its gaps.
+
+    Parameters
+    ----------
+    channel, unit : str
+    times : ndarray of shape (N,)
+        Seconds.
+    visible, filled : ndarray of shape (N,)
+        Values that were there, and that the model put in; NaN where there are none.
+    deviation : ndarray of shape (N,)
+        Standard deviations of the filled values; NaN where there are none.
+    gaps : tuple of (float, float)
+        From when until when the channel was filled.
+    """
+
+    channel: str
+    unit: str
+    times: Array
+    visible: Array
+    filled: Array
+    deviation: Array
+    gaps: tuple[tuple[float, float], ...]
 
 
 def draw_curve(curve: FilledCurve) -> Markup:
@@ -34,13 +70,13 @@ def draw_curve(curve: FilledCurve) -> Markup:
     y = fit_linear_scale(values, TOP + HEIGHT, TOP)
     axes = Axes(x, y, printable(curve.channel), "time, s", printable(curve.unit))
     marks = [
-        *(_gap(axes, *gap) for gap in curve.gaps),
+        *(_shade_gap(axes, *gap) for gap in curve.gaps),
         group(
             FILLED,
             band(x.places(curve.times), y.places(low), y.places(high)),
-            _line(axes, curve.times, _join_neighbours(curve)),
+            _draw_line(axes, curve.times, _join_neighbours(curve)),
         ),
-        group(TRUTH, _line(axes, curve.times, curve.visible)),
+        group(TRUTH, _draw_line(axes, curve.times, curve.visible)),
     ]
     return axes.draw(marks, _describe_curve(curve))
 
@@ -50,7 +86,7 @@ def _describe_curve(curve: FilledCurve) -> str:
     return f"{printable(curve.channel)} over time, with {gaps}"
 
 
-def legend() -> tuple[Key, ...]:
+def draw_legend() -> tuple[Key, ...]:
     """Return the keys that all curves share."""
     line = horizontal(0.0, 28.0, 7.0, "line")
     return (
@@ -60,13 +96,13 @@ def legend() -> tuple[Key, ...]:
     )
 
 
-def _gap(axes: Axes, first: float, last: float) -> str:
+def _shade_gap(axes: Axes, first: float, last: float) -> str:
     """Return the shade of a gap, cut where the axis ends."""
     start, stop = (axes.x.place(min(max(t, axes.x.low), axes.x.high)) for t in (first, last))
     return rectangle(start, TOP, stop - start, HEIGHT, "shade")
 
 
-def _line(axes: Axes, times: Array, values: Array) -> str:
+def _draw_line(axes: Axes, times: Array, values: Array) -> str:
     return polyline(*thin_points(np.stack([axes.x.places(times), axes.y.places(values)], axis=1)).T)
 
 

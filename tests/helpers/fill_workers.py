@@ -2,7 +2,7 @@
 
 from concurrent.futures import Future
 
-from mocapbench.benchmark.filling.attempt import Attempt, attempt
+from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
 from mocapbench.benchmark.registry import MODELS
 
 
@@ -14,22 +14,22 @@ class Here:
     def __init__(self, slow=()):
         self.slow, self.kept, self.limits, self.asked = slow, [], [], []
 
-    def keep(self, question):
-        self.kept.append(question)
+    def keep(self, problem):
+        self.kept.append(problem)
         return len(self.kept) - 1
 
-    def submit(self, model, question, seconds, method):
+    def submit(self, model, problem, seconds, method):
         self.limits.append((model, seconds))
         self.asked.append(method)
         ended = Future()
         if model in self.slow:
-            ended.set_result(Attempt(None, "took longer", slow=True))
+            ended.set_result(FillAttempt(None, "took longer", timed_out=True))
         else:
-            ended.set_result(attempt(MODELS.get(model), self.kept[question], 2**45, method))
+            ended.set_result(attempt_fill(MODELS.get(model), self.kept[problem], 2**45, method))
         return ended
 
-    def ended(self, futures):
+    def wait_for_any(self, futures):
         return list(futures)[:1]
 
-    def result(self, future):
+    def collect(self, future):
         return future.result()

@@ -15,13 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mocapbench.benchmark.filling.gaps import gaps_of
-from mocapbench.benchmark.filling.question import FilledEntries, GapQuestion
-from mocapbench.benchmark.filling.trials.making import make_trials
-from mocapbench.benchmark.filling.trials.places import places_of
-from mocapbench.benchmark.filling.trials.ranking import Ranking, rank
-from mocapbench.benchmark.filling.trials.scores import held_errors, scores_of, weights_of
-from mocapbench.benchmark.filling.trials.trial import Trial
+from mocapbench.benchmark.filling.choosing.hold_outs import HoldOut, make_hold_outs
+from mocapbench.benchmark.filling.choosing.ranking import Ranking, number_positions, rank
+from mocapbench.benchmark.filling.choosing.scores import score_gaps, score_holding, weigh_gaps
+from mocapbench.benchmark.filling.gaps import find_gaps
+from mocapbench.benchmark.filling.problem import GapProblem, PredictedEntries
 from mocapbench.datasets import Mask, Recording
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "speed"))
@@ -48,7 +46,7 @@ FILES = {
 }
 
 
-def files(name: str, n_files: int) -> Iterator[GapQuestion]:
+def files(name: str, n_files: int) -> Iterator[GapProblem]:
     """Yield files of one kind, with their gaps."""
     n_frames, gaps = FILES[name]
     target = np.zeros((n_frames, len(ALL)), dtype=bool)
@@ -59,28 +57,28 @@ def files(name: str, n_files: int) -> Iterator[GapQuestion]:
     for _ in range(n_files):
         walk = np.cumsum(rng.normal(size=n_frames))[:, None]
         values = walk + rng.normal(0.0, 0.05, target.shape)
-        yield GapQuestion(
+        yield GapProblem(
             Recording("r", times, values, ("a", "b", "c"), ("mm",) * 3).hide(target), target
         )
 
 
-def rankings(question: GapQuestion, lead: float = 0.0) -> tuple[Ranking, Ranking]:
-    """Return the ranking of both models, with each trial gap as one unit, and with places."""
-    trials = make_trials(question, np.random.default_rng(0))
-    scales, heights = held_errors(trials), {"above": HEIGHT - lead, "below": -HEIGHT}
-    scores = {
-        model: scores_of(trials, [_answer(trial, height) for trial in trials], scales)
+def rankings(problem: GapProblem, lead: float = 0.0) -> tuple[Ranking, Ranking]:
+    """Return the ranking of both models, with each held-out gap as a unit, then each position."""
+    hold_outs = make_hold_outs(problem, np.random.default_rng(0))
+    scales, heights = score_holding(hold_outs), {"above": HEIGHT - lead, "below": -HEIGHT}
+    errors = {
+        model: score_gaps(hold_outs, [_fill(hold_out, height) for hold_out in hold_outs], scales)
         for model, height in heights.items()
     }
-    weights, places = weights_of(trials), places_of(trials)
-    return rank(scores, weights, np.arange(len(places))), rank(scores, weights, places)
+    weights, positions = weigh_gaps(hold_outs), number_positions(hold_outs)
+    return rank(errors, weights, np.arange(len(positions))), rank(errors, weights, positions)
 
 
-def _answer(trial: Trial, height: float) -> FilledEntries:
-    values = trial.question.given.values
+def _fill(hold_out: HoldOut, height: float) -> PredictedEntries:
+    values = hold_out.problem.given.values
     filled = np.column_stack([_line(column) for column in values.T])
     filled += height * _bows(~np.isfinite(values))
-    return FilledEntries(filled[trial.question.target], None)
+    return PredictedEntries(filled[hold_out.problem.target], None)
 
 
 def _line(column: np.ndarray) -> np.ndarray:
@@ -91,7 +89,7 @@ def _line(column: np.ndarray) -> np.ndarray:
 def _bows(hidden: Mask) -> np.ndarray:
     """Return a bow over each gap, which is as high as a random walk strays from the line."""
     bows = np.zeros(hidden.shape)
-    for gap in gaps_of(hidden):
+    for gap in find_gaps(hidden):
         along = np.arange(1, len(gap) + 1) / (len(gap) + 1)
         bow = np.sqrt(len(gap)) * 4.0 * along * (1.0 - along)
         bows[gap.start : gap.stop, list(gap.channels)] = bow[:, None]
@@ -106,9 +104,9 @@ def told_apart(found: Sequence[Ranking]) -> float:
 def _rows() -> Iterator[list[str]]:
     for name in FILES:
         asked = list(files(name, N_FILES))
-        alone, placed = zip(*(rankings(question) for question in asked), strict=True)
-        _, better = zip(*(rankings(question, LEAD) for question in asked), strict=True)
-        sizes = (placed[0].n, placed[0].n_places)
+        alone, placed = zip(*(rankings(problem) for problem in asked), strict=True)
+        _, better = zip(*(rankings(problem, LEAD) for problem in asked), strict=True)
+        sizes = (placed[0].n_gaps, placed[0].n_positions)
         shares = (f"{100.0 * told_apart(found):.1f} %" for found in (alone, placed, better))
         yield [name, *map(str, sizes), *shares]
 

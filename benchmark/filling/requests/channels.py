@@ -12,10 +12,10 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.datasets import Recording
 from mocapbench.datasets.formats.strays import is_unlabelled
 
-__all__ = ["chosen"]
+__all__ = ["match_channels"]
 
 
-def chosen(
+def match_channels(
     recording: Recording, pattern: str | None, results: Collection[str]
 ) -> NDArray[np.bool_]:
     """Return which channels (D,) a regular expression matches.

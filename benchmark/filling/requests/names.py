@@ -6,18 +6,18 @@ from collections.abc import Sequence
 
 from mocapbench.baselines.common.markers import markers_of
 
-__all__ = ["marker_names"]
+__all__ = ["name_markers"]
 
 
-def marker_names(channels: Sequence[str]) -> tuple[str, ...]:
+def name_markers(channels: Sequence[str]) -> tuple[str, ...]:
     """Return the names of channels, in which one stands for the three channels of a marker.
 
     Examples
     --------
-    >>> from mocapbench.benchmark.filling.requests.names import marker_names
-    >>> marker_names(["LKNE.x", "LKNE.y", "LKNE.z", "RKNE.x", "hip.rx"])
+    >>> from mocapbench.benchmark.filling.requests.names import name_markers
+    >>> name_markers(["LKNE.x", "LKNE.y", "LKNE.z", "RKNE.x", "hip.rx"])
     ('LKNE', 'RKNE.x', 'hip.rx')
     """
     found = markers_of(channels, [""] * len(channels))
-    names = {place: marker for marker, places in found.items() for place in places}
-    return tuple(dict.fromkeys(names.get(place, name) for place, name in enumerate(channels)))
+    names = {k: marker for marker, channels_of in found.items() for k in channels_of}
+    return tuple(dict.fromkeys(names.get(k, name) for k, name in enumerate(channels)))

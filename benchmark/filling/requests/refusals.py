@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError, first_of
-from mocapbench.benchmark.filling.requests.names import marker_names
-from mocapbench.benchmark.filling.requests.zeros import zeros_caution
+from mocapbench.benchmark.filling.requests.names import name_markers
+from mocapbench.benchmark.filling.requests.zeros import describe_zeros
 from mocapbench.datasets import Recording
 
-__all__ = ["NothingToFillError", "no_gap", "nothing_known"]
+__all__ = ["NothingToFillError", "explain_no_gap", "explain_nothing_known"]
 
 _NAMED = 3
 
@@ -19,17 +19,17 @@ class NothingToFillError(UsageError):
     """A recording that needs no filling; others may need it."""
 
 
-def no_gap(
+def explain_no_gap(
     recording: Recording, pattern: str | None, unlabelled: Sequence[str], outputs: Sequence[str]
 ) -> str:
     """Return that nothing is hidden in the channels of a pattern, or in those of markers."""
     if (unlabelled or outputs) and pattern is None:
-        strays, results = (len(marker_names(names)) for names in (unlabelled, outputs))
+        strays, results = (len(name_markers(names)) for names in (unlabelled, outputs))
         counts = [
             format_count(strays, "unlabelled marker") if strays else "",
             format_count(results, "result of a model", "results of a model") if results else "",
         ]
-        names = marker_names((*unlabelled, *outputs))
+        names = name_markers((*unlabelled, *outputs))
         return (
             f"{recording.name}: expected a gap in a labelled marker, got hidden entries of "
             f"{' and '.join(filter(None, counts))} only ({first_of(names, _NAMED)}); "
@@ -39,14 +39,14 @@ def no_gap(
     hints = (
         f"{recording.name}: expected a gap, got all {which} visible; name what to fill with "
         "--frames, such as 120:180",
-        zeros_caution(recording),
+        describe_zeros(recording),
     )
     return ". ".join(filter(None, hints)).rstrip(".")
 
 
-def nothing_known(recording: Recording, unknown: Sequence[str]) -> str:
+def explain_nothing_known(recording: Recording, unknown: Sequence[str]) -> str:
     """Return that of no channel to fill anything is visible."""
     return (
         f"{recording.name}: expected a visible entry of a channel to fill, got none of "
-        f"{first_of(marker_names(unknown), _NAMED)}; name files that have these with --train"
+        f"{first_of(name_markers(unknown), _NAMED)}; name files that have these with --train"
     )

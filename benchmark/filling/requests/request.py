@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.gaps import Gap, gaps_of, mask_of
-from mocapbench.benchmark.filling.requests.channels import chosen
+from mocapbench.benchmark.filling.gaps import Gap, find_gaps, mask_gaps
+from mocapbench.benchmark.filling.requests.channels import match_channels
 from mocapbench.benchmark.filling.requests.refusals import (
     NothingToFillError,
-    no_gap,
-    nothing_known,
+    explain_no_gap,
+    explain_nothing_known,
 )
 from mocapbench.datasets import Mask, Recording, unwrap_angles
 from mocapbench.datasets.formats.strays import is_unlabelled
@@ -78,7 +78,7 @@ class FillRequest:
     @property
     def gaps(self) -> tuple[Gap, ...]:
         """The gaps to fill."""
-        return gaps_of(self.target)
+        return find_gaps(self.target)
 
 
 def select(
@@ -100,11 +100,11 @@ def select(
         If frames or channels are not in the recording, or nothing is visible.
     """
     asked = _select_entries(recording, entries, results)
-    incomplete = _incomplete(recording, asked)
+    incomplete = _find_incomplete(recording, asked)
     unlabelled = tuple(filter(is_unlabelled, incomplete))
     outputs = tuple(name for name in results if name in incomplete)
     if not asked.any():
-        raise NothingToFillError(no_gap(recording, entries.channels, unlabelled, outputs))
+        raise NothingToFillError(explain_no_gap(recording, entries.channels, unlabelled, outputs))
     given = recording.hide(asked)
     if not given.visible.any():
         raise UsageError(
@@ -112,12 +112,12 @@ def select(
             "name fewer frames or channels"
         )
     known = np.any([one.visible.any(axis=0) for one in (given, *train)], axis=0)
-    unknown = _names(recording, asked.any(axis=0) & ~known)
+    unknown = _name_channels(recording, asked.any(axis=0) & ~known)
     named = asked & known
     if not named.any():
-        raise UsageError(nothing_known(recording, unknown))
-    left_open = _longer(recording, named, entries.max_gap)
-    target = named & ~mask_of(left_open, named.shape)
+        raise UsageError(explain_nothing_known(recording, unknown))
+    left_open = _find_longer_gaps(recording, named, entries.max_gap)
+    target = named & ~mask_gaps(left_open, named.shape)
     replaced = int((target & recording.visible).sum())
     open_too = recording.hide(named)
     return FillRequest(
@@ -132,12 +132,12 @@ def select(
     )
 
 
-def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[Gap, ...]:
+def _find_longer_gaps(recording: Recording, named: Mask, max_gap: float | None) -> tuple[Gap, ...]:
     """Return the gaps that are longer than allowed, which are not all."""
-    gaps, limit = gaps_of(named), np.inf if max_gap is None else max_gap
-    longer = tuple(gap for gap in gaps if not _seconds(recording, gap) <= limit)
+    gaps, limit = find_gaps(named), np.inf if max_gap is None else max_gap
+    longer = tuple(gap for gap in gaps if not _measure_gap(recording, gap) <= limit)
     if len(longer) == len(gaps):
-        shortest = min(_seconds(recording, gap) for gap in gaps)
+        shortest = min(_measure_gap(recording, gap) for gap in gaps)
         raise NothingToFillError(
             f"{recording.name}: expected a gap of {limit:g} s or less, got "
             f"{len(gaps)} of {shortest:.3g} s or more; raise --max-gap"
@@ -147,11 +147,11 @@ def _longer(recording: Recording, named: Mask, max_gap: float | None) -> tuple[G
 
 def _select_entries(recording: Recording, entries: NamedEntries, results: Sequence[str]) -> Mask:
     """Return the entries (N, D) that are asked for: given frames, or else what is hidden."""
-    rows = ~recording.visible if entries.frames is None else _rows(recording, entries.frames)
-    return rows & chosen(recording, entries.channels, results)
+    rows = ~recording.visible if entries.frames is None else _mark_frames(recording, entries.frames)
+    return rows & match_channels(recording, entries.channels, results)
 
 
-def _rows(recording: Recording, frames: tuple[int, int]) -> Mask:
+def _mark_frames(recording: Recording, frames: tuple[int, int]) -> Mask:
     first, stop = frames
     n_frames = len(recording.times)
     if not 0 <= first < stop <= n_frames:
@@ -164,17 +164,17 @@ def _rows(recording: Recording, frames: tuple[int, int]) -> Mask:
     return rows
 
 
-def _seconds(recording: Recording, gap: Gap) -> float:
+def _measure_gap(recording: Recording, gap: Gap) -> float:
     """Return how long a gap is: its frames times the mean distance of frames within and beside."""
     first, last = max(gap.start - 1, 0), min(gap.stop, len(recording.times) - 1)
     span = float(recording.times[last] - recording.times[first])
     return len(gap) * span / max(last - first, 1)
 
 
-def _incomplete(recording: Recording, asked: Mask) -> tuple[str, ...]:
+def _find_incomplete(recording: Recording, asked: Mask) -> tuple[str, ...]:
     """Return the channels with hidden entries of which none is asked for."""
-    return _names(recording, ~recording.visible.all(axis=0) & ~asked.any(axis=0))
+    return _name_channels(recording, ~recording.visible.all(axis=0) & ~asked.any(axis=0))
 
 
-def _names(recording: Recording, which: ArrayLike) -> tuple[str, ...]:
-    return tuple(recording.channels[place] for place in np.flatnonzero(which))
+def _name_channels(recording: Recording, which: ArrayLike) -> tuple[str, ...]:
+    return tuple(recording.channels[k] for k in np.flatnonzero(which))

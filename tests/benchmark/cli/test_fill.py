@@ -81,7 +81,7 @@ def test_the_best_model_is_chosen_and_the_page_shows_the_ranking(cli, walk, out)
 def test_progress_is_shown_where_there_is_no_terminal(cli, walk, out, monkeypatch):
     monkeypatch.setattr(command, "_PLAIN_INTERVAL", 0.0)
     assert cli("fill", walk, "--budget", "1", "--out", out) == 0
-    assert re.search(r"walk.csv: \d+ of \d+ trials, \d+ s walk.csv: ", cli.printed)
+    assert re.search(r"walk.csv: \d+ of \d+ hold-outs filled, \d+ s walk.csv: ", cli.printed)
 
 
 def test_named_frames_of_a_motion_are_replaced_and_its_page_shows_it(cli, tmp_path, out):

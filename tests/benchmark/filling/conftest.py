@@ -3,13 +3,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.filling.filler import Filled
-from mocapbench.benchmark.filling.question import FilledEntries
+from mocapbench.benchmark.filling.choosing.choice import Choice
+from mocapbench.benchmark.filling.choosing.ranking import rank
+from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.benchmark.filling.input_files import InputFile
+from mocapbench.benchmark.filling.problem import PredictedEntries
 from mocapbench.benchmark.filling.requests.request import FillRequest
-from mocapbench.benchmark.filling.sources import Source
-from mocapbench.benchmark.filling.trials.comparison import Choice
-from mocapbench.benchmark.filling.trials.ranking import rank
-from mocapbench.benchmark.filling.trials.scores import TrialScores
 from mocapbench.datasets import CSVFormat, Recording
 
 CHANNELS = ("hip.rx", "hip.ry", "knee.rx", "root.ty")
@@ -46,28 +45,27 @@ def hidden():
 def filled(waves, hidden):
     """Return a function from what is special to a filled file."""
 
-    def make(choice=None, *, left_open=(), windows=0, failed=()):
+    def make(choice=None, *, left_open=(), n_windows=0, failed=()):
         target = hidden((50, 60, [0, 1]))
         request = FillRequest(waves().hide(target), target, left_open)
-        answer = FilledEntries(waves().values[target], np.ones(20))
-        source = Source(Path("waves.csv"), CSVFormat(), request, ())
-        return Filled(source, "one", answer, windows, choice, failed)
+        prediction = PredictedEntries(waves().values[target], np.ones(20))
+        source = InputFile(Path("waves.csv"), CSVFormat(), request, ())
+        return FilledFile(source, "one", prediction, n_windows, choice, failed)
 
     return make
 
 
 @pytest.fixture
 def choice_of():
-    """Return a function from the errors of models in trial gaps to the choice among them."""
+    """Return a function from the errors of models in held-out gaps to the choice among them."""
 
-    def make(errors, share=1.0, places=None):
-        scores = {
-            model: TrialScores(np.array(of_model, dtype=float), {"deg": 1.0}, has_bands=False)
-            for model, of_model in errors.items()
-        }
+    def make(errors, share=1.0, positions=None):
+        errors = {model: np.array(each, dtype=float) for model, each in errors.items()}
         n = len(next(iter(errors.values())))
-        ranking = rank(scores, np.ones(n), np.arange(n) if places is None else np.array(places))
-        seconds = dict.fromkeys(errors, 0.1)
-        return Choice(ranking, (), share, seconds, dict.fromkeys(errors, 2))
+        at = np.arange(n) if positions is None else np.array(positions)
+        rmse = {model: {"deg": 1.0} for model in errors}
+        seconds, n_windows = dict.fromkeys(errors, 0.1), dict.fromkeys(errors, 2)
+        ranking = rank(errors, np.ones(n), at)
+        return Choice(ranking, (), share, rmse, frozenset(), seconds, n_windows)
 
     return make

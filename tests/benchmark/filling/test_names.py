@@ -1,12 +1,12 @@
 import pytest
 
-from mocapbench.benchmark.filling.requests.names import marker_names
+from mocapbench.benchmark.filling.requests.names import name_markers
 from mocapbench.datasets.formats.strays import is_unlabelled
 
 
 def test_one_name_stands_for_the_channels_of_a_marker():
     channels = ["LKNE.x", "LKNE.y", "LKNE.z", "RKNE.x", "hip.rx"]
-    assert marker_names(channels) == ("LKNE", "RKNE.x", "hip.rx")
+    assert name_markers(channels) == ("LKNE", "RKNE.x", "hip.rx")
 
 
 @pytest.mark.parametrize(

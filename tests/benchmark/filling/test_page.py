@@ -1,24 +1,28 @@
 """The page of a filled file: which figures of its motion are filled."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import format_files
 import numpy as np
 import pytest
 
-from mocapbench.benchmark.filling.filler import Filled
-from mocapbench.benchmark.filling.page import page_of
-from mocapbench.benchmark.filling.question import FilledEntries
+from mocapbench.benchmark.filling.choosing.schedule import Contender
+from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.benchmark.filling.input_files import InputFile
+from mocapbench.benchmark.filling.page import compose_page
+from mocapbench.benchmark.filling.problem import PredictedEntries
 from mocapbench.benchmark.filling.requests.request import FillRequest
-from mocapbench.benchmark.filling.sources import Source
 from mocapbench.datasets import AcclaimFormat, CSVFormat, Recording
 
 
 def page_for(whole, target, filled):
     """Return the page of a file of which the target was filled with these values."""
-    source = Source(Path("waves.csv"), CSVFormat(), FillRequest(whole.hide(target), target, ()), ())
-    answer = FilledEntries(filled[target], np.ones(int(target.sum())))
-    return page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill")
+    source = InputFile(
+        Path("waves.csv"), CSVFormat(), FillRequest(whole.hide(target), target, ()), ()
+    )
+    prediction = PredictedEntries(filled[target], np.ones(int(target.sum())))
+    return compose_page(FilledFile(source, "one", prediction, 0, None, ()), "mocapbench fill")
 
 
 @pytest.mark.parametrize("length", [1, 2, 4, 5, 12, 30])
@@ -28,9 +32,11 @@ def test_figures_show_filled_frames_and_frames_of_the_file_beside_them(tmp_path,
     format_files.write_acclaim(path, walk)
     target = np.zeros(walk.values.shape, dtype=bool)
     target[start : start + length, 10] = True
-    source = Source(path, AcclaimFormat(), FillRequest(walk.hide(target), target, ()), ())
-    answer = FilledEntries(walk.values[target], np.ones(length))
-    panel = page_of(Filled(source, "one", answer, 0, None, ()), "mocapbench fill").motion
+    source = InputFile(path, AcclaimFormat(), FillRequest(walk.hide(target), target, ()), ())
+    prediction = PredictedEntries(walk.values[target], np.ones(length))
+    panel = compose_page(
+        FilledFile(source, "one", prediction, 0, None, ()), "mocapbench fill"
+    ).motion
     groups = [curve.group for curve in panel.curves]
     assert {*groups} == {"filled", "in the file"}
     assert groups[-1] == "in the file"
@@ -76,3 +82,23 @@ def test_gaps_of_the_whole_file_are_drawn(waves, hidden):
     page = page_of_many(whole, hidden, longest=110, jump=50)
     starts = {curve.gaps[0][0] for curve in page.curves}
     assert {whole.times[49], whole.times[109], whole.times[889]} <= starts
+
+
+def test_the_ranking_notes_the_choice_and_over_whom_its_lead_may_be_chance(filled, choice_of):
+    choice = choice_of({"one": [1, 2, 1, 2, 1], "two": [2, 1, 2, 1.5, 1]})
+    page = compose_page(filled(choice), "mocapbench fill")
+    assert [*page.errors] == ["one", "two"]
+    assert page.errors == choice.ranking.means
+    assert page.notes["one"] == "chosen, fitted to windows"
+    assert page.notes["two"].startswith("lead of one may be chance")
+
+
+def test_a_model_without_a_rank_is_listed_with_what_it_did_and_why(filled, choice_of):
+    contender = Contender(
+        "slow", {0: None, 1: None, 5: None}, failure="took longer", timed_out=True
+    )
+    choice = replace(
+        choice_of({"one": [1, 2]}), left_out=(contender, Contender("bad", failure="no"))
+    )
+    page = compose_page(filled(choice), "mocapbench fill")
+    assert page.left_out == (("slow", "2 hold-outs filled; took longer"), ("bad", "no"))

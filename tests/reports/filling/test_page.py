@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocapbench.reports import FilledCurve, FilledPage, RankedModel, render_filled
+from mocapbench.reports import FilledCurve, FilledPage, render_filled
 
 
 @pytest.fixture
@@ -24,11 +24,11 @@ def page():
         caption="The only gap.",
         motion=None,
         units=("deg",),
-        n=9,
-        ranking=(
-            RankedModel("linear", 0.5, (1.25,), 0.1, "chosen"),
-            RankedModel("hold", 1.5, (3.25,), 0.1, ""),
-        ),
+        n_gaps=9,
+        errors={"linear": 0.5, "hold": 1.5},
+        rmse={"linear": {"deg": 1.25}, "hold": {"deg": 3.25}},
+        seconds={"linear": 0.1, "hold": 0.1},
+        notes={"linear": "chosen", "hold": ""},
         left_out=(("mohgp", "took longer than 2 s"),),
         command="mocapbench fill walk.csv",
     )
@@ -62,7 +62,7 @@ def test_the_same_page_gives_the_same_bytes(page):
 
 
 def test_without_held_out_gaps_there_is_no_ranking(page):
-    text = render_filled(replace(page, ranking=(), left_out=(), verdict="", n=0))
+    text = render_filled(replace(page, errors={}, left_out=(), verdict="", n_gaps=0))
     assert "How the model was chosen" not in text
 
 

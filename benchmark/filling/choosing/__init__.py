@@ -1,0 +1,1 @@
+"""Choosing a model: copies of the gaps are held out, and models compared by their errors there."""

@@ -1,0 +1,156 @@
+"""The layout of a hold-out: which gaps it copies, and to where.
+
+Copies lie where everything is visible, clear of the real gaps and of each other.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+
+import numpy as np
+
+from mocapbench.basics.arrays import Index
+from mocapbench.basics.gaps import MOST_HIDDEN, free_starts
+from mocapbench.benchmark.filling.gaps import Episode, Gap
+from mocapbench.datasets import Mask
+
+__all__ = ["EpisodeLayout", "EpisodeQueue"]
+
+_SHARES = (1.0, 0.5, 0.25, 0.125)
+"""By which episodes are shortened that fit nowhere."""
+_COPIES = 10
+"""Episodes in a hold-out, where the recording has fewer and room for more."""
+
+
+class EpisodeQueue:
+    """Which of the real gaps is copied next: over all hold-outs, all get equally many copies.
+
+    Parameters
+    ----------
+    episodes : sequence of Episode
+    rng : numpy.random.Generator
+        Of the order in which they are copied.
+    """
+
+    def __init__(self, episodes: Sequence[Episode], rng: np.random.Generator) -> None:
+        self.n_per_hold_out = max(_COPIES, len(episodes)) if episodes else 0
+        self._episodes, self._rng = episodes, rng
+        self._waiting: deque[int] = deque()
+
+    def peek(self) -> Episode:
+        """Return the first episode of the queue, which stays the first until it is popped."""
+        if not self._waiting:
+            self._waiting.extend(self._rng.permutation(len(self._episodes)).tolist())
+        return self._episodes[self._waiting[0]]
+
+    def pop(self) -> None:
+        """Remove the first episode from the queue."""
+        self._waiting.popleft()
+
+
+class EpisodeLayout:
+    """The episodes of one hold-out, as they are placed one by one.
+
+    Parameters
+    ----------
+    hidden : ndarray of bool of shape (N, D)
+        What is hidden already.
+    used : ndarray of bool of shape (N,)
+        Frames that earlier hold-outs hid; they are avoided, and added to.
+    rng : numpy.random.Generator
+    """
+
+    def __init__(self, hidden: Mask, used: Mask, rng: np.random.Generator) -> None:
+        self.blocked, self.used, self.rng = hidden.copy(), used, rng
+        self.start, self.stop = 0, len(hidden)
+        self.copies: list[Episode] = []
+        self.originals: list[Episode] = []
+        self.share = 1.0
+
+    def begin(self, gaps: Sequence[Gap]) -> None:
+        """Have the hold-out begin with copies of ``gaps``, within the first third."""
+        copy = self._place(Episode(tuple(gaps)), 0, self.stop // 3) if gaps else None
+        if copy:
+            self.start = copy.start
+            self.blocked[: copy.start] = True
+
+    def end(self, gaps: Sequence[Gap]) -> None:
+        """Have the hold-out end with copies of ``gaps``, within the last third."""
+        length = max((len(gap) for gap in gaps), default=0)
+        first = 2 * self.stop // 3 - length
+        copy = self._place(Episode(tuple(gaps)), max(first, 0), self.stop) if gaps else None
+        if copy:
+            self.stop = copy.stop
+            self.blocked[copy.stop :] = True
+
+    def place_between(self, queue: EpisodeQueue) -> None:
+        """Place copies of the episodes of a queue, as many as a hold-out may hide, or one.
+
+        One that does not fit beside those as it is waits for the next hold-out, where it is the
+        first; there it is shortened if need be.
+        """
+        room = MOST_HIDDEN * (self.stop - self.start)
+        hidden, n_at_the_ends = 0, len(self.copies)
+        for _ in range(queue.n_per_hold_out):
+            episode = queue.peek()
+            if hidden and hidden + len(episode) > room:
+                return
+            has_others = len(self.copies) > n_at_the_ends
+            shares = _SHARES[:1] if has_others else _SHARES
+            copy = self._place(episode, self.start, self.stop, shares)
+            if copy is None and has_others:
+                return
+            hidden += len(episode)
+            queue.pop()
+            if copy is None and len(episode.gaps) > 1:
+                self._place_apart(episode)
+
+    def _place_apart(self, episode: Episode) -> None:
+        """Place the gaps of an episode that does not fit as a whole, each by itself."""
+        for gap in episode.gaps:
+            self._place(Episode((gap,)), self.start, self.stop)
+
+    def _place(
+        self, episode: Episode, first: int, stop: int, shares: Sequence[float] = _SHARES
+    ) -> Episode | None:
+        """Place an episode within [first, stop), with one of the shares; None if it fits not."""
+        for share in shares:
+            shorter = episode.shorten(share)
+            starts = _find_starts(shorter, self.blocked)
+            starts = starts[(starts >= first) & (starts + len(shorter) <= stop)]
+            if len(starts):
+                copy = shorter.move(self._draw_start(starts, len(shorter)) - shorter.start)
+                self._add(copy, episode, share)
+                return copy
+        return None
+
+    def _add(self, copy: Episode, original: Episode, share: float) -> None:
+        """Note a copy, and block as many frames on both sides of it, in all channels.
+
+        So held-out gaps do not make each other harder.
+        """
+        margin = len(copy)
+        self.blocked[max(copy.start - margin, 0) : copy.stop + margin] = True
+        self.used[copy.start : copy.stop] = True
+        self.copies.append(copy)
+        self.originals.append(original)
+        self.share = min(self.share, share)
+
+    def _draw_start(self, starts: Index, length: int) -> int:
+        """Return a random start, where earlier hold-outs hid nothing if there is one."""
+        counts = np.concatenate([[0], np.cumsum(self.used)])
+        fresh = starts[counts[starts + length] == counts[starts]]
+        return int(self.rng.choice(fresh if len(fresh) else starts))
+
+
+def _find_starts(episode: Episode, blocked: Mask) -> Index:
+    """Return the frames, ascending, at which a copy of the episode may start.
+
+    Each of its gaps must lie, with a frame on both sides, where its channels are not blocked.
+    """
+    starts = np.arange(1, len(blocked) - len(episode))
+    for gap in episode.gaps:
+        of_gap = free_starts(np.asarray(blocked[:, list(gap.channels)].any(axis=1)), len(gap))
+        starts = np.intersect1d(starts, of_gap - (gap.start - episode.start), assume_unique=True)
+    return starts

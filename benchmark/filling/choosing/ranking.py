@@ -1,0 +1,131 @@
+"""The ranking of models by their errors in held-out gaps, and whether its lead is chance.
+
+In a short recording, or with long gaps, held-out gaps overlap: fifteen of 60 frames may lie at two
+positions, a frame or two apart. Their errors are then nearly the same, and no more evidence than
+two are. So the test counts independent positions: gaps at one position are one unit of it.
+
+Held-out gaps that are linked by others in between need not be at one position: 24 of 90 frames may
+cover a recording of 600 frames without a break. A position is therefore a held-out gap with those
+that share frames with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import takewhile
+
+import numpy as np
+import pandas as pd
+
+from mocapbench.basics.arrays import Array, Index
+from mocapbench.benchmark.filling.choosing.hold_outs import HoldOut
+from mocapbench.metrics.statistics import ALPHA, holm_tests_of_means, too_few, unit_means
+
+__all__ = ["Ranking", "number_positions", "rank"]
+
+_NEAR = 1.5
+"""Errors, relative to the least, up to which a model is a rival of the first."""
+_BESIDE = 1
+"""Frames on each side that belong to a held-out gap: what is filled goes on from them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ranking:
+    """Models by their mean error over the same held-out gaps, the best first.
+
+    Parameters
+    ----------
+    order : tuple of str
+        The models; the first is the choice.
+    means : mapping of str to float
+        The weighted mean error of each.
+    errors : mapping of str to ndarray of shape (n,)
+        The error of each in each held-out gap.
+    n_gaps, n_positions : int
+        The number of held-out gaps, and that of their independent positions.
+    tested : bool
+        Whether there are enough positions to tell what is chance; a few that most held-out gaps
+        share are not.
+    sharing : tuple of str
+        Models whose errors differ from those of the one with the least by no more than chance, that
+        one first. Of too few positions nothing can be told: the first alone.
+    """
+
+    order: tuple[str, ...]
+    means: Mapping[str, float]
+    errors: Mapping[str, Array]
+    n_gaps: int
+    n_positions: int
+    tested: bool
+    sharing: tuple[str, ...]
+
+    @property
+    def rivals(self) -> tuple[str, ...]:
+        """The models next to the first that no test separates from it, and that err little more.
+
+        Where errors differ much from gap to gap, no test separates some that err ten times as much,
+        or that are behind others which are separated.
+        """
+        most = _NEAR * self.means[self.order[0]]
+        alike = takewhile(lambda model: model in self.sharing, self.order[1:])
+        return tuple(model for model in alike if self.means[model] <= most)
+
+
+def rank(errors: Mapping[str, Array], weights: Array, positions: Index) -> Ranking:
+    """Return the ranking of one or more models that filled the same hold-outs.
+
+    Of equal ones, that which comes first in ``errors`` is the better one.
+
+    Parameters
+    ----------
+    errors : mapping of str to ndarray of shape (n,)
+        Of each model, in each held-out gap.
+    weights : ndarray of shape (n,)
+        How much each held-out gap counts, 1 in the mean.
+    positions : ndarray of int of shape (n,)
+        Where each is: those at the same position are one unit of the test.
+    """
+    losses = pd.DataFrame({model: each * weights for model, each in errors.items()})
+    means = losses.mean()
+    order = tuple(means.sort_values(kind="stable").index)
+    by_position = losses[list(order)].groupby(positions)
+    shares = by_position.size().to_numpy(float) / len(losses)
+    found = by_position.mean()
+    tested = not too_few(unit_means(found.to_numpy(float).T, shares).freedom).any()
+    return Ranking(
+        order,
+        {model: float(means[model]) for model in order},
+        errors,
+        len(losses),
+        len(shares),
+        tested,
+        _find_models_alike(found, shares) if tested else order[:1],
+    )
+
+
+def _find_models_alike(losses: pd.DataFrame, shares: Array) -> tuple[str, ...]:
+    """Return the first model, and those that the paired t-test does not separate from it.
+
+    P-values are corrected by Holm's method.
+    """
+    best, *others = losses.columns
+    differences = losses[others].sub(losses[best], axis=0).to_numpy(float).T
+    alike = holm_tests_of_means(unit_means(differences, shares)).p > ALPHA
+    return (best, *(model for model, is_alike in zip(others, alike, strict=True) if is_alike))
+
+
+def number_positions(hold_outs: Sequence[HoldOut]) -> Index:
+    """Return the position of each held-out gap (n,), numbered along the recording from 0.
+
+    The first held-out gaps to end at each position share no frames with each other, and there are
+    as many of them as there can be.
+    """
+    copies = [copy for hold_out in hold_outs for copy in hold_out.copies]
+    positions = np.empty(len(copies), dtype=np.intp)
+    position, stop = -1, -np.inf
+    for number in sorted(range(len(copies)), key=lambda n: copies[n].stop):
+        if copies[number].start - _BESIDE >= stop:
+            position, stop = position + 1, copies[number].stop + _BESIDE
+        positions[number] = position
+    return positions

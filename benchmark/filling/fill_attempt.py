@@ -1,0 +1,160 @@
+"""One fill attempt: a model solves a problem, in a process of its own.
+
+Channels that are constant wherever they are visible stay so where they are filled. The height of a
+point on the floor, or an angle that a skeleton does not use, does not move in a gap either,
+whatever a model makes of it.
+"""
+
+from __future__ import annotations
+
+import resource
+import sys
+import warnings
+from dataclasses import dataclass, replace
+from pathlib import Path
+from traceback import extract_tb
+
+import numpy as np
+
+from mocapbench.baselines import FrameImputer, Prediction
+from mocapbench.basics.arrays import Array
+from mocapbench.benchmark.filling.problem import (
+    GapProblem,
+    PredictedEntries,
+    cut_windows,
+    drop_unseen,
+)
+from mocapbench.benchmark.messages import reason
+from mocapbench.benchmark.problems.impute import ImputeProblem
+from mocapbench.benchmark.problems.unit import Unit
+from mocapbench.benchmark.runs.fitting.solve import build_model
+from mocapbench.datasets import FrameByChannel
+
+__all__ = ["FillAttempt", "attempt_fill", "keep_constants"]
+
+_SEED = 0
+_ENOUGH = 10
+"""Frames; fewer that are equal are so by chance in files of rounded numbers, unless most are."""
+
+
+@dataclass(frozen=True, eq=False)
+class FillAttempt:
+    """How an attempt ended.
+
+    Parameters
+    ----------
+    prediction : PredictedEntries or None
+        None if the attempt failed.
+    failure : str
+        Why it did.
+    n_windows : int
+        How many windows the recording was cut into; 0 if it was not.
+    seconds : float
+        What it took.
+    timed_out : bool
+        Whether it was stopped because it took longer than allowed.
+    """
+
+    prediction: PredictedEntries | None
+    failure: str = ""
+    n_windows: int = 0
+    seconds: float = 0.0
+    timed_out: bool = False
+
+
+def attempt_fill(
+    model: type[FrameImputer], problem: GapProblem, memory: int, method: str = "impute"
+) -> FillAttempt:
+    """Return what a model predicts; whatever it raises becomes the failure of the attempt.
+
+    Parameters
+    ----------
+    model : type
+        Built with its default parameters.
+    problem : GapProblem
+    memory : int
+        Bytes of address space to which this process is limited from now on.
+    method : str, default="impute"
+        What the model is asked for: ``"as_claimed"`` are the same means, without the time that
+        calibrating variances takes.
+    """
+    resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
+    try:
+        with warnings.catch_warnings(action="ignore"):
+            windows = cut_windows(problem, model.max_frames)
+            parts = [(frames, part, _predict(model, part, method)) for frames, part in windows]
+            prediction = keep_constants(problem, _merge_windows(problem, parts))
+    except MemoryError:
+        return FillAttempt(None, f"needed more than {memory / 2**30:.1f} GiB of memory")
+    except BaseException as error:  # a model that calls sys.exit has failed like any other
+        return FillAttempt(None, reason(error) + _locate_error(error, model))
+    whole = windows[0][0] == slice(0, len(problem.given.times))
+    return FillAttempt(prediction, n_windows=0 if whole else len(windows))
+
+
+def _locate_error(error: BaseException, model: type[FrameImputer]) -> str:
+    """Return the line of the model's own file where something went wrong; of ours, nothing."""
+    if model.__module__.startswith("mocapbench."):
+        return ""
+    path = Path(getattr(sys.modules.get(model.__module__), "__file__", None) or "")
+    lines = [f.lineno for f in extract_tb(error.__traceback__) if Path(f.filename) == path]
+    return f" ({path.name}, line {lines[-1]})" if lines else ""
+
+
+def _predict(model: type[FrameImputer], problem: GapProblem, method: str) -> Prediction:
+    """Return what the model predicts of all channels (N, D), NaN of those that nobody has seen."""
+    seen = drop_unseen(problem)
+    imputing = ImputeProblem(
+        train=(*seen.train, seen.given),
+        given=(seen.given,),
+        truth=(seen.given.values,),  # nobody scores here, and nobody knows it
+        unit=Unit.natural(len(seen.given.channels)),
+    )
+    fitted = build_model(model, {}, _SEED)
+    imputing.fit(fitted)
+    (prediction,) = imputing.check_predictions(
+        getattr(fitted, method)(imputing.given), method
+    ).predictions
+    is_seen = np.isin(problem.given.channels, seen.given.channels)
+
+    def spread(values: FrameByChannel) -> FrameByChannel:
+        full = np.full(problem.target.shape, np.nan)
+        full[:, is_seen] = values
+        return full
+
+    variance = None if prediction.variance is None else spread(prediction.variance)
+    return Prediction(spread(prediction.mean), variance)
+
+
+def _merge_windows(
+    problem: GapProblem, parts: list[tuple[slice, GapProblem, Prediction]]
+) -> PredictedEntries:
+    """Return the wanted entries of all windows, in the order of those of the whole problem."""
+    mean, variance = (np.full(problem.target.shape, np.nan) for _ in range(2))
+    has_variance = all(prediction.variance is not None for _, _, prediction in parts)
+    for frames, part, prediction in parts:
+        mean[frames][part.target] = prediction.mean[part.target]
+        if prediction.variance is not None:
+            variance[frames][part.target] = prediction.variance[part.target]
+    target = problem.target
+    return PredictedEntries(mean[target], variance[target] if has_variance else None)
+
+
+def keep_constants(problem: GapProblem, prediction: PredictedEntries) -> PredictedEntries:
+    """Return the predicted entries, those of a channel that is constant where visible as constant.
+
+    Their variances stay those of the model.
+    """
+    _, channels = np.nonzero(problem.target)
+    kept = _find_constants(problem)[channels]
+    return replace(prediction, mean=np.where(np.isnan(kept), prediction.mean, kept))
+
+
+def _find_constants(problem: GapProblem) -> Array:
+    """Return the one value of each channel (D,) in all recordings, NaN where it has others."""
+    values = [recording.values for recording in (problem.given, *problem.train)]
+    highest = np.fmax.reduce([np.fmax.reduce(one, axis=0) for one in values])  # ignores NaN
+    lowest = np.fmin.reduce([np.fmin.reduce(one, axis=0) for one in values])
+    seen = problem.given.visible.sum(axis=0)
+    enough = seen >= np.clip(len(problem.given.times) - seen, 2, _ENOUGH)
+    return np.where(enough & (highest == lowest), highest, np.nan)

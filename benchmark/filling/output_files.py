@@ -1,0 +1,98 @@
+"""What is written for a filled file: its copy, a table of the filled entries, and a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from mocapbench.basics.whole_files import write_text
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.files import ENTRIES, require_short_names, require_writable_folder
+from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.reports import csv_text
+
+__all__ = ["OutputPaths", "name_output_files", "tabulate_entries", "write"]
+
+OutputPaths = tuple[Path, Path, Path]
+"""The files that are written for one file: its copy, the table, and the page.
+
+All are new: neither a file that was read nor an earlier output is overwritten.
+"""
+
+
+def name_output_files(files: Sequence[Path], folder: Path) -> list[OutputPaths]:
+    """Return what is to be written for each file.
+
+    Raises
+    ------
+    UsageError
+        If the folder is a file or cannot be written to, a file to write exists, has too long a
+        name, or two have one name.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise UsageError(f"--out: expected a folder, got the file {folder}; name another")
+    require_writable_folder("--out", folder)
+    names = [(file.name, f"{file.name}{ENTRIES}", f"{file.name}.html") for file in files]
+    outputs = [(folder / copy, folder / table, folder / page) for copy, table, page in names]
+    paths = [path for of_one_file in outputs for path in of_one_file]
+    require_short_names("--out", paths)
+    existing = [path for path in paths if path.exists()]
+    if existing:
+        raise UsageError(
+            f"--out: expected no file called {existing[0]}, which would be overwritten; "
+            "name another folder, or delete it"
+        )
+    if len(set(paths)) < len(paths):
+        raise UsageError(
+            "expected files of different names, since all are written to one folder; "
+            "fill them one by one, each with its own --out"
+        )
+    return outputs
+
+
+def write(filled: FilledFile, outputs: OutputPaths, page: str) -> None:
+    """Write all files of one filled file, or none.
+
+    Raises
+    ------
+    FormatError
+        If the file's format cannot hold a value.
+    OSError
+        If a file cannot be written.
+    """
+    source, (copy_path, table_path, page_path) = filled.source, outputs
+    copy_path.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        source.format.write(
+            copy_path, filled.recording, like=source.path, replaced=source.request.target
+        )
+        write_text(table_path, csv_text(tabulate_entries(filled)))
+        write_text(page_path, page)
+    except BaseException:
+        for path in outputs:
+            path.unlink(missing_ok=True)
+        raise
+
+
+def tabulate_entries(filled: FilledFile) -> pd.DataFrame:
+    """Return a row per filled entry, by frame.
+
+    Columns ``frame`` (0-based), ``time`` in seconds, ``channel``, ``unit``, ``mean`` and ``sd``,
+    which is empty where the model has no predictive distribution. Angles are unwrapped: they go on
+    from those beside the gap, where the file may have them 360° away.
+    """
+    given = filled.source.request.given
+    frames, channels = np.nonzero(filled.source.request.target)
+    return pd.DataFrame(
+        {
+            "frame": frames,
+            "time": given.times[frames],
+            "channel": np.array(given.channels)[channels],
+            "unit": np.array(given.units)[channels],
+            "mean": filled.prediction.mean,
+            "sd": filled.deviations,
+        }
+    )

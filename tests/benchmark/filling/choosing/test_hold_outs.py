@@ -1,0 +1,148 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mocapbench.benchmark.filling.choosing.hold_outs import make_hold_outs
+from mocapbench.benchmark.filling.gaps import find_gaps
+from mocapbench.benchmark.filling.problem import GapProblem
+from mocapbench.datasets import Recording
+
+N_FRAMES = 200
+BLOCKS = st.lists(
+    st.tuples(st.integers(0, N_FRAMES), st.integers(1, 30), st.integers(0, 2)),
+    min_size=1,
+    max_size=4,
+)
+
+
+def problem(blocks):
+    target = np.zeros((N_FRAMES, 3), dtype=bool)
+    for start, length, channel in blocks:
+        target[min(start, N_FRAMES - 1) : start + length, channel] = True
+    values = np.arange(3.0 * N_FRAMES).reshape(N_FRAMES, 3)
+    whole = Recording("r", np.arange(N_FRAMES) / 10, values, ("a", "b", "c"), ("", "", ""))
+    return GapProblem(whole.hide(target), target)
+
+
+@settings(deadline=None)
+@given(BLOCKS)
+def test_hold_outs_know_the_truth_and_hide_it(blocks):
+    asked = problem(blocks)
+    for hold_out in make_hold_outs(asked, np.random.default_rng(0)):
+        target = hold_out.problem.target
+        first = round(hold_out.problem.given.times[0] * 10)
+        whole = np.arange(3.0 * N_FRAMES).reshape(N_FRAMES, 3)[first : first + len(target)]
+        np.testing.assert_array_equal(hold_out.truth, whole[target])
+        assert not hold_out.problem.given.visible[target].any()
+        positions = np.sort(np.concatenate(hold_out.entries))
+        np.testing.assert_array_equal(positions, np.arange(target.sum()))
+        seen = hold_out.problem.given.visible
+        np.testing.assert_array_equal(hold_out.problem.given.values[seen], whole[seen])
+
+
+@settings(deadline=None)
+@given(BLOCKS)
+def test_every_held_out_gap_has_the_shape_of_a_real_one(blocks):
+    asked = problem(blocks)
+    real = {(len(gap), gap.channels) for gap in find_gaps(asked.target)}
+    for hold_out in make_hold_outs(asked, np.random.default_rng(0)):
+        if hold_out.share == 1.0:
+            made = {(len(gap), gap.channels) for gap in find_gaps(hold_out.problem.target)}
+            assert made <= real
+
+
+@settings(deadline=None)
+@given(st.integers(4, 12), st.integers(1, 2), st.integers(0, 100))
+def test_no_two_hold_outs_are_alike_however_short_the_recording(n_frames, length, seed):
+    values = np.arange(2.0 * n_frames).reshape(n_frames, 2)
+    target = np.zeros((n_frames, 2), dtype=bool)
+    target[1 : 1 + length, 0] = True
+    whole = Recording("r", np.arange(n_frames) / 10, values, ("a", "b"), ("", ""))
+    hold_outs = make_hold_outs(GapProblem(whole.hide(target), target), np.random.default_rng(seed))
+    hidden = [hold_out.problem.target.tobytes() for hold_out in hold_outs]
+    assert len(set(hidden)) == len(hidden)
+
+
+def test_gaps_at_the_ends_are_tried_at_the_ends():
+    asked = problem([(0, 10, 0), (190, 10, 1)])
+    for hold_out in make_hold_outs(asked, np.random.default_rng(0)):
+        gaps = find_gaps(hold_out.problem.target)
+        assert {(gap.start, gap.channels) for gap in gaps if gap.start == 0} == {(0, (0,))}
+        assert {gap.channels for gap in gaps if gap.stop == len(hold_out.problem.target)} == {(1,)}
+
+
+def test_gaps_get_equally_many_copies():
+    asked = problem([(20, 5, 0), (80, 25, 1), (150, 10, 2)])
+    hold_outs = make_hold_outs(asked, np.random.default_rng(0))
+    lengths = [len(unit) for hold_out in hold_outs for unit in hold_out.entries]
+    counts = [lengths.count(length) for length in (5, 25, 10)]
+    assert max(counts) - min(counts) <= 1
+
+
+def test_a_gap_longer_than_any_visible_stretch_is_shortened():
+    asked = problem([(60, 110, 0)])
+    hold_outs = make_hold_outs(asked, np.random.default_rng(0))
+    assert hold_outs
+    assert {hold_out.share for hold_out in hold_outs} == {0.5}
+
+
+def test_there_is_no_hold_out_without_room():
+    asked = problem([(1, 198, 0)])
+    assert make_hold_outs(asked, np.random.default_rng(0)) == []
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_the_same_seed_makes_the_same_hold_outs(seed):
+    asked = problem([(20, 5, 0)])
+    one, two = (make_hold_outs(asked, np.random.default_rng(seed)) for _ in range(2))
+    for first, second in zip(one, two, strict=True):
+        np.testing.assert_array_equal(first.problem.target, second.problem.target)
+
+
+def test_no_gap_is_shortened_that_fits_once_another_hold_out_has_the_room():
+    """Beside the copy of a long gap there may be no room for a second, but alone there is."""
+    asked = problem([(10, 8, 0), (50, 30, 1), (120, 30, 2)])
+    for seed in range(10):
+        hold_outs = make_hold_outs(asked, np.random.default_rng(seed))
+        assert {hold_out.share for hold_out in hold_outs} == {1.0}
+        assert {len(unit) for hold_out in hold_outs for unit in hold_out.entries} == {8, 30}
+
+
+def test_a_gap_at_an_end_takes_no_hold_out_from_the_others():
+    """Beside the copy at the end, a long gap has room only if it is shortened."""
+    target = np.zeros((120, 3), dtype=bool)
+    target[:8, 0] = target[50:90, 1] = True
+    values = np.arange(360.0).reshape(120, 3)
+    whole = Recording("r", np.arange(120) / 10, values, ("a", "b", "c"), ("", "", ""))
+    for seed in range(5):
+        hold_outs = make_hold_outs(
+            GapProblem(whole.hide(target), target), np.random.default_rng(seed)
+        )
+        copies = [episode for hold_out in hold_outs for episode in hold_out.originals]
+        channels = [gap.channels for episode in copies for gap in episode.gaps]
+        assert channels.count((1,)) >= len(hold_outs) // 2 > 0
+
+
+def test_a_repeated_hold_out_is_not_the_end():
+    """Little room in two channels makes copies alike, but others are still to be had."""
+    target = np.zeros((400, 3), dtype=bool)
+    target[100:140, 0] = target[200:230, 2] = target[300:306, 1] = True
+    hidden = target.copy()
+    hidden[:60, 0] = hidden[160:, 0] = hidden[:60, 1] = hidden[160:, 1] = True
+    values = np.arange(1200.0).reshape(400, 3)
+    whole = Recording("r", np.arange(400) / 10, values, ("a", "b", "c"), ("", "", ""))
+    for seed in range(5):
+        hold_outs = make_hold_outs(
+            GapProblem(whole.hide(hidden), target), np.random.default_rng(seed)
+        )
+        assert len(hold_outs) > 5
+
+
+def test_a_hold_out_that_ends_in_a_gap_may_end_anywhere_in_the_last_third():
+    asked = problem([(170, 30, 0)])
+    hold_outs = [t for seed in range(5) for t in make_hold_outs(asked, np.random.default_rng(seed))]
+    ends = [len(hold_out.problem.target) for hold_out in hold_outs]
+    assert {hold_out.share for hold_out in hold_outs} == {1.0}
+    assert 133 <= min(ends) < 145
+    assert 160 < max(ends) < 170
