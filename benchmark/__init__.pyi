@@ -48,7 +48,7 @@ from .results.error_parts import error_parts
 from .results.frames import job_table, score_table
 from .results.illustrations import illustrations
 from .results.solved_problems import solved_problem
-from .runs.directory.plan_file import plan_document, planned_task_files
+from .runs.directory import RunDirectory
 from .runs.execution.base import Backend
 from .runs.execution.choice import open_backend, require_backend
 from .runs.execution.fork_server import fork_server
@@ -56,11 +56,11 @@ from .runs.execution.this_machine import ThisMachine
 from .runs.job import Job, WorkerConfig
 from .runs.machine import memory_share, n_cores
 from .runs.plan import plan, required_sources
+from .runs.plan_document import plan_document, planned_task_files
 from .runs.planning.request import Request
 from .runs.provenance import provenance
 from .runs.record import Record, Status
 from .runs.run import run
-from .runs.store import Store
 from .task_files.building import add_tasks
 from .task_files.checking import open_task_files
 from .task_files.task_file import TaskFile, with_folders
@@ -109,13 +109,13 @@ __all__ = [
     "RecoveredCovariances",
     "Request",
     "Run",
+    "RunDirectory",
     "RunState",
     "SampledMotion",
     "Samples",
     "Seeds",
     "Solved",
     "Status",
-    "Store",
     "SynthesiseProblem",
     "Task",
     "TaskFile",

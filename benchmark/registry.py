@@ -9,7 +9,6 @@ Ours and third parties' are found in the same way: by entry points of the groups
 from __future__ import annotations
 
 import re
-from functools import partial
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Generic, TypeVar, cast
 
@@ -69,8 +68,8 @@ class Registry(Generic[T]):
         return tuple(name for name in self.names() if not self._is_ours(name))
 
     def is_installed(self, name: str) -> bool:
-        """Return whether an installed package registers ``name``, or did so formerly."""
-        return name in self._points or any(map(partial(self._was_called, name), self._points))
+        """Return whether an installed package registers ``name``."""
+        return name in self._points
 
     def get(self, name: str) -> T:
         """Return the object called ``name``.
@@ -86,34 +85,9 @@ class Registry(Generic[T]):
             self._added[name] = self._load(name)
         return self._added[name]
 
-    def current_name(self, name: str) -> str:
-        """Return the name of what is called ``name``, or was formerly.
-
-        Raises
-        ------
-        UnregisteredNameError
-            If nothing is or was.
-        """
-        if name in self._added or name in self._points:
-            return name
-        for current in self.names():
-            if self._was_called(name, current):
-                return current
-        raise UnregisteredNameError(self.kind, name, self.names())
-
-    def renamed(self, name: str) -> str:
-        """Return the current name of what stored values call ``name``; ``name`` if it is gone."""
-        try:
-            return self.current_name(name)
-        except UnregisteredNameError:
-            return name
-
     def _is_ours(self, name: str) -> bool:
         point = self._points.get(name)
         return point is not None and point.value.startswith("mocapbench.")
-
-    def _was_called(self, name: str, current: str) -> bool:
-        return name in getattr(self.get(current), "former_names", ())
 
     def _load(self, name: str) -> T:
         if name not in self._points:

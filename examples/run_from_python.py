@@ -15,7 +15,7 @@ def main() -> None:
     config = bench.WorkerConfig(
         data_dir=None, plugins=(), timeout=600.0, memory=4 * 2**30, threads=1, provenance=about
     )
-    store = bench.Store.create(Path("from-python"))
+    store = bench.RunDirectory.create(Path("from-python"))
     store.save_plan(bench.plan_document(jobs, workers=2, task_files=[], provenance=about))
     with bench.ThisMachine(n_workers=2) as backend:
         records = bench.run(jobs, store, config, backend=backend, console=Console())

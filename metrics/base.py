@@ -98,7 +98,6 @@ class Metric(Generic[OutcomeT]):
     source: str
     needs_variance: bool
     defined: Callable[[OutcomeT], bool]
-    former_names: tuple[str, ...]
 
     def __post_init__(self) -> None:
         if (self.direction is Direction.TARGET) != (self.target is not None):
@@ -160,7 +159,6 @@ def metric(
     source: str = "",
     needs_variance: bool = False,
     defined: Callable[[Any], bool] = _always,
-    former_names: tuple[str, ...] = (),
     name: str = "",
 ) -> Callable[[Callable[[OutcomeT], Score]], Metric[OutcomeT]]:
     """Declare the function below as a metric; it is what this decorator returns.
@@ -188,9 +186,6 @@ def metric(
         Whether it is defined only for a predictive distribution.
     defined : callable
         From an outcome of that kind to whether the metric is defined for it.
-    former_names : tuple of str
-        Names that the metric had in earlier versions; stored values and options may still use
-        them.
     name : str
         Name in tables and records; by default that of the function. One formula with an argument
         makes several metrics: bind it with ``functools.partial``, and name each.
@@ -226,7 +221,6 @@ def metric(
             source=source,
             needs_variance=needs_variance,
             defined=defined,
-            former_names=former_names,
         )
 
     return declare

@@ -285,7 +285,6 @@ def _deviation(pairs: Array) -> Array:
     ),
     range="0 to ∞",
     source="this project",
-    former_names=("spread",),
 )
 def variance_ratio(outcome: Synthesis) -> Score:
     r"""Return the marginal variance of the samples over that of the references.

@@ -44,7 +44,6 @@ def check(
         Path | None,
         typer.Option(
             "--reference",
-            "--baseline",
             help="Reference values: a .csv file, a folder with one per task, or another run.",
         ),
     ] = None,
@@ -87,7 +86,7 @@ def check(
             raise UsageError("--controls: expected no other option: they all go with --reference")
         raise typer.Exit(_check_controls(run, LiteralConsole()))
     require_writable(junit, markdown)
-    store, console = bench.Store.open(run), LiteralConsole()
+    store, console = bench.RunDirectory(run), LiteralConsole()
     records, plan = store.planned(), store.load_plan()
     known, values = gate.read_reference(reference), gate.of_records(records, plan)
     show_left_out(store.damaged, console)
@@ -114,7 +113,7 @@ def check(
 
 
 def _check_controls(run: Path, console: LiteralConsole) -> ExitCode:
-    store = bench.Store.open(run)
+    store = bench.RunDirectory(run)
     records = store.planned()
     show_left_out(store.damaged, console)
     return gate.check_controls(records, console)

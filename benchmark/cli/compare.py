@@ -50,10 +50,12 @@ def compare(
     console = LiteralConsole()
     require_writable(markdown, csv)
     for path in runs:
-        load_tasks(bench.Store.open(path))
+        load_tasks(bench.RunDirectory(path))
     for name in split(tasks):
         bench.TASKS.get(name)
-    chosen = [bench.METRICS.current_name(name) for name in split(metrics)]
+    chosen = split(metrics)
+    for name in chosen:
+        bench.METRICS.get(name)
     first, second, sides = _sides(runs, split(models), console)
     rows = comparison.compare(first, second, tasks=split(tasks), metrics=chosen, rope=rope)
     for table in comparison.terminal(rows, sides):
@@ -87,7 +89,7 @@ def _sides(
 
 
 def _records(run: Path, console: LiteralConsole) -> Side:
-    store = bench.Store.open(run)
+    store = bench.RunDirectory(run)
     records = comparison.planned_side(store)
     show_left_out(store.damaged, console)
     return records

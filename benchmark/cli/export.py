@@ -33,7 +33,7 @@ def export(
 
     As CSV, and as Parquet where pyarrow is installed.
     """
-    store, console = bench.Store.open(out), LiteralConsole()
+    store, console = bench.RunDirectory(out), LiteralConsole()
     folder, with_parquet = to or out, find_spec("pyarrow") is not None
     folder.mkdir(parents=True, exist_ok=True)
     records = store.planned()

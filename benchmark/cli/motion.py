@@ -52,7 +52,7 @@ def motion(
     files = {kind: path for kind, path in options.items() if path is not None}
     motions.require_new(files)
     load_plugins(plugin)
-    store, console = bench.Store.open(run), LiteralConsole()
+    store, console = bench.RunDirectory(run), LiteralConsole()
     task_files = load_tasks(store)
     record = motions.find_cell(store.planned(), cell)
     task = bench.TASKS.get(record.address.task)

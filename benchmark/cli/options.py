@@ -16,7 +16,7 @@ from mocapbench.benchmark.files import is_writable
 from mocapbench.benchmark.runs.planning.case_names import split_cases
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark import Store, TaskFile
+    from mocapbench.benchmark import RunDirectory, TaskFile
     from mocapbench.datasets import Archive
 
 __all__ = [
@@ -91,7 +91,7 @@ def load_plugins(paths: Sequence[Path] | None) -> tuple[Path, ...]:
     return files
 
 
-def load_tasks(store: Store) -> tuple[TaskFile, ...]:
+def load_tasks(store: RunDirectory) -> tuple[TaskFile, ...]:
     """Register the tasks that task files gave to a run, and return these files."""
     files = bench.planned_task_files(store.load_plan())
     bench.add_tasks(files)

@@ -27,7 +27,7 @@ from mocapbench.benchmark.cli.options import (
 from mocapbench.benchmark.errors import UsageError
 
 if TYPE_CHECKING:
-    from mocapbench.benchmark import Record, Store
+    from mocapbench.benchmark import Record, RunDirectory
     from mocapbench.datasets import Archive
 
 __all__ = ["app", "write_report"]
@@ -60,7 +60,7 @@ def report(
 
 
 def _report_one(out: Path, to: Path | None, data_dir: Path | None) -> None:
-    store, console = bench.Store.open(out), LiteralConsole()
+    store, console = bench.RunDirectory(out), LiteralConsole()
     plan, records, task_files = store.load_plan(), store.planned(), load_tasks(store)
     if not records:
         raise UsageError(f"{out} holds no record of its last run; run `mocapbench run`")
@@ -69,7 +69,7 @@ def _report_one(out: Path, to: Path | None, data_dir: Path | None) -> None:
 
 
 def _report_two(first: Path, second: Path, to: Path | None) -> None:
-    stores, console = [bench.Store.open(path) for path in (first, second)], LiteralConsole()
+    stores, console = [bench.RunDirectory(path) for path in (first, second)], LiteralConsole()
     for store in stores:
         load_tasks(store)
     one, other = (store.planned() for store in stores)
@@ -82,7 +82,7 @@ def _report_two(first: Path, second: Path, to: Path | None) -> None:
 def write_report(
     records: Sequence[Record],
     about: Mapping[str, str],
-    store: Store,
+    store: RunDirectory,
     archive: Archive,
     path: Path,
     console: LiteralConsole,

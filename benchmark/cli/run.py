@@ -123,7 +123,7 @@ def run(
         remedy = fetching(planned, plugins) if offline else downloading(planned)
         _show(bench.forecast_text(planned, profile, out, n_workers, remedy), console)
         return
-    store, backend = bench.Store.create(out), bench.open_backend(jobs, scheduler, cluster)
+    store, backend = bench.RunDirectory.create(out), bench.open_backend(jobs, scheduler, cluster)
     config = bench.WorkerConfig(
         bench.full_paths(bench.with_folders(data_dir, task_files)),
         plugins,

@@ -29,7 +29,7 @@ def status(
 
     Exit code 3 says that jobs failed, and 4 that none has a result and no run is going on.
     """
-    console, state = LiteralConsole(), bench.run_state(bench.Store.open(run))
+    console, state = LiteralConsole(), bench.run_state(bench.RunDirectory(run))
     console.print(bench.state_table(state.tasks, state.total))
     for line in bench.state_lines(state, datetime.now(UTC)):
         console.print(line, highlight=False)

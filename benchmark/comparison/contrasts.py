@@ -14,7 +14,7 @@ from mocapbench.benchmark.comparison.problems import require_same_problems
 from mocapbench.benchmark.comparison.rows import Row, case_rows, correct_rows, pooled_rows
 from mocapbench.benchmark.comparison.sides import Side
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.registry import METRICS, TASKS
+from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.results.shown_metrics import shown_metrics
 
 __all__ = ["compare"]
@@ -49,7 +49,7 @@ def compare(
         raise UsageError("compare: the two have no scored (task, case, fold, entrant) in common")
     require_same_problems(list(filter(both_scored, common.values())))
     names = list(dict.fromkeys(address.task for address in common))
-    chosen = list(dict.fromkeys(map(METRICS.current_name, metrics)))
+    chosen = list(dict.fromkeys(metrics))
     rows = [
         row
         for task in map(TASKS.get, names)

@@ -7,16 +7,16 @@ from dataclasses import replace
 from pathlib import Path
 
 from mocapbench.benchmark.errors import UnknownNameError, UsageError
-from mocapbench.benchmark.runs.directory.plan_file import planned_jobs
+from mocapbench.benchmark.runs.directory import RunDirectory
+from mocapbench.benchmark.runs.plan_document import planned_jobs
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 
 __all__ = ["Side", "between_models", "between_runs", "planned_side", "side_names"]
 
 Side = Sequence[Record]
 
 
-def planned_side(store: Store) -> Side:
+def planned_side(store: RunDirectory) -> Side:
     """Return the records of a run's plan, and for jobs without one a record that says so."""
     records = store.planned()
     found = {record.key for record in records}

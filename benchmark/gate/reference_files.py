@@ -29,8 +29,7 @@ from mocapbench.benchmark.gate.reference import (
     gathered,
     of_records,
 )
-from mocapbench.benchmark.registry import METRICS
-from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.reports.spreadsheet import guard_text, unguard_text
 
@@ -50,8 +49,8 @@ def read_reference(path: Path) -> Reference | None:
         If a file holds no reference values, the files of a folder do not belong together, or a
         record of a run directory is damaged.
     """
-    if path.is_dir() and Store.is_run(path):
-        store = Store.open(path)
+    if path.is_dir() and RunDirectory.is_run(path):
+        store = RunDirectory(path)
         records = store.planned()
         if store.damaged:
             raise UsageError(
@@ -113,7 +112,7 @@ def _row(row: Mapping[Any, Any]) -> tuple[Series, Folds]:
     }
     if not (values and all(map(math.isfinite, values.values()))):
         raise ValueError(f"expected finite values of {metric}, got {values}")
-    return Series(address, METRICS.renamed(metric)), values
+    return Series(address, metric), values
 
 
 def write_reference(path: Path, reference: Reference) -> None:

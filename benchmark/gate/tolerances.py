@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
@@ -78,26 +78,13 @@ def _tolerances(environment: Environment, table: object) -> Tolerances:
     _check_names(environment, options, (*_NAMES, _METRICS))
     general = {name: value for name, value in options.items() if name != _METRICS}
     default = _change_tolerance(DEFAULT_TOLERANCES[environment], environment, general)
-    names = _names(environment, own)
+    for name in own:
+        METRICS.get(name)
     by_metric = {
-        metric: _change_tolerance(default, f"{environment}.{_METRICS}.{name}", own[name])
-        for metric, name in names.items()
+        name: _change_tolerance(default, f"{environment}.{_METRICS}.{name}", table)
+        for name, table in own.items()
     }
     return Tolerances(default, by_metric)
-
-
-def _names(environment: Environment, tables: Iterable[str]) -> Mapping[str, str]:
-    """Return the name in the file, perhaps a former one, of every metric that has a table."""
-    names: dict[str, str] = {}
-    for name in tables:
-        metric = METRICS.current_name(name)
-        other = names.setdefault(metric, name)
-        if other != name:
-            raise UsageError(
-                f"--tolerances: {environment}.{_METRICS}: expected one table of {metric}, got "
-                f"{other} and {name}; keep one"
-            )
-    return names
 
 
 def _change_tolerance(tolerance: Tolerance, where: str, table: object) -> Tolerance:

@@ -8,8 +8,8 @@ from pathlib import Path
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.gate.reference import Reference
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record
-from mocapbench.benchmark.runs.store import Store
 
 __all__ = ["require_updatable"]
 
@@ -46,7 +46,7 @@ def require_updatable(
 
 
 def _require_place(reference: Path) -> None:
-    if reference.is_dir() and Store.is_run(reference):
+    if reference.is_dir() and RunDirectory.is_run(reference):
         raise UsageError(f"--update: {reference} is a run directory; name a .csv file or a folder")
     if reference.is_file() and reference.suffix != ".csv":
         raise UsageError(f"--update: expected a .csv file or a folder, got the file {reference}")

@@ -9,14 +9,15 @@ from enum import StrEnum
 from pathlib import Path
 
 from mocapbench.benchmark.inspection.changes import Change, changes
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 
 __all__ = ["Explanation", "Step", "explain"]
 
-UNEXPLAINED = "its record was written by an earlier version, which did not keep the reasons"
+_Parts = Mapping[Hashable, Sequence[Mapping[str, str]]]
+"""The parts of the keys of records, by row: an address without the task's version."""
 
 
 class Step(StrEnum):
@@ -58,10 +59,10 @@ def explain(jobs: Sequence[Job], out: Path) -> list[Explanation]:
     out : Path
         The run directory, which need not be there.
     """
-    if not Store.is_run(out):
+    if not RunDirectory.is_run(out):
         return list(_first(jobs))
-    store = Store(out)
-    earlier = _Earlier(store)
+    store = RunDirectory(out)
+    earlier = _earlier_parts(store)
     there = {key for key in {job.fit_key for job in jobs} if store.has_fit(key)}
     explanations = []
     for job in jobs:
@@ -94,7 +95,7 @@ def _step(job: Job, there: set[str]) -> Step:
     return Step.PREDICT if job.training_key in there else Step.FIT
 
 
-def _explain_job(job: Job, store: Store, earlier: _Earlier, there: set[str]) -> Explanation:
+def _explain_job(job: Job, store: RunDirectory, earlier: _Parts, there: set[str]) -> Explanation:
     step, record = _step(job, there), store.load(job.key)
     match record:
         case Record(status=Status.DATA_MISSING):
@@ -105,35 +106,21 @@ def _explain_job(job: Job, store: Store, earlier: _Earlier, there: set[str]) -> 
             return Explanation(job.address, step, f"tried again, since it ended as: {status}")
     if store.record_path(job.key).is_file():
         return Explanation(job.address, step, "its record is damaged")
-    return Explanation(job.address, step, *earlier.compare(job))
+    several = [changes(parts, job.parts) for parts in earlier.get(_row(job.address), ())]
+    if several:
+        nearest = min(several, key=len)
+        return Explanation(job.address, step, "new since its last record", nearest)
+    return Explanation(job.address, step, "no record yet")
 
 
-class _Earlier:
-    """The records of earlier runs by row, which is an address without the task's version."""
-
-    def __init__(self, store: Store) -> None:
-        self._store = store
-        written = store.record_keys()
-        known = {key: entry for key, entry in store.load_keys().items() if key in written}
-        self._parts: dict[Hashable, list[Mapping[str, str]]] = defaultdict(list)
-        for entry in known.values():
-            self._parts[_row(entry.address)].append(entry.parts)
-        self._without_parts = self._rows_of(written - known.keys())
-
-    def _rows_of(self, keys: set[str]) -> set[Hashable]:
-        """Return the rows of records whose parts were not kept."""
-        records = (self._store.load(key) for key in keys)
-        return {_row(record.address) for record in records if record}
-
-    def compare(self, job: Job) -> tuple[str, tuple[Change, ...]]:
-        """Return why a job that has no record runs, beside the record most like it."""
-        row = _row(job.address)
-        several = [changes(parts, job.parts) for parts in self._parts.get(row, ())]
-        if several:
-            return "new since its last record", min(several, key=len)
-        if row in self._without_parts:
-            return UNEXPLAINED, ()
-        return "no record yet", ()
+def _earlier_parts(store: RunDirectory) -> _Parts:
+    """Return what the keys of the records of earlier runs cover."""
+    written = store.record_keys()
+    found: dict[Hashable, list[Mapping[str, str]]] = defaultdict(list)
+    for key, (address, parts) in store.load_keys().items():
+        if key in written:
+            found[_row(address)].append(parts)
+    return found
 
 
 def _row(address: Address) -> Address:

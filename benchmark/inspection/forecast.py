@@ -9,8 +9,8 @@ from pathlib import Path
 
 from mocapbench.benchmark.inspection.explanation import Explanation, Step
 from mocapbench.benchmark.inspection.work import ExpectedWork, work_of
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.job import Job
-from mocapbench.benchmark.runs.store import Store
 
 __all__ = ["Forecast", "forecast"]
 
@@ -51,7 +51,7 @@ def forecast(
     profile : str
         Of the run; tells how long a fit takes of which there is no record.
     """
-    records = Store(out).records() if Store.is_run(out) else []
+    records = RunDirectory(out).records() if RunDirectory.is_run(out) else []
     steps = Counter(item.step for item in explanations)
     to_fit = [item.address for item in explanations if item.step is Step.FIT]
     predicted = {_fit_shared_by(job) for job in jobs if not job.missing}  # by then

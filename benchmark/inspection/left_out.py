@@ -6,20 +6,20 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.runs.directory.plan_file import planned_jobs
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.job import Job
-from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.runs.plan_document import planned_jobs
 from mocapbench.benchmark.tasks.address import Address
 
 __all__ = ["left_out_lines"]
 
 
-def left_out_lines(store: Store, planned: Sequence[Job]) -> list[str]:
+def left_out_lines(store: RunDirectory, planned: Sequence[Job]) -> list[str]:
     """Return in words which results of the run before the report will leave out; none if none.
 
     Parameters
     ----------
-    store : Store
+    store : RunDirectory
         Before the plan of the new run is written.
     planned : sequence of Job
         The new run.

@@ -9,14 +9,11 @@ from typing import NamedTuple
 
 from mocapbench.benchmark.inspection.fit_seconds import MEASURED
 from mocapbench.benchmark.inspection.work import ExpectedWork, work_of
-from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, planned_jobs
+from mocapbench.benchmark.runs.directory import RunDirectory
+from mocapbench.benchmark.runs.plan_document import PlannedJob, planned_jobs
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 
 __all__ = ["RunState", "TaskState", "run_state"]
-
-UNKNOWN = "(not known)"
-"""The task of a job without a record, in the plan of an earlier version."""
 
 
 class TaskState(NamedTuple):
@@ -78,7 +75,7 @@ class RunState:
         return "interrupted" if self.total.left else "finished"
 
 
-def run_state(store: Store) -> RunState:
+def run_state(store: RunDirectory) -> RunState:
     """Return the state of the last run of ``store``.
 
     Raises
@@ -87,13 +84,12 @@ def run_state(store: Store) -> RunState:
         If no run got so far, or its plan is damaged.
     """
     writing, plan = store.is_locked, store.load_plan()
-    records = {key: store.load(key) for key in plan["keys"]}
-    jobs = {job.key: job for job in planned_jobs(plan)}
+    jobs = planned_jobs(plan)
+    records = {job.key: store.load(job.key) for job in jobs}
     tasks: dict[str, list[Record | None]] = defaultdict(list)
-    for key, record in records.items():
-        known = record or jobs.get(key)
-        tasks[known.address.task if known else UNKNOWN].append(record)
-    left = [job for job in jobs.values() if records[job.key] is None]
+    for job in jobs:
+        tasks[job.address.task].append(records[job.key])
+    left = [job for job in jobs if records[job.key] is None]
     return RunState(
         {task: _count_records(several) for task, several in tasks.items()},
         writing,
@@ -110,7 +106,7 @@ def _count_records(records: Iterable[Record | None]) -> TaskState:
     return TaskState(counts[Status.OK], failed, counts[Status.DATA_MISSING], counts[None])
 
 
-def _work_left(left: Sequence[PlannedJob], store: Store, profile: str) -> ExpectedWork:
+def _work_left(left: Sequence[PlannedJob], store: RunDirectory, profile: str) -> ExpectedWork:
     """Return the fits of jobs, as a forecast of the same run tells them.
 
     To score predictions that are there, or that another row asks for too, takes no time beside it.

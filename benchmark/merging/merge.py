@@ -14,8 +14,8 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.merging.plans import unite_plans
 from mocapbench.benchmark.merging.records import unite_fits, unite_records
 from mocapbench.benchmark.merging.sources import read_source
-from mocapbench.benchmark.runs.directory.key_file import KeyEntry
-from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.runs.directory import RunDirectory
+from mocapbench.benchmark.runs.key_parts import KeyEntry
 
 __all__ = ["Merged", "merge"]
 
@@ -61,16 +61,16 @@ def merge(paths: Sequence[Path], out: Path) -> Merged:
     UsageError
         If a folder is not as expected, or the runs contradict each other; then nothing is written.
     """
-    Store.require_usable(out)
-    if not Store.is_run(out):
+    RunDirectory.require_usable(out)
+    if not RunDirectory.is_run(out):
         merged = _unite_runs(paths)
         with _made_at_once(out) as folder:
-            _write(merged, Store.create(folder))
+            _write(merged, RunDirectory.create(folder))
         return merged
-    with Store.open(out).locked():
+    with RunDirectory(out).locked():
         named = [out if path.resolve() == out.resolve() else path for path in paths]
         merged = _unite_runs(named if out in named else [out, *named], locked=out)
-        _write(merged, Store.open(out))
+        _write(merged, RunDirectory(out))
     return merged
 
 
@@ -88,7 +88,7 @@ def _unite_runs(paths: Sequence[Path], locked: Path | None = None) -> Merged:
         plan=unite_plans(sources, records, entries),
         damaged=tuple(message for source in sources for message in source.store.damaged),
         busy=tuple(
-            path for path in distinct.values() if path != locked and Store.open(path).is_locked
+            path for path in distinct.values() if path != locked and RunDirectory(path).is_locked
         ),
     )
 
@@ -103,7 +103,7 @@ def _made_at_once(out: Path) -> Iterator[Path]:
         complete.replace(out)
 
 
-def _write(merged: Merged, store: Store) -> None:
+def _write(merged: Merged, store: RunDirectory) -> None:
     """Write predictions before the records that stand on them, and the plan last."""
     for key, path in merged.fits.items():
         _copy(path, store.fit_path(key))

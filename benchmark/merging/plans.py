@@ -10,8 +10,8 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.inspection.changes import changes, in_words
 from mocapbench.benchmark.merging.records import Found
 from mocapbench.benchmark.merging.sources import DIRECTORY, MergeSource
-from mocapbench.benchmark.runs.directory.key_file import KeyEntry
-from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, plan_document
+from mocapbench.benchmark.runs.key_parts import KeyEntry
+from mocapbench.benchmark.runs.plan_document import PlannedJob, plan_document
 from mocapbench.benchmark.runs.record import Status
 from mocapbench.benchmark.task_files.uniting import united_task_files
 
@@ -64,8 +64,8 @@ def _one(
     }
     with_data = [job for job in row if job.key not in lacking] or list(row)
     if len(with_data) > 1:
-        one, other = (keys.get(job.key) for job in with_data[:2])
-        new = in_words(changes(one.parts, other.parts)) if one and other else ""
+        known = [keys[job.key][1] for job in with_data[:2] if job.key in keys]
+        new = in_words(changes(*known)) if len(known) == 2 else ""
         raise UsageError(
             f"expected one job in each row of the tables, got two for {row[0].address}, which "
             f"differ in {new or 'their keys'}; nothing was written: merge runs of one request "

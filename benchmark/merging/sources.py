@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.runs.directory.key_file import KeyEntry
-from mocapbench.benchmark.runs.directory.plan_file import (
+from mocapbench.benchmark.runs.directory import RunDirectory
+from mocapbench.benchmark.runs.key_parts import KeyEntry
+from mocapbench.benchmark.runs.plan_document import (
     PlannedJob,
+    plan_document,
     planned_jobs,
     planned_task_files,
 )
 from mocapbench.benchmark.runs.record import Record
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.task_files.task_file import TaskFile
 
 __all__ = ["DIRECTORY", "MergeSource", "read_source"]
@@ -30,7 +31,7 @@ class MergeSource:
 
     Parameters
     ----------
-    store : Store
+    store : RunDirectory
         Its ``damaged`` names what is left out.
     records : mapping of str to Record
         By key.
@@ -46,7 +47,7 @@ class MergeSource:
         The user's own tasks in TOML.
     """
 
-    store: Store
+    store: RunDirectory
     records: Mapping[str, Record]
     fits: tuple[str, ...]
     keys: Mapping[str, KeyEntry]
@@ -63,28 +64,22 @@ def read_source(path: Path) -> MergeSource:
     UsageError
         If it is not a run directory.
     """
-    store = Store.open(path)
+    store = RunDirectory(path)
     records = {record.key: record for record in store.records()}
     fits = tuple(key for key in sorted(store.fit_keys()) if store.load_fit(key) is not None)
     plan = _plan(store, records.values())
     runs = plan.get("runs", ()) or ({DIRECTORY: str(path), **plan["provenance"]},)
     about = tuple({name: str(value) for name, value in run.items()} for run in runs)
-    jobs = tuple(_known_jobs(plan, records))
-    task_files = planned_task_files(plan)
+    jobs, task_files = tuple(planned_jobs(plan)), planned_task_files(plan)
     return MergeSource(store, records, fits, store.load_keys(), jobs, about, task_files)
 
 
-def _plan(store: Store, records: Iterable[Record]) -> Mapping[str, Any]:
+def _plan(store: RunDirectory, records: Iterable[Record]) -> Mapping[str, Any]:
     """Return the plan; where it is damaged, one of all records."""
     try:
         return store.load_plan()
     except UsageError as error:
         store.damaged.append(f"{error}; until then, all its records count as planned")
         in_order = sorted(records, key=lambda record: record.address)
-        return {"keys": [record.key for record in in_order], "provenance": {}}
-
-
-def _known_jobs(plan: Mapping[str, Any], records: Mapping[str, Record]) -> Sequence[PlannedJob]:
-    """Return the planned jobs; of an old plan, which tells keys alone, those with a record."""
-    found = (records[key] for key in plan["keys"] if key in records)
-    return planned_jobs(plan) or [PlannedJob(r.key, r.fit_key, r.address) for r in found]
+        jobs = (PlannedJob(r.key, r.fit_key, r.address, training_key="") for r in in_order)
+        return plan_document(jobs, provenance={})

@@ -8,9 +8,9 @@ from functools import cache
 from pathlib import Path
 
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.runs.source_code.folders import folders_digest
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.task_files.task_file import TaskFile
 
 __all__ = ["last_drawn", "stamp"]
@@ -45,7 +45,7 @@ def _drawing_code() -> bytes:
     return folders_digest(_PARTS).encode()
 
 
-def last_drawn(store: Store, keys: Sequence[str]) -> str:
+def last_drawn(store: RunDirectory, keys: Sequence[str]) -> str:
     """Return the stamp of the report there; an empty string unless the last run had these jobs."""
     try:
         plan = store.load_plan()

@@ -8,8 +8,8 @@ from functools import cache
 
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.results.solved_problems import solved_problem
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.datasets import Archive, FormatError, Recording, RecordingUnavailable
 from mocapbench.reports import Picture
@@ -17,7 +17,9 @@ from mocapbench.reports import Picture
 __all__ = ["illustrations"]
 
 
-def illustrations(records: Sequence[Record], store: Store, archive: Archive) -> tuple[Picture, ...]:
+def illustrations(
+    records: Sequence[Record], store: RunDirectory, archive: Archive
+) -> tuple[Picture, ...]:
     """Return the figures of every task: of the first case that it names and that has answers.
 
     The problem is posed again, which takes its recordings; a case that lacks them, or of which one
@@ -43,7 +45,7 @@ def _choose_records(task: Task, records: Sequence[Record]) -> list[Record]:
 
 
 def _illustrate(
-    task: Task, records: Sequence[Record], store: Store, archive: Archive
+    task: Task, records: Sequence[Record], store: RunDirectory, archive: Archive
 ) -> Sequence[Picture]:
     try:
         solved = solved_problem(task, records, store, archive)

@@ -10,8 +10,8 @@ from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.internals import Internals
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.results.interpolations import interpolates
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.base import Case, Task
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
@@ -23,7 +23,7 @@ _UNRANKED = (TaskLayout.oracle, TaskLayout.control, TaskLayout.replay)
 
 
 def solved_problem(
-    task: Task, records: Sequence[Record], store: Store, archive: Archive
+    task: Task, records: Sequence[Record], store: RunDirectory, archive: Archive
 ) -> Solved[Any, Any] | None:
     """Return the problem of one case and fold with the stored answers of some entrants.
 
@@ -34,7 +34,7 @@ def solved_problem(
     task : Task
     records : sequence of Record
         Of one case and fold of the task.
-    store : Store
+    store : RunDirectory
     archive : Archive
 
     Raises

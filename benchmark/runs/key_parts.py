@@ -11,11 +11,17 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-__all__ = ["DIGEST", "key_parts"]
+from mocapbench.benchmark.tasks.address import Address
+
+__all__ = ["DIGEST", "KeyEntry", "decode_keys", "encode_keys", "key_parts"]
+
+KeyEntry = tuple[Address, Mapping[str, str]]
+"""What is known of a key: the row that it belongs to, and its parts."""
 
 DIGEST = "sha256:"
 """With this begins a part that is too long to be shown or kept."""
 _LONGEST = 40
+_FORMAT = 1
 _encode = json.JSONEncoder(sort_keys=True).encode
 
 
@@ -58,3 +64,27 @@ def _short(value: Any) -> str:
     if len(text) <= _LONGEST:
         return text
     return DIGEST + hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def encode_keys(entries: Mapping[str, KeyEntry]) -> dict[str, Any]:
+    """Return what JSON can hold of the parts of each key.
+
+    Each part stands once, under a number: most are the same for most jobs.
+    """
+    numbers: dict[tuple[str, str], int] = {}
+    keys = {
+        key: [*address, [numbers.setdefault(part, len(numbers)) for part in parts.items()]]
+        for key, (address, parts) in entries.items()
+    }
+    return {"format": _FORMAT, "parts": list(numbers), "keys": keys}
+
+
+def decode_keys(document: Any) -> dict[str, KeyEntry]:
+    """Return the parts of each key; whatever else the document is, it raises something."""
+    if document["format"] != _FORMAT:
+        raise ValueError(f"it has the format {document['format']}")
+    parts = [(str(name), str(text)) for name, text in document["parts"]]
+    return {
+        key: (Address(*address), dict(parts[number] for number in numbers))
+        for key, (*address, numbers) in document["keys"].items()
+    }

@@ -71,11 +71,9 @@ class Record:
     provenance : mapping of str to str
         Versions, commit, CPU, threads, data digests, command line.
     problem : str
-        Digest of the problem that was posed; empty where there are no scores, and in records of
-        earlier versions.
+        Digest of the problem that was posed; empty where there are no scores.
     missing, fetch : tuple of str, str
-        Recordings that the job lacked, and the command that gets them, up to their names; empty
-        in records of earlier versions.
+        Recordings that the job lacked, and the command that gets them, up to their names.
     """
 
     key: str
@@ -131,7 +129,6 @@ class Record:
             if document.pop("format") != FORMAT:
                 raise RecordError("the record has another format")
             document["status"] = Status(document["status"])
-            document = {**_SINCE, **document}
             document |= {name: tuple(document[name]) for name in ("warnings", "missing")}
             document["scores"] = {
                 name: math.nan if value is None else float(value)
@@ -147,10 +144,6 @@ class Record:
 
 
 _ENTRIES = {*Address._fields, *(item.name for item in fields(Record))} - {"address"}
-
-
-_SINCE: Mapping[str, Any] = {"problem": "", "missing": (), "fetch": ""}
-"""What records of earlier versions lack."""
 
 
 _LONG = re.compile(rb"(?<![0-9.])[0-9]{19}")

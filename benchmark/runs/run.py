@@ -14,7 +14,7 @@ from mocapbench.benchmark.archives import (
     recording_names,
 )
 from mocapbench.benchmark.events import EventLog
-from mocapbench.benchmark.runs.directory.key_file import KeyEntry
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.execution.base import Backend
 from mocapbench.benchmark.runs.execution.execute import execute
 from mocapbench.benchmark.runs.execution.job_queue import JobQueue
@@ -25,14 +25,13 @@ from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
 from mocapbench.benchmark.runs.posed import PosedProblems
 from mocapbench.benchmark.runs.progress import watch
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 
 __all__ = ["run"]
 
 
 def run(
     jobs: Sequence[Job],
-    store: Store,
+    store: RunDirectory,
     config: WorkerConfig,
     *,
     backend: Backend,
@@ -48,7 +47,7 @@ def run(
     Parameters
     ----------
     jobs : sequence of Job
-    store : Store
+    store : RunDirectory
     config : WorkerConfig
     backend : Backend
         Where jobs run, such as `ThisMachine`.
@@ -58,7 +57,7 @@ def run(
         Records what happens.
     """
     log = log or EventLog()
-    store.keep_keys({job.key: KeyEntry(job.address, job.parts) for job in jobs})
+    store.keep_keys({job.key: (job.address, job.parts) for job in jobs})
     posed = PosedProblems()
     known = {job.key: posed.check_record(r) for job in jobs if (r := store.load(job.key))}
     finished = {key: record for key, record in known.items() if not record.status.broken}
@@ -79,7 +78,7 @@ def run(
 
 def _compute_records(
     jobs: Sequence[Job],
-    store: Store,
+    store: RunDirectory,
     config: WorkerConfig,
     backend: Backend,
     console: Console,

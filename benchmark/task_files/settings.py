@@ -121,18 +121,15 @@ def _one_span(document: Document) -> Any:
 def _read_registered(
     document: Document, key: str, registry: Registry[Any], example: str
 ) -> tuple[str, ...]:
-    return tuple(
-        _current_name(document, key, registry, name) for name in read_names(document, key, example)
-    )
-
-
-def _current_name(document: Document, key: str, registry: Registry[Any], name: str) -> str:
-    try:
-        return registry.current_name(name)
-    except UnregisteredNameError as error:
-        near = error.args[0].partition(": ")[2]
-        advice = f"{near} `mocapbench list {key}` has them all; --plugin adds yours"
-        raise document.error(key, f"names of {key}", repr(name), advice) from error
+    names = read_names(document, key, example)
+    for name in names:
+        try:
+            registry.get(name)
+        except UnregisteredNameError as error:
+            near = error.args[0].partition(": ")[2]
+            advice = f"{near} `mocapbench list {key}` has them all; --plugin adds yours"
+            raise document.error(key, f"names of {key}", repr(name), advice) from error
+    return names
 
 
 def _metrics(document: Document) -> tuple[str, ...]:

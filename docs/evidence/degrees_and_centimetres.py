@@ -31,7 +31,7 @@ def means(scores: pd.DataFrame, task: str) -> pd.DataFrame:
 
 def main(run: Path) -> None:
     """Print a Markdown table for each task, the best by the first metric first."""
-    scores = bench.score_table(bench.Store.open(run).planned())
+    scores = bench.score_table(bench.RunDirectory(run).planned())
     for task, metrics in TASKS.items():
         table = means(scores, task)[metrics].sort_values(metrics[0])
         ranks = table.rank().astype(int)

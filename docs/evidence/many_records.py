@@ -55,7 +55,7 @@ def main(n_jobs: int, folder: Path) -> None:
         for job in jobs
         if job.address.fold == 0 and job.address.case == jobs[0].address.case
     }
-    store = bench.Store.create(folder / "run")
+    store = bench.RunDirectory.create(folder / "run")
     with timed("write", n_jobs):
         store.save_plan(bench.plan_document(jobs, provenance=about, workers=1))
         for job in jobs:

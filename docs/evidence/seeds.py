@@ -33,7 +33,7 @@ EVERY_CASE = "every case"
 def main(reference: str, runs: Sequence[str]) -> None:
     """Print the scores of ``runs``, means over folds first."""
     by_seed: dict[tuple[str, str, str, str], list[float]] = defaultdict(list)
-    for store in map(bench.Store.open, map(Path, runs)):
+    for store in map(bench.RunDirectory, map(Path, runs)):
         found = defaultdict(list)
         for record in store.planned():
             for metric in set(METRICS) & set(record.scores):

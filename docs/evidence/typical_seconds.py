@@ -20,7 +20,7 @@ from mocapbench import benchmark as bench
 def main(runs: Sequence[str]) -> None:
     """Print the table of the run directories ``runs``."""
     seconds: dict[tuple[str, str, str], list[float]] = defaultdict(list)
-    for store in map(bench.Store.open, map(Path, runs)):
+    for store in map(bench.RunDirectory, map(Path, runs)):
         profile = store.load_plan()["provenance"]["profile"]
         for record in store.planned():
             if record.fit_seconds is not None:

@@ -49,9 +49,10 @@ print(output.splitlines()[-2])
 
 import pandas as pd
 
-from mocapbench.benchmark import Store, score_table
+from mocapbench.benchmark import RunDirectory, score_table
 
-scores = score_table(Store.open(Path(folder.name, "results")).planned())
+results = RunDirectory(Path(folder.name, "results"))
+scores = score_table(results.planned())
 errors = scores[scores.metric == "mpjpe"].pivot_table(
     index="fold", columns="label", values="value"
 )

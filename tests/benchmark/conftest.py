@@ -8,12 +8,11 @@ import pytest
 from mocapbench.benchmark import TASKS, Seeds, archive_at
 from mocapbench.benchmark.cli.main import main
 from mocapbench.benchmark.runs import sources
-from mocapbench.benchmark.runs.directory.key_file import KeyEntry
-from mocapbench.benchmark.runs.directory.plan_file import PlannedJob, plan_document
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.fitting.fit import Fit
+from mocapbench.benchmark.runs.plan_document import PlannedJob, plan_document
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.source_code import own_code, reading
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 
 
@@ -104,12 +103,12 @@ def _digest(*names):
 def _job(row, parts):
     task, case, label, fold = row
     key, fit_key = _digest(row, sorted(parts.items())), _digest("fit", row)
-    return PlannedJob(key, fit_key, Address(task, 1, case, fold, label))
+    return PlannedJob(key, fit_key, Address(task, 1, case, fold, label), "")
 
 
 def _write_run(path, rows, *, statuses=None, scores=None, parts=None, left=(), seconds=1.0):
     """Write a run of rows (task, case, label, fold), as a run of the command line would."""
-    store, parts = Store.create(path), parts or {"seed": "0"}
+    store, parts = RunDirectory.create(path), parts or {"seed": "0"}
     jobs = {row: _job(row, parts) for row in rows}
     for row, job in jobs.items():
         if row in left:
@@ -126,7 +125,7 @@ def _write_run(path, rows, *, statuses=None, scores=None, parts=None, left=(), s
         )
         if scored:
             store.save_fit(job.fit_key, Fit({"mean-0": np.ones((2, 2))}, seconds, 0, 1, 1, True))
-    store.keep_keys({job.key: KeyEntry(job.address, parts) for job in jobs.values()})
+    store.keep_keys({job.key: (job.address, parts) for job in jobs.values()})
     about = {"profile": "smoke", "seed": "0", "started": f"when {path.name} started"}
     store.save_plan(plan_document(jobs.values(), provenance=about, workers=2))
     return path

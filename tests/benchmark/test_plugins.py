@@ -206,7 +206,6 @@ WRONG = {
     "TASKS = {'-a': task('-a')}": "name of letters, digits, .* for the task, got '-a'; rename it",
     "TASKS = {'missing-frames': task('missing-frames')}": "expected a name that no task .* has",
     "METRICS = {'mse': mine('mse')}": "expected a name that no metric .* has, got 'mse'; choose",
-    "METRICS = {'spread': mine('spread')}": "expected a name that no metric .* has, got 'spread'",
     "LIBRARIES = {'cmu': Gait}": "expected a name that no library .* has, got 'cmu'; choose",
     "FORMATS = {'csv': Table}": "expected a name that no format .* has, got 'csv'; choose",
     "TASKS = {'a': task('b')}": "expected the task under its own name 'b', got 'a'",

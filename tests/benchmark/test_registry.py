@@ -37,11 +37,10 @@ def test_there_are_five_registries():
         (FORMATS, "parket", "parquet"),
     ],
 )
-@pytest.mark.parametrize("look_up", [Registry.get, Registry.current_name])
-def test_an_unknown_name_suggests_the_nearest(registry, wrong, meant, look_up):
+def test_an_unknown_name_suggests_the_nearest(registry, wrong, meant):
     advice = re.escape(f"unknown {registry.kind} {wrong!r}: did you mean {meant}")
     with pytest.raises(UnknownNameError, match=advice):
-        look_up(registry, wrong)
+        registry.get(wrong)
 
 
 def test_an_unknown_name_may_be_in_a_file_that_was_not_named():
@@ -61,26 +60,6 @@ def test_order_of_registration_means_nothing():
     for name in ("a", "b"):
         other.add(name, name)
     assert one.names() == other.names() == ("a", "b")
-
-
-def test_a_former_name_leads_to_the_current_one():
-    assert METRICS.current_name("spread") == "variance_ratio"
-    assert METRICS.get("variance_ratio").former_names == ("spread",)
-    assert METRICS.current_name("variance_ratio") == "variance_ratio"
-    assert all(METRICS.current_name(name) == name for name in METRICS.names())
-    with pytest.raises(UnknownNameError, match="unknown metric 'spread'"):
-        METRICS.get("spread")
-
-
-@pytest.mark.parametrize("registry", REGISTRIES, ids=lambda registry: registry.kind)
-def test_no_name_is_the_former_one_of_something_else(registry):
-    former = [
-        name
-        for value in map(registry.get, registry.names())
-        for name in getattr(value, "former_names", ())
-    ]
-    assert len(set(former)) == len(former)
-    assert set(former) & set(registry.names()) == set()
 
 
 class _Point:

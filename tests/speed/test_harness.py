@@ -48,7 +48,7 @@ def _config():
 def stages(tmp_path, request):
     """Return what is done for one job, by name."""
     (job,) = _jobs(request.getfixturevalue("size"), 1)
-    config, spool, store = _config(), Spool(tmp_path), bench.Store.create(tmp_path / "run")
+    config, spool, store = _config(), Spool(tmp_path), bench.RunDirectory.create(tmp_path / "run")
     libraries = bench.archive_at(None).libraries
     spool.add(bench.archive_at(None), job.digests)
     archive = SpooledArchive(libraries, spool, job.digests)
@@ -87,7 +87,7 @@ def test_a_stage(benchmark, stages, size, how):
 def test_a_run(benchmark, tmp_path, size, how):
     benchmark.group = size
     jobs = _jobs(size, N_JOBS if benchmark.enabled else N_JOBS_UNTIMED)
-    store, backend = bench.Store.create(tmp_path / "run"), bench.ThisMachine(N_WORKERS)
+    store, backend = bench.RunDirectory.create(tmp_path / "run"), bench.ThisMachine(N_WORKERS)
     with Path(os.devnull).open("w", encoding="utf-8") as nowhere:
         console, began = Console(file=nowhere), time.perf_counter()
         run = benchmark.pedantic(

@@ -17,7 +17,7 @@ from mocapbench.benchmark.errors import ExitCode
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from mocapbench.benchmark import Backend, Job, Record, Store, WorkerConfig
+    from mocapbench.benchmark import Backend, Job, Record, RunDirectory, WorkerConfig
     from mocapbench.benchmark.events import EventLog
 
 __all__ = ["Session"]
@@ -30,7 +30,7 @@ class Session:
     Parameters
     ----------
     planned : sequence of Job
-    store : Store
+    store : RunDirectory
         Locked by the caller.
     config : WorkerConfig
     backend : Backend
@@ -40,7 +40,7 @@ class Session:
     """
 
     planned: Sequence[Job]
-    store: Store
+    store: RunDirectory
     config: WorkerConfig
     backend: Backend
     console: LiteralConsole

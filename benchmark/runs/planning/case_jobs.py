@@ -35,7 +35,7 @@ def case_jobs(request: Request, task: Task, case: Case, archive: Archive) -> Ite
     """Yield the jobs of one case: by entrant, then by fold."""
     missing = missing_recordings(task, case, archive)
     digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.recordings}
-    metrics = tuple(sorted(set(map(METRICS.current_name, request.metrics or METRICS.names()))))
+    metrics = tuple(sorted(set(request.metrics or METRICS.names())))
     common = _Common(task, case, request.seed, metrics, digests, missing)
     for entrant in chosen_entrants(request, task):
         parameters = full_parameters(entrant, case, task.profile(request.profile))

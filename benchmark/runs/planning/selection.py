@@ -79,7 +79,7 @@ def _check_names(request: Request) -> None:
     for name in request.tasks:
         TASKS.get(name)
     for name in request.metrics:
-        METRICS.current_name(name)
+        METRICS.get(name)
     tasks = _tasks(request)
     labels = {entrant.label for task in tasks for entrant in task.entrants}
     known = {*MODELS.names(), *labels}

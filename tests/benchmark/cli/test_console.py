@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from plans import plan_of
 from rich.progress import Progress
 from rich.table import Table
 from rich.text import Text
@@ -19,8 +20,8 @@ from mocapbench import benchmark
 from mocapbench.benchmark import gate
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.cli.main import main
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.datasets import TextColumnsWarning
 
@@ -91,14 +92,14 @@ def _record(key, case, label, fold, status):
 @pytest.fixture
 def run(tmp_path):
     """Return a run directory whose names and messages are hostile, its own included."""
-    store = Store.create(tmp_path / HOSTILE.replace("/", ""))
+    store = RunDirectory.create(tmp_path / HOSTILE.replace("/", ""))
     cases = {"test 1": Status.OK, "test 2": Status.FAILED}
     labels = ("knn", HOSTILE)
     jobs = [*product(cases, labels, (0, 1))]
     found = [_record(f"{n}", *job, cases[job[0]]) for n, job in enumerate(jobs)]
     for record in found:
         store.save(record)
-    store.save_plan({"keys": [record.key for record in found], "provenance": ABOUT})
+    store.save_plan(plan_of(found, **ABOUT))
     (store.path / "records" / f"{found[0].key}.json").write_text(CLEAR)
     return store.path
 

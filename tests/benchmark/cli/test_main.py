@@ -7,19 +7,17 @@ import time
 
 import pandas as pd
 import pytest
+from plans import plan_of
 from typer.main import get_command
 
 import mocapbench
 from mocapbench.benchmark import gate
-from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.cli.commands import COMMANDS
 from mocapbench.benchmark.cli.main import main
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES, METRICS, MODELS, REGISTRIES, TASKS
-from mocapbench.benchmark.runs.plan import plan
-from mocapbench.benchmark.runs.planning.request import Request
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 
 TOY = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
@@ -118,11 +116,11 @@ def test_a_smaller_run_says_what_its_report_leaves_out(cli, tmp_path):
 def test_the_wall_time_of_a_resumed_run_says_what_it_leaves_out(cli, tmp_path):
     run = (*TOY, "--models", "linear", "--out", tmp_path / "run", "--folds")
     assert cli(*run, 1) == 0
-    about = Store.open(tmp_path / "run").load_plan()["provenance"]
+    about = RunDirectory(tmp_path / "run").load_plan()["provenance"]
     assert re.fullmatch(r"\d+ s", about["wall time"])
     time.sleep(1.0)  # the time of the start, which has no fractions, is another
     assert cli(*run, 3) == 0
-    about = Store.open(tmp_path / "run").load_plan()["provenance"]
+    about = RunDirectory(tmp_path / "run").load_plan()["provenance"]
     assert re.fullmatch(r"\d+ s; 1 result is of an earlier run", about["wall time"])
 
 
@@ -140,7 +138,7 @@ def test_a_finished_run_is_drawn_again_only_if_something_is_new(cli, tmp_path):
     assert cli(*run) == 0
     assert "nothing new; report:" in cli.printed
     assert page.read_text() == "drawn"
-    assert Store.open(tmp_path / "run").load_check()  # what was checked is still the last run
+    assert RunDirectory(tmp_path / "run").load_check()  # what was checked is still the last run
     news = [
         page.unlink,
         lambda: _take_longer(next((tmp_path / "run").glob("records/*/*"))),
@@ -193,7 +191,7 @@ def test_centimetres_are_scored_from_stored_predictions(cli, tmp_path):
     assert before
     assert cli(*which, "--metrics", "mpjpe") == 0
     assert {p: p.stat().st_mtime_ns for p in (out / "predictions").glob("*/*")} == before
-    (record,) = Store.open(out).planned()  # of the last run
+    (record,) = RunDirectory(out).planned()  # of the last run
     assert 0.0 < record.scores["mpjpe"] < 100.0
     assert len(record.parts["mpjpe"]["joint"]) == 31
 
@@ -360,18 +358,18 @@ def test_an_export_holds_the_last_run_alone(cli, tmp_path, edits):
     scores, jobs = (pd.read_csv(tmp_path / "tables" / f"{name}.csv") for name in ("scores", "jobs"))
     assert not scores.duplicated(["task", "case", "fold", "label", "metric"]).any()
     assert len(jobs) == 2
-    kept = {record.key: record.scores["mse"] for record in Store.open(run).planned()}
+    kept = {record.key: record.scores["mse"] for record in RunDirectory(run).planned()}
     own = scores[scores["metric"] == "mse"].set_index("key")["value"]
     assert own.to_dict() == pytest.approx(kept)
 
 
 def test_no_text_of_an_export_begins_a_formula(cli, tmp_path):
-    store = Store.create(tmp_path / "run")
+    store = RunDirectory.create(tmp_path / "run")
     message, address = "-it\rbroke", Address("toy-interpolation-1", 1, "test 1", 0, "=1+1")
     fields = {"message": message, "scores": {"mse": -1.5}, "iterations": 3}
     store.save(Record("a", "a", address, 0, "@knn", {}, Status.FAILED, **fields))
     store.save(Record("b", "b", address._replace(fold=1), 0, "@knn", {}, Status.OK))
-    store.save_plan({"keys": ["a", "b"], "provenance": {}})
+    store.save_plan(plan_of(store.records()))
     assert cli("export", "--out", tmp_path / "run", "--to", tmp_path) == 0
     jobs, scores = (pd.read_csv(tmp_path / f"{name}.csv") for name in ("jobs", "scores"))
     assert set(jobs["label"]) == {"'=1+1"}
@@ -421,7 +419,7 @@ def test_a_file_that_cannot_be_written_is_refused_before_anything_is_read(
 
 def test_a_defect_is_told_from_a_worse_metric(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(gate, "read_reference", lambda path: 1 / 0)
-    Store.create(tmp_path).save_plan({"keys": [], "provenance": {}})
+    RunDirectory.create(tmp_path).save_plan(plan_of([]))
     with pytest.raises(SystemExit) as ended:
         main(["check", str(tmp_path), "--reference", "b.csv"])
     assert ended.value.code == 70
@@ -457,21 +455,8 @@ def test_a_command_like_no_other_exits_with_2_and_lists_them(cli):
     assert cli.printed == f"error: unknown command '@@@@': known: {', '.join(COMMANDS)}"
 
 
-def test_a_metric_may_be_given_by_its_former_name(cli, tmp_path):
-    synthesis = ("run", "--offline", "--dry-run", "--profile", "smoke", "--tasks", "toy-synthesis")
-    assert cli(*synthesis, "--metrics", "spread", "--out", tmp_path / "run") == 0
-    assert "jobs" in cli.printed
-    archive = archive_at(None)
-    old, new, both = (
-        plan(Request("smoke", ("toy-synthesis",), metrics=names), archive)
-        for names in (("spread",), ("variance_ratio",), ("spread", "variance_ratio"))
-    )
-    assert old == new == both
-    assert {job.metrics for job in old} == {("variance_ratio",)}
-
-
 def test_a_run_that_another_one_writes_to_is_refused(cli, tmp_path):
-    store = Store.create(tmp_path / "run")
+    store = RunDirectory.create(tmp_path / "run")
     with store.locked():
         assert cli(*FAST, "--out", tmp_path / "run") == 2
         assert "another run is writing to" in cli.printed
@@ -481,12 +466,12 @@ def test_a_run_that_another_one_writes_to_is_refused(cli, tmp_path):
 
 
 def test_the_lock_does_not_outlive_a_killed_process(tmp_path):
-    store = Store.create(tmp_path)
+    store = RunDirectory.create(tmp_path)
     script = (
         "import sys, time\n"
         "from pathlib import Path\n"
-        "from mocapbench.benchmark.runs.store import Store\n"
-        "with Store.open(Path(sys.argv[1])).locked():\n"
+        "from mocapbench.benchmark.runs.directory import RunDirectory\n"
+        "with RunDirectory(Path(sys.argv[1])).locked():\n"
         "    print('locked', flush=True)\n"
         "    time.sleep(600)\n"
     )

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mocapbench.benchmark import JointAngles, Store, archive_at
+from mocapbench.benchmark import JointAngles, RunDirectory, archive_at
 from mocapbench.benchmark.cli.main import main
 from mocapbench.datasets import AcclaimFormat, CSVFormat
 
@@ -48,7 +48,7 @@ def samples(finished):
 @pytest.fixture
 def stored(fills):
     """Return what the store has of the cell's recording."""
-    store = Store.open(fills)
+    store = RunDirectory(fills)
     (record,) = (r for r in store.records() if (r.address.task, r.address.label) == (FILL, "nn"))
     return store.load_fit(record.fit_key).arrays["mean-0"]
 

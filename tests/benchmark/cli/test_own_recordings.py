@@ -10,7 +10,7 @@ from format_files import GAIT, markers, write_acclaim, write_csv, write_trc
 from own_files import write_csv as write_waves
 
 from mocapbench.benchmark.registry import TASKS
-from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.runs.directory import RunDirectory
 
 LEGS = ("lfemur.rx", "lfemur.ry", "ltibia.rx", "rfemur.rx", "rtibia.rx")
 WAYS = {
@@ -101,7 +101,7 @@ def test_a_run_resumes_and_only_what_a_change_concerns_runs_again(cli, own, task
     assert "task code" in cli.printed
     assert own(task_file("fraction = 0.3")) == 0
     assert "jobs are in" not in cli.printed
-    assert len(Store.open(tmp_path / "run").record_keys()) == 6 + 3 + 6
+    assert len(RunDirectory(tmp_path / "run").record_keys()) == 6 + 3 + 6
 
 
 def test_a_changed_recording_runs_again(cli, own, task_file, recordings, tmp_path):

@@ -9,8 +9,8 @@ import time
 
 import pytest
 
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Status
-from mocapbench.benchmark.runs.store import Store
 
 TOY = ("run", "--profile", "smoke", "--tasks", "toy-interpolation-1", "--offline")
 ROWS = [("t", "a", "x", 0), ("t", "a", "x", 1), ("t", "a", "y", 0)]
@@ -89,13 +89,13 @@ def test_the_exit_code_of_status_is_that_of_the_run(cli, write_run, tmp_path, ru
 
 
 def test_status_of_a_run_in_progress_is_fine_and_does_not_disturb_it(cli, write_run, tmp_path):
-    store = Store(write_run(tmp_path / "run", ROWS, left=ROWS))
+    store = RunDirectory(write_run(tmp_path / "run", ROWS, left=ROWS))
     with store.locked():
         assert cli("status", store.path) == 0
         assert "running" in cli.printed
 
 
-@pytest.mark.parametrize("start", [lambda path: None, Store.create])
+@pytest.mark.parametrize("start", [lambda path: None, RunDirectory.create])
 def test_status_of_what_no_run_has_planned_exits_with_2(cli, tmp_path, start):
     start(tmp_path / "run")
     assert cli("status", tmp_path / "run") == 2
@@ -156,7 +156,7 @@ def test_a_log_that_cannot_be_written_is_refused_before_anything_runs(cli, tmp_p
 
 
 def test_the_log_of_a_refused_run_tells_its_end(cli, tmp_path):
-    store, path = Store.create(tmp_path / "run"), tmp_path / "log.jsonl"
+    store, path = RunDirectory.create(tmp_path / "run"), tmp_path / "log.jsonl"
     with store.locked():
         assert cli(*TOY, "--out", store.path, "--log-json", path) == 2
     (ended,) = _events(path)
@@ -164,7 +164,7 @@ def test_the_log_of_a_refused_run_tells_its_end(cli, tmp_path):
 
 
 def test_a_run_sweeps_what_a_killed_one_left(cli, tmp_path):
-    Store.create(tmp_path / "run")
+    RunDirectory.create(tmp_path / "run")
     for name in (".plan.json.abcdefgh.tmp", "records/.k.json.abcdefgh.tmp"):
         (tmp_path / "run" / name).write_text("half")
     assert cli(*TOY, "--models", "trivial", "--folds", 1, "--out", tmp_path / "run") == 0

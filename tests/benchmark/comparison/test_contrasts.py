@@ -5,6 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from markdown_it import MarkdownIt
+from plans import plan_of
 from typer.main import get_command
 
 from mocapbench.benchmark import comparison
@@ -12,8 +13,8 @@ from mocapbench.benchmark.cli.compare import app
 from mocapbench.benchmark.comparison.units import with_advantages
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.results.bundle import bundle
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.metrics.statistics import ROPE
 from mocapbench.reports import MetricInfo
@@ -49,10 +50,10 @@ def run(tmp_path):
     """Return a writer of run directories."""
 
     def write(name, *groups):
-        store, found = Store.create(tmp_path / name), [r for group in groups for r in group]
+        store, found = RunDirectory.create(tmp_path / name), [r for group in groups for r in group]
         for record in found:
             store.save(record)
-        store.save_plan({"keys": [record.key for record in found], "provenance": {}})
+        store.save_plan(plan_of(found))
         return store.path
 
     return write
@@ -260,16 +261,6 @@ def test_no_name_in_the_csv_begins_a_formula(cli, run, tmp_path):
     rows = compared(cli, tmp_path, bad, good)
     assert set(rows.index) == {"'=1+1"}
     assert rows["advantage"].to_list() == [-1.0]
-
-
-def test_a_metric_may_be_given_by_its_former_name(cli, run, tmp_path):
-    given = {"task": "toy-synthesis", "metric": "variance_ratio"}
-    both = run("run", records("moa", GOOD, **given), records("mohgp", BAD, **given))
-    chosen = ("--models", "moa,mohgp", "--metrics")
-    former = compared(cli, tmp_path, both, *chosen, "spread")
-    assert set(former["metric"]) == {"variance_ratio"}
-    for names in ("variance_ratio", "variance_ratio,spread"):
-        pd.testing.assert_frame_equal(former, compared(cli, tmp_path, both, *chosen, names))
 
 
 def test_a_metric_that_both_sides_lack_is_named(cli, run):

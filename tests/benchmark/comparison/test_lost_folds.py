@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import pandas as pd
 import pytest
+from plans import plan_of
 
 from mocapbench.benchmark import comparison
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 
 TOY = "toy-interpolation-1"
@@ -55,12 +56,11 @@ def run(tmp_path):
     """Return a writer of run directories, some of whose planned jobs have no record yet."""
 
     def write(name, *groups, without=()):
-        store, found = Store.create(tmp_path / name), [r for group in groups for r in group]
+        store, found = RunDirectory.create(tmp_path / name), [r for group in groups for r in group]
         for record in found:
             if record not in without:
                 store.save(record)
-        jobs = [{"fit_key": "", **record.address._asdict()} for record in found]
-        store.save_plan({"keys": [r.key for r in found], "jobs": jobs, "provenance": {}})
+        store.save_plan(plan_of(found))
         return store.path
 
     return write

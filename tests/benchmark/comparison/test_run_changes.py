@@ -5,13 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from plans import plan_of
 
 from mocapbench.benchmark.comparison import compare, run_changes
 from mocapbench.benchmark.comparison.rows import POOLED
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import TASKS
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.metrics.statistics import ROPE
 from mocapbench.reports import ChangeVerdict
@@ -75,10 +76,10 @@ def run(tmp_path):
     """Return a writer of run directories."""
 
     def write(name, found):
-        store = Store.create(tmp_path / name)
+        store = RunDirectory.create(tmp_path / name)
         for each in found:
             store.save(each)
-        store.save_plan({"keys": [each.key for each in found], "provenance": {}})
+        store.save_plan(plan_of(found))
         return store.path
 
     return write

@@ -6,9 +6,10 @@ from xml.etree import ElementTree
 
 import pytest
 from markdown_it import MarkdownIt
+from plans import plan_of
 
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 
 ABOUT = {
@@ -38,7 +39,7 @@ def run(tmp_path):
     """Return a maker of runs from {label: [scores or status per fold]}."""
 
     def make(name, entrants, about=ABOUT, version=1):
-        store = Store.create(tmp_path / name)
+        store = RunDirectory.create(tmp_path / name)
         records = [
             _record(label, fold, found, about, version)
             for label, folds in entrants.items()
@@ -46,7 +47,7 @@ def run(tmp_path):
         ]
         for record in records:
             store.save(record)
-        store.save_plan({"keys": [record.key for record in records], "provenance": about})
+        store.save_plan(plan_of(records, **about))
         return store.path
 
     return make
@@ -182,16 +183,6 @@ def test_another_environment_is_seen_and_held_less_tightly(check, cli, run, tmp_
     assert cli("check", tmp_path / "near", *arguments, "--environment", "same") == 1
 
 
-@pytest.mark.parametrize("option", ["--reference", "--baseline"])
-def test_the_former_name_of_the_option_still_works(cli, run, tmp_path, option):
-    stored = tmp_path / "stored.csv"
-    before, after = run("before", {"knn": _mse(1.0)}), run("after", {"knn": _mse(1.1)})
-    assert cli("check", before, option, stored, "--update") == 0
-    assert cli("check", before, option, stored) == 0
-    assert cli("check", after, option, stored) == 1
-    assert "check: 1 worse" in cli.printed
-
-
 def test_a_file_of_tolerances_decides(check, tmp_path):
     before, after = {"knn": _mse(1.0)}, {"knn": _mse(1.05)}
     (tmp_path / "t.toml").write_text("[same.metrics.mse]\nrelative = 0.1\n")
@@ -308,7 +299,7 @@ def test_the_report_tells_the_check_of_the_last_run_only(check, cli, tmp_path):
     assert not found["passed"]
     assert cli("report", "--out", tmp_path / "after") == 0
     assert "Regression check" in (tmp_path / "after" / "report.html").read_text()
-    store = Store.open(tmp_path / "after")
+    store = RunDirectory(tmp_path / "after")
     store.save_plan(store.load_plan())
     assert cli("report", "--out", tmp_path / "after") == 0
     assert "Regression check" not in (tmp_path / "after" / "report.html").read_text()

@@ -13,12 +13,13 @@ from mocapbench.baselines.oracle import Oracle
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.problems.masks import hide_all_but
 from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.evaluate import evaluate
 from mocapbench.benchmark.runs.job import Work, WorkerConfig
 from mocapbench.benchmark.runs.plan import plan
+from mocapbench.benchmark.runs.plan_document import plan_document
 from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.provenance import provenance
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks import toy_interpolation
 
 N_FOLDS = 20
@@ -45,7 +46,7 @@ def run(tmp_path):
     """Return a function that runs smoke's toy task in this process, where faults are planted."""
 
     def run(name, model, n_folds=N_FOLDS):
-        store = Store.create(tmp_path / name)
+        store = RunDirectory.create(tmp_path / name)
         about = {**provenance(["test"], threads=1), "profile": "smoke", "seed": "0"}
         unlimited = resource.RLIM_INFINITY
         config = WorkerConfig(None, (), 60.0, unlimited, 1, about)
@@ -56,7 +57,7 @@ def run(tmp_path):
             record = evaluate(Work(job, None), config, archive).record
             assert not record.message
             store.save(record)
-        store.save_plan({"keys": [job.key for job in jobs], "provenance": about})
+        store.save_plan(plan_document(jobs, provenance=about))
         return store.path
 
     return run

@@ -101,8 +101,7 @@ def test_every_entry_of_our_tolerances_arrives(folder, environment):
     read, default = read_tolerances(environment, path), DEFAULT_TOLERANCES[environment]
     assert read.default == replace(default, **table)
     assert read.by_metric == {
-        METRICS.current_name(name): replace(default, **{**table, **options})
-        for name, options in own.items()
+        name: replace(default, **{**table, **options}) for name, options in own.items()
     }
 
 
@@ -114,6 +113,6 @@ def test_our_tolerances_across_platforms_are_not_the_defaults():
     assert cross.of("mse") == Tolerance(k=3.0, relative=0.1)
     assert cross.of("msll") == Tolerance(k=3.0, relative=0.02, absolute=1e-6)
     assert cross.of("mlc_best") == Tolerance(k=3.0, relative=0.02, absolute=0.02)
-    assert cross.of("variance_ratio") == Tolerance(k=3.0, relative=0.2)  # spread in the file
+    assert cross.of("variance_ratio") == Tolerance(k=3.0, relative=0.2)
     assert cross.of("crps") == DEFAULT_TOLERANCES[Environment.CROSS]
     assert same.of("mse") == DEFAULT_TOLERANCES[Environment.SAME]

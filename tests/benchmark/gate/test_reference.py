@@ -88,20 +88,6 @@ def test_nothing_there_holds_no_values(tmp_path):
     assert read_reference(tmp_path / "absent.csv") is None
 
 
-def test_a_metric_that_was_renamed_is_read_under_its_name(tmp_path):
-    values = {_series(metric="spread"): {0: 1.0}, _series(metric="gone"): {0: 2.0}}
-    write_reference(tmp_path / "r.csv", Reference(values, ABOUT))
-    read = read_reference(tmp_path / "r.csv").values
-    assert read == {_series(metric="variance_ratio"): {0: 1.0}, _series(metric="gone"): {0: 2.0}}
-
-
-def test_a_metric_under_both_of_its_names_has_two_rows(tmp_path):
-    values = {_series(metric=name): {0: 1.0} for name in ("spread", "variance_ratio")}
-    write_reference(tmp_path / "r.csv", Reference(values, ABOUT))
-    with pytest.raises(UsageError, match="t, 1, c, l, variance_ratio has two rows; keep one"):
-        read_reference(tmp_path / "r.csv")
-
-
 @pytest.mark.parametrize(
     "text",
     [

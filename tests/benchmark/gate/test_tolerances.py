@@ -29,18 +29,6 @@ def test_a_metrics_own_table_goes_over_the_environments(written):
     assert same.of("msll") == Tolerance()
 
 
-def test_a_metric_may_be_given_by_its_former_name(written):
-    cross = read_tolerances(Environment.CROSS, written("[cross.metrics.spread]\nrelative = 0.2\n"))
-    assert cross.of("variance_ratio") == Tolerance(3.0, 0.2, 0.0)
-    assert cross.by_metric.keys() == {"variance_ratio"}
-
-
-def test_a_metric_under_both_of_its_names_is_refused(written):
-    both = written("[same.metrics.spread]\nk = 1\n[same.metrics.variance_ratio]\nk = 2\n")
-    with pytest.raises(UsageError, match="expected one table of variance_ratio, got spread and"):
-        read_tolerances(Environment.SAME, both)
-
-
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [

@@ -12,13 +12,12 @@ from mocapbench.benchmark.inspection.output import explanation_table
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.runs import keys
-from mocapbench.benchmark.runs.directory.key_file import KeyEntry
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.fitting import solve
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.plan import plan
 from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
-from mocapbench.benchmark.runs.store import Store
 
 MODEL = """\
 from mocapbench.baselines.trivial import Trivial
@@ -107,8 +106,8 @@ class World:
 
     def run(self, status=Status.OK, *, fits=True):
         """Leave the records of a run."""
-        store, jobs = Store.create(self.out), self.jobs()
-        store.keep_keys({job.key: KeyEntry(job.address, job.parts) for job in jobs})
+        store, jobs = RunDirectory.create(self.out), self.jobs()
+        store.keep_keys({job.key: (job.address, job.parts) for job in jobs})
         for job in jobs:
             store.save(job.record(status))
             if fits:
@@ -264,14 +263,6 @@ def test_jobs_without_recordings_cannot_run_until_they_are_there(world):
     assert (found.step, new.part, new.before) == (Step.FIT, "recording waves:a", '"missing"')
 
 
-def test_records_of_earlier_versions_are_told_from_none(world, monkeypatch):
-    world.run()
-    (world.out / "keys.json").unlink()
-    assert world.explained().step is Step.SKIP
-    _metric(world, monkeypatch)
-    assert "by an earlier version" in world.explained().cause
-
-
 def test_of_jobs_that_share_predictions_one_fits(world):
     def change(task):
         twin = dataclasses.replace(task.cases[0], name="twin", problem_name="gap")
@@ -292,8 +283,8 @@ def test_of_jobs_that_share_predictions_one_fits(world):
 def test_thousands_of_jobs_are_explained_in_a_few_lines(world):
     archive, metric = archive_at(None), METRICS.get("mse")
     jobs = plan(Request("quick", metrics=("mse",)), archive)
-    store = Store.create(world.out)
-    store.keep_keys({job.key: KeyEntry(job.address, job.parts) for job in jobs})
+    store = RunDirectory.create(world.out)
+    store.keep_keys({job.key: (job.address, job.parts) for job in jobs})
     for job in jobs:
         store.save(job.record(Status.OK))
     METRICS.add("mse", dataclasses.replace(metric, statistic=METRICS.get("smse").statistic))

@@ -9,10 +9,10 @@ from mocapbench.benchmark.inspection.explanation import Step, explain
 from mocapbench.benchmark.inspection.forecast import forecast
 from mocapbench.benchmark.inspection.forecast_output import forecast_lines, lacking, lacking_line
 from mocapbench.benchmark.inspection.work import Basis, ExpectedWork
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.plan import plan
 from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
-from mocapbench.benchmark.runs.store import Store
 
 TASKS = ("toy-interpolation-1", "missing-frames")
 
@@ -39,7 +39,7 @@ def test_without_records_the_developers_know(tmp_path):
 
 def test_records_of_the_entrant_go_first_and_what_is_done_takes_no_time(tmp_path):
     first, *rest = planned = jobs(("knn", "trivial"), TASKS[:1])
-    store = Store.create(tmp_path / "run")
+    store = RunDirectory.create(tmp_path / "run")
     done(store, first, 7.0)
     found = of(planned, store.path)
     others = sum(job.address.label == first.address.label for job in rest)
@@ -54,7 +54,7 @@ def test_jobs_that_share_a_fit_count_as_one(tmp_path):
     found = of(planned, tmp_path / "none", "smoke")
     assert found.steps == {Step.FIT: 1, Step.PREDICT: len(rest)}
     assert len(found.now.seconds) == 1
-    store = Store.create(tmp_path / "run")
+    store = RunDirectory.create(tmp_path / "run")
     done(store, first, 7.0)  # its fitted model has ended with the run
     assert of(planned, store.path, "smoke").steps == {
         Step.SKIP: 1,
@@ -77,7 +77,7 @@ def test_a_fit_that_cases_share_counts_once(tmp_path):
     assert len(fits) < len(planned)
     assert len(found.with_all.seconds) == len(fits)
     first_run = explain(planned, tmp_path / "none")
-    Store.create(tmp_path / "empty")
+    RunDirectory.create(tmp_path / "empty")
     assert [e.step for e in explain(planned, tmp_path / "empty")] == [e.step for e in first_run]
 
 
@@ -118,7 +118,7 @@ def test_a_cluster_decides_how_many_jobs_run_at_once(tmp_path):
 
 def test_a_run_that_is_done_takes_no_time(tmp_path):
     planned = jobs(("knn",), TASKS[:1])
-    store = Store.create(tmp_path / "run")
+    store = RunDirectory.create(tmp_path / "run")
     for job in planned:
         done(store, job, 1.0)
     lines = list(forecast_lines(of(planned, store.path), store.path, 2))

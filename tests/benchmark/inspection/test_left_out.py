@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from mocapbench.benchmark.inspection.left_out import left_out_lines
-from mocapbench.benchmark.runs.store import Store
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.tasks.address import Address
 
 ROWS = [("t", case, label, fold) for case in "ab" for label in "xyz" for fold in (0, 1)]
@@ -32,15 +32,15 @@ def _jobs(rows):
     ],
 )
 def test_models_tasks_cases_and_folds_that_are_gone_are_named(write_run, tmp_path, kept, said):
-    lines = left_out_lines(Store(write_run(tmp_path / "run", ROWS)), _jobs(kept))
+    lines = left_out_lines(RunDirectory(write_run(tmp_path / "run", ROWS)), _jobs(kept))
     assert len(lines) == (said is not None)
     assert all(said in line for line in lines)
 
 
 def test_jobs_without_a_result_are_not_missed(write_run, tmp_path):
-    store = Store(write_run(tmp_path / "run", ROWS, left=ROWS[:2]))
+    store = RunDirectory(write_run(tmp_path / "run", ROWS, left=ROWS[:2]))
     assert left_out_lines(store, _jobs(ROWS[2:])) == []
 
 
 def test_a_new_folder_has_nothing_to_leave_out(tmp_path):
-    assert left_out_lines(Store.create(tmp_path / "run"), _jobs(ROWS)) == []
+    assert left_out_lines(RunDirectory.create(tmp_path / "run"), _jobs(ROWS)) == []

@@ -11,13 +11,13 @@ from mocapbench.benchmark.inspection.explanation import explain
 from mocapbench.benchmark.inspection.forecast import forecast
 from mocapbench.benchmark.inspection.forecast_output import forecast_lines
 from mocapbench.benchmark.inspection.output import state_lines
-from mocapbench.benchmark.inspection.state import UNKNOWN, run_state
+from mocapbench.benchmark.inspection.state import run_state
 from mocapbench.benchmark.inspection.work import Basis
-from mocapbench.benchmark.runs.directory.plan_file import plan_document
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.plan import plan
+from mocapbench.benchmark.runs.plan_document import plan_document
 from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
-from mocapbench.benchmark.runs.store import Store
 
 ROWS = [(task, "a", label, fold) for task in "tu" for label in "xy" for fold in (0, 1, 2)]
 NOW = datetime(2026, 1, 1, 12, tzinfo=UTC)
@@ -30,7 +30,7 @@ def test_jobs_are_counted_by_task(write_run, tmp_path):
         ROWS[2]: Status.OUT_OF_MEMORY,
         ROWS[3]: Status.DATA_MISSING,
     }
-    store = Store(write_run(tmp_path / "run", ROWS, statuses=statuses, left=ROWS[6:8]))
+    store = RunDirectory(write_run(tmp_path / "run", ROWS, statuses=statuses, left=ROWS[6:8]))
     state = run_state(store)
     assert list(state.tasks) == ["t", "u"]
     assert state.tasks["t"] == (2, 3, 1, 0)
@@ -40,18 +40,18 @@ def test_jobs_are_counted_by_task(write_run, tmp_path):
 
 
 def test_a_run_is_running_interrupted_or_finished(write_run, tmp_path):
-    store = Store(write_run(tmp_path / "run", ROWS, left=ROWS[:2]))
+    store = RunDirectory(write_run(tmp_path / "run", ROWS, left=ROWS[:2]))
     with store.locked():
-        assert run_state(Store(store.path)).name == "running"
+        assert run_state(RunDirectory(store.path)).name == "running"
     assert run_state(store).name == "interrupted"
-    assert run_state(Store(write_run(tmp_path / "all", ROWS))).name == "finished"
+    assert run_state(RunDirectory(write_run(tmp_path / "all", ROWS))).name == "finished"
 
 
 @pytest.mark.parametrize(("left", "expected"), [(0, 0.0), (1, 2.0), (4, 8.0)])
 def test_the_time_left_is_that_of_jobs_alike_over_the_workers(write_run, tmp_path, left, expected):
     rows = ROWS[:6] + [("v", "a", "x", fold) for fold in range(4)]
     path = write_run(tmp_path / "run", rows, left=rows[6 : 6 + left], seconds=4.0)
-    state = run_state(Store(path))
+    state = run_state(RunDirectory(path))
     assert state.work_left.total / state.workers == expected
 
 
@@ -68,14 +68,14 @@ def test_the_most_alike_jobs_count(write_run, tmp_path, row, expected):
     write_run(path, slow, seconds=10.0)
     write_run(path, fast, seconds=2.0)
     write_run(path, [*slow, *fast, row], left=[*slow, *fast, row])
-    assert run_state(Store(path)).work_left.seconds == (expected,)
+    assert run_state(RunDirectory(path)).work_left.seconds == (expected,)
 
 
 @pytest.mark.parametrize("done", [(), ("linear",), ("linear", "mohgp-1")])
 def test_what_is_left_takes_as_long_as_a_dry_run_says(tmp_path, done):
     """Also where the jobs that are left are of models that the run directory does not know."""
     request = Request("quick", ("toy-interpolation-1",), ("linear", "mohgp"), folds=2)
-    planned, store = plan(request, archive_at(None)), Store.create(tmp_path / "run")
+    planned, store = plan(request, archive_at(None)), RunDirectory.create(tmp_path / "run")
     for job in planned:
         if job.address.label in done and job.address.fold == 0:
             store.save(job.record(Status.OK, fit_seconds=0.01, predict_seconds=0.01))
@@ -89,7 +89,7 @@ def test_what_is_left_takes_as_long_as_a_dry_run_says(tmp_path, done):
 
 
 def test_to_score_what_is_predicted_takes_no_time(write_run, tmp_path):
-    store = Store(write_run(tmp_path / "run", ROWS))
+    store = RunDirectory(write_run(tmp_path / "run", ROWS))
     record = store.planned()[0]
     store.record_path(record.key).unlink()
     state = run_state(store)
@@ -99,7 +99,7 @@ def test_to_score_what_is_predicted_takes_no_time(write_run, tmp_path):
 
 
 def test_a_model_that_jobs_share_is_fitted_once(write_run, tmp_path):
-    store = Store(write_run(tmp_path / "run", ROWS, left=ROWS[6:], seconds=4.0))
+    store = RunDirectory(write_run(tmp_path / "run", ROWS, left=ROWS[6:], seconds=4.0))
     each = run_state(store).work_left.total
     plan = dict(store.load_plan())
     plan["jobs"] = [row | {"training_key": row["task"]} for row in plan["jobs"]]
@@ -108,7 +108,7 @@ def test_a_model_that_jobs_share_is_fitted_once(write_run, tmp_path):
 
 
 def test_damaged_files_are_named(write_run, tmp_path):
-    store = Store(write_run(tmp_path / "run", ROWS))
+    store = RunDirectory(write_run(tmp_path / "run", ROWS))
     victims = [next(store.path.glob(f"{name}/*/*")) for name in ("records", "predictions")]
     for path in victims:
         path.write_bytes(path.read_bytes()[:-20])
@@ -119,19 +119,13 @@ def test_damaged_files_are_named(write_run, tmp_path):
     assert state.total.left == 1
 
 
-def test_of_plans_of_earlier_versions_only_records_tell_the_task(write_run, tmp_path):
-    store = Store(write_run(tmp_path / "run", ROWS, left=ROWS[-2:]))
-    store.save_plan({name: store.load_plan()[name] for name in ("keys", "provenance")})
-    assert run_state(store).tasks == {"t": (6, 0, 0, 0), "u": (4, 0, 0, 0), UNKNOWN: (0, 0, 0, 2)}
-
-
 def test_an_empty_plan_has_no_jobs(write_run, tmp_path):
-    assert run_state(Store(write_run(tmp_path / "run", []))).total.planned == 0
+    assert run_state(RunDirectory(write_run(tmp_path / "run", []))).total.planned == 0
 
 
 def test_a_run_without_a_plan_is_refused(tmp_path):
     with pytest.raises(UsageError, match="run `mocapbench run` again"):
-        run_state(Store.create(tmp_path))
+        run_state(RunDirectory.create(tmp_path))
 
 
 def _lines(store, **about):
@@ -141,13 +135,13 @@ def _lines(store, **about):
 
 
 def test_it_is_said_since_when_and_for_how_long(write_run, tmp_path):
-    store = Store(write_run(tmp_path / "run", ROWS, left=ROWS[:4], seconds=3600.0))
+    store = RunDirectory(write_run(tmp_path / "run", ROWS, left=ROWS[:4], seconds=3600.0))
     started = (NOW - timedelta(minutes=5)).isoformat()
     told = _lines(store, started=started)
     assert told.startswith("interrupted, started 2026-01-01 11:55 UTC, 5 min ago")
     assert "time left: about 2.0 h with 2 jobs at once (4.0 h of work in 4 fits)" in told
     assert "the same command resumes it" in told
-    finished = Store(write_run(tmp_path / "all", ROWS))
+    finished = RunDirectory(write_run(tmp_path / "all", ROWS))
     assert _lines(finished, started=started, **{"wall time": "12 s"}).endswith("wall time: 12 s")
     assert _lines(finished, **{"merged from": "a; b"}) == "finished, merged from a; b"
     assert re.fullmatch("finished", _lines(finished, started="then and later"))

@@ -12,8 +12,8 @@ from mocapbench.basics.whole_files import write_bytes
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.merging import merge as module
 from mocapbench.benchmark.merging.merge import merge
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Status
-from mocapbench.benchmark.runs.store import Store
 
 ROWS = [
     (task, case, label, fold)
@@ -35,7 +35,7 @@ def _files(path):
 
 
 def _plan(path):
-    return Store.open(path).load_plan()
+    return RunDirectory(path).load_plan()
 
 
 @settings(max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -51,7 +51,7 @@ def test_merging_is_a_union(write_run, runs, left):
         merge([b, a], ba)
         assert _files(ab) == _files(ba)
         assert set(_plan(ab)["keys"]) == set(_plan(ba)["keys"])
-        assert Store(ab).load_keys().keys() >= Store(ab).record_keys()
+        assert RunDirectory(ab).load_keys().keys() >= RunDirectory(ab).record_keys()
         merge([ab, c], abc)
         merge([b, c], bc)
         merge([a, bc], a_bc)
@@ -70,7 +70,7 @@ def test_jobs_are_in_table_order_and_that_of_the_first_run_goes_first(write_run,
     merge([one, other], tmp_path / "out")
     found = [
         (record.address.task, record.address.case, record.address.label, record.address.fold)
-        for record in Store.open(tmp_path / "out").planned()
+        for record in RunDirectory(tmp_path / "out").planned()
     ]
     expected = [("u", "b", "y", 1), ("u", "b", "x", 0), ("u", "a", "y", 0), ("u", "a", "y", 1)]
     assert found == [("u", "b", "y", 0), *expected, ("t", "a", "x", 0)]
@@ -83,10 +83,10 @@ def test_different_scores_of_one_job_are_refused_with_both_values_and_places(wri
         merge([one, other], tmp_path / "out")
     message = str(refused.value)
     assert "t · a · x · fold 1: mse 0.125 in" in message
-    (key,) = Store(one).record_keys()
+    (key,) = RunDirectory(one).record_keys()
     for value, path in (("0.125", one), ("0.25", other)):
         assert f"mse {value}" in message or f", {value} in" in message
-        assert str(Store(path).record_path(key)) in message
+        assert str(RunDirectory(path).record_path(key)) in message
     assert sorted(path.name for path in tmp_path.iterdir()) == ["1", "2"]
 
 
@@ -102,7 +102,7 @@ def test_of_many_differences_only_some_are_shown(write_run, tmp_path):
 def test_an_undefined_score_is_equal_to_itself(write_run, tmp_path):
     one, other = (write_run(tmp_path / name, [ROW], scores={ROW: math.nan}) for name in ("1", "2"))
     merge([one, other], tmp_path / "out")
-    assert len(Store.open(tmp_path / "out").planned()) == 1
+    assert len(RunDirectory(tmp_path / "out").planned()) == 1
 
 
 @pytest.mark.parametrize("order", [1, -1])
@@ -112,7 +112,7 @@ def test_a_job_that_went_well_counts_rather_than_one_that_broke(write_run, tmp_p
         write_run(tmp_path / "2", [ROW]),
     ]
     merge(runs[::order], tmp_path / "out")
-    (record,) = Store.open(tmp_path / "out").planned()
+    (record,) = RunDirectory(tmp_path / "out").planned()
     assert record.status is Status.OK
 
 
@@ -124,9 +124,9 @@ def test_a_job_without_its_recordings_gives_way_to_one_with_them(write_run, tmp_
         write_run(tmp_path / "2", [ROW], parts=there),
     ]
     merge(runs[::order], tmp_path / "out")
-    (record,) = Store.open(tmp_path / "out").planned()
+    (record,) = RunDirectory(tmp_path / "out").planned()
     assert record.status is Status.OK
-    assert len(Store.open(tmp_path / "out").records()) == 2
+    assert len(RunDirectory(tmp_path / "out").records()) == 2
 
 
 def test_two_jobs_of_one_row_are_refused_and_what_differs_is_named(write_run, tmp_path):
@@ -143,7 +143,10 @@ def test_damaged_files_are_named_and_left_out_unless_another_run_has_them_whole(
     write_run, tmp_path
 ):
     one, other = write_run(tmp_path / "1", ROWS[:2]), write_run(tmp_path / "2", ROWS[:1])
-    victims = [*Store(one).path.rglob("records/*/*"), *Store(one).path.rglob("predictions/*/*")]
+    victims = [
+        *RunDirectory(one).path.rglob("records/*/*"),
+        *RunDirectory(one).path.rglob("predictions/*/*"),
+    ]
     assert len(victims) == 4
     for path in victims:
         path.write_bytes(path.read_bytes()[:-30])
@@ -159,16 +162,16 @@ def test_without_a_plan_all_records_of_a_run_count_as_planned(write_run, tmp_pat
     harm(other / "plan.json")
     merged = merge([one, other], tmp_path / "out")
     assert "plan.json" in merged.damaged[0]
-    assert len(Store.open(tmp_path / "out").planned()) == 4
+    assert len(RunDirectory(tmp_path / "out").planned()) == 4
 
 
 def test_plans_of_earlier_versions_tell_their_rows_by_the_records(write_run, tmp_path):
     one, other = write_run(tmp_path / "1", ROWS[:2]), write_run(tmp_path / "2", ROWS[1:4])
     old = {name: _plan(one)[name] for name in ("keys", "provenance")}
-    Store(one).save_plan(old)
+    RunDirectory(one).save_plan(old)
     merge([one, other], tmp_path / "out")
     assert _plan(tmp_path / "out")["keys"][:2] == old["keys"]
-    assert len(Store.open(tmp_path / "out").planned()) == 4
+    assert len(RunDirectory(tmp_path / "out").planned()) == 4
 
 
 def test_the_plan_says_where_it_comes_from(write_run, tmp_path):
@@ -183,9 +186,9 @@ def test_the_plan_says_where_it_comes_from(write_run, tmp_path):
 @pytest.mark.parametrize("named", [True, False])
 def test_a_run_that_is_there_takes_part(write_run, tmp_path, named):
     out, other = write_run(tmp_path / "1", ROWS[:2]), write_run(tmp_path / "2", ROWS[1:4])
-    Store(out).save_check({"of": "what is no longer all"})
+    RunDirectory(out).save_check({"of": "what is no longer all"})
     merge([out, other] if named else [other], out)
-    assert len(Store.open(out).planned()) == 4
+    assert len(RunDirectory(out).planned()) == 4
     assert not (out / "check.json").exists()
     with pytest.raises(UsageError, match="expected two run directories or more"):
         merge([out], out)
@@ -212,10 +215,10 @@ def test_what_is_not_a_run_is_refused_and_left_alone(write_run, tmp_path):
 def test_a_run_that_another_one_writes_to_is_not_merged_into(write_run, tmp_path):
     out, other = write_run(tmp_path / "1", ROWS[:1]), write_run(tmp_path / "2", ROWS[1:4])
     before = _files(out)
-    with Store(out).locked(), pytest.raises(UsageError, match="another run is writing"):
+    with RunDirectory(out).locked(), pytest.raises(UsageError, match="another run is writing"):
         merge([other], out)
     assert _files(out) == before
-    with Store(other).locked():
+    with RunDirectory(other).locked():
         assert merge([out, other], tmp_path / "out").busy == (other,)
 
 
@@ -252,6 +255,6 @@ def test_a_merge_that_fails_leaves_the_plan_of_an_existing_run(write_run, tmp_pa
         patched.setattr(module, "write_bytes", failing)
         merge([other], out)
     assert _plan(out) == plan
-    assert Store(out).damaged == []
+    assert RunDirectory(out).damaged == []
     merge([other], out)
-    assert len(Store.open(out).planned()) == 6
+    assert len(RunDirectory(out).planned()) == 6

@@ -12,8 +12,8 @@ from mocapbench.benchmark import TASKS, Request, archive_at, plan
 from mocapbench.benchmark.cli import run as run_module
 from mocapbench.benchmark.results.cell_commands import FLAGS, LEFT_OUT, cell_command
 from mocapbench.benchmark.results.origins import origins
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 
 KEPT = {
@@ -91,12 +91,12 @@ def test_the_command_computes_the_cell_again_with_the_same_keys_and_scores(tmp_p
         cwd=tmp_path,
         capture_output=True,
     )
-    whole = Store.open(tmp_path / "whole").planned()
+    whole = RunDirectory(tmp_path / "whole").planned()
     assert len(whole) == 2
     ((_, origin),) = [each for each in origins(whole).items() if each[0][2] == "linear"]
     command = " ".join(origin.command).replace("mocapbench ", f"{shlex.join(program)} ", 1)
     subprocess.run(command, shell=True, check=True, cwd=tmp_path, capture_output=True)
-    (alone,) = Store.open(tmp_path / "mocapbench-cell").planned()
+    (alone,) = RunDirectory(tmp_path / "mocapbench-cell").planned()
     (twin,) = [record for record in whole if record.address.label == "linear"]
     assert {0: alone.key} == origin.keys
     assert alone.scores == twin.scores

@@ -7,7 +7,7 @@ from mocapbench.benchmark import (
     FilledChannels,
     GapError,
     Record,
-    Store,
+    RunDirectory,
     archive_at,
     illustrations,
 )
@@ -29,7 +29,7 @@ def finished(tmp_path_factory):
 
 @pytest.fixture
 def store(finished):
-    return Store.open(finished)
+    return RunDirectory(finished)
 
 
 def _change_page(**changes):

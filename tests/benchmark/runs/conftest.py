@@ -3,15 +3,15 @@ import time
 import psutil
 import pytest
 
+from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.runs.source_code import reading
-from mocapbench.benchmark.runs.store import Store
 from mocapbench.benchmark.tasks.address import Address
 
 
 @pytest.fixture
 def store(tmp_path):
-    return Store.create(tmp_path / "run")
+    return RunDirectory.create(tmp_path / "run")
 
 
 @pytest.fixture

@@ -1,14 +1,17 @@
 """The parts of keys differ where keys do, and nowhere else."""
 
+import json
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.archives import archive_at
-from mocapbench.benchmark.runs.key_parts import key_parts
+from mocapbench.benchmark.runs.key_parts import decode_keys, encode_keys, key_parts
 from mocapbench.benchmark.runs.keys import key_of
 from mocapbench.benchmark.runs.plan import plan
 from mocapbench.benchmark.runs.planning.request import Request
+from mocapbench.benchmark.tasks.address import Address
 
 TEXT = st.text("ab:é", max_size=3)
 LONG = st.sampled_from(["a" * 64, "b" * 64, "a"])
@@ -71,3 +74,21 @@ def test_within_a_row_each_key_has_its_own_parts(profile):
         {(job.address, job.key) for job in jobs}
     )
     assert all(len(text) <= 40 for job in jobs for text in job.parts.values())
+
+
+ADDRESS = st.builds(Address, TEXT, st.integers(1, 9), TEXT, st.integers(0, 9), TEXT)
+ENTRY = st.tuples(ADDRESS, st.dictionaries(TEXT, TEXT, max_size=4))
+
+
+@given(st.dictionaries(TEXT, ENTRY, max_size=5))
+def test_the_parts_of_keys_survive_json(entries):
+    assert decode_keys(json.loads(json.dumps(encode_keys(entries)))) == entries
+
+
+def test_a_part_stands_once_however_many_keys_have_it():
+    parts = {f"metric {n}": f"sha256:{n:016}" for n in range(20)}
+    here, sizes = Address("t", 1, "c", 0, "label"), []
+    for count in (1, 1000):
+        entries = {f"{n:064}": (here, parts) for n in range(count)}
+        sizes.append(len(json.dumps(encode_keys(entries))))
+    assert (sizes[1] - sizes[0]) / 999 < 220

@@ -4,9 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plans import plan_of
 
 from mocapbench.baselines import MOHGP, Control, Oracle
-from mocapbench.benchmark import MODELS, TASKS, Address, Record, Status, Store
+from mocapbench.benchmark import MODELS, TASKS, Address, Record, RunDirectory, Status
 from mocapbench.metrics import mcc, mlc, variance_ratio
 
 DRAWS = range(1, 7)
@@ -123,7 +124,7 @@ def test_the_check_tells_a_sampler_from_one_that_has_collapsed(cli, run, records
 
 
 def test_a_run_without_a_control_has_nothing_to_check(cli, tmp_path):
-    Store.create(tmp_path).save_plan({"keys": [], "provenance": {}})
+    RunDirectory.create(tmp_path).save_plan(plan_of([]))
     assert cli("check", "--controls", tmp_path) == 4
     assert "nothing to check" in cli.printed
 
@@ -133,16 +134,16 @@ def scored(tmp_path):
     """Return a maker of runs of toy-synthesis from {label: [scores or status per fold]}."""
 
     def make(entrants):
-        store, keys = Store.create(tmp_path), []
+        store = RunDirectory.create(tmp_path)
         for label, folds in entrants.items():
             for fold, ended in enumerate(folds):
                 fields = {"status": ended, "message": "no luck"}
                 if isinstance(ended, dict):
                     fields = {"status": Status.OK, "scores": ended}
-                keys.append(key := f"{label}-{fold}")
+                key = f"{label}-{fold}"
                 address = Address(TASK.name, TASK.version, "test 1", fold, label)
                 store.save(Record(key, key, address, 0, label, {}, **fields))
-        store.save_plan({"keys": keys, "provenance": {}})
+        store.save_plan(plan_of(store.records()))
         return store.path
 
     return make

@@ -1,0 +1,354 @@
+"""A run directory: one file per record and one per fit, each written whole or not at all.
+
+::
+
+    run-directory/
+        mocapbench.json             says that the folder is ours, and of which layout
+        mocapbench.lock             held by a run that writes
+        plan.json                   the keys of the last run, in table order, and what they name
+        keys.json                   what the keys of records cover, part by part
+        check.json                  what the last regression check of that run found
+        records/ab/<score key>.json
+        predictions/ab/<fit key>.npz
+
+Folders named by the first two digits of the keys keep each of them quick to list. Resuming skips
+what exists. A truncated or foreign file is reported in `RunDirectory.damaged` and treated as
+absent.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import zipfile
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from filelock import FileLock, Timeout
+
+from mocapbench.basics.whole_files import atomic_write, target_of, write_text
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.files import words_of
+from mocapbench.benchmark.runs.fitting.fit import Fit
+from mocapbench.benchmark.runs.key_parts import KeyEntry, decode_keys, encode_keys
+from mocapbench.benchmark.runs.plan_document import is_plan
+from mocapbench.benchmark.runs.record import Record, RecordError
+
+__all__ = ["RunDirectory"]
+
+T = TypeVar("T")
+
+_MARKER, _LOCK = "mocapbench.json", "mocapbench.lock"
+_PLAN, _KEYS, _CHECK = "plan.json", "keys.json", "check.json"
+_RECORDS, _PREDICTIONS = "records", "predictions"
+_LAYOUT = 2
+"""Counts the layouts that developers have seen; a folder of another one is refused."""
+
+_CHECK_PARTS = {"reference", "summary", "passed", "findings"}
+_PATIENCE = 0.2
+"""Seconds; whoever only looks whether the lock is held has it for a moment."""
+_UNREADABLE = (
+    *(OSError, ValueError, LookupError, TypeError, AttributeError),
+    *(EOFError, zipfile.BadZipFile),
+)
+"""What reading a damaged file raises."""
+
+
+class RunDirectory:
+    """A run directory that is there; `create` makes one.
+
+    Parameters
+    ----------
+    path : Path
+
+    Attributes
+    ----------
+    damaged : list of str
+        A message for every file that was found truncated or foreign.
+
+    Raises
+    ------
+    UsageError
+        If ``path`` is not a run directory, or one of another layout.
+    """
+
+    def __init__(self, path: Path) -> None:
+        if not self.is_run(path):
+            raise UsageError(
+                f"{path} is not a mocapbench run (there is no {_MARKER} in it); "
+                "name the folder that `mocapbench run --out` wrote"
+            )
+        _require_layout(path)
+        self.path = path
+        self.damaged: list[str] = []
+
+    @classmethod
+    def create(cls, path: Path) -> RunDirectory:
+        """Return the run directory at ``path``, which is made if it is new or empty.
+
+        Raises
+        ------
+        UsageError
+            If the folder holds other things or a run of another layout, or cannot be written.
+        """
+        cls.require_usable(path)
+        try:
+            for folder in (_RECORDS, _PREDICTIONS):
+                (path / folder).mkdir(parents=True, exist_ok=True)
+            if not cls.is_run(path):
+                write_text(path / _MARKER, json.dumps({"format": _LAYOUT}))
+        except OSError as error:
+            raise UsageError(
+                f"--out: expected a folder that can be written to, got {path} ({words_of(error)}); "
+                "name another, or change its permissions"
+            ) from error
+        return cls(path)
+
+    @classmethod
+    def require_usable(cls, path: Path) -> None:
+        """Refuse what no run can be written to.
+
+        Raises
+        ------
+        UsageError
+            If ``path`` is a file, or a folder that holds anything but a run of this layout.
+        """
+        if path.exists() and not path.is_dir():
+            raise UsageError(f"--out: expected a folder, got the file {path}; name another folder")
+        if cls.is_run(path):
+            _require_layout(path)
+        elif path.is_dir() and any(path.iterdir()):
+            raise UsageError(
+                f"--out: {path} holds files that are not a mocapbench run (there is no {_MARKER} "
+                "in it); name a new or empty folder"
+            )
+
+    @staticmethod
+    def is_run(path: Path) -> bool:
+        """Return whether ``path`` is a run directory, of whatever layout."""
+        return (path / _MARKER).is_file()
+
+    @contextmanager
+    def locked(self) -> Iterator[None]:
+        """Keep other runs out of the folder.
+
+        Raises
+        ------
+        UsageError
+            If another run is in it.
+        """
+        lock = FileLock(self.path / _LOCK, timeout=_PATIENCE)
+        try:
+            lock.acquire()
+        except Timeout as error:
+            raise UsageError(
+                f"--out: another run is writing to {self.path}; wait for it or name another folder "
+                "(`mocapbench merge` unites the two later)"
+            ) from error
+        try:
+            yield
+        finally:
+            lock.release()
+
+    @property
+    def is_locked(self) -> bool:
+        """Whether a run is writing to the folder, which need not be writable."""
+        try:
+            with (self.path / _LOCK).open("rb") as file:
+                fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except FileNotFoundError:
+            return False
+        except BlockingIOError:
+            return True
+        return False
+
+    def sweep(self) -> None:
+        """Delete temporary files that a killed run left; only for who has locked the folder.
+
+        Other commands write the check and the report, at any time: theirs stay.
+        """
+        top = [path for path in self.path.glob(".*") if target_of(path) in {_PLAN, _KEYS}]
+        below = [
+            path
+            for name in (_RECORDS, _PREDICTIONS)
+            for path in (self.path / name).rglob(".*")
+            if target_of(path)
+        ]
+        for path in top + below:
+            path.unlink()
+
+    def load(self, key: str) -> Record | None:
+        """Return the record called ``key``, or None if it is absent or damaged."""
+        path = self.record_path(key)
+        if not path.is_file():
+            return None
+        try:
+            record = Record.from_json(path.read_bytes())
+            if record.key != key:
+                raise RecordError(f"it holds the record {record.key}")
+        except (OSError, RecordError) as error:
+            self.damaged.append(f"{path}: {error}")
+            return None
+        return record
+
+    def save(self, record: Record) -> None:
+        """Write ``record`` whole or not at all."""
+        write_text(_make_room(self.record_path(record.key)), record.to_json())
+
+    def records(self) -> list[Record]:
+        """Return every whole record, by name of file."""
+        return self._load_records(sorted(self.record_keys()))
+
+    def planned(self) -> list[Record]:
+        """Return the whole records of the last run, in table order.
+
+        Raises
+        ------
+        UsageError
+            If no run got so far, or its plan is damaged.
+        """
+        return self._load_records(self.load_plan()["keys"])
+
+    def _load_records(self, keys: Iterable[str]) -> list[Record]:
+        return [record for key in keys if (record := self.load(key)) is not None]
+
+    def record_keys(self) -> set[str]:
+        """Return the keys under which there are records, whole or damaged."""
+        return {path.stem for path in (self.path / _RECORDS).glob("*/[!.]*.json")}
+
+    def record_path(self, key: str) -> Path:
+        """Return where the record called ``key`` is, or belongs."""
+        return self.path / _RECORDS / key[:2] / f"{key}.json"
+
+    def load_fit(self, key: str) -> Fit | None:
+        """Return the fit called ``key``, or None if it is absent or damaged."""
+        return self._read_fit(key, _read_whole)
+
+    def has_fit(self, key: str) -> bool:
+        """Return whether there are predictions called ``key``, as far as a glance can tell."""
+        return self._read_fit(key, _read_about) is not None
+
+    def _read_fit(self, key: str, read: Callable[[Any, str], T]) -> T | None:
+        path = self.fit_path(key)
+        if not path.is_file():
+            return None
+        try:
+            with np.load(path, allow_pickle=False) as arrays:
+                return read(arrays, key)
+        except _UNREADABLE as error:
+            self.damaged.append(f"{path}: not a whole set of predictions: {error}")
+            return None
+
+    def save_fit(self, key: str, fit: Fit) -> None:
+        """Write ``fit`` whole or not at all.
+
+        It is not compressed: of such numbers that would save a quarter of the bytes, and take
+        longer than all else that a run does itself with a job.
+        """
+        about = {**fit.costs, "key": key}
+        with atomic_write(_make_room(self.fit_path(key))) as file:
+            arrays: dict[str, Any] = {**fit.arrays, "about": np.array(json.dumps(about))}
+            np.savez(file, **arrays)
+
+    def fit_keys(self) -> set[str]:
+        """Return the keys under which there are predictions, whole or damaged."""
+        return {path.stem for path in (self.path / _PREDICTIONS).glob("*/[!.]*.npz")}
+
+    def fit_path(self, key: str) -> Path:
+        """Return where the predictions called ``key`` are, or belong."""
+        return self.path / _PREDICTIONS / key[:2] / f"{key}.npz"
+
+    def save_plan(self, plan: Mapping[str, Any]) -> None:
+        """Write what the last run was asked to do; a check of an earlier one is dropped."""
+        (self.path / _CHECK).unlink(missing_ok=True)
+        write_text(self.path / _PLAN, json.dumps(plan, indent=1))
+
+    def load_plan(self) -> Mapping[str, Any]:
+        """Return what the last run was asked to do.
+
+        Raises
+        ------
+        UsageError
+            If no run got so far, or the file is damaged.
+        """
+        path, again = self.path / _PLAN, "run `mocapbench run` again"
+        try:
+            plan = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise UsageError(f"{path} cannot be read ({error}); {again}") from error
+        if not is_plan(plan):
+            raise UsageError(f"{path} is not a plan; {again}")
+        return dict(plan)
+
+    def keep_keys(self, entries: Mapping[str, KeyEntry]) -> None:
+        """Keep what the keys of ``entries`` cover, beside those of the records that are here."""
+        written = self.record_keys()
+        known = {key: entry for key, entry in self.load_keys().items() if key in written}
+        write_text(self.path / _KEYS, json.dumps(encode_keys({**known, **entries})))
+
+    def load_keys(self) -> dict[str, KeyEntry]:
+        """Return what the keys of records cover, as far as it was kept."""
+        return self._read_json(_KEYS, "a list of keys", decode_keys) or {}
+
+    def save_check(self, check: Mapping[str, Any]) -> None:
+        """Write what a regression check of the last run found."""
+        write_text(self.path / _CHECK, json.dumps(check, indent=1))
+
+    def load_check(self) -> Mapping[str, Any] | None:
+        """Return what the last run's check found; None if it was not checked, or is damaged."""
+        return self._read_json(_CHECK, "a whole check", _decode_check)
+
+    def _read_json(self, name: str, what: str, decode: Callable[[Any], T]) -> T | None:
+        """Return what a file says, which should be ``what``; None if it is absent or damaged."""
+        path = self.path / name
+        if not path.is_file():
+            return None
+        try:
+            return decode(json.loads(path.read_text(encoding="utf-8")))
+        except _UNREADABLE as error:
+            self.damaged.append(f"{path}: not {what}: {error}")
+            return None
+
+
+def _require_layout(path: Path) -> None:
+    """Refuse a run directory that another version of this code has laid out."""
+    try:
+        found = json.loads((path / _MARKER).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        found = None
+    if found != {"format": _LAYOUT}:
+        raise UsageError(
+            f"{path} is a run directory of another version of mocapbench: expected "
+            f"{json.dumps({'format': _LAYOUT})} in its {_MARKER}, got {json.dumps(found)}; "
+            "name a new folder and run `mocapbench run` again"
+        )
+
+
+def _make_room(path: Path) -> Path:
+    """Return ``path``, once its folder is there."""
+    path.parent.mkdir(exist_ok=True)
+    return path
+
+
+def _read_about(arrays: Mapping[str, Any], key: str) -> dict[str, Any]:
+    """Return what predictions say of themselves, which must be those called ``key``."""
+    about: dict[str, Any] = json.loads(str(arrays["about"]))
+    if about.pop("key") != key:
+        raise ValueError("it holds those of another job")
+    return about
+
+
+def _read_whole(arrays: Mapping[str, Any], key: str) -> Fit:
+    about = _read_about(arrays, key)
+    contents = {name: array for name, array in arrays.items() if name != "about"}
+    return Fit(contents, **{**about, "warnings": tuple(about["warnings"])})
+
+
+def _decode_check(document: Any) -> Mapping[str, Any]:
+    check = dict(document)
+    if check.keys() != _CHECK_PARTS:
+        raise ValueError(f"it holds {sorted(check)}")
+    return check
