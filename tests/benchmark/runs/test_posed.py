@@ -138,14 +138,6 @@ def test_digests_that_were_made_otherwise_are_not_compared():
     assert problem_digest(pose()).partition(":")[:2] == ("2", ":")
 
 
-def test_a_record_of_an_earlier_version_has_no_digest():
-    text = record().to_json().replace(',"problem":"one"', "")
-    text = text.replace(',"missing":[],"fetch":""', "")
-    assert not any(name in text for name in ("problem", "missing", "fetch"))
-    assert Record.from_json(text) == replace(record(), problem="")
-    assert Record.from_json(record().to_json()) == record()
-
-
 RANDOM = """\
 import numpy as np
 from mocapbench.baselines import FrameImputer
