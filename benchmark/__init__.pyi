@@ -57,9 +57,9 @@ from .runs.job import Job, WorkerConfig
 from .runs.machine import memory_share, n_cores
 from .runs.plan import plan, required_sources
 from .runs.plan_document import plan_document, planned_task_files
-from .runs.planning.request import Request
 from .runs.provenance import provenance
 from .runs.record import Record, Status
+from .runs.request import Request
 from .runs.run import run
 from .task_files.building import add_tasks
 from .task_files.checking import open_task_files

@@ -10,7 +10,7 @@ from mocapbench.baselines import Model
 from mocapbench.benchmark.docstrings import source, summary
 from mocapbench.benchmark.errors import UnregisteredNameError
 from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
-from mocapbench.benchmark.runs.planning.selection import entrants
+from mocapbench.benchmark.runs.request import entrants
 
 __all__ = [
     "entrant_entry",

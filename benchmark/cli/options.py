@@ -13,7 +13,7 @@ from mocapbench import benchmark as bench
 from mocapbench.benchmark.cli.console import LiteralConsole
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import is_writable
-from mocapbench.benchmark.runs.planning.case_names import split_cases
+from mocapbench.benchmark.runs.request import split_cases
 
 if TYPE_CHECKING:
     from mocapbench.benchmark import RunDirectory, TaskFile

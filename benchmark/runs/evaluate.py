@@ -1,42 +1,48 @@
-"""Evaluation of one job: pose its problem, have its model predict, and score the prediction."""
+"""Evaluation of one job: pose its problem, fit its model and have it predict, score the prediction.
+
+The model's part may run in a process of its own. A metric that fails costs no other its score.
+"""
 
 from __future__ import annotations
 
+import math
 import resource
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
+import numpy as np
+from joblib import parallel_config
+
+from mocapbench.basics.words import format_count
+from mocapbench.benchmark.messages import reason, traceback_of
 from mocapbench.benchmark.problems.base import Problem
-from mocapbench.benchmark.registry import TASKS
-from mocapbench.benchmark.runs.fit_attempt import FitAttempt, attempt_fit
+from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs.fitting.fit import Fit
+from mocapbench.benchmark.runs.fitting.solve import Fitted, solve, train
 from mocapbench.benchmark.runs.fitting.trained import Trained
-from mocapbench.benchmark.runs.job import Job, Work, WorkerConfig
+from mocapbench.benchmark.runs.job import Job, Outcome, Work, WorkerConfig
 from mocapbench.benchmark.runs.posed import problem_digest
-from mocapbench.benchmark.runs.record import Record
-from mocapbench.benchmark.runs.scoring import scoring
+from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.score_values import fault_of_score
 from mocapbench.datasets import Archive
+from mocapbench.metrics import Metric, Score
 
-__all__ = ["Evaluation", "evaluate"]
+__all__ = ["evaluate"]
 
-
-class Evaluation(NamedTuple):
-    """What became of a job, and what of it is new."""
-
-    record: Record
-    fit: Fit | None = None
-    """The predictions."""
-    trained: Trained | None = None
-    """The fitted model, where other jobs can use it."""
+Attempt = tuple[Fit | None, Trained | None, Record | None]
+"""The predictions, the fitted model where other jobs can use it, or why there are none."""
 
 
-def _here(function: Callable[..., FitAttempt], *arguments: Any) -> FitAttempt:
+def _call_here(function: Callable[..., Attempt], *arguments: Any) -> Attempt:
     return function(*arguments)
 
 
 def evaluate(
-    work: Work, config: WorkerConfig, archive: Archive, call: Callable[..., FitAttempt] = _here
-) -> Evaluation:
+    work: Work,
+    config: WorkerConfig,
+    archive: Archive,
+    call: Callable[..., Attempt] = _call_here,
+) -> Outcome:
     """Return the record of a job, and what others can use of it.
 
     Whatever the task, the model or a metric raises becomes a failed record; that of a metric has
@@ -57,17 +63,49 @@ def evaluate(
         resource.setrlimit(resource.RLIMIT_AS, (config.memory, resource.RLIM_INFINITY))
         problem = TASKS.get(job.address.task).case(job.address.case).problem(job.seeds, archive)
     except BaseException as error:
-        return Evaluation(job.record_failure(error, config.memory))
+        return Outcome(job.record_failure(error, config.memory))
     if work.fit is not None:
-        return Evaluation(_record(work, work.fit, problem, config))
+        return Outcome(_record_scores(work, work.fit, problem, config))
     fit, trained, failure = call(attempt_fit, work, problem, config)
     if fit is not None:
-        return Evaluation(_record(work, fit, problem, config), fit, trained)
+        return Outcome(_record_scores(work, fit, problem, config), fit, trained)
     assert failure is not None
-    return Evaluation(failure, None, trained)
+    return Outcome(failure, None, trained)
 
 
-def _record(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
+def attempt_fit(work: Work, problem: Problem[Any], config: WorkerConfig) -> Attempt:
+    """Fit the job's model and have it predict; whatever it raises is a failure.
+
+    Parameters
+    ----------
+    work : Work
+    problem : Problem
+        That of the job.
+    config : WorkerConfig
+    """
+    trained = None
+    try:
+        with parallel_config("threading", n_jobs=config.threads):
+            fitted, trained = _fit_model(work, problem)
+            fit = solve(problem, fitted, work.job.seeds.random_state("sample"))
+    except BaseException as error:  # a model that calls sys.exit has failed like any other
+        return None, trained, work.job.record_failure(error, config.memory)
+    return fit, trained, None
+
+
+def _fit_model(work: Work, problem: Problem[Any]) -> tuple[Fitted, Trained | None]:
+    """Return the fitted model, and the same for other jobs if it is new and they can use it."""
+    job, trained = work.job, work.trained
+    if trained is not None and trained.suits(problem):
+        return trained.load(), None
+    random_state = job.training_seeds.random_state("init")
+    fitted = train(problem, MODELS.get(job.model), job.parameters, random_state)
+    new = Trained.of(job.training_key, fitted, problem) if job.training_key else None
+    # Loaded here too: what went through pickle may differ in memory layout, and so in rounding.
+    return (new.load() if new else fitted), new
+
+
+def _record_scores(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
     try:
         return _score_fit(work, fit, problem, config)
     except BaseException as error:
@@ -75,13 +113,101 @@ def _record(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -
 
 
 def _score_fit(work: Work, fit: Fit, problem: Problem[Any], config: WorkerConfig) -> Record:
-    costs = {**fit.costs, "warnings": (*fit.warnings, *work.remarks)}
-    found = scoring(work.job, problem, fit)
-    results = {"problem": problem_digest(problem), **costs, **found.results}
-    provenance = _provenance(work.job, config)
-    return work.job.record(found.status, found.message, **results, provenance=provenance)
+    scores, errors = _score_by_each(work.job, problem, fit)
+    digests = {f"digest of {uri}": digest for uri, digest in work.job.digests.items()}
+    return work.job.record(
+        Status.FAILED if errors else Status.OK,
+        _explain_errors(errors, scores),
+        traceback="\n".join(map(traceback_of, errors)),
+        problem=problem_digest(problem),
+        **{**fit.costs, "warnings": (*fit.warnings, *work.remarks)},
+        **_keep_scores(scores),
+        provenance={**config.provenance, **digests},
+    )
 
 
-def _provenance(job: Job, config: WorkerConfig) -> dict[str, str]:
-    digests = {f"digest of {uri}": digest for uri, digest in job.digests.items()}
-    return {**config.provenance, **digests}
+def _score_by_each(
+    job: Job, problem: Problem[Any], fit: Fit
+) -> tuple[dict[str, Score], list[Exception]]:
+    """Score the answer of ``fit`` by every metric of a job that is defined for it.
+
+    Returns
+    -------
+    scores : dict of str to Score
+        By the names of the metrics.
+    errors : list of Exception
+        Why others failed.
+
+    Raises
+    ------
+    MemoryError
+        If a metric needs more memory than there is.
+    ValueError
+        If no metric is defined for the answer.
+    """
+    outcome = problem.outcome(problem.answer_type.from_arrays(fit.arrays))
+    scores: dict[str, Score] = {}
+    errors: list[Exception] = []
+    for name in job.metrics:
+        try:
+            scores |= _score_by(METRICS.get(name), outcome)
+        except MemoryError:  # for `Job.record_failure`, which says what to do
+            raise
+        except Exception as error:
+            errors.append(error)
+    if not scores and not errors:
+        raise ValueError(
+            f"none of the metrics {', '.join(job.metrics)} is defined for the answer of "
+            f"{job.address.label} to {job.address.task}; choose others with --metrics"
+        )
+    return scores, errors
+
+
+def _explain_errors(errors: Sequence[Exception], scores: Mapping[str, Score]) -> str:
+    """Return why metrics failed, and whether there are scores all the same; empty if none did."""
+    reasons = "; ".join(map(reason, errors))
+    kept = f" ({format_count(len(scores), 'other score')} kept)" if scores else ""
+    return f"{reasons}{kept}" if reasons else ""
+
+
+def _keep_scores(scores: Mapping[str, Score]) -> dict[str, Any]:
+    """Return what a record keeps of the scores."""
+    found = scores.items()
+    return {
+        "scores": {name: float(score.value) for name, score in found},
+        "parts": {
+            name: {axis: values.tolist() for axis, values in score.parts.items()}
+            for name, score in found
+        },
+        "left_out": {name: score.left_out for name, score in found if score.left_out},
+    }
+
+
+def _score_by(metric: Metric[Any], outcome: object) -> dict[str, Score]:
+    """Return the score by the metric's name, or nothing where the metric is not defined."""
+    overflows: list[str] = []
+    try:
+        if not metric.applies(outcome):
+            return {}
+        with np.errstate(over="call", call=lambda kind, _: overflows.append(kind)):
+            score: object = metric(outcome)
+    except MemoryError:
+        raise
+    except BaseException as error:
+        raise RuntimeError(f"the metric {metric.name!r} raised {reason(error)}") from error
+    fault = fault_of_score(score)
+    if fault:
+        raise ValueError(f"expected the metric {metric.name!r} {fault}")
+    assert isinstance(score, Score)
+    _require_finite(metric.name, float(score.value), bool(overflows))
+    return {metric.name: score}
+
+
+def _require_finite(name: str, value: float, overflowed: bool) -> None:
+    """Refuse a value that is infinite, or NaN because numbers on the way to it overflowed.
+
+    Any other NaN says that the metric is not defined for this answer.
+    """
+    if math.isinf(value) or (math.isnan(value) and overflowed):
+        why = ": numbers overflowed" if overflowed else ""
+        raise ValueError(f"{name} is {value}{why}; expected a finite score, or NaN for undefined")

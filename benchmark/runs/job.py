@@ -132,17 +132,17 @@ class Work(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """A job as a worker hands it back."""
+    """What became of a job, and what of it is new."""
 
     record: Record
-    fit: Fit | None
-    """The predictions, if they are new."""
-    seconds: float
-    """From when the worker took the job up."""
+    fit: Fit | None = None
+    """The predictions."""
     trained: Trained | None = None
-    """The fitted model, if it is new and other jobs can use it."""
+    """The fitted model, where other jobs can use it."""
+    seconds: float = 0.0
+    """From when the worker took the job up."""
 
     @classmethod
     def without_report(cls, job: Job, message: str) -> Self:
         """Return the outcome of a job whose worker gave none, and why."""
-        return cls(job.record(Status.FAILED, message), None, 0.0)
+        return cls(job.record(Status.FAILED, message))

@@ -2,17 +2,37 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.registry import METRICS, MODELS
 from mocapbench.benchmark.runs.job import Job
-from mocapbench.benchmark.runs.planning.case_jobs import case_jobs, missing_recordings
-from mocapbench.benchmark.runs.planning.request import Request
-from mocapbench.benchmark.runs.planning.selection import (
+from mocapbench.benchmark.runs.key_parts import key_parts
+from mocapbench.benchmark.runs.keys import (
+    fit_contents,
+    key_of,
+    metric_contents,
+    score_contents,
+    training_contents,
+)
+from mocapbench.benchmark.runs.request import (
+    Request,
     chosen_cases,
     chosen_entrants,
+    chosen_folds,
     consistent_tasks,
 )
+from mocapbench.benchmark.tasks.address import Address
+from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task
+from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
 
 __all__ = ["plan", "required_sources"]
+
+_MISSING = "missing"
 
 
 def plan(request: Request, archive: Archive) -> tuple[Job, ...]:
@@ -31,7 +51,7 @@ def plan(request: Request, archive: Archive) -> tuple[Job, ...]:
         job
         for task in consistent_tasks(request)
         for case in chosen_cases(request, task)
-        for job in case_jobs(request, task, case, archive)
+        for job in _plan_case(request, task, case, archive)
     )
 
 
@@ -46,5 +66,95 @@ def required_sources(request: Request, archive: Archive) -> tuple[str, ...]:
     tasks = [task for task in consistent_tasks(request) if chosen_entrants(request, task)]
     cases = [(task, case) for task in tasks for case in chosen_cases(request, task)]
     for task, case in cases:
-        missing_recordings(task, case, archive)
+        _missing_recordings(task, case, archive)
     return tuple(dict.fromkeys(uri for _, case in cases for uri in case.recordings))
+
+
+def _plan_case(request: Request, task: Task, case: Case, archive: Archive) -> Iterator[Job]:
+    """Yield the jobs of one case: by entrant, then by fold."""
+    missing = _missing_recordings(task, case, archive)
+    digests = {uri: _MISSING if uri in missing else archive.digest(uri) for uri in case.recordings}
+    metrics = tuple(sorted(set(request.metrics or METRICS.names())))
+    scored_by = metric_contents(map(METRICS.get, metrics))
+    profile = task.profile(request.profile)
+    for entrant in (
+        _complete_parameters(each, case, profile) for each in chosen_entrants(request, task)
+    ):
+        for fold in range(chosen_folds(request, task)):
+            address = Address(task.name, task.version, case.name, fold, entrant.label)
+            seeds = Seeds(request.seed, address._replace(case=case.problem_name))
+            yield Job(
+                address=address,
+                seeds=seeds,
+                training_seeds=seeds.of_training(case.training),
+                model=entrant.model,
+                parameters=entrant.parameters,
+                metrics=metrics,
+                digests=digests,
+                missing=missing,
+                **_name_results(case, seeds, entrant, digests, scored_by),
+            )
+
+
+def _name_results(
+    case: Case,
+    seeds: Seeds,
+    entrant: Entrant,
+    digests: Mapping[str, str],
+    scored_by: Mapping[str, Any],
+) -> dict[str, Any]:
+    """Return the keys of a job, and what they cover."""
+    seen, compared = ({uri: digests[uri] for uri in of} for of in (case.sources, case.references))
+    model, parameters = MODELS.get(entrant.model), entrant.parameters
+    fitted = fit_contents(case, seeds, model=model, parameters=parameters, digests=seen)
+    fit = key_of(fitted)
+    scored = score_contents(fit, scored_by, case.name, compared)
+    training = training_contents(fitted, seeds.of_training(case.training))
+    return {
+        "key": key_of(scored),
+        "fit_key": fit,
+        "training_key": key_of(training) if case.training else "",
+        "parts": key_parts(fitted, scored),
+    }
+
+
+def _missing_recordings(task: Task, case: Case, archive: Archive) -> tuple[str, ...]:
+    """Return the addresses of a case's recordings that are not at hand.
+
+    Raises
+    ------
+    UsageError
+        If ``archive`` has no library for an address.
+    """
+    try:
+        return tuple(uri for uri in case.recordings if not archive.available(uri))
+    except ValueError as error:  # no such library, or a malformed address
+        raise UsageError(f"task {task.name!r}, case {case.name!r}: {error}") from error
+
+
+def _complete_parameters(entrant: Entrant, case: Case, profile: Profile) -> Entrant:
+    """Return the entrant with all its model's parameters but the seed, which the label decides.
+
+    Raises
+    ------
+    UsageError
+        If one has no stable text, and so could be in no key or record.
+    """
+    model = MODELS.get(entrant.model)(**entrant.parameters)
+    names = model.get_params()
+    prescribed = {**profile.budget, **case.parameters}
+    model.set_params(**{name: v for name, v in prescribed.items() if name in names})
+    parameters = {name: v for name, v in model.get_params().items() if name != "random_state"}
+    for name, value in parameters.items():
+        _check_plain(entrant, name, value)
+    return replace(entrant, parameters=parameters)
+
+
+def _check_plain(entrant: Entrant, name: str, value: object) -> None:
+    try:
+        json.dumps(value)
+    except (TypeError, ValueError) as error:
+        raise UsageError(
+            f"model {entrant.model!r}: expected parameters that JSON can hold (numbers, text, "
+            f"lists of them), got {name}={value!r}; build objects from them in fit"
+        ) from error

@@ -12,7 +12,6 @@ import hashlib
 from collections.abc import Iterator
 from functools import cache
 from itertools import accumulate
-from typing import NamedTuple
 
 from mocapbench.benchmark.runs.source_code.own_code import folders_of, is_own_code
 from mocapbench.benchmark.runs.source_code.reading import definer, read
@@ -41,36 +40,32 @@ def source_digest(module: str, within: tuple[str, ...]) -> str:
         count, and with them every module that is not part of the standard library and of no
         installed distribution, unless it is installed as editable.
     """
-    reached: set[_Reached] = set()
-    pending = [_Reached(module)]
+    reached: set[tuple[str, bool]] = set()
+    pending = [(module, True)]
     while pending:
         one = pending.pop()
         if one not in reached:
             reached.add(one)
-            pending += _reached_from(one, within, module)
+            pending += _reached_from(*one, within, module)
     # The first goes without its name: a user's file has no lasting one as a module.
-    names = sorted({one.module for one in reached} - {module})
+    names = sorted({name for name, _ in reached} - {module})
     others = (f"\0{name}\0{read(name).code}" for name in names)
     message = "".join([read(module).code, *others])
     return hashlib.sha256(message.encode()).hexdigest()
 
 
-class _Reached(NamedTuple):
-    """A module that counts, with all that it imports or with what it uses at once itself."""
-
-    module: str
-    whole: bool = True
-
-
-def _reached_from(one: _Reached, within: tuple[str, ...], root: str) -> Iterator[_Reached]:
-    imports = read(one.module).imports if one.whole else read(one.module).used
-    near = (item for item in imports if _near(item.module, within, root))
-    found = (definer(item.module, item.name) for item in near)
-    yield from (_Reached(name) for name in found if _counts(name, within, root))
-    home, *inner = one.module.split(".")
-    if home != _OURS:
+def _reached_from(
+    name: str, whole: bool, within: tuple[str, ...], root: str
+) -> Iterator[tuple[str, bool]]:
+    """Yield the modules that count with one, and whether all that they import counts too."""
+    imports = read(name).imports if whole else read(name).used
+    near = (item for item in imports if _near(item[0], within, root))
+    found = (definer(*item) for item in near)
+    yield from ((other, True) for other in found if _counts(other, within, root))
+    home, *inner = name.split(".")
+    if home != _OURS:  # Python runs these first: what they use at once themselves counts
         above = accumulate(inner[:-1], "{}.{}".format, initial=home)
-        yield from (_Reached(name, whole=False) for name in above if inner)
+        yield from ((other, False) for other in above if inner)
 
 
 def _near(module: str, within: tuple[str, ...], root: str) -> bool:

@@ -12,7 +12,7 @@ from mocapbench.baselines import FrameImputer, Imputer, Model
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.consistency import require_consistent
 from mocapbench.benchmark.problems.base import Problem
-from mocapbench.benchmark.runs.planning.selection import entrants
+from mocapbench.benchmark.runs.request import entrants
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case, Task
 from mocapbench.benchmark.tasks.seeds import Seeds

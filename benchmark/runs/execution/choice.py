@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import re
-from typing import NamedTuple
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.execution.base import Backend
@@ -15,25 +14,16 @@ from mocapbench.benchmark.runs.machine import n_cores
 __all__ = ["open_backend", "require_backend"]
 
 
-class _Kind(NamedTuple):
-    """A kind of backend: its module has ``open_backend``, which takes the value of the option."""
-
-    module: str
-    package: str
-    """What the module imports that mocapbench does not always bring."""
-    extra: str
-    form: str
-    """A regular expression that the value matches."""
-    example: str
-
-
 _CLUSTER = "mocapbench.benchmark.runs.cluster"
-_KINDS = {
-    "--scheduler": _Kind(
-        f"{_CLUSTER}.scheduler", "distributed", "cluster", r".*", "tcp://10.0.0.1:8786"
-    ),
-    "--cluster": _Kind(f"{_CLUSTER}.local", "distributed", "cluster", r"local:[1-9]\d*", "local:4"),
+_MODULES = {"--scheduler": f"{_CLUSTER}.scheduler", "--cluster": f"{_CLUSTER}.local"}
+"""Each has ``open_backend``, which takes the value of the option."""
+_FORMS = {
+    "--scheduler": (r".*", "tcp://10.0.0.1:8786"),
+    "--cluster": (r"local:[1-9]\d*", "local:4"),
 }
+"""A regular expression that the value matches, and an example."""
+_PACKAGE = "distributed"
+"""What a cluster imports that mocapbench does not always bring."""
 
 
 def open_backend(
@@ -58,7 +48,7 @@ def open_backend(
     require_backend(jobs, scheduler, cluster)
     for option, value in {"--scheduler": scheduler, "--cluster": cluster}.items():
         if value is not None:
-            backend: Backend = importlib.import_module(_KINDS[option].module).open_backend(value)
+            backend: Backend = importlib.import_module(_MODULES[option]).open_backend(value)
             return backend
     return ThisMachine(jobs or n_cores())
 
@@ -78,18 +68,19 @@ def require_backend(jobs: int | None, scheduler: str | None, cluster: str | None
             f"expected one of {', '.join(options)}, got {' and '.join(given)}; leave out all but "
             "one (a cluster's workers decide how many jobs run at once)"
         )
-    for option in given.keys() & _KINDS:
-        _require(_KINDS[option], option, given[option])
+    for option in given.keys() & _FORMS:
+        _require_cluster(option, given[option])
 
 
-def _require(kind: _Kind, option: str, value: str) -> None:
-    if re.fullmatch(kind.form, value) is None:
+def _require_cluster(option: str, value: str) -> None:
+    form, example = _FORMS[option]
+    if re.fullmatch(form, value) is None:
         raise UsageError(
-            f"{option}: expected a value such as {kind.example}, got {value!r}; --cluster local:4 "
+            f"{option}: expected a value such as {example}, got {value!r}; --cluster local:4 "
             "starts 4 workers here, --scheduler takes the address of a cluster that is there"
         )
-    if importlib.util.find_spec(kind.package) is None:
+    if importlib.util.find_spec(_PACKAGE) is None:
         raise UsageError(
-            f"{option}: expected the package {kind.package!r}, got none; "
-            f"`pip install 'mocapbench[{kind.extra}]'` installs it"
+            f"{option}: expected the package {_PACKAGE!r}, got none; "
+            f"`pip install 'mocapbench[cluster]'` installs it"
         )

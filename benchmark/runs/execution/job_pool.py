@@ -63,7 +63,8 @@ class JobPool:
             raise UsageError(UNGUARDED) from error
         except ProcessExpired as error:
             if error.exitcode == -signal.SIGALRM:
-                return Outcome(job.timed_out(self._config.timeout), None, self._config.timeout)
+                timeout = self._config.timeout
+                return Outcome(job.timed_out(timeout), seconds=timeout)
             message = f"the worker died with exit code {error.exitcode} before it could report"
         except (Exception, CancelledError) as error:
             message = f"no report came back: {reason(error)}"

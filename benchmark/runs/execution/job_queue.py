@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections import Counter, defaultdict, deque
 from collections.abc import Hashable, Iterable
-from typing import NamedTuple
 
 from mocapbench.benchmark.runs.execution.durations import Durations
 from mocapbench.benchmark.runs.job import Job
@@ -13,25 +12,20 @@ from mocapbench.benchmark.runs.job import Job
 __all__ = ["JobQueue"]
 
 
-class _Kind(NamedTuple):
-    """Jobs that are expected to take equally long."""
-
-    task: str
-    label: str
-    left: str
-    """What is to be done."""
-
-    @property
-    def alike(self) -> tuple[Hashable, ...]:
-        """Among what jobs to look for alike ones, the most alike first."""
-        return self, (self.label, self.left), self.left, ()
-
+_Kind = tuple[str, str, str]
+"""Jobs that are expected to take equally long: their task, their label, and what is to be done."""
 
 _FIT, _PREDICT, _SCORE = "fit", "predict", "score"
 
 
 def _kind(job: Job, left: str) -> _Kind:
-    return _Kind(job.address.task, job.address.label, left)
+    return job.address.task, job.address.label, left
+
+
+def _list_alike(kind: _Kind) -> tuple[Hashable, ...]:
+    """Return among what jobs to look for alike ones, the most alike first."""
+    _, label, left = kind
+    return kind, (label, left), left, ()
 
 
 class JobQueue:
@@ -110,7 +104,7 @@ class JobQueue:
             Whether it only scored predictions that were there: then there is no fitted model yet.
         """
         kind, _ = self._running.pop(job.key)
-        self._durations.learn(kind.alike, seconds)
+        self._durations.learn(_list_alike(kind), seconds)
         for follower in self._free_jobs(job.fit_key):
             self._append(follower, _SCORE)
         if self._leads.get(job.training_key) is job:
@@ -130,7 +124,7 @@ class JobQueue:
             self._hold(training_key, other)
 
     def _expect_seconds(self, kind: _Kind) -> float:
-        return self._durations.expect_seconds(kind.alike)
+        return self._durations.expect_seconds(_list_alike(kind))
 
     def time_left(self, n_workers: int) -> float:
         """Return about how many seconds it takes until all jobs have ended."""

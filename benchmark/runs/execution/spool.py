@@ -10,7 +10,6 @@ import pickle
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import NamedTuple
 
 from mocapbench.basics.whole_files import atomic_write, write_bytes
 from mocapbench.benchmark.messages import reason
@@ -24,9 +23,7 @@ _AHEAD = 8 << 20
 """Bytes of the recordings of one job that are loaded ahead at most."""
 
 
-class _Content(NamedTuple):
-    recording: Recording
-    skeleton: Skeleton | None
+_Content = tuple[Recording, Skeleton | None]
 
 
 class Spool:
@@ -58,7 +55,7 @@ class Spool:
             path = self.path(uri, digest)
             if not path.exists():
                 try:
-                    content = _Content(archive.recording(uri), _skeleton(archive, uri))
+                    content = archive.recording(uri), _skeleton(archive, uri)
                 except Exception as error:
                     self._unreadable[uri] = reason(error)
                     continue
@@ -134,17 +131,18 @@ class SpooledArchive(Archive):
     def recording(self, uri: str) -> Recording:
         """Return a recording, named by its address; see `Archive.recording`."""
         content = self._load_spooled(uri)
-        return super().recording(uri) if content is None else content.recording
+        return super().recording(uri) if content is None else content[0]
 
     def skeleton(self, uri: str) -> Skeleton:
         """Return the skeleton of a recording; see `Archive.skeleton`."""
         content = self._load_spooled(uri)
         if content is None:
             return super().skeleton(uri)
-        if content.skeleton is None:  # so its library said, where the recording was read
+        _, skeleton = content
+        if skeleton is None:  # so its library said, where the recording was read
             library, key = self._resolve(uri)
             raise SkeletonUnavailable(key, type(library).__name__)
-        return content.skeleton
+        return skeleton
 
     def _load_spooled(self, uri: str) -> _Content | None:
         return self.spool.load(uri, self.digests[uri]) if uri in self.digests else None

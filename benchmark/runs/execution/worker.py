@@ -19,7 +19,7 @@ from threadpoolctl import threadpool_limits
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
-from mocapbench.benchmark.runs.evaluate import Evaluation, evaluate
+from mocapbench.benchmark.runs.evaluate import evaluate
 from mocapbench.benchmark.runs.execution.child import (
     ProcessDiedError,
     adopt_orphans,
@@ -77,15 +77,15 @@ def run_job(work: Work, config: WorkerConfig, spool: Spool) -> Outcome:
         with TimeLimit(config.timeout) as limit:
             ended = evaluate(work, config, archive, limit.call_in_child)
     except TimeoutError:
-        ended = Evaluation(job.timed_out(config.timeout))
+        ended = Outcome(job.timed_out(config.timeout))
     except MemoryError as error:  # where there is no room for what the child hands back
-        ended = Evaluation(job.record_failure(error, config.memory))
+        ended = Outcome(job.record_failure(error, config.memory))
     except ProcessDiedError as error:
         message = f"the process died with exit code {error.exit_code} before it could report"
-        ended = Evaluation(job.record(Status.FAILED, message))
+        ended = Outcome(job.record(Status.FAILED, message))
     finally:
         kill_children()  # what the job started and left running
-    return Outcome(ended.record, ended.fit, time.perf_counter() - started, ended.trained)
+    return ended._replace(seconds=time.perf_counter() - started)
 
 
 @cache

@@ -15,16 +15,13 @@ from typing import NamedTuple
 
 from mocapbench.reports.bundle.task_page import TaskPage
 
-__all__ = ["Import", "Module", "definer", "read"]
+__all__ = ["Module", "definer", "read"]
 
 _COMPILED = {*EXTENSION_SUFFIXES, ".so", ".pyd"}
 
 
-class Import(NamedTuple):
-    """A module that is imported, or a name that is imported from it."""
-
-    module: str
-    name: str = ""
+Import = tuple[str, str]
+"""A module, and the name that is imported from it; empty where the module itself is."""
 
 
 class Module(NamedTuple):
@@ -98,26 +95,26 @@ def _imports(module: str, nodes: Iterable[ast.AST]) -> Iterator[tuple[str, Impor
             for alias in node.names:
                 here = alias.asname or alias.name
                 if not isinstance(values.get(here), TaskPage):
-                    yield here, Import(origin, alias.name)
+                    yield here, (origin, alias.name)
 
 
 def _modules(node: ast.Import) -> Iterator[tuple[str, Import]]:
     """Yield what ``import a.b`` brings in: without another name, also all that ``a`` offers."""
     for alias in node.names:
-        yield "", Import(alias.name)
+        yield "", (alias.name, "")
         if not alias.asname:
             first = alias.name.partition(".")[0]
-            yield first, Import(first)
+            yield first, (first, "")
 
 
 @cache
 def definer(module: str, name: str) -> str:
     """Return the module that ``name`` comes from, if ``module`` is a package that passes it on."""
-    passed = Import(module, name)
+    passed = (module, name)
     visited: set[Import] = set()
     while passed not in visited:
         visited.add(passed)
-        passed = _passed_on(passed.module).get(passed.name, passed)
+        passed = _passed_on(passed[0]).get(passed[1], passed)
     module, name = passed
     if not (name and _is_package(module)):
         return module
@@ -135,7 +132,7 @@ def _passed_on(package: str) -> Mapping[str, Import]:
         return {}
     nodes = (*ast.walk(ast.parse(_source(package))), *_stub(package))
     return {
-        alias.asname or alias.name: Import(_absolute(node, package), alias.name)
+        alias.asname or alias.name: (_absolute(node, package), alias.name)
         for node in nodes
         if isinstance(node, ast.ImportFrom)
         for alias in node.names

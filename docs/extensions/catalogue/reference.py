@@ -11,8 +11,8 @@ from mocapbench.benchmark.gate.reference import Reference
 from mocapbench.benchmark.gate.reference_files import read_reference
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.results.bundle import bundle
-from mocapbench.benchmark.runs.planning.selection import entrants
 from mocapbench.benchmark.runs.record import Record, Status
+from mocapbench.benchmark.runs.request import entrants
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.reports.analysis.results import TaskResults, task_results
 from mocapbench.reports.figures.styles import DrawingStyle, model_styles

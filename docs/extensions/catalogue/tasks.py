@@ -12,7 +12,7 @@ from catalogue.ranking import case_rows, ranking_basis, ranking_rows
 from catalogue.reference import Today
 from mocapbench.benchmark.catalogue import task_entry
 from mocapbench.benchmark.registry import METRICS, TASKS
-from mocapbench.benchmark.runs.planning.selection import entrants
+from mocapbench.benchmark.runs.request import entrants
 from mocapbench.datasets import Archive
 from mocapbench.reports.bundle.questions import question
 from mocapbench.reports.paper.citations import citations_of

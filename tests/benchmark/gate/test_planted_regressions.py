@@ -18,8 +18,8 @@ from mocapbench.benchmark.runs.evaluate import evaluate
 from mocapbench.benchmark.runs.job import Work, WorkerConfig
 from mocapbench.benchmark.runs.plan import plan
 from mocapbench.benchmark.runs.plan_document import plan_document
-from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.provenance import provenance
+from mocapbench.benchmark.runs.request import Request
 from mocapbench.benchmark.tasks import toy_interpolation
 
 N_FOLDS = 20

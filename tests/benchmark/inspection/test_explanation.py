@@ -16,8 +16,8 @@ from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.fitting import solve
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.plan import plan
-from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
+from mocapbench.benchmark.runs.request import Request
 
 MODEL = """\
 from mocapbench.baselines.trivial import Trivial

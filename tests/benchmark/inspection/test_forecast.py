@@ -11,8 +11,8 @@ from mocapbench.benchmark.inspection.forecast_output import forecast_lines, lack
 from mocapbench.benchmark.inspection.work import Basis, ExpectedWork
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.plan import plan
-from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
+from mocapbench.benchmark.runs.request import Request
 
 TASKS = ("toy-interpolation-1", "missing-frames")
 

@@ -16,8 +16,8 @@ from mocapbench.benchmark.inspection.work import Basis
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.plan import plan
 from mocapbench.benchmark.runs.plan_document import plan_document
-from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
+from mocapbench.benchmark.runs.request import Request
 
 ROWS = [(task, "a", label, fold) for task in "tu" for label in "xy" for fold in (0, 1, 2)]
 NOW = datetime(2026, 1, 1, 12, tzinfo=UTC)

@@ -6,7 +6,7 @@ from itertools import groupby
 import pytest
 
 from mocapbench.benchmark import TASKS
-from mocapbench.benchmark.runs.planning.selection import entrants
+from mocapbench.benchmark.runs.request import entrants
 from mocapbench.reports.paper.published import every_value
 
 VALUES = every_value()

@@ -12,8 +12,8 @@ from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.evaluate import evaluate
 from mocapbench.benchmark.runs.job import Work, WorkerConfig
 from mocapbench.benchmark.runs.plan import plan
-from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.runs.record import Status
+from mocapbench.benchmark.runs.request import Request
 from mocapbench.metrics import Score
 
 CONFIG = WorkerConfig(None, (), 600.0, resource.RLIM_INFINITY, 1, {})

@@ -10,7 +10,7 @@ from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.runs.key_parts import decode_keys, encode_keys, key_parts
 from mocapbench.benchmark.runs.keys import key_of
 from mocapbench.benchmark.runs.plan import plan
-from mocapbench.benchmark.runs.planning.request import Request
+from mocapbench.benchmark.runs.request import Request
 from mocapbench.benchmark.tasks.address import Address
 
 TEXT = st.text("ab:é", max_size=3)

@@ -20,7 +20,7 @@ from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.benchmark.runs import keys
 from mocapbench.benchmark.runs.keys import fit_contents, key_of, metric_contents, score_contents
 from mocapbench.benchmark.runs.plan import plan
-from mocapbench.benchmark.runs.planning.request import Request
+from mocapbench.benchmark.runs.request import Request
 from mocapbench.benchmark.runs.source_code import reading
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import Case

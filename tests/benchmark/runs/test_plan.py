@@ -6,7 +6,7 @@ from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import TASKS
 from mocapbench.benchmark.runs.plan import plan, required_sources
-from mocapbench.benchmark.runs.planning.request import Request
+from mocapbench.benchmark.runs.request import Request
 from mocapbench.benchmark.tasks.base import Entrant
 
 

@@ -29,7 +29,7 @@ def test_a_message_is_one_line_that_is_not_searched(message, terminal):
     )
     address = Address("task", 1, "case", 0, "model")
     record = Record("k", "f", address, 0, "model", {}, Status.FAILED, message)
-    outcome = Outcome(record, None, 1.0)
+    outcome = Outcome(record, seconds=1.0)
     assert [*watch([outcome], 1, lambda: 0.0, console)] == [outcome]
     expected = f"failed: task · case · model · fold 1 (fold 0 in tables): {message}\n"
     assert expected in console.file.getvalue()

@@ -8,7 +8,7 @@ import pytest
 
 from mocapbench.baselines import Replay
 from mocapbench.benchmark import METRICS, TASKS, archive_at
-from mocapbench.benchmark.runs.planning.selection import entrants
+from mocapbench.benchmark.runs.request import entrants
 
 TASK = TASKS.get("control-similarity")
 GOLDENS = Path(__file__).parents[2] / "goldens"

@@ -12,8 +12,7 @@ from mocapbench.benchmark.registry import MODELS, TASKS
 from mocapbench.benchmark.runs.evaluate import evaluate
 from mocapbench.benchmark.runs.job import Work, WorkerConfig
 from mocapbench.benchmark.runs.plan import plan
-from mocapbench.benchmark.runs.planning.request import Request
-from mocapbench.benchmark.runs.planning.selection import entrants
+from mocapbench.benchmark.runs.request import Request, entrants
 
 CONFIG = WorkerConfig(None, (), 600.0, resource.RLIM_INFINITY, 1, {})
 TASK = "missing-frames"

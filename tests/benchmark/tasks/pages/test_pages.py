@@ -16,7 +16,7 @@ from mocapbench.benchmark import (
     archive_at,
     plan,
 )
-from mocapbench.benchmark.runs.planning.selection import entrants
+from mocapbench.benchmark.runs.request import entrants
 from mocapbench.reports import RowNotes, TaskPage
 
 NAMES = TASKS.names()

@@ -1,17 +1,52 @@
-"""The tasks, cases, entrants and folds that a request stands for."""
+"""What a user asks to be run, and the tasks, cases, entrants and folds that it stands for."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
 
 from mocapbench.benchmark.consistency import require_consistent
 from mocapbench.benchmark.errors import UnknownNameError, UnregisteredNameError, UsageError
 from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
-from mocapbench.benchmark.runs.planning.case_names import matching_cases
-from mocapbench.benchmark.runs.planning.request import Request
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Entrant, Task
 
-__all__ = ["chosen_cases", "chosen_entrants", "chosen_folds", "consistent_tasks", "entrants"]
+__all__ = [
+    "Request",
+    "chosen_cases",
+    "chosen_entrants",
+    "chosen_folds",
+    "consistent_tasks",
+    "entrants",
+    "matching_cases",
+    "split_cases",
+]
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to run; an empty tuple or None leaves the choice to the profile.
+
+    Parameters
+    ----------
+    profile : str
+        ``smoke``, ``quick`` or ``paper``.
+    tasks, models, cases, metrics : tuple of str
+        Names. A model is an entrant's label or, where a task has no such label, the model of all
+        entrants that have it; a case is what ``matching_cases`` finds.
+    folds : int or None
+        How many folds of each case.
+    seed : int
+        The root seed.
+    """
+
+    profile: str = "quick"
+    tasks: tuple[str, ...] = ()
+    models: tuple[str, ...] = ()
+    cases: tuple[str, ...] = ()
+    metrics: tuple[str, ...] = ()
+    folds: int | None = None
+    seed: int = 0
 
 
 def entrants(task: Task) -> tuple[Entrant, ...]:
@@ -101,3 +136,62 @@ def _tasks(request: Request) -> list[Task]:
 def _case_names(request: Request) -> tuple[str, ...]:
     names = (case.name for task in _tasks(request) for case in task.cases)
     return tuple(dict.fromkeys(names))
+
+
+def matching_cases(wanted: str, names: Iterable[str]) -> tuple[str, ...]:
+    """Return the names that ``wanted`` stands for; none if it stands for none.
+
+    They are the first of these that there are: the name itself; the names that match a pattern
+    such as ``observed*``; the names that begin with it. An underscore stands for a hyphen too, so
+    that ``35_03``, as CMU writes it, finds the cases on that recording.
+
+    Parameters
+    ----------
+    wanted : str
+    names : iterable of str
+        Every name there is.
+
+    Examples
+    --------
+    >>> names = ("35-03 four-walkers", "35-03 three-walkers", "test 1", "test 10")
+    >>> matching_cases("35_03", names)
+    ('35-03 four-walkers', '35-03 three-walkers')
+    >>> matching_cases("test 1", names)
+    ('test 1',)
+    """
+    names, typed = tuple(dict.fromkeys(names)), _hyphenate(wanted)
+    ways = (
+        [name for name in names if _hyphenate(name) == typed],
+        [name for name in names if fnmatchcase(_hyphenate(name), typed)],
+        [name for name in names if _hyphenate(name).startswith(typed)],
+    )
+    return tuple(next(filter(None, ways), ()))
+
+
+def split_cases(text: str, names: Iterable[str]) -> Iterator[str]:
+    """Yield what a user typed at commas, those apart that belong to the name of a case.
+
+    Parameters
+    ----------
+    text : str
+    names : iterable of str
+        Every name there is.
+
+    Examples
+    --------
+    >>> names = ("a limb 1 s, alone", "test 1")
+    >>> list(split_cases("test 1, a limb 1 s, alone", names))
+    ['test 1', 'a limb 1 s, alone']
+    """
+    known, parts = tuple(names), [part.strip() for part in text.split(",") if part.strip()]
+    while parts:
+        lengths = [
+            n for n in range(len(parts), 1, -1) if matching_cases(", ".join(parts[:n]), known)
+        ]
+        n = next(iter(lengths), 1)
+        yield ", ".join(parts[:n])
+        parts = parts[n:]
+
+
+def _hyphenate(name: str) -> str:
+    return name.replace("_", "-")

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.registry import TASKS
-from mocapbench.benchmark.runs.planning.case_names import matching_cases, split_cases
+from mocapbench.benchmark.runs.request import matching_cases, split_cases
 
 NAMES = ("35-03 four", "35-03 three", "12-02 three", "test 1", "test 10", "synthetic 1", "a_b")
 

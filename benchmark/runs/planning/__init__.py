@@ -1,1 +1,0 @@
-"""From what a user asks for to jobs: names, cases, entrants, parameters and keys."""
