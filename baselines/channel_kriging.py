@@ -14,8 +14,8 @@ import numpy as np
 from mocapbench.baselines.common.checks import check_recordings, pool
 from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.kriging.channel_pairs import DescribedFrames
-from mocapbench.baselines.kriging.channel_process import ChannelProcess
+from mocapbench.baselines.kriging.channel_process import learn_channel_process, predict_channels
+from mocapbench.baselines.kriging.left_out_gaps import DescribedFrames
 from mocapbench.baselines.kriging.stacked import StackedFrames
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.baselines.rehearsal.checkable import OneByOne
@@ -154,5 +154,5 @@ def _moments(
     )
     values = frames.values[np.ix_(known, channels)]
     spread = np.nanmean(frames.values[:, channels] ** 2, axis=0)
-    process = ChannelProcess.learnt(given, values, spread, own, duration)
-    return process.predict(given, values, wanted_frames)
+    process = learn_channel_process(given, values, spread, own, duration)
+    return predict_channels(given, values, wanted_frames, *process)

@@ -14,8 +14,8 @@ from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.rigid import FEWEST, steadiness
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_positive
-from mocapbench.baselines.kriging.beside_gaps import courses
-from mocapbench.baselines.kriging.marker_gap import MarkerGap, Track
+from mocapbench.baselines.kriging.marker_gap import MarkerGap
+from mocapbench.baselines.kriging.own_course import courses_in_gaps
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spatial
 from mocapbench.basics.gaps import runs
 from mocapbench.datasets import Recording
@@ -136,20 +136,21 @@ class MarkerKriging(Imputer, Inductive, Spatial):
             place = np.ix_(gap.frames, self.markers_[gap.marker])
             mean[place], variance[place] = gap.fill()
             left[place] = False
-        for where, course, doubt in courses(recording.values, left):
+        for where, course, doubt in courses_in_gaps(recording.values, left):
             mean[where], variance[where] = course, doubt
         return Prediction.around(recording, mean, variance)
 
     def _gaps(self, recording: Recording) -> Iterator[MarkerGap]:
         """Yield the gaps that other markers tell of."""
         others = [other for other in self.recordings_ if other.name != recording.name]
-        tracks = [Track(r.times, r.values[:, self.markers_]) for r in (recording, *others)]
-        shown = np.asarray(~np.isnan(tracks[0].places).any(axis=2))
+        times = [each.times for each in (recording, *others)]
+        places = [each.values[:, self.markers_] for each in (recording, *others)]
+        shown = np.asarray(~np.isnan(places[0]).any(axis=2))
         for marker in np.flatnonzero(~shown.all(axis=0)).tolist():
-            steady = steadiness([track.places for track in tracks], marker)
+            steady = steadiness(places, marker)
             enough = shown[:, steady > 0.0].sum(axis=1) >= FEWEST
             for frames in runs(~shown[:, marker] & enough):
                 around = np.flatnonzero(shown[frames].all(axis=0) & (steady > 0.0))
-                gap = MarkerGap(tracks, marker, frames, around, steady[around], self.power)
+                gap = MarkerGap(times, places, marker, frames, around, steady[around], self.power)
                 if gap.can_be_filled:
                     yield gap

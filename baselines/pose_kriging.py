@@ -27,10 +27,13 @@ from mocapbench.baselines.common.validation import (
     check_positive,
     check_share,
 )
-from mocapbench.baselines.kriging.mirrored_residuals import MirroredResiduals, images_of
+from mocapbench.baselines.kriging.mirror_images import (
+    MirroredResiduals,
+    find_symmetries,
+    images_of,
+)
 from mocapbench.baselines.kriging.own_course import own_course
 from mocapbench.baselines.kriging.paths import MatchedPaths
-from mocapbench.baselines.kriging.symmetry import symmetries
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import FrameImputer, Inductive, Prediction
 from mocapbench.datasets import FrameByChannel, Recording
@@ -178,7 +181,7 @@ class PoseKriging(FrameImputer, Inductive):
         self.directions_ = mean_directions(checked)
         usable = [in_pose_units(self._wrap_angles(one)) for one in with_steps(checked)]
         self.names_ = tuple(recording.name for recording in usable)
-        self.symmetries_ = symmetries(usable)
+        self.symmetries_ = find_symmetries(usable)
         self.matchers_ = [
             PoseViterbi(self.smoothness, steps=self.steps).fit([image.of_recording(recording)])
             for image in self.symmetries_

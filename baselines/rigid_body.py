@@ -13,14 +13,14 @@ from mocapbench.baselines.common.checks import check_channels, check_recordings
 from mocapbench.baselines.common.markers import marker_places
 from mocapbench.baselines.common.rigid import (
     FEWEST,
+    find_rotations,
     least_rotations,
-    rotations,
     spans_a_body,
     steadiness,
 )
 from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.interpolation import PchipImputer
-from mocapbench.baselines.kriging.local_frames import LocalFrames
+from mocapbench.baselines.kriging.marker_gap import fit_body
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spatial
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.gaps import runs
@@ -146,13 +146,13 @@ class RigidBody(Imputer, Inductive, Spatial):
         for marker in np.flatnonzero(hidden.any(axis=0)).tolist():
             weights = steadiness([places], marker) ** self.power
             for gap in runs(hidden[:, marker]):
-                position = _through(recording.times, places, marker, gap, weights)
+                position = _carry_through(recording.times, places, marker, gap, weights)
                 if position is not None:
                     filled[np.ix_(gap, self.markers_[marker])] = position
         return filled
 
 
-def _through(
+def _carry_through(
     times: Array, places: Array, marker: int, gap: NDArray[np.intp], weights: Array
 ) -> Array | None:
     """Return where others carry a marker through a gap (T, 3); None if they are too few."""
@@ -163,11 +163,11 @@ def _through(
         return None
     shares = weights[others] / weights[others].sum()
     near = places[max(gap[0] - _BESIDE, 0) : gap[-1] + _BESIDE + 1, others]
-    body = LocalFrames.of(near[~np.isnan(near).any(axis=(1, 2))], shares)
-    turns = rotations if spans_a_body(body.shapes, shares) else least_rotations
+    _, _, shapes = fit_body(near[~np.isnan(near).any(axis=(1, 2))], shares)
+    rotate = find_rotations if spans_a_body(shapes, shares) else least_rotations
     carried = [
         _carry_marker(
-            places[edge, others], places[gap][:, others], shares, places[edge, marker], turns
+            places[edge, others], places[gap][:, others], shares, places[edge, marker], rotate
         )
         for edge in edges
     ]
@@ -176,9 +176,9 @@ def _through(
 
 
 def _carry_marker(
-    before: Array, after: Array, shares: Array, marker: Array, turns: Rotations
+    before: Array, after: Array, shares: Array, marker: Array, rotate: Rotations
 ) -> Array:
     """Return where motions from ``before`` (K, 3) to ``after`` (T, K, 3) take a marker."""
     start, ends = shares @ before, shares @ after
-    turned = turns(before - start, after - ends[:, None], shares)
-    return np.asarray(np.einsum("tij,i->tj", turned, marker - start) + ends)
+    rotations = rotate(before - start, after - ends[:, None], shares)
+    return np.asarray(np.einsum("tij,i->tj", rotations, marker - start) + ends)

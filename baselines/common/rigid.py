@@ -8,7 +8,7 @@ import numpy as np
 
 from mocapbench.basics.arrays import Array
 
-__all__ = ["FEWEST", "least_rotations", "rotations", "spans_a_body", "steadiness"]
+__all__ = ["FEWEST", "find_rotations", "least_rotations", "spans_a_body", "steadiness"]
 
 
 FEWEST = 3
@@ -54,7 +54,7 @@ def _moments(recordings: Sequence[Array], marker: int) -> Iterator[tuple[Array, 
         yield counts, means, (np.where(seen, distances - means, 0.0) ** 2).sum(axis=0)
 
 
-def rotations(before: Array, after: Array, weights: Array) -> Array:
+def find_rotations(before: Array, after: Array, weights: Array) -> Array:
     r"""Return the rotations that take markers around their centre to others: (T, 3, 3).
 
     Parameters
@@ -83,7 +83,7 @@ def rotations(before: Array, after: Array, weights: Array) -> Array:
 def least_rotations(before: Array, after: Array, weights: Array) -> Array:
     """Return the least rotations that take the line along which markers lie to others: (T, 3, 3).
 
-    Nothing turns about the line itself. Parameters are those of `rotations`.
+    Nothing turns about the line itself. Parameters are those of `find_rotations`.
     """
     line = _principal(before, weights)[1][0]
     ahead = np.einsum("k,tki->ti", weights * (before @ line), after)

@@ -20,10 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
-from mocapbench.baselines.kriging.student import student_variance
 from mocapbench.basics.arrays import Array
 
-__all__ = ["ConditionedFrames"]
+__all__ = ["ConditionedFrames", "student_variance"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,3 +112,18 @@ class ConditionedFrames:
     def doubt_of_scale(self) -> float:
         """By what the variance grows because the scale is inferred: ν / (ν − 2) if ν > 2."""
         return student_variance(self._freedom)
+
+
+def student_variance(n_values: int) -> float:
+    """Return the variance of Student's t, with as many degrees of freedom, of unit scale.
+
+    It is n / (n − 2), which is infinite for n = 2 and has no meaning below. With one or two values
+    it is that of three: no more values ever make it larger.
+
+    Examples
+    --------
+    >>> [student_variance(n) for n in (1, 2, 3, 4, 6)]
+    [3.0, 3.0, 3.0, 2.0, 1.5]
+    """
+    n_counted = max(n_values, 3)
+    return n_counted / (n_counted - 2)

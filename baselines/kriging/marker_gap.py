@@ -1,4 +1,11 @@
-"""A gap of one marker, filled by what the markers around it show of it."""
+r"""A gap of one marker, filled by what the markers around it show of it.
+
+The marker is seen from a body that moves with the others. It is in every frame where the rotation
+:math:`R_t` (row vectors) and the centre :math:`c_t` fit its mean shape best to the markers
+:math:`p_k(t)` that hold it, with weights :math:`w_k`. What is at x in the room is at
+:math:`(x - c_t) R_t^\top` as seen from it. Markers on a line do not fix the rotation about it; the
+body then follows the line, and does not rotate about it.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +15,21 @@ from functools import cached_property
 
 import numpy as np
 
-from mocapbench.baselines.common.rigid import FEWEST
-from mocapbench.baselines.kriging.learning import evenly, some_of_both
-from mocapbench.baselines.kriging.local_frames import LocalFrames
-from mocapbench.baselines.kriging.marker_process import MarkerFrames, MarkerProcess
+from mocapbench.baselines.common.rigid import (
+    FEWEST,
+    find_rotations,
+    least_rotations,
+    spans_a_body,
+)
+from mocapbench.baselines.kriging.left_out_gaps import (
+    DescribedFrames,
+    choose_evenly,
+    choose_from_both,
+)
+from mocapbench.baselines.kriging.marker_process import learn_marker_process, predict_marker
 from mocapbench.basics.arrays import Array, Index
 
-__all__ = ["MarkerGap", "Track"]
+__all__ = ["MarkerGap", "fit_body", "to_body", "to_room"]
 
 
 _BESIDE = 30
@@ -25,22 +40,8 @@ _LEARNT = 120
 """Frames of each of these from which parameters are learnt."""
 _ROUNDING = 1e-6
 """Deviations, relative to the distance from the markers around, that count as none."""
-
-
-@dataclass(frozen=True, eq=False)
-class Track:
-    """The markers of a recording.
-
-    Parameters
-    ----------
-    times : ndarray of shape (N,)
-        In seconds.
-    places : ndarray of shape (N, M, 3)
-        NaN where hidden.
-    """
-
-    times: Array
-    places: Array
+_SHAPE_ROUNDS = 3
+"""Times that the mean shape is fitted anew; it hardly moves after the first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +50,10 @@ class MarkerGap:
 
     Parameters
     ----------
-    tracks : sequence of Track
-        The recording to fill, and those to learn from besides.
+    times : sequence of ndarray, each of shape (N,)
+        Of the recording to fill, and of those to learn from besides; in seconds.
+    places : sequence of ndarray, each of shape (N, M, 3)
+        Where their markers are; NaN where hidden.
     marker : int
     frames : ndarray of int, shape (T,)
         Successive frames of the gap.
@@ -62,7 +65,8 @@ class MarkerGap:
         Exponent of the steadiness in the weight of a marker.
     """
 
-    tracks: Sequence[Track]
+    times: Sequence[Array]
+    places: Sequence[Array]
     marker: int
     frames: Index
     others: Index
@@ -77,33 +81,35 @@ class MarkerGap:
     def fill(self) -> tuple[Array, Array]:
         """Return the mean (T, 3) and the variance (T, 1) of the marker in the gap."""
         known = slice(len(self.frames), None)
-        body = LocalFrames.of(self._stacked[:, 1:], self.steady**self.power)
-        seen = body.to_body(self._stacked[:, 0])[known]
+        rotations, centres, shapes = fit_body(self._stacked[:, 1:], self.steady**self.power)
+        seen = to_body(self._stacked[:, 0], rotations, centres)[known]
         centre = seen.mean(axis=0)
-        spread = max(np.sqrt(np.mean((seen - centre) ** 2)), _ROUNDING * np.abs(body.shapes).max())
+        spread = max(np.sqrt(np.mean((seen - centre) ** 2)), _ROUNDING * np.abs(shapes).max())
         values = (seen - centre) / spread
-        mean, variance = self._predict_gap(self._describe_frames(body), values)
-        hidden = np.arange(len(self.frames))
-        return body.to_room(centre + spread * mean, hidden), spread**2 * variance[:, None]
+        mean, variance = self._predict_gap(self._describe_frames(shapes), values)
+        gap = slice(len(self.frames))
+        filled = to_room(centre + spread * mean, rotations[gap], centres[gap])
+        return filled, spread**2 * variance[:, None]
 
-    def _predict_gap(self, frames: MarkerFrames, values: Array) -> tuple[Array, Array]:
+    def _predict_gap(self, frames: DescribedFrames, values: Array) -> tuple[Array, Array]:
         """Return the moments in the gap, with which ``frames`` begin, given ``values`` after it."""
         wanted, known = np.split(np.arange(len(self._rows)), [len(self.frames)])
-        some = some_of_both(self._given[:, 0] == 0, _LEARNT)
-        process = MarkerProcess.learnt(frames.at(known[some]), values[some], self._seconds)
-        return process.predict(frames.at(known), values, frames.at(wanted))
+        some = choose_from_both(self._given[:, 0] == 0, _LEARNT)
+        process = learn_marker_process(frames.at(known[some]), values[some], self._seconds)
+        return predict_marker(frames.at(known), values, frames.at(wanted), *process)
 
-    def _describe_frames(self, body: LocalFrames) -> MarkerFrames:
-        shapes = self.steady[:, None] * (body.shapes - body.shapes.mean(axis=0))
-        size = np.sqrt((shapes**2).sum(axis=(1, 2)).mean())
-        shapes /= max(size, _ROUNDING * np.abs(body.shapes).max())
-        times = np.array([self.tracks[number].times[frame] for number, frame in self._rows])
-        return MarkerFrames(shapes.reshape(len(shapes), -1), times, self._rows[:, 0])
+    def _describe_frames(self, shapes: Array) -> DescribedFrames:
+        """Describe frames by shapes (n, K, 3), scaled to variance 1; steady markers count more."""
+        changes = self.steady[:, None] * (shapes - shapes.mean(axis=0))
+        size = np.sqrt((changes**2).sum(axis=(1, 2)).mean())
+        changes /= max(size, _ROUNDING * np.abs(shapes).max())
+        times = np.array([self.times[number][frame] for number, frame in self._rows])
+        return DescribedFrames(changes.reshape(len(changes), -1), times, self._rows[:, 0])
 
     @property
     def _seconds(self) -> float:
         """Length of the gaps to leave out: twice the time between the frames beside this one."""
-        times = self.tracks[0].times
+        times = self.times[0]
         before, after = max(self.frames[0] - 1, 0), min(self.frames[-1] + 1, len(times) - 1)
         return 2.0 * float(times[after] - times[before])
 
@@ -116,14 +122,14 @@ class MarkerGap:
     @cached_property
     def _given(self) -> Index:
         """Recordings and frames that show the marker and the others; the first recording first."""
-        shown = [self._find_complete_frames(number) for number in range(len(self.tracks))]
+        shown = [self._find_complete_frames(number) for number in range(len(self.places))]
         own, further = shown[0], np.concatenate([shown[0][:0], *shown[1:]])
         beside = np.abs(own[:, 1] - np.clip(own[:, 1], self.frames[0], self.frames[-1])) <= _BESIDE
-        own = np.unique(np.concatenate([evenly(own, _FURTHER), own[beside]]), axis=0)
-        return np.concatenate([own, evenly(further, _FURTHER)])
+        own = np.unique(np.concatenate([choose_evenly(own, _FURTHER), own[beside]]), axis=0)
+        return np.concatenate([own, choose_evenly(further, _FURTHER)])
 
     def _find_complete_frames(self, number: int) -> Index:
-        places = self.tracks[number].places[:, [self.marker, *self.others]]
+        places = self.places[number][:, [self.marker, *self.others]]
         frames = np.flatnonzero(~np.isnan(places).any(axis=(1, 2)))
         return np.column_stack([np.full_like(frames, number), frames])
 
@@ -131,6 +137,47 @@ class MarkerGap:
     def _stacked(self) -> Array:
         """(n, 1 + K, 3) the marker and the others."""
         markers = [self.marker, *self.others]
-        return np.array(
-            [self.tracks[number].places[frame, markers] for number, frame in self._rows]
-        )
+        return np.array([self.places[number][frame, markers] for number, frame in self._rows])
+
+
+def fit_body(places: Array, weights: Array) -> tuple[Array, Array, Array]:
+    """Fit the body to markers in the room.
+
+    Parameters
+    ----------
+    places : ndarray of shape (T, K, 3)
+        At least three markers.
+    weights : ndarray of shape (K,)
+        Not negative.
+
+    Returns
+    -------
+    rotations : ndarray of shape (T, 3, 3)
+        From the body to the room, of row vectors.
+    centres : ndarray of shape (T, 3)
+        The weighted means of the markers.
+    shapes : ndarray of shape (T, K, 3)
+        The markers, as seen from the body.
+    """
+    shares = weights / weights.sum()
+    centres = np.einsum("k,tki->ti", shares, places)
+    around = places - centres[:, None]
+    shape = around[len(around) // 2]
+    for _ in range(_SHAPE_ROUNDS):
+        rotations = find_rotations(shape, around, shares)
+        shapes = np.einsum("tkj,tij->tki", around, rotations)
+        shape = shapes.mean(axis=0)
+    if not spans_a_body(shapes, shares):
+        rotations = least_rotations(shape, around, shares)
+        shapes = np.einsum("tkj,tij->tki", around, rotations)
+    return rotations, centres, shapes
+
+
+def to_body(places: Array, rotations: Array, centres: Array) -> Array:
+    """Return a marker (T, 3) of the room as seen from the body."""
+    return np.asarray(np.einsum("tj,tij->ti", places - centres, rotations))
+
+
+def to_room(seen: Array, rotations: Array, centres: Array) -> Array:
+    """Return a marker (T, 3) as seen from the body in the room."""
+    return np.asarray(np.einsum("ti,tij->tj", seen, rotations) + centres)

@@ -25,17 +25,18 @@ from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
-from mocapbench.baselines.kriging.learning import (
-    best_predicting,
-    noisy,
+from mocapbench.baselines.kriging.conditioned import student_variance
+from mocapbench.baselines.kriging.left_out_gaps import (
+    DescribedFrames,
+    LeftOutGaps,
+    add_noise,
+    learn_parameters,
     predict_frames,
     stretch_numbers,
 )
-from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
-from mocapbench.baselines.kriging.student import student_variance
-from mocapbench.basics.arrays import Array, Index
+from mocapbench.basics.arrays import Array
 
-__all__ = ["FramePairs", "MarkerFrames", "MarkerProcess"]
+__all__ = ["FramePairs", "learn_marker_process", "predict_marker"]
 
 
 _TYPICAL: Array = np.log([2.0, 0.3, 0.25, 0.05])
@@ -43,29 +44,6 @@ _TYPICAL: Array = np.log([2.0, 0.3, 0.25, 0.05])
 _CONSTANTS = 2.0
 """The variance of both constants."""
 _LEAST_SCALE = 1e-6
-
-
-@dataclass(frozen=True, eq=False)
-class MarkerFrames:
-    """What n frames have in common.
-
-    Parameters
-    ----------
-    shapes : ndarray of shape (n, F)
-        With variance 1, summed over F.
-    times : ndarray of shape (n,)
-        In seconds.
-    recording : ndarray of int, shape (n,)
-        The number of each frame's recording.
-    """
-
-    shapes: Array
-    times: Array
-    recording: Index
-
-    def at(self, which: Index) -> MarkerFrames:
-        """Return some of the frames."""
-        return MarkerFrames(self.shapes[which], self.times[which], self.recording[which])
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,10 +65,10 @@ class FramePairs:
     together: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, one: MarkerFrames, other: MarkerFrames) -> Self:
+    def of(cls, one: DescribedFrames, other: DescribedFrames) -> Self:
         """Relate frames to others."""
         return cls(
-            cdist(one.shapes, other.shapes, "sqeuclidean"),
+            cdist(one.description, other.description, "sqeuclidean"),
             np.abs(np.subtract.outer(one.times, other.times)),
             np.equal.outer(one.recording, other.recording),
         )
@@ -107,6 +85,7 @@ class FramePairs:
         length, drift, duration, _ = np.exp(parameters)
         squares = self.distances / length**2
         kernel = Matern32()
+        # ∂(1 + s)^(−1/2) / ∂ log ℓ = s (1 + s)^(−3/2), with s = ‖φ − φ'‖² / ℓ².
         return [
             squares * (1.0 + squares) ** -1.5,
             self.together * 2.0 * drift**2 * kernel.value(self.lags, duration),
@@ -114,48 +93,41 @@ class FramePairs:
         ]
 
 
-@dataclass(frozen=True, eq=False)
-class MarkerProcess:
-    """A process with its parameters.
+def learn_marker_process(
+    frames: DescribedFrames, values: Array, seconds: float
+) -> tuple[Array, float]:
+    """Return the parameters that predict gaps best, and what variances are multiplied by.
 
     Parameters
     ----------
+    frames : DescribedFrames
+        In which the marker is visible, by the shape of the markers around; times in seconds.
+    values : ndarray of shape (n, 3)
+        Where it is, with mean zero and variance 1.
+    seconds : float
+        How long the gaps are.
+
+    Returns
+    -------
     parameters : ndarray of shape (4,)
         Logarithms of ℓ, a, τ and ε.
     scale : float
-        What variances are multiplied by, for values with variance 1.
     """
+    pairs = FramePairs.of(frames, frames)
+    stretch = stretch_numbers(frames.times, frames.recording, seconds)
+    n_gaps = int(stretch.max()) + 1
+    found = learn_parameters(pairs, values, stretch, _TYPICAL, n_gaps / len(stretch))
+    scale = max(LeftOutGaps(add_noise(pairs, found), values, stretch).scale, _LEAST_SCALE)
+    return found, scale * student_variance(n_gaps)
 
-    parameters: Array
-    scale: float
 
-    @classmethod
-    def learnt(cls, frames: MarkerFrames, values: Array, seconds: float) -> Self:
-        """Return the process that predicts gaps best.
-
-        Parameters
-        ----------
-        frames : MarkerFrames
-            In which the marker is visible.
-        values : ndarray of shape (n, 3)
-            Where it is, with mean zero and variance 1.
-        seconds : float
-            How long the gaps are.
-        """
-        pairs = FramePairs.of(frames, frames)
-        stretch = stretch_numbers(frames.times, frames.recording, seconds)
-        n_gaps = int(stretch.max()) + 1
-        found = best_predicting(pairs, values, stretch, _TYPICAL, n_gaps / len(stretch))
-        scale = max(LeftOutGaps(noisy(pairs, found), values, stretch).scale, _LEAST_SCALE)
-        return cls(found, scale * student_variance(n_gaps))
-
-    def predict(
-        self, frames: MarkerFrames, values: Array, wanted: MarkerFrames
-    ) -> tuple[Array, Array]:
-        """Return the mean (m, 3) and the variance (m,) of an observation in the frames wanted."""
-        known, across = FramePairs.of(frames, frames), FramePairs.of(wanted, frames)
-        mean, explained = predict_frames(known, across, self.parameters, values)
-        _, drift, _, noise = np.exp(2.0 * self.parameters)
-        total = _CONSTANTS + 1.0 + drift + noise
-        variance = np.maximum(total - explained, noise)
-        return mean, self.scale * variance
+def predict_marker(
+    frames: DescribedFrames, values: Array, wanted: DescribedFrames, parameters: Array, scale: float
+) -> tuple[Array, Array]:
+    """Return the mean (m, 3) and the variance (m,) of an observation in the frames wanted."""
+    known, across = FramePairs.of(frames, frames), FramePairs.of(wanted, frames)
+    mean, explained = predict_frames(known, across, parameters, values)
+    _, drift, _, noise = np.exp(2.0 * parameters)
+    # K(t, t): the constants, 1 for the shape, a² for the drift, and ε².
+    total = _CONSTANTS + 1.0 + drift + noise
+    return mean, scale * np.maximum(total - explained, noise)

@@ -6,19 +6,27 @@ of Matérn. Its scale and its lengthscale are inferred from the visible frames o
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.gp.prior.kernels import Matern32
 from mocapbench.baselines.kriging.conditioned import ConditionedFrames
-from mocapbench.datasets import FrameByChannel
+from mocapbench.basics.arrays import Array
+from mocapbench.basics.gaps import hidden_together, runs
+from mocapbench.datasets import FrameByChannel, Mask
 
-__all__ = ["own_course"]
+__all__ = ["courses_in_gaps", "own_course"]
 
 _LENGTHSCALES = 2.0 ** np.arange(2.0, 7.0, 0.5)
 """In frames; all are equally probable before anything is seen."""
 _CONSTANT, _NOISE = 10.0, 1e-4
 """Prior variances of the constant and of the noise, up to scale."""
+_BESIDE = 100
+"""Frames on both sides of a gap from which it is filled."""
+_LEAST_SCALE = 1e-12
+"""The least scale of a channel's variance, relative to its mean square beside the gap."""
 
 
 def own_course(
@@ -38,7 +46,9 @@ def own_course(
         Least scale of a channel's variance, positive.
     """
     centre = values[visible].mean(axis=0)
-    parts = [_with(length, values[visible] - centre, visible, least) for length in _LENGTHSCALES]
+    parts = [
+        _fill_with(length, values[visible] - centre, visible, least) for length in _LENGTHSCALES
+    ]
     means, variances, evidence = map(np.array, zip(*parts, strict=True))
     weights = np.exp(evidence - evidence.max(axis=0))
     weights = (weights / weights.sum(axis=0))[:, None]
@@ -46,7 +56,35 @@ def own_course(
     return centre + mean, (weights * (variances + (means - mean) ** 2)).sum(axis=0)
 
 
-def _with(
+def courses_in_gaps(
+    values: FrameByChannel, wanted: Mask
+) -> Iterator[tuple[tuple[NDArray[np.intp], ...], Array, Array]]:
+    """Yield the entries of gaps, as an index into an array (N, D), with their mean and variance.
+
+    Nothing is yielded of gaps with fewer than two visible frames beside them.
+
+    Parameters
+    ----------
+    values : ndarray of shape (N, D)
+        NaN where hidden.
+    wanted : ndarray of bool, shape (N, D)
+        Hidden entries that are to be filled.
+    """
+    hidden = np.isnan(values)
+    for columns in hidden_together(np.concatenate([wanted, hidden])):
+        for gap in runs(wanted[:, columns[0]]):
+            near = np.arange(max(gap[0] - _BESIDE, 0), min(gap[-1] + _BESIDE + 1, len(values)))
+            visible = ~hidden[near, columns[0]]
+            if visible.sum() < 2:
+                continue
+            beside = values[np.ix_(near, columns)]
+            least = _LEAST_SCALE * max(float(np.nanmean(beside**2)), np.finfo(np.float64).tiny)
+            mean, variance = own_course(beside, visible, least)
+            inside = gap - near[0]
+            yield np.ix_(gap, columns), mean[inside], variance[inside]
+
+
+def _fill_with(
     lengthscale: float, residuals: FrameByChannel, visible: NDArray[np.bool_], least: float
 ) -> tuple[FrameByChannel, FrameByChannel, NDArray[np.float64]]:
     """Return mean and variance (N, D) with one lengthscale, and its evidence (D,)."""

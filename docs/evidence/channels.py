@@ -23,8 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines import ChannelKriging, CubicSplineImputer, MakimaImputer, Prediction
-from mocapbench.baselines.kriging import channel_process, learning, stacked
-from mocapbench.baselines.kriging.channel_pairs import TYPICAL
+from mocapbench.baselines.kriging import channel_process, left_out_gaps, stacked
+from mocapbench.baselines.kriging.channel_process import TYPICAL
 from mocapbench.benchmark.tasks.marker_gaps import LIMBS
 from mocapbench.datasets import AcclaimFormat, Mask, Recording, joint_trajectories
 
@@ -71,7 +71,7 @@ def alike(frames: stacked.StackedFrames, known: Array, channels: Array, others: 
     return np.ones(len(others))
 
 
-PROCESS, LEARNING, STACKED = (m.__name__ for m in (channel_process, learning, stacked))
+PROCESS, LEARNING, STACKED = (m.__name__ for m in (channel_process, left_out_gaps, stacked))
 CHANGES: Mapping[str, Change] = {
     "as it is": {},
     "parameters fixed at the medians": {f"{LEARNING}._STEPS": 0},

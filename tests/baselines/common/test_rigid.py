@@ -3,8 +3,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mocapbench.baselines.common.rigid import (
+    find_rotations,
     least_rotations,
-    rotations,
     spans_a_body,
     steadiness,
 )
@@ -15,13 +15,13 @@ def test_rotations_are_those_that_turned_the_markers():
     before -= before.mean(axis=0)
     turns = Rotation.random(7, random_state=0)
     after = np.stack([turns.apply(marker) for marker in before], axis=1)
-    found = rotations(before, after, np.ones(5))
+    found = find_rotations(before, after, np.ones(5))
     np.testing.assert_allclose(found, turns.as_matrix().transpose(0, 2, 1), atol=1e-12)
 
 
 def test_a_mirror_image_is_not_taken_for_a_rotation():
     before = np.random.default_rng(1).normal(size=(6, 3))
-    found = rotations(before, (before * [1.0, 1.0, -1.0])[None], np.ones(6))
+    found = find_rotations(before, (before * [1.0, 1.0, -1.0])[None], np.ones(6))
     assert np.linalg.det(found[0]) == pytest.approx(1.0)
 
 

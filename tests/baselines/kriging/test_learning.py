@@ -1,15 +1,16 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.kriging.channel_pairs import TYPICAL, ChannelPairs, DescribedFrames
-from mocapbench.baselines.kriging.learning import (
-    best_predicting,
-    evenly,
-    noisy,
-    some_of_both,
+from mocapbench.baselines.kriging.channel_process import TYPICAL, ChannelPairs
+from mocapbench.baselines.kriging.left_out_gaps import (
+    DescribedFrames,
+    LeftOutGaps,
+    add_noise,
+    choose_evenly,
+    choose_from_both,
+    learn_parameters,
     stretch_numbers,
 )
-from mocapbench.baselines.kriging.left_out_gaps import LeftOutGaps
 
 TIMES = np.concatenate([np.arange(60), np.arange(30)]) / 30
 RECORDING = np.repeat([0, 4], [60, 30])
@@ -27,14 +28,16 @@ def test_stretches_are_shorter_where_there_would_be_fewer_than_four():
 
 def test_rows_are_spread_evenly():
     rows = np.arange(11) + 5
-    np.testing.assert_array_equal(evenly(rows, 3), [5, 10, 15])
-    np.testing.assert_array_equal(evenly(rows, 20), rows)
-    assert not evenly(rows[:0], 3).size
+    np.testing.assert_array_equal(choose_evenly(rows, 3), [5, 10, 15])
+    np.testing.assert_array_equal(choose_evenly(rows, 20), rows)
+    assert not choose_evenly(rows[:0], 3).size
 
 
 def test_frames_are_taken_of_the_recording_and_of_all_others():
-    np.testing.assert_array_equal(some_of_both(RECORDING == 4, 2), [60, 89, 0, 59])
-    np.testing.assert_array_equal(some_of_both(RECORDING == 9, 3), evenly(np.arange(90), 3))
+    np.testing.assert_array_equal(choose_from_both(RECORDING == 4, 2), [60, 89, 0, 59])
+    np.testing.assert_array_equal(
+        choose_from_both(RECORDING == 9, 3), choose_evenly(np.arange(90), 3)
+    )
 
 
 def test_nothing_beside_what_is_learnt_predicts_better():
@@ -50,10 +53,10 @@ def test_nothing_beside_what_is_learnt_predicts_better():
     weight = (stretch.max() + 1) / 90
 
     def score(parameters):
-        left_out = LeftOutGaps(noisy(pairs, parameters), values, stretch)
+        left_out = LeftOutGaps(add_noise(pairs, parameters), values, stretch)
         return weight * left_out.score + 0.5 * np.sum((parameters - TYPICAL) ** 2)
 
-    found = best_predicting(pairs, values, stretch, TYPICAL, weight)
+    found = learn_parameters(pairs, values, stretch, TYPICAL, weight)
     assert score(found) < score(TYPICAL)
     for _ in range(5):
         assert score(found + 0.3 * rng.normal(size=6)) > score(found) - 1e-3
@@ -61,7 +64,7 @@ def test_nothing_beside_what_is_learnt_predicts_better():
 
 def test_noise_is_on_the_diagonal():
     pairs = ChannelPairs.of(*[DescribedFrames(np.zeros((3, 1)), np.arange(3), np.zeros(3))] * 2)
-    added = noisy(pairs, TYPICAL) - pairs.covariance(TYPICAL)
+    added = add_noise(pairs, TYPICAL) - pairs.covariance(TYPICAL)
     np.testing.assert_allclose(added, np.exp(2 * TYPICAL[-1]) * np.eye(3), atol=2e-6)
 
 

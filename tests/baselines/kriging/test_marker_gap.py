@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines.kriging import marker_gap
-from mocapbench.baselines.kriging.marker_gap import MarkerGap, Track
+from mocapbench.baselines.kriging.marker_gap import MarkerGap
 
 
 @pytest.mark.parametrize(
@@ -11,20 +11,19 @@ from mocapbench.baselines.kriging.marker_gap import MarkerGap, Track
 def test_it_learns_from_gaps_twice_as_long_as_the_time_between_the_frames_beside_it(
     monkeypatch, frames, seconds
 ):
-    learnt = []
+    learnt, learn = [], marker_gap.learn_marker_process
 
-    class Watched(marker_gap.MarkerProcess):
-        @classmethod
-        def learnt(cls, *given):
-            learnt.append(given[-1])
-            return super().learnt(*given)
+    def watch(frames, values, seconds):
+        learnt.append(seconds)
+        return learn(frames, values, seconds)
 
-    monkeypatch.setattr(marker_gap, "MarkerProcess", Watched)
+    monkeypatch.setattr(marker_gap, "learn_marker_process", watch)
     rng = np.random.default_rng(0)
     places = rng.normal(size=(1, 5, 3)) + 0.1 * rng.normal(size=(100, 5, 3))
     places[slice(*frames), 0] = np.nan
     gap = MarkerGap(
-        [Track(np.arange(100) / 10.0, places)],
+        [np.arange(100) / 10.0],
+        [places],
         marker=0,
         frames=np.arange(*frames),
         others=np.arange(1, 5),

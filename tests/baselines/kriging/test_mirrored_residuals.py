@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.kriging.mirrored_residuals import MirroredResiduals, images_of
-from mocapbench.baselines.kriging.symmetry import Image
+from mocapbench.baselines.kriging.mirror_images import Image, MirroredResiduals, images_of
 
 ORDER, SIGNS = np.array([0, 2, 1]), np.array([-1.0, 1.0, 1.0])
 """One channel in the middle, whose sign the mirror changes, and one on each side."""

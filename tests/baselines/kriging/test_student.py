@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.stats import t
 
-from mocapbench.baselines.kriging.student import student_variance
+from mocapbench.baselines.kriging.conditioned import student_variance
 
 
 def test_it_is_the_variance_of_students_t():

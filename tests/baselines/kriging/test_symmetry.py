@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.kriging.symmetry import symmetries
+from mocapbench.baselines.kriging.mirror_images import find_symmetries
 from mocapbench.datasets import Recording, gpdm_features, open_archive
 
 CHANNELS = ("root.dtx", "root.ry", "lfemur.rx", "lfemur.rz", "rfemur.rx", "rfemur.rz")
@@ -21,7 +21,7 @@ def walk(channels=CHANNELS, lag=20, n_frames=60):
 
 
 def test_the_mirror_image_of_a_walk_is_the_walk_half_a_cycle_later():
-    itself, mirrored = symmetries([walk()])
+    itself, mirrored = find_symmetries([walk()])
     values = walk().values
     np.testing.assert_array_equal(itself.of(values), values)
     np.testing.assert_allclose(mirrored.of(values)[20:], values[:-20], atol=1e-12)
@@ -30,14 +30,14 @@ def test_the_mirror_image_of_a_walk_is_the_walk_half_a_cycle_later():
 @settings(max_examples=10, deadline=None)
 @given(st.integers(0, 1000))
 def test_a_mirror_image_of_a_mirror_image_is_the_motion_itself(seed):
-    _, mirrored = symmetries([walk()])
+    _, mirrored = find_symmetries([walk()])
     frames = np.random.default_rng(seed).normal(size=(7, len(CHANNELS)))
     np.testing.assert_array_equal(mirrored.of(mirrored.of(frames)), frames)
 
 
 def test_a_motion_unlike_its_mirror_image_has_none():
-    assert len(symmetries([walk(lag=0)])) == 1
-    assert len(symmetries([walk().with_values(np.zeros((60, 6)))])) == 1
+    assert len(find_symmetries([walk(lag=0)])) == 1
+    assert len(find_symmetries([walk().with_values(np.zeros((60, 6)))])) == 1
 
 
 @pytest.mark.parametrize(
@@ -50,12 +50,12 @@ def test_a_motion_unlike_its_mirror_image_has_none():
     ],
 )
 def test_names_that_do_not_tell_left_from_right_have_no_mirror_image(channels):
-    assert len(symmetries([walk(channels)])) == 1
+    assert len(find_symmetries([walk(channels)])) == 1
 
 
 def test_generated_walkers_are_symmetric():
     recording = gpdm_features(open_archive().recording("gait:01_01"))
-    _, mirrored = symmetries([recording])
+    _, mirrored = find_symmetries([recording])
     names = np.array(recording.channels)
     assert names[mirrored.order][names == "lfemur.rx"] == "rfemur.rx"
     assert names[mirrored.order][names == "lowerback.ry"] == "lowerback.ry"

@@ -155,6 +155,7 @@ FIT_PATH = [
     ("baselines.rehearsal.left_out", "toy-interpolation-1", "mohgp"),
     ("baselines.rehearsal.ratios", "toy-interpolation-1", "mohgp"),
     ("baselines.common.checks", "toy-interpolation-1", "trivial"),
+    ("baselines.common.padded_sequences", "missing-frames", "lds"),
     ("baselines.common.recordings", "toy-interpolation-1", "trivial"),
     ("baselines.rehearsal.rehearsing", "subject-35-missing", "channel-kriging"),
     ("baselines.common.scaling", "toy-interpolation-1", "mohgp"),
