@@ -10,12 +10,46 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol
 
-from mocapbench.reports.bundle.questions import BY_KIND, question
-
 if TYPE_CHECKING:
     from mocapbench.reports.bundle.pictures import Picture
 
-__all__ = ["Figure", "RowNotes", "TaskPage"]
+__all__ = ["BY_KIND", "QUESTIONS", "Figure", "RowNotes", "TaskPage"]
+
+QUESTIONS: Mapping[str, tuple[str, str]] = {
+    "hidden-frames": (
+        "Fill hidden frames",
+        "All channels are hidden for some frames in a row: what happened in between?",
+    ),
+    "scattered-samples": (
+        "Fill scattered samples",
+        "Each channel shows a few scattered frames, at times of its own: what is the rest?",
+    ),
+    "other-channels": (
+        "Fill with other channels",
+        "Some channels are hidden while others stay visible: what do those tell about them?",
+    ),
+    "invent-motion": (
+        "Invent motion",
+        "New recordings are drawn: do they resemble motion that the model has not seen?",
+    ),
+    "find-styles": (
+        "Find styles",
+        "Recordings come without labels: are those of one style grouped together?",
+    ),
+    "recover": (
+        "Recover the process",
+        "The truth is known: how near does what is learnt or measured come to it?",
+    ),
+}
+"""What tasks ask of models: a title and a sentence for readers by name, in page order."""
+
+BY_KIND: Mapping[str, str] = {
+    "impute": "hidden-frames",
+    "synthesise": "invent-motion",
+    "cluster": "find-styles",
+    "recover": "recover",
+}
+"""The question of a task that names none, by the kind of its page."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,8 +95,8 @@ class TaskPage:
     kind : str
         ``"impute"``, ``"synthesise"``, ``"cluster"`` or ``"recover"``.
     question : str
-        Name of what the task asks (``mocapbench.reports.bundle.questions``), under which the page
-        shows it. By default that of its kind; for ``"impute"`` it is ``"hidden-frames"``.
+        Name of what the task asks (`QUESTIONS`), under which the page shows it. By default that of
+        its kind; for ``"impute"`` it is ``"hidden-frames"``.
     short : str
         The title in a word or two, under the heading of the question; by default the title.
     metrics : tuple of str
@@ -117,7 +151,11 @@ class TaskPage:
         if self.kind not in BY_KIND:
             raise ValueError(f"kind: expected one of {', '.join(BY_KIND)}, got {self.kind!r}")
         object.__setattr__(self, "short", self.short or self.title)
-        object.__setattr__(self, "question", question(self.question or BY_KIND[self.kind]).name)
+        object.__setattr__(self, "question", self.question or BY_KIND[self.kind])
+        if self.question not in QUESTIONS:
+            raise ValueError(
+                f"question: expected one of {', '.join(QUESTIONS)}, got {self.question!r}"
+            )
 
     def notes(self, case: str) -> RowNotes:
         """Return the notes on ``case``; empty notes where the page has none."""

@@ -1,8 +1,7 @@
-"""A player of motions, as a figure of the page."""
+"""A player of motions, for the page."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 from mocapbench.basics.gaps import run_bounds
@@ -10,51 +9,39 @@ from mocapbench.reports.bundle.motions import Motions
 from mocapbench.reports.motions.encoding import encode, resolution
 from mocapbench.reports.text import slug
 
-__all__ = ["PlayerFigure", "draw"]
+__all__ = ["player"]
 
 _OTHER_SIDE = {"l": "r", "r": "l"}
 
 
-@dataclass(frozen=True)
-class PlayerFigure:
-    """A motion player.
+def player(picture: Motions) -> dict[str, Any]:
+    """Return a player of ``picture`` as the page's template reads it.
 
-    Parameters
-    ----------
-    id, title, caption : str
-    labels : tuple of str
-        The entrants to choose from.
-    beside : str
-        The one that is shown beside the first to begin with.
-    data : mapping
-        What the page's script plays.
+    Returns
+    -------
+    dict
+        ``id``, ``title`` and ``caption``; the ``labels`` of the entrants to choose from, and the
+        one that is shown ``beside`` the first to begin with; and the ``data`` that a script plays.
     """
-
-    id: str
-    title: str
-    caption: str
-    labels: tuple[str, ...]
-    beside: str
-    data: dict[str, Any]
-
-
-def draw(picture: Motions) -> PlayerFigure:
-    """Return ``picture`` as a figure of the page."""
     names = list(picture.truths)
-    data = {
-        "frames": len(picture.hidden),
-        "interval": picture.interval,
-        "resolution": resolution(picture),
-        "parents": picture.parents,
-        "sides": [_side(joint, picture.joints) for joint in picture.joints],
-        "hidden": run_bounds(picture.hidden).tolist(),
-        "truths": names,
-        "motions": [[motion.label, names.index(motion.against)] for motion in picture.motions],
-        "positions": encode(picture),
+    return {
+        "id": slug("player", picture.task, picture.title),
+        "title": picture.title,
+        "caption": picture.caption,
+        "labels": tuple(motion.label for motion in picture.motions),
+        "beside": picture.beside,
+        "data": {
+            "frames": len(picture.hidden),
+            "interval": picture.interval,
+            "resolution": resolution(picture),
+            "parents": picture.parents,
+            "sides": [_side(joint, picture.joints) for joint in picture.joints],
+            "hidden": run_bounds(picture.hidden).tolist(),
+            "truths": names,
+            "motions": [[motion.label, names.index(motion.against)] for motion in picture.motions],
+            "positions": encode(picture),
+        },
     }
-    labels = tuple(motion.label for motion in picture.motions)
-    name = slug("player", picture.task, picture.title)
-    return PlayerFigure(name, picture.title, picture.caption, labels, picture.beside, data)
 
 
 def _side(joint: str, joints: tuple[str, ...]) -> str:

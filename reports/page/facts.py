@@ -3,70 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from typing import Any
 
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.layout import TaskLayout
-from mocapbench.reports.bundle.metric_info import MetricInfo
 from mocapbench.reports.bundle.model_info import ModelInfo
 from mocapbench.reports.text import slug
 
-__all__ = ["Facts", "ModelFact", "facts"]
+__all__ = ["facts"]
 
 DEFAULTS = "defaults"
 
 
-@dataclass(frozen=True)
-class ModelFact:
-    """What there is to know of a model.
+def facts(bundle: Bundle) -> dict[str, Any]:
+    """Return the facts of the models and metrics of ``bundle`` that have some.
 
-    Parameters
-    ----------
-    id : str
-        Unique on the page.
-    info : ModelInfo
-    entrants : mapping of str to str
-        The parameters of each label that sets some.
+    Returns
+    -------
+    dict
+        ``models``, the id, the `ModelInfo` and the parameters of the entrants of each model;
+        ``metrics``, each `MetricInfo` by its id; and the ids of labels and metrics of which
+        something is known, ``model_ids`` and ``metric_ids``.
     """
-
-    id: str
-    info: ModelInfo
-    entrants: Mapping[str, str]
-
-
-@dataclass(frozen=True)
-class Facts:
-    """What there is to know of the models and metrics of a page.
-
-    Parameters
-    ----------
-    models : tuple of ModelFact
-    metrics : mapping of str to MetricInfo
-        By the ids of the facts.
-    model_ids, metric_ids : mapping of str to str
-        The id of the fact of a label, and of a metric by its name; none where there is none.
-    """
-
-    models: tuple[ModelFact, ...]
-    metrics: Mapping[str, MetricInfo]
-    model_ids: Mapping[str, str]
-    metric_ids: Mapping[str, str]
-
-
-def facts(bundle: Bundle) -> Facts:
-    """Return the facts of the models and metrics of ``bundle`` that have some."""
     entrants = list(_entrants(bundle.layouts))
     known = {info.name: info for _, _, info in entrants if info.sentence}
     metrics = {slug("metric", m.name): m for m in bundle.metrics.values() if m.sentence}
-    return Facts(
-        models=tuple(
-            ModelFact(_id(name), info, _parameters([e for e in entrants if e[2].name == name]))
+    return {
+        "models": [
+            (_id(name), info, _parameters([e for e in entrants if e[2].name == name]))
             for name, info in known.items()
-        ),
-        metrics=metrics,
-        model_ids={label: _id(info.name) for label, _, info in entrants if info.name in known},
-        metric_ids={metric.name: key for key, metric in metrics.items()},
-    )
+        ],
+        "metrics": metrics,
+        "model_ids": {label: _id(info.name) for label, _, info in entrants if info.name in known},
+        "metric_ids": {metric.name: key for key, metric in metrics.items()},
+    }
 
 
 def _id(model: str) -> str:

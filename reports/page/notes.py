@@ -1,38 +1,33 @@
-"""The notes on tasks: each stands once on the page."""
+"""What stands once on the page: remarks on several tasks, and recordings that jobs lack."""
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
-from dataclasses import dataclass
+import shlex
+from collections.abc import Container, Iterable, Sequence
+from typing import Any
 
+from mocapbench.reports.analysis.failures import Failure
 from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.bundle.layout import TaskLayout
-from mocapbench.reports.bundle.questions import question
+from mocapbench.reports.bundle.task_page import QUESTIONS
 from mocapbench.reports.paper.remarks import footnotes
 from mocapbench.reports.tables.letters import letters
 
-__all__ = ["SharedNotes", "shared_notes", "task_notes"]
+__all__ = ["missing_data", "shared_notes", "task_notes"]
+
+Part = dict[str, Any]
+"""What the template reads for one part of the page, by name."""
 
 
-@dataclass(frozen=True)
-class SharedNotes:
-    """Remarks that the same tasks have.
+def shared_notes(layouts: Sequence[TaskLayout]) -> list[Part]:
+    """Return the remarks that several tasks have, in page order.
 
-    Parameters
-    ----------
-    question : str
-        Title of the question of the first of them, below which the page shows the remarks.
-    tasks, remarks : tuple of str
-        Titles of the tasks, and what is remarked on all of them.
+    Returns
+    -------
+    list of dict
+        The titles of the ``tasks``, the ``remarks`` on all of them, and the title of the
+        ``question`` of the first task, below which the page shows the remarks.
     """
-
-    question: str
-    tasks: tuple[str, ...]
-    remarks: tuple[str, ...]
-
-
-def shared_notes(layouts: Sequence[TaskLayout]) -> list[SharedNotes]:
-    """Return the remarks that several tasks have, in page order."""
     owners: dict[str, list[TaskLayout]] = {}
     for layout in layouts:
         for remark in dict.fromkeys(layout.page.remarks):
@@ -42,7 +37,11 @@ def shared_notes(layouts: Sequence[TaskLayout]) -> list[SharedNotes]:
         if len(tasks) > 1:
             groups.setdefault(tuple(task.page.title for task in tasks), []).append(remark)
     return [
-        SharedNotes(question(owners[remarks[0]][0].page.question).title, titles, tuple(remarks))
+        {
+            "question": QUESTIONS[owners[remarks[0]][0].page.question][0],
+            "tasks": titles,
+            "remarks": remarks,
+        }
         for titles, remarks in groups.items()
     ]
 
@@ -51,3 +50,28 @@ def task_notes(results: TaskResults, shared: Container[str]) -> list[str]:
     """Return the remarks on a task that are not ``shared``, then the notes by their letters."""
     own = [remark for remark in results.layout.page.remarks if remark not in shared]
     return [*own, *footnotes(letters(results))]
+
+
+def missing_data(jobs: Iterable[Failure]) -> list[Part]:
+    """Group the jobs that lack data by the command that gets them, whatever the recordings.
+
+    Returns
+    -------
+    list of dict
+        The names of the ``recordings``, none where the jobs do not name them; as ``message`` the
+        command, or what the jobs say; the ``tasks`` concerned, and the number of ``jobs``.
+    """
+    groups: dict[str, list[Failure]] = {}
+    for job in jobs:
+        groups.setdefault(job.fetch or job.message, []).append(job)
+    return [_describe_group(start, group) for start, group in groups.items()]
+
+
+def _describe_group(start: str, group: Sequence[Failure]) -> Part:
+    recordings = list(dict.fromkeys(name for job in group for name in job.missing))
+    return {
+        "recordings": recordings,
+        "message": f"{start} {shlex.join(recordings)}".strip(),
+        "tasks": list(dict.fromkeys(job.task for job in group)),
+        "jobs": len(group),
+    }

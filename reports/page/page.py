@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import groupby
-from typing import Any
 
 from mocapbench.metrics.statistics import FEWEST_UNITS
 from mocapbench.reports.analysis.failures import DATA_MISSING, list_failures
@@ -12,17 +11,15 @@ from mocapbench.reports.analysis.published.verdicts import RELATIVE_TOLERANCE
 from mocapbench.reports.analysis.results import TaskResults, task_results
 from mocapbench.reports.bundle.bundle import Bundle
 from mocapbench.reports.bundle.model_info import ModelInfo, in_families
-from mocapbench.reports.bundle.questions import QUESTIONS, question
+from mocapbench.reports.bundle.task_page import QUESTIONS
 from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.front.answers import answers
-from mocapbench.reports.front.board import SHADES
-from mocapbench.reports.front.scoreboard import scoreboard
+from mocapbench.reports.front.board import SHADES, scoreboard
 from mocapbench.reports.front.trust import trust
-from mocapbench.reports.page.cells import cells_json
+from mocapbench.reports.page.cell_dialog import cells_json
 from mocapbench.reports.page.facts import facts
-from mocapbench.reports.page.missing_data import missing_data
-from mocapbench.reports.page.notes import shared_notes
-from mocapbench.reports.page.sections import TaskView, task_view
+from mocapbench.reports.page.notes import missing_data, shared_notes
+from mocapbench.reports.page.sections import Part, task_section
 from mocapbench.reports.paper.citations import citations_of
 from mocapbench.reports.resources import scripts, styles, template
 from mocapbench.reports.tables.check import check_table
@@ -31,8 +28,6 @@ from mocapbench.reports.tables.papers import papers_table
 __all__ = ["render"]
 
 Families = Mapping[str, Sequence[str]]
-Part = dict[str, Any]
-"""What the template reads for one part of the page, by name."""
 
 
 def render(bundle: Bundle) -> str:
@@ -71,9 +66,9 @@ def _front(bundle: Bundle, results: Sequence[TaskResults], families: Families) -
 def _tasks(bundle: Bundle, results: Sequence[TaskResults]) -> Part:
     looks = model_styles(bundle.layouts)
     shared = shared_notes([of_task.layout for of_task in results])
-    elsewhere = {remark for notes in shared for remark in notes.remarks}
-    views = [task_view(of_task, bundle, looks, elsewhere) for of_task in results]
-    return {"tasks": views, "by_question": _by_question(views), "shared_notes": shared}
+    elsewhere = {remark for notes in shared for remark in notes["remarks"]}
+    sections = [task_section(of_task, bundle, looks, elsewhere) for of_task in results]
+    return {"tasks": sections, "by_question": _by_question(sections), "shared_notes": shared}
 
 
 def _families(families: Families) -> Part:
@@ -92,12 +87,12 @@ def _without_score(bundle: Bundle) -> Part:
 
 def _place(results: TaskResults) -> int:
     """Return the place of a task's question on the page."""
-    return [each.name for each in QUESTIONS].index(results.layout.page.question)
+    return list(QUESTIONS).index(results.layout.page.question)
 
 
-def _by_question(views: Sequence[TaskView]) -> list[tuple[str, list[TaskView]]]:
-    groups = groupby(views, key=lambda view: view.layout.page.question)
-    return [(question(name).title, list(group)) for name, group in groups]
+def _by_question(sections: Sequence[Part]) -> list[tuple[str, list[Part]]]:
+    groups = groupby(sections, key=lambda section: section["layout"].page.question)
+    return [(QUESTIONS[name][0], list(group)) for name, group in groups]
 
 
 def _models(results: Sequence[TaskResults]) -> Mapping[str, ModelInfo]:

@@ -11,7 +11,7 @@ from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
 from mocapbench.metrics import Clustering, Imputation, Metric, Recovery, Synthesis
 from mocapbench.metrics.base import has_poses
 from mocapbench.reports.bundle.model_info import ModelInfo, in_families
-from mocapbench.reports.bundle.questions import QUESTIONS
+from mocapbench.reports.bundle.task_page import QUESTIONS
 
 __all__ = ["Entry", "Group", "metric_groups", "model_groups", "task_groups"]
 
@@ -37,15 +37,15 @@ def task_groups() -> list[Group]:
     tasks = {name: TASKS.get(name).page for name in TASKS.names()}
     return _not_empty(
         Group(
-            question.title,
-            question.ask,
+            title,
+            ask,
             [
                 Entry(name, page.title, plain(_first_sentence(page.description)))
                 for name, page in tasks.items()
-                if page.question == question.name
+                if page.question == question
             ],
         )
-        for question in QUESTIONS
+        for question, (title, ask) in QUESTIONS.items()
     )
 
 

@@ -10,8 +10,14 @@ from mocapbench.benchmark.inspection.fit_seconds import alike, typical
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.front.answers import TESTED
-from mocapbench.reports.front.board import SHADES, BoardCell
-from mocapbench.reports.front.board_cells import WORSE, board_cells, first_metric, reference_of
+from mocapbench.reports.front.board import (
+    SHADES,
+    WORSE,
+    BoardCell,
+    board_cells,
+    first_metric,
+    reference_of,
+)
 
 __all__ = ["Place", "places", "two_digits"]
 

@@ -14,7 +14,7 @@ from mocapbench.benchmark.catalogue import task_entry
 from mocapbench.benchmark.registry import METRICS, TASKS
 from mocapbench.benchmark.runs.request import entrants
 from mocapbench.datasets import Archive
-from mocapbench.reports.bundle.questions import question
+from mocapbench.reports.bundle.task_page import QUESTIONS
 from mocapbench.reports.paper.citations import citations_of
 from mocapbench.reports.paper.published import published_values
 
@@ -36,7 +36,7 @@ def task_page(name: str, today: Today, archive: Archive) -> Mapping[str, Any]:
     return {
         "task": task,
         "page": task.page,
-        "question": question(task.page.question),
+        "question": QUESTIONS[task.page.question],
         "abilities": task_entry(name)["requires"],
         "citations": citations_of([task.page.reference]),
         "groups": groups,

@@ -42,14 +42,14 @@ def _told(layout):
 
 def test_labels_of_one_model_share_its_fact(told):
     found = facts(told)
-    assert found.model_ids == {
+    assert found["model_ids"] == {
         **{"mohgp-1": "model-mohgp", "mohgp-3": "model-mohgp"},
         "cubic-spline": "model-cubic-spline",
     }
-    assert found.metric_ids == {"mse": "metric-mse"}
-    (family, spline) = found.models
-    assert family.entrants == {"mohgp-3": "n_components=3", "mohgp-1": "n_components=1"}
-    assert spline.entrants == {}
+    assert found["metric_ids"] == {"mse": "metric-mse"}
+    (_, _, of_family), (_, _, of_spline) = found["models"]
+    assert of_family == {"mohgp-3": "n_components=3", "mohgp-1": "n_components=1"}
+    assert of_spline == {}
 
 
 def test_parameters_that_differ_between_tasks_name_their_tasks(told):
@@ -60,8 +60,8 @@ def test_parameters_that_differ_between_tasks_name_their_tasks(told):
     )
     again = replace(walking, name="again", page=replace(walking.page, title="Again"))
     found = facts(replace(told, layouts=(toy, walking, again, frames)))
-    (moa,) = found.models
-    assert moa.entrants == {"moa-3": f"n=1; n=5 in {toy.page.title}"}
+    ((_, _, of_moa),) = found["models"]
+    assert of_moa == {"moa-3": f"n=1; n=5 in {toy.page.title}"}
 
 
 def test_every_name_leads_to_a_fact_that_stands_once(told):
@@ -81,8 +81,8 @@ def test_a_name_of_which_nothing_is_known_opens_nothing(bundle):
 def test_a_remark_of_several_tasks_names_them_and_stands_once(told):
     assert render(told).count(SHARED) == 1
     (notes,) = shared_notes(told.layouts)
-    assert notes.tasks == tuple(layout.page.title for layout in told.layouts)
-    assert notes.remarks == (SHARED,)
+    assert notes["tasks"] == tuple(layout.page.title for layout in told.layouts)
+    assert notes["remarks"] == [SHARED]
 
 
 class _Texts(HTMLParser):

@@ -1,5 +1,5 @@
 from mocapbench.reports.analysis.failures import Failure
-from mocapbench.reports.page.missing_data import missing_data
+from mocapbench.reports.page.notes import missing_data
 
 FETCH = "mocapbench data fetch"
 
@@ -11,18 +11,23 @@ def job(*names, fetch=FETCH, message="not on this machine", case="row", task="mi
 def test_a_missing_recording_is_said_once_whatever_the_jobs():
     jobs = [job("12_02", case="a"), job("12_02", "12_03", case="b"), job("12_03", case="c")]
     (found,) = missing_data([*jobs, *jobs])
-    assert found.recordings == ("12_02", "12_03")
-    assert found.message == "mocapbench data fetch 12_02 12_03"
-    assert (found.jobs, found.tasks) == (6, ("missing-frames",))
+    assert found["recordings"] == ["12_02", "12_03"]
+    assert found["message"] == "mocapbench data fetch 12_02 12_03"
+    assert (found["jobs"], found["tasks"]) == (6, ["missing-frames"])
 
 
 def test_commands_with_other_options_stay_apart():
     plugin = job("own:a walk", fetch=f"{FETCH} --plugin own.py", task="own")
     first, second = missing_data([job("12_02"), plugin])
-    assert first.message == "mocapbench data fetch 12_02"
-    assert second.message == "mocapbench data fetch --plugin own.py 'own:a walk'"
+    assert first["message"] == "mocapbench data fetch 12_02"
+    assert second["message"] == "mocapbench data fetch --plugin own.py 'own:a walk'"
 
 
 def test_a_message_without_names_is_shown_as_it_is():
     (found,) = missing_data([job(fetch="", message="ask the owner")] * 2)
-    assert (found.recordings, found.message, found.jobs) == ((), "ask the owner", 2)
+    assert found == {
+        "recordings": [],
+        "message": "ask the owner",
+        "tasks": ["missing-frames"],
+        "jobs": 2,
+    }

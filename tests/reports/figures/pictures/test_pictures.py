@@ -146,7 +146,5 @@ def test_a_projection_keeps_lengths_across_the_view():
 
 
 def test_what_is_no_picture_is_refused():
-    with pytest.raises(
-        TypeError, match="expected an Illustration, HeatMaps, a Space or Motions, got int"
-    ):
+    with pytest.raises(TypeError, match="expected an Illustration, HeatMaps or a Space, got int"):
         draw(3, {})
