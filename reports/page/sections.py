@@ -14,8 +14,7 @@ from mocapbench.reports.figures.task_figures import folded_figures, open_figures
 from mocapbench.reports.motions.player import player
 from mocapbench.reports.page.headlines import lead_headlines, win_headlines
 from mocapbench.reports.page.notes import task_notes
-from mocapbench.reports.scores.build import score_table
-from mocapbench.reports.scores.table import ScoreTable
+from mocapbench.reports.scores.table import ScoreTable, score_table
 from mocapbench.reports.tables.base import Table
 from mocapbench.reports.tables.best_reference import best_reference_table
 from mocapbench.reports.tables.calibration import calibration_table

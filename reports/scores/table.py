@@ -1,55 +1,32 @@
-"""A table of scores as values: a row for each model, a column for each case."""
+"""From the results of a task to its table of scores by one metric: a row a model, a column a case.
+
+Competitors come first, best on top, then references, then models of the paper.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from markupsafe import Markup
 
-__all__ = ["NO_SCORE", "CaseHead", "ScoreCell", "ScoreRow", "ScoreTable"]
+from mocapbench.basics.words import format_count
+from mocapbench.reports.analysis.case_means import case_means
+from mocapbench.reports.analysis.failures import DATA_MISSING
+from mocapbench.reports.analysis.results import TaskResults
+from mocapbench.reports.analysis.standings import Place, Standing, standings
+from mocapbench.reports.bundle.layout import CaseLayout
+from mocapbench.reports.figures.scores.strips import draw_strips
+from mocapbench.reports.figures.styles import DrawingStyle
+from mocapbench.reports.tables.base import ABSENT, Cell
+from mocapbench.reports.text import FEWEST_DECIMALS, cell_anchor, number, slug
 
+__all__ = ["ScoreRow", "ScoreTable", "behind_cell", "describe_basis", "score_table"]
 
-@dataclass(frozen=True)
-class CaseHead:
-    """The head of a column.
-
-    Parameters
-    ----------
-    name : str
-    facts : tuple of str
-        What the case varies, such as ``"noise 0.1"``, and remarks on it.
-    """
-
-    name: str
-    facts: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class ScoreCell:
-    """A number of the table, or why there is none.
-
-    Parameters
-    ----------
-    text : str
-    value : float or None
-        The number in full, by which rows are sorted.
-    kind : str
-        ``""``, ``"best"``, ``"failure"``, ``"absent"`` or ``"published"``: its class in the style
-        sheet.
-    note : str
-        A few words beside the number, such as ``"3 of 5 folds"``.
-    link : str
-        The address on the page of what is behind it, empty where nothing is.
-    """
-
-    text: str
-    value: float | None = None
-    kind: str = ""
-    note: str = ""
-    link: str = ""
-
-
-NO_SCORE = ScoreCell("–", kind="absent")
+Head = tuple[str, tuple[str, ...]]
+"""The name of a column, with what its case varies, such as ``"noise 0.1"``, and remarks on it."""
 
 
 @dataclass(frozen=True)
@@ -62,23 +39,23 @@ class ScoreRow:
     kind : str
         ``"ranked"``, ``"reference"`` (a limit or a control, not ranked) or ``"published"`` (a
         model of a paper that no entrant stands for).
-    mean : ScoreCell
+    mean : Cell
         Over the cases that enter means.
-    behind : ScoreCell
+    behind : Cell
         By how much the mean is worse than the best, with its interval where there is a test.
     strip : Markup or None
         Its values drawn.
-    cells : tuple of ScoreCell
+    cells : tuple of Cell
         One for each head.
     family : str
     """
 
     label: str
     kind: str
-    mean: ScoreCell
-    behind: ScoreCell
+    mean: Cell
+    behind: Cell
     strip: Markup | None
-    cells: tuple[ScoreCell, ...]
+    cells: tuple[Cell, ...]
     family: str = ""
 
 
@@ -92,16 +69,15 @@ class ScoreTable:
         Unique on the page.
     metric, title : str
     better : str
-        Which values are better: ``"lower"``, ``"higher"`` or ``"near 1"``.
+        Which values are better: ``"lower"``, ``"higher"`` or ``"closest to 1"``.
     basis : str
         What the means and intervals rest on.
-    mean_head : CaseHead
+    mean_head : (str, tuple of str)
         The head of the means, which is that of the case where there is but one.
-    heads : tuple of CaseHead
+    heads : tuple of (str, tuple of str)
     rows : tuple of ScoreRow
     axis : Markup or None
         The axis that the drawings of all rows share.
-    notes : tuple of str
     """
 
     id: str
@@ -109,8 +85,210 @@ class ScoreTable:
     title: str
     better: str
     basis: str
-    mean_head: CaseHead
-    heads: tuple[CaseHead, ...]
+    mean_head: Head
+    heads: tuple[Head, ...]
     rows: tuple[ScoreRow, ...]
-    axis: Markup | None = None
-    notes: tuple[str, ...] = ()
+    axis: Markup | None
+
+
+def score_table(
+    results: TaskResults, metric: str, styles: Mapping[str, DrawingStyle]
+) -> ScoreTable:
+    """Return the table of ``metric``.
+
+    Parameters
+    ----------
+    results : TaskResults
+    metric : str
+    styles : mapping of str to DrawingStyle
+        How each label is drawn.
+    """
+    counting = results.representative_cases(metric)
+    others = [case for case in results.cases if case not in counting]
+    shown = [*counting, *others] if len(results.cases) > 1 else []
+    strips, axis = draw_strips(results, metric, counting, styles)
+    whole = f"mean of {format_count(len(counting), 'case')}"
+    return ScoreTable(
+        id=slug(results.layout.name, metric),
+        metric=metric,
+        title=results.metrics[metric].title,
+        better=results.metrics[metric].better,
+        basis=describe_basis(results, metric, counting),
+        mean_head=_head(results, results.cases[0]) if len(results.cases) == 1 else (whole, ()),
+        heads=tuple(_head(results, case) for case in shown),
+        rows=(
+            *_entrant_rows(results, metric, counting, shown, strips),
+            *_published_rows(results, metric, counting, shown),
+        ),
+        axis=axis,
+    )
+
+
+def describe_basis(results: TaskResults, metric: str, cases: Sequence[CaseLayout]) -> str:
+    """Return how many cases, folds and outputs the means of ``metric`` over ``cases`` rest on."""
+    names = {case.name for case in cases}
+    rows = results.scores[results.scores["metric"] == metric]
+    sizes = {
+        estimate.n
+        for (case, _, name), estimate in results.estimates.items()
+        if name == metric and case in names
+    }
+    *fewer, most = sorted(sizes) or [0]
+    folds = " or ".join([*map(str, fewer), format_count(most, "fold")])
+    left_out = int(max(rows["left_out"], default=0))
+    lost = f", up to {format_count(left_out, 'output')} left out as degenerate" if left_out else ""
+    each = " each" if len(cases) > 1 else ""
+    return f"{format_count(len(cases), 'case')}, {folds}{each}{lost}"
+
+
+def _head(results: TaskResults, case: CaseLayout) -> Head:
+    """Return the name of a case with what it varies and the name does not say."""
+    facts = [
+        f"{name} {value}" for name, value in case.columns.items() if str(value) not in case.name
+    ]
+    lacking = "recording missing" if case.name in results.without_data else ""
+    generated = "generated" if case.synthetic and "synthetic" not in case.name else ""
+    return case.name, tuple(filter(None, (*facts, generated, lacking)))
+
+
+def _entrant_rows(
+    results: TaskResults,
+    metric: str,
+    counting: Sequence[CaseLayout],
+    shown: Sequence[CaseLayout],
+    strips: Mapping[str, Markup],
+) -> Iterator[ScoreRow]:
+    """Yield the rows of labels with a score, or with a job that gave none."""
+    layout, places = results.layout, results.decimals.get(metric, FEWEST_DECIMALS)
+    ranked = {standing.label: standing for standing in standings(results, metric)}
+    others = sorted(set(layout.labels) - set(ranked), key=layout.labels.index)
+    others.sort(key=lambda label: label not in layout.ranked)
+    columns = [_case_cells(results, metric, case) for case in shown]
+    if len(results.cases) == 1:
+        means = _case_cells(results, metric, results.cases[0])
+    else:
+        means = _mean_cells(results, metric, counting, ranked)
+    for label in [*ranked, *others]:
+        cells = tuple(column[label] for column in columns)
+        if any(cell is not ABSENT for cell in (means[label], *cells)):
+            yield ScoreRow(
+                label,
+                "ranked" if label in layout.ranked else "reference",
+                means[label],
+                behind_cell(ranked.get(label), places),
+                strips.get(label),
+                cells,
+                layout.model(label).family,
+            )
+
+
+def _case_cells(results: TaskResults, metric: str, case: CaseLayout) -> Mapping[str, Cell]:
+    """Return the cell of each label in one case, the best one bold."""
+    best = results.best_label(case.name, metric)
+    return {
+        label: _case_cell(results, metric, case.name, label, kind="best" if label == best else "")
+        for label in results.layout.labels
+    }
+
+
+def _case_cell(results: TaskResults, metric: str, case: str, label: str, *, kind: str) -> Cell:
+    """Return the mean over folds, or why there is none."""
+    estimate = results.estimate(case, label, metric)
+    failures = results.find_failures(case, label, metric)
+    link = cell_anchor(results.layout.name, case, label)
+    if estimate is None:  # where the recording is missing, the head says so
+        statuses = dict.fromkeys(failure.status for failure in failures)
+        reasons = [status.replace("-", " ") for status in statuses if status != DATA_MISSING]
+        return Cell(", ".join(reasons), kind="failure", link=link) if reasons else ABSENT
+    lost = f"{format_count(len(failures), 'fold')} lost" if failures else ""
+    text = number(estimate.mean, results.decimals[metric])
+    return Cell(text, value=estimate.mean, kind=kind, note=lost, link=link)
+
+
+def _mean_cells(
+    results: TaskResults,
+    metric: str,
+    counting: Sequence[CaseLayout],
+    ranked: Mapping[str, Standing],
+) -> Mapping[str, Cell]:
+    """Return the mean of each label over the cases that count, the best of all bold."""
+    places, cells = results.decimals.get(metric, FEWEST_DECIMALS), {}
+    for label in results.layout.labels:
+        means, standing = case_means(results, metric, label), ranked.get(label)
+        if not means:
+            cells[label] = ABSENT
+            continue
+        mean = float(np.mean(means)) if standing is None else standing.mean
+        cells[label] = Cell(
+            number(mean, places),
+            value=mean,
+            kind="best" if standing and standing.standing is Place.BEST else "",
+            note="" if len(means) == len(counting) else f"{len(means)} of {len(counting)} cases",
+            link=cell_anchor(results.layout.name, "", label),
+        )
+    return cells
+
+
+def behind_cell(standing: Standing | None, places: int) -> Cell:
+    """Return by how much a mean is worse than the best, with its interval where there is one.
+
+    A difference that may be chance is marked.
+    """
+    if standing is None or standing.standing is Place.BEST:
+        return Cell("")
+    if standing.standing is Place.INCOMPLETE:
+        return ABSENT
+    mark = "≈ " if standing.standing is Place.INSEPARABLE else ""
+    low, high = number(standing.low, places), number(standing.high, places)
+    return Cell(
+        f"{mark}+{number(standing.difference, places)}",
+        value=standing.difference,
+        kind="tied" if mark else "",
+        note="" if math.isnan(standing.low) else f"{low} to {high}",
+    )
+
+
+def _published_rows(
+    results: TaskResults,
+    metric: str,
+    counting: Sequence[CaseLayout],
+    shown: Sequence[CaseLayout],
+) -> Iterator[ScoreRow]:
+    """Yield a row for each model of the paper that no entrant of the run stands for.
+
+    Its mean is that of the cases ``counting``, if all have one.
+    """
+    places = results.decimals.get(metric, FEWEST_DECIMALS)
+    for model, printed in _published_models(results, metric).items():
+        values = [_printed_value(case, printed) for case in counting]
+        whole = [value for value in values if value is not None]
+        if whole:
+            mean = float(np.mean(whole)) if len(whole) == len(values) else None
+            cells = [_published_cell(_printed_value(case, printed), places) for case in shown]
+            yield ScoreRow(
+                f"{model} (published)",
+                "published",
+                _published_cell(mean, places),
+                ABSENT,
+                None,
+                tuple(cells),
+            )
+
+
+def _published_models(results: TaskResults, metric: str) -> Mapping[str, dict[str, float]]:
+    """Return the values of each model by the paper's name of the case."""
+    page = results.layout.page
+    name, ours = page.published_metrics.get(metric), set(page.published_models.values())
+    models: dict[str, dict[str, float]] = {}
+    for value in results.published.values():
+        if value.metric == name and value.model not in ours and not value.not_comparable:
+            models.setdefault(value.model, {})[value.case] = value.value
+    return models
+
+
+def _printed_value(case: CaseLayout, printed: Mapping[str, float]) -> float | None:
+    return None if case.synthetic else printed.get(case.notes.published or "")
+
+
+def _published_cell(value: float | None, places: int) -> Cell:
+    return ABSENT if value is None else Cell(number(value, places), value=value, kind="published")

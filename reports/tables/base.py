@@ -22,13 +22,13 @@ class Cell:
     mark : str
         The letter of a footnote.
     kind : str
-        ``""``, ``"best"``, ``"text"``, ``"absent"``, ``"failure"``, ``"published"``,
-        ``"contrast"``, ``"contrast ahead"``, ``"contrast behind"`` or a verdict: the cell's class
-        in the style sheet.
+        ``""``, ``"best"``, ``"tied"``, ``"text"``, ``"absent"``, ``"failure"``,
+        ``"published"``, ``"contrast"``, ``"contrast ahead"``, ``"contrast behind"`` or a verdict:
+        the cell's class in the style sheet.
     link : str
         Id of the place on the page that explains the text.
-    span : int
-        Number of columns that it takes.
+    value : float or None
+        The number in full, by which rows are sorted.
     """
 
     text: str
@@ -37,7 +37,7 @@ class Cell:
     mark: str = ""
     kind: str = ""
     link: str = ""
-    span: int = 1
+    value: float | None = None
 
 
 ABSENT = Cell("–", kind="absent")

@@ -9,8 +9,8 @@ from mocapbench.reports.analysis.results import TaskResults
 from mocapbench.reports.analysis.standings import standings
 from mocapbench.reports.figures.scores.best import mean_values
 from mocapbench.reports.front.board import board_cells, first_metric
-from mocapbench.reports.scores.basis import basis
-from mocapbench.reports.scores.table import NO_SCORE
+from mocapbench.reports.scores.table import describe_basis
+from mocapbench.reports.tables.base import ABSENT
 from mocapbench.reports.text import FEWEST_DECIMALS, number
 
 __all__ = ["Ranked", "case_rows", "ranking_basis", "ranking_rows"]
@@ -36,7 +36,7 @@ def ranking_rows(results: TaskResults) -> list[Ranked]:
             str(1 + ranked.index(label)) if label in ranked else "",
             label,
             layout.model(label).name,
-            [cells[label].text, *(column.get(label, NO_SCORE.text) for column in means)],
+            [cells[label].text, *(column.get(label, ABSENT.text) for column in means)],
         )
         for label in (*ranked, *others)
     ]
@@ -57,7 +57,7 @@ def _cells(results: TaskResults, case: str, label: str) -> list[str]:
     metrics = results.layout.page.metrics
     found = [(metric, results.estimate(case, label, metric)) for metric in metrics]
     return [
-        number(mean.mean, results.decimals[metric]) if mean else NO_SCORE.text
+        number(mean.mean, results.decimals[metric]) if mean else ABSENT.text
         for metric, mean in found
     ]
 
@@ -73,4 +73,4 @@ def ranking_basis(results: TaskResults) -> str:
     metric = first_metric(results)
     cases = results.representative_cases(metric)
     generated = cases and all(case.synthetic for case in cases)
-    return basis(results, metric, cases) + (", of generated gait" if generated else "")
+    return describe_basis(results, metric, cases) + (", of generated gait" if generated else "")

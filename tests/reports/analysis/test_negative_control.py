@@ -18,7 +18,7 @@ from mocapbench.reports.analysis.negative_control import (
 from mocapbench.reports.analysis.negative_control_result import Decision
 from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.figures.styles import model_styles
-from mocapbench.reports.scores.build import score_table
+from mocapbench.reports.scores.table import score_table
 from mocapbench.reports.tables.negative_control import negative_control_table
 
 CONTROL = {

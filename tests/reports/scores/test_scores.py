@@ -1,6 +1,7 @@
 """Tables of scores: a row a model, best first, and a column a case."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -11,13 +12,12 @@ from mocapbench.reports.analysis.results import task_results
 from mocapbench.reports.analysis.standings import Place, standings
 from mocapbench.reports.bundle.layout import CaseLayout
 from mocapbench.reports.bundle.task_page import RowNotes
+from mocapbench.reports.figures.scores.strips import draw_strips
+from mocapbench.reports.figures.strip import strip_scale
 from mocapbench.reports.figures.styles import model_styles
 from mocapbench.reports.paper.published import published_values
-from mocapbench.reports.scores.basis import basis
-from mocapbench.reports.scores.behind import behind_cell
-from mocapbench.reports.scores.build import score_table
-from mocapbench.reports.scores.drawing import Drawing
-from mocapbench.reports.scores.table import NO_SCORE
+from mocapbench.reports.scores.table import behind_cell, describe_basis, score_table
+from mocapbench.reports.tables.base import ABSENT
 from mocapbench.reports.text import cell_anchor
 
 NAN = float("nan")
@@ -38,7 +38,7 @@ def row(table, label):
 
 
 def cell(table, case, label):
-    return row(table, label).cells[[head.name for head in table.heads].index(case)]
+    return row(table, label).cells[[name for name, _ in table.heads].index(case)]
 
 
 @pytest.mark.parametrize("task", [0, 1, 2])
@@ -81,7 +81,7 @@ def test_higher_is_better_where_the_metric_says_so(small):
 
 def test_one_case_has_no_column_beside_its_mean(small):
     table = table_of(small({"row": {"a": [1.0], "b": [2.0]}}))
-    assert (table.heads, table.mean_head.name) == ((), "row")
+    assert (table.heads, table.mean_head) == ((), ("row", ()))
     assert row(table, "a").mean.link == cell_anchor("small", "row", "a")
 
 
@@ -97,16 +97,16 @@ def test_heads_name_what_a_case_varies_and_what_its_name_does_not_say(small):
         CaseLayout("two", {}, synthetic=True),
     )
     first, second = table_of(small(TWO, cases=cases)).heads
-    assert (first.name, first.facts) == ("one", ("noise 0.1",))
-    assert (second.name, second.facts) == ("two", ("generated",))
+    assert first == ("one", ("noise 0.1",))
+    assert second == ("two", ("generated",))
 
 
 def test_generated_cases_beside_recordings_have_columns_and_enter_no_mean(small):
     cases = (CaseLayout("one", {}), CaseLayout("two", {}, synthetic=True))
     table = table_of(small(TWO, cases=cases))
-    assert [head.name for head in table.heads] == ["one", "two"]
+    assert [name for name, _ in table.heads] == ["one", "two"]
     assert row(table, "a").mean.value == 2.0
-    assert table.mean_head.name == "mean of 1 case"
+    assert table.mean_head == ("mean of 1 case", ())
 
 
 def test_a_failed_cell_names_the_failure_and_leads_to_its_cell(bundle):
@@ -120,7 +120,7 @@ def test_lost_folds_and_lacking_cases_are_counted(small):
     table = table_of(small(values))
     assert (cell(table, "one", "a").text, cell(table, "one", "a").note) == ("1.50", "1 fold lost")
     assert row(table, "a").mean.note == "1 of 2 cases"
-    assert row(table, "a").behind is NO_SCORE
+    assert row(table, "a").behind is ABSENT
 
 
 def test_a_fold_that_another_metric_failed_is_not_lost(small):
@@ -133,9 +133,8 @@ def test_a_fold_that_another_metric_failed_is_not_lost(small):
 
 def test_missing_recordings_are_told_in_the_head_alone(bundle):
     table = table_of(bundle, "rms_per_frame", task=2)
-    (head,) = (head for head in table.heads if head.name == "12-02 four-walkers")
-    assert "recording missing" in head.facts
-    assert cell(table, "12-02 four-walkers", "knn") is NO_SCORE
+    assert "recording missing" in dict(table.heads)["12-02 four-walkers"]
+    assert cell(table, "12-02 four-walkers", "knn") is ABSENT
 
 
 @pytest.mark.parametrize("place", Place)
@@ -153,7 +152,7 @@ def test_the_lag_says_what_the_test_found(small, place):
         case Place.BEST:
             assert found.text == ""
         case Place.INCOMPLETE:
-            assert found is NO_SCORE
+            assert found is ABSENT
         case Place.UNTESTED:
             assert (found.text, found.note) == ("+8.00", "")
         case Place.INSEPARABLE:
@@ -174,21 +173,21 @@ def test_strips_show_every_value_and_an_interval_over_units(small, independent, 
     bundle = small(TWO, independent_folds=independent, cases=cases)
     styles = model_styles(bundle.layouts)
     results = results_of(bundle)
-    drawing = Drawing.of(results, "mse", results.cases, styles)
-    values = {label: sample.values for label, sample in drawing.samples.items()}
-    assert values == {"a": (1.0, 3.0, 4.0, 4.0), "b": (5.0, 5.0, 2.0, 2.0)}
-    assert drawing.samples["a"].n_units == n_units
-    assert ('class="interval"' in drawing.strip("a")) == (n_units > 1)
-    assert 'aria-label="a, 4 values"' in drawing.strip("a")
-    (missing,) = map(drawing.strip, ["stranger"])
-    assert missing is None
+    strips, _ = draw_strips(results, "mse", results.cases, styles)
+    scale = strip_scale([1.0, 5.0])
+    values = {"a": [1.0, 3.0, 4.0, 4.0], "b": [5.0, 5.0, 2.0, 2.0]}
+    for label, of_label in values.items():
+        places = re.findall(r"M([\d.]+)", re.search(r'class="fold" d="([^"]*)"', strips[label])[1])
+        assert [*map(float, places)] == pytest.approx(scale.places(of_label).tolist(), abs=0.051)
+    assert ('class="interval"' in strips["a"]) == (n_units > 1)
+    assert 'aria-label="a, 4 values"' in strips["a"]
+    assert set(strips) == {"a", "b"}
 
 
 def test_a_metric_without_scores_draws_nothing(small):
     bundle = small(TWO)
     results = results_of(bundle)
-    drawing = Drawing.of(results, "mlc", results.cases, model_styles(bundle.layouts))
-    assert (drawing.axis, drawing.strip("a")) == (None, None)
+    assert draw_strips(results, "mlc", results.cases, model_styles(bundle.layouts)) == ({}, None)
 
 
 @pytest.mark.parametrize(
@@ -199,7 +198,7 @@ def test_the_basis_counts_cases_folds_and_outputs_left_out(small, lost, words):
     bundle = small(TWO)
     bundle.scores["left_out"] = lost
     results = results_of(bundle)
-    assert basis(results, "mse", results.cases).startswith(words)
+    assert describe_basis(results, "mse", results.cases).startswith(words)
 
 
 def test_the_papers_other_models_come_last_with_their_printed_values(bundle):
@@ -209,8 +208,8 @@ def test_the_papers_other_models_come_last_with_their_printed_values(bundle):
     assert [row.label for row in others] == [f"{model} (published)" for model in models]
     printed, cases = published_values("missing-frames"), bundle.layouts[2].cases
     for row_, model in zip(others, models, strict=True):
-        for head, found in zip(table.heads, row_.cells, strict=True):
-            name = next(case.notes.published for case in cases if case.name == head.name)
+        for (case_name, _), found in zip(table.heads, row_.cells, strict=True):
+            name = next(case.notes.published for case in cases if case.name == case_name)
             assert found.value == printed[name, "RMS per frame", model].value
 
 
@@ -224,5 +223,5 @@ def test_a_paper_that_lacks_a_case_has_no_mean(small):
     )
     rows = [row for row in table_of(bundle).rows if row.kind == "published"]
     assert rows
-    assert {row.mean for row in rows} == {NO_SCORE}
+    assert {row.mean for row in rows} == {ABSENT}
     assert all(math.isfinite(row.cells[0].value) for row in rows)
