@@ -4,6 +4,8 @@ from .channel_kriging import ChannelKriging
 from .control import Control
 from .cpm import CPM
 from .cyclic_alignment import CyclicAlignment
+from .declarations.abilities import ABILITIES, Ability
+from .declarations.needs import NEEDS, Need
 from .fam import FAM
 from .gp_independent import GPIndependent
 from .gpdm.model import GPDM
@@ -43,14 +45,11 @@ from .protocols import (
     FrameImputer,
     Imputer,
     Inductive,
-    Informed,
     Interpolator,
     Layered,
-    Misinformed,
     Model,
     Prediction,
     SampleByFrameByChannel,
-    Spatial,
     StatePath,
     Synthesiser,
     Trended,
@@ -60,6 +59,7 @@ from .rigid_body import RigidBody
 from .trivial import Trivial
 
 __all__ = [
+    "ABILITIES",
     "CPM",
     "FAM",
     "GPDM",
@@ -72,7 +72,9 @@ __all__ = [
     "LGSSM",
     "MOA",
     "MOHGP",
+    "NEEDS",
     "NN",
+    "Ability",
     "AlignedWindow",
     "Aligner",
     "BestOf",
@@ -91,7 +93,6 @@ __all__ = [
     "HoldImputer",
     "Imputer",
     "Inductive",
-    "Informed",
     "Interpolator",
     "KMeans",
     "LMCIndependent",
@@ -100,8 +101,8 @@ __all__ = [
     "LowRank",
     "MakimaImputer",
     "MarkerKriging",
-    "Misinformed",
     "Model",
+    "Need",
     "Oracle",
     "PCARegression",
     "PchipImputer",
@@ -111,7 +112,6 @@ __all__ = [
     "Replay",
     "RigidBody",
     "SampleByFrameByChannel",
-    "Spatial",
     "StatePath",
     "Synthesiser",
     "Trended",

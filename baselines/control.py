@@ -16,20 +16,20 @@ from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.checks import check_outputs, check_recordings
 from mocapbench.baselines.common.validation import check_sampling
-from mocapbench.baselines.protocols import Misinformed, SampleByFrameByChannel, Synthesiser
+from mocapbench.baselines.protocols import SampleByFrameByChannel, Synthesiser
 from mocapbench.datasets import Frames, Recording, ToyProcess
 from mocapbench.datasets.process import draw_gaussian
 
 __all__ = ["Control"]
 
 
-class Control(Synthesiser, Misinformed):
+class Control(Synthesiser):
     r"""Draw recordings of an unrelated process, which a useful synthesiser must surpass.
 
     Attributes
     ----------
     process_ : ToyProcess
-        The process given to `misinform`.
+        The process given to `fit`.
 
     Notes
     -----
@@ -54,26 +54,30 @@ class Control(Synthesiser, Misinformed):
     ... )
     >>> times = np.linspace(0.0, 6.0, 20)
     >>> children = process.draw(np.random.default_rng(2), times, 3)
-    >>> Control().misinform(unrelated).fit(children).sample(times, 4, random_state=0).shape
+    >>> Control().fit(children, unrelated).sample(times, 4, random_state=0).shape
     (4, 20, 2)
     """
 
     family: ClassVar[str] = "References"
+    needs: ClassVar[frozenset[str]] = frozenset({"unrelated process"})
 
-    def misinform(self, process: ToyProcess) -> Self:
-        """Set the process, which generated none of the recordings."""
-        self.process_ = process
-        return self
-
-    def fit(self, recordings: Sequence[Recording]) -> Self:
+    def fit(self, recordings: Sequence[Recording], unrelated: ToyProcess | None = None) -> Self:
         """Check the recordings; nothing is learnt from them.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+        unrelated : ToyProcess
+            A process that generated none of them.
 
         Raises
         ------
         ValueError
             If no process is known, or the recordings' channels differ or are not its outputs.
         """
-        check_is_fitted(self, "process_", msg="expected a process: call misinform first")
+        if unrelated is None:
+            raise ValueError("expected a process that generated none of the recordings, got None")
+        self.process_ = unrelated
         check_outputs(check_recordings(recordings), self.process_)
         return self
 

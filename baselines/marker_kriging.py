@@ -16,14 +16,14 @@ from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.kriging.marker_gap import MarkerGap
 from mocapbench.baselines.kriging.own_course import courses_in_gaps
-from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spatial
+from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.gaps import runs
 from mocapbench.datasets import Recording
 
 __all__ = ["MarkerKriging"]
 
 
-class MarkerKriging(Imputer, Inductive, Spatial):
+class MarkerKriging(Imputer, Inductive):
     r"""Tell where a hidden marker is from the shape of the markers around it.
 
     A marker on a limb moves little as seen from the limb's other markers, and where it moves, the
@@ -95,6 +95,7 @@ class MarkerKriging(Imputer, Inductive, Spatial):
     """
 
     family: ClassVar[str] = "Across channels"
+    needs: ClassVar[frozenset[str]] = frozenset({"coordinates"})
 
     def __init__(self, power: float = 4.0) -> None:
         self.power = power

@@ -22,7 +22,6 @@ from mocapbench.baselines.common.checks import check_channels, check_outputs, ch
 from mocapbench.baselines.common.validation import check_sampling, check_times
 from mocapbench.baselines.protocols import (
     Imputer,
-    Informed,
     Prediction,
     SampleByFrameByChannel,
     Synthesiser,
@@ -61,7 +60,7 @@ class _Pattern:
         return np.asarray(self.values.mean(axis=0))
 
 
-class Oracle(Imputer, Synthesiser, Trended, Informed):
+class Oracle(Imputer, Synthesiser, Trended):
     r"""The true process itself, given all visible entries; the limit that models can reach.
 
     The recordings given to `fit` are children of one parent. `impute` gives the exact mean and
@@ -71,7 +70,7 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
     Attributes
     ----------
     process_ : ToyProcess
-        The generating process, given to `inform`.
+        The generating process, given to `fit`.
     times_ : ndarray of shape (N,)
         All times of the recordings; a curve on this grid is a vector (D N,), outputs slowest.
 
@@ -104,7 +103,7 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
     >>> hidden = np.zeros((20, 2), dtype=bool)
     >>> hidden[10] = True
     >>> incomplete = children[0].hide(hidden)
-    >>> model = Oracle().inform(process).fit([incomplete, *children[1:]])
+    >>> model = Oracle().fit([incomplete, *children[1:]], process)
     >>> (prediction,) = model.impute([incomplete])
     >>> bool((np.abs(prediction.mean - children[0].values) < 0.5).all())
     True
@@ -114,13 +113,16 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
 
     family: ClassVar[str] = "References"
 
-    def inform(self, process: ToyProcess) -> Self:
-        """Set the process that generated the recordings."""
-        self.process_ = process
-        return self
+    needs: ClassVar[frozenset[str]] = frozenset({"true process"})
 
-    def fit(self, recordings: Sequence[Recording]) -> Self:
+    def fit(self, recordings: Sequence[Recording], process: ToyProcess | None = None) -> Self:
         """Condition on the mean of each pattern.
+
+        Parameters
+        ----------
+        recordings : sequence of Recording
+        process : ToyProcess
+            The process that generated them.
 
         Raises
         ------
@@ -128,7 +130,9 @@ class Oracle(Imputer, Synthesiser, Trended, Informed):
             If no process is known, the recordings' channels differ or are not its outputs, a name
             repeats, or nothing is visible.
         """
-        check_is_fitted(self, "process_", msg="expected a generating process: call inform first")
+        if process is None:
+            raise ValueError("expected a process that generated the recordings, got None")
+        self.process_ = process
         checked = check_recordings(recordings)
         check_outputs(checked, self.process_)
         self.channels_, self.units_ = checked[0].channels, checked[0].units

@@ -1,13 +1,15 @@
 r"""The interface of models, and the abilities that a model may have.
 
-A model is fitted to recordings, hidden entries included. Each ability is an abstract base class,
-which a model inherits to declare that it has the ability:
+A model is fitted to recordings, hidden entries included. What it can do and what it needs are
+data: ``provides`` has the names of its abilities and ``needs`` those of its needs, all of which
+`mocapbench.baselines.declarations` describes. Both are asked of an unfitted model, so that one that
+wraps another may answer for it. A model inherits a class for each ability that it has:
 
 * `FrameImputer` fills frames that are hidden as a whole: it gives the mean, and optionally the
   variance, of :math:`p(y_{\text{hidden}} \mid y_{\text{visible}})`;
 * `Imputer` fills any set of hidden entries, and is therefore a `FrameImputer`;
-* `Inductive` marks an imputer that also fills recordings that were not given to `fit`;
-* `Interpolator` marks an imputer that fills each channel from its own course alone;
+* `Inductive` is an imputer that also fills recordings that were not given to `fit`;
+* `Interpolator` is an imputer that fills each channel from its own course alone;
 * `Synthesiser` draws new recordings from :math:`p(y_{\text{new}} \mid y_{\text{visible}})`;
 * `Clusterer` groups the recordings given to `fit`;
 * `Aligner` maps the frames of recordings of a cyclic motion onto the states of one cycle;
@@ -16,10 +18,7 @@ which a model inherits to declare that it has the ability:
 * `Layered` gives the covariance of each layer of a hierarchy, `Coregionalised` also the
   coregionalisation matrices;
 * `Embedded` gives every frame a position in a latent space, and `Dynamical` draws trajectories
-  through it;
-* `Spatial` requires channels that are the coordinates of markers or joints;
-* `Informed` requires the generating process (the oracle);
-* `Misinformed` requires a process unrelated to the recordings (the negative control).
+  through it.
 
 Symbols in shapes: N frames, D channels, K recordings, M states of a cycle, C styles, Q components,
 d latent dimensions, n samples.
@@ -39,7 +38,7 @@ from sklearn.base import BaseEstimator
 
 from mocapbench.basics.blas import limit_blas
 from mocapbench.basics.numbers import real_numbers
-from mocapbench.datasets import FrameByChannel, Frames, Recording, ToyProcess
+from mocapbench.datasets import FrameByChannel, Frames, Recording
 
 __all__ = [
     "Aligner",
@@ -52,14 +51,11 @@ __all__ = [
     "FrameImputer",
     "Imputer",
     "Inductive",
-    "Informed",
     "Interpolator",
     "Layered",
-    "Misinformed",
     "Model",
     "Prediction",
     "SampleByFrameByChannel",
-    "Spatial",
     "StatePath",
     "Synthesiser",
     "Trended",
@@ -186,9 +182,20 @@ class Model(BaseEstimator, ABC):  # type: ignore[misc]
     family: ClassVar[str] = "Your models"
     """The rows of a report under which the model stands, beside others of its kind."""
 
+    provides: ClassVar[frozenset[str]] = frozenset()
+    """The names of its abilities: by default those of the classes that it inherits. A model that
+    wraps another overrides it, and `needs`, by properties that return those of the other."""
+
+    needs: ClassVar[frozenset[str]] = frozenset()
+    """The names of what it needs besides recordings; ``fit`` receives some of it by keyword."""
+
     def __init_subclass__(cls, **keywords: object) -> None:
-        """Limit BLAS to one thread during every public method, those of mix-ins included."""
+        """Unite what the bases provide and need, and limit BLAS to one thread.
+
+        The limit holds during every public method, those of mix-ins included.
+        """
         super().__init_subclass__(**keywords)
+        _unite_declarations(cls)
         for owner in cls.__mro__:
             if owner is cls or not (issubclass(owner, Model) or issubclass(Model, owner)):
                 for name, method in _public_methods(owner):
@@ -220,6 +227,13 @@ class Model(BaseEstimator, ABC):  # type: ignore[misc]
         """
 
 
+def _unite_declarations(model: type[Model]) -> None:
+    """Let a model that inherits from several, and does not say otherwise, have what each has."""
+    bases = [base for base in model.__bases__ if issubclass(base, Model)]
+    for name in {"provides", "needs"} - {*vars(model)} if len(bases) > 1 else ():
+        setattr(model, name, frozenset().union(*(getattr(base, name) for base in bases)))
+
+
 def _public_methods(owner: type) -> list[tuple[str, FunctionType]]:
     return [
         (name, member)
@@ -234,6 +248,8 @@ class FrameImputer(Model):
     Every frame of a recording to fill is either visible or hidden in all channels. See `Imputer`
     for an example of an implementation.
     """
+
+    provides: ClassVar[frozenset[str]] = frozenset({"fills frames"})
 
     max_frames: ClassVar[int | None] = None
     """The most frames, all recordings together, that the model fills in some seconds; None is no
@@ -290,20 +306,26 @@ class Imputer(FrameImputer):
     array([1., 2., 3.])
     """
 
+    provides: ClassVar[frozenset[str]] = FrameImputer.provides | {"fills entries"}
+
 
 class Inductive(Model):
-    """Marks an imputer whose ``impute`` also takes recordings that were not given to ``fit``.
+    """An imputer whose ``impute`` also takes recordings that were not given to ``fit``.
 
     It adds no method. See `Imputer` for an example.
     """
 
+    provides: ClassVar[frozenset[str]] = frozenset({"fills new recordings"})
+
 
 class Interpolator(Imputer):
-    """Marks an imputer that fills a channel from its visible entries in the same recording alone.
+    """An imputer that fills a channel from its visible entries in the same recording alone.
 
-    Only where a channel has none in the recording may others help. Reports name the best model
-    that is marked so beside every winner. It adds no method. See `Imputer` for an example.
+    Only where a channel has none in the recording may others help. Reports name the best such
+    model beside every winner. It adds no method. See `Imputer` for an example.
     """
+
+    provides: ClassVar[frozenset[str]] = Imputer.provides | {"interpolates"}
 
     family: ClassVar[str] = "Interpolation"
 
@@ -332,6 +354,8 @@ class Synthesiser(Model):
     >>> WhiteNoise().fit([recording]).sample(np.arange(5.0), 2, random_state=0).shape
     (2, 5, 1)
     """
+
+    provides: ClassVar[frozenset[str]] = frozenset({"draws samples"})
 
     @abstractmethod
     def sample(
@@ -367,6 +391,8 @@ class Clusterer(Model):
         cluster have equal labels.
     """
 
+    provides: ClassVar[frozenset[str]] = frozenset({"clusters"})
+
     labels_: NDArray[np.intp]
 
 
@@ -380,6 +406,8 @@ class Aligner(Model):
     path_ : tuple of ndarray of int, each of shape (N_k,)
         After `fit`, the state 0 … M − 1 of each frame of each recording, in the order given.
     """
+
+    provides: ClassVar[frozenset[str]] = frozenset({"aligns"})
 
     cycle_length_: int
     path_: tuple[StatePath, ...]
@@ -403,6 +431,8 @@ class Aligner(Model):
 class Blender(Clusterer):
     """A clusterer whose styles can be mixed, because their cycles are synchronous."""
 
+    provides: ClassVar[frozenset[str]] = Clusterer.provides | {"blends"}
+
     @abstractmethod
     def blend(self, weights: FrameByStyle) -> FrameByChannel:
         """Return a motion whose frame i is the mean of the styles' poses, weighted by row i.
@@ -423,6 +453,8 @@ class Blender(Clusterer):
 class Trended(Model):
     """A model of recordings that vary around one trend."""
 
+    provides: ClassVar[frozenset[str]] = frozenset({"has a trend"})
+
     @abstractmethod
     def trend(self, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the posterior mean and variance of the trend.
@@ -441,6 +473,8 @@ class Trended(Model):
 
 class Layered(Model):
     """A model that gives the prior covariance of each layer of its hierarchy."""
+
+    provides: ClassVar[frozenset[str]] = frozenset({"has layers"})
 
     @property
     @abstractmethod
@@ -474,6 +508,8 @@ class Coregionalised(Layered):
         After `fit`, the matrices B_q of each layer, in the outputs' own units.
     """
 
+    provides: ClassVar[frozenset[str]] = Layered.provides | {"has coregionalisation"}
+
     @property
     @abstractmethod
     def coregionalisation_(self) -> Mapping[str, NDArray[np.float64]]:
@@ -488,6 +524,8 @@ class Embedded(Model):
     kernel_properties_ : mapping of str to float
         After `fit`, interpretable quantities of the kernels by name, such as lengthscales.
     """
+
+    provides: ClassVar[frozenset[str]] = frozenset({"has a latent space"})
 
     kernel_properties_: Mapping[str, float]
 
@@ -517,6 +555,8 @@ class Embedded(Model):
 class Dynamical(Embedded):
     """An embedded model with dynamics in its latent space."""
 
+    provides: ClassVar[frozenset[str]] = Embedded.provides | {"has latent dynamics"}
+
     @abstractmethod
     def latent_walks(
         self, n_frames: int, n_samples: int, random_state: int | np.random.Generator
@@ -540,26 +580,3 @@ class Dynamical(Embedded):
     @abstractmethod
     def poses(self, positions: NDArray[np.float64]) -> FrameByChannel:
         """Return the mean poses (N, D) at the latent ``positions`` (N, d)."""
-
-
-class Spatial(Model):
-    """Marks a model that requires channels that are the coordinates of markers or joints.
-
-    They are named ``LKNE.x``, ``LKNE.y``, ``LKNE.z`` and so on. It adds no method.
-    """
-
-
-class Informed(Model):
-    """A model that requires the process that generated the recordings."""
-
-    @abstractmethod
-    def inform(self, process: ToyProcess) -> Self:
-        """Set the process that generated the recordings; called before `fit`."""
-
-
-class Misinformed(Model):
-    """A model that requires a process unrelated to the recordings."""
-
-    @abstractmethod
-    def misinform(self, process: ToyProcess) -> Self:
-        """Set a process that generated none of the recordings; called before `fit`."""

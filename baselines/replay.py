@@ -54,6 +54,7 @@ class Replay(Synthesiser):
     """
 
     family: ClassVar[str] = "References"
+    provides: ClassVar[frozenset[str]] = Synthesiser.provides | {"replays"}
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the recordings.

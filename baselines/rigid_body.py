@@ -21,7 +21,7 @@ from mocapbench.baselines.common.rigid import (
 from mocapbench.baselines.common.validation import check_positive
 from mocapbench.baselines.interpolation import PchipImputer
 from mocapbench.baselines.kriging.marker_gap import fit_body
-from mocapbench.baselines.protocols import Imputer, Inductive, Prediction, Spatial
+from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.gaps import runs
 from mocapbench.datasets import FrameByChannel, Recording
@@ -34,7 +34,7 @@ _BESIDE = 15
 """Frames on both sides of a gap that show whether the others lie on a line."""
 
 
-class RigidBody(Imputer, Inductive, Spatial):
+class RigidBody(Imputer, Inductive):
     r"""Carry a hidden marker along with those around it, as if they were one rigid body.
 
     From the last frame a in which a marker is visible, the rigid motion of the other markers
@@ -102,6 +102,7 @@ class RigidBody(Imputer, Inductive, Spatial):
     """
 
     family: ClassVar[str] = "Across channels"
+    needs: ClassVar[frozenset[str]] = frozenset({"coordinates"})
 
     def __init__(self, power: float = 4.0) -> None:
         self.power = power

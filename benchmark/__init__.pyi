@@ -59,7 +59,7 @@ from .runs.plan import plan, required_sources
 from .runs.plan_document import plan_document, planned_task_files
 from .runs.provenance import provenance
 from .runs.record import Record, Status
-from .runs.request import Request
+from .runs.request import Request, list_unmet_needs
 from .runs.run import run
 from .task_files.building import add_tasks
 from .task_files.checking import open_task_files
@@ -151,6 +151,7 @@ __all__ = [
     "last_drawn",
     "left_out_lines",
     "library_entry",
+    "list_unmet_needs",
     "load_plugin",
     "load_plugins",
     "memory_share",

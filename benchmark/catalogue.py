@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from mocapbench import baselines
-from mocapbench.baselines import Model
+from mocapbench.baselines.declarations.abilities import describe_abilities
+from mocapbench.baselines.declarations.needs import describe_needs
 from mocapbench.benchmark.docstrings import source, summary
 from mocapbench.benchmark.errors import UnregisteredNameError
-from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS
+from mocapbench.benchmark.registry import FORMATS, LIBRARIES, METRICS, MODELS, TASKS, build_unfitted
 from mocapbench.benchmark.runs.request import entrants
 
 __all__ = [
@@ -20,26 +20,6 @@ __all__ = [
     "model_entry",
     "task_entry",
 ]
-
-_ABILITIES = {
-    "Imputer": "fills any gaps",
-    "FrameImputer": "fills gaps of whole frames",
-    "Inductive": "new recordings too",
-    "Interpolator": "fills each channel by itself",
-    "Synthesiser": "synthesises",
-    "Clusterer": "clusters",
-    "Aligner": "aligns",
-    "Blender": "blends",
-    "Layered": "gives the covariance of each layer",
-    "Coregionalised": "gives coregionalisation matrices of each layer",
-    "Trended": "gives a common trend",
-    "Embedded": "gives latent positions",
-    "Dynamical": "gives latent positions with dynamics",
-    "Spatial": "takes markers",
-    "Replay": "replays training recordings",
-    "Informed": "is given the generating process",
-    "Misinformed": "is given an unrelated process",
-}
 
 
 def task_entry(name: str) -> Mapping[str, Any]:
@@ -52,7 +32,7 @@ def task_entry(name: str) -> Mapping[str, Any]:
         "question": task.page.question,
         "reference": task.page.reference,
         "description": task.page.description,
-        "requires": [_ABILITIES.get(able.__name__, able.__name__) for able in task.requires],
+        "requires": describe_abilities(task.requires),
         "metrics": list(task.page.metrics),
         "cases": [case.name for case in task.cases],
         "profiles": {
@@ -65,15 +45,16 @@ def task_entry(name: str) -> Mapping[str, Any]:
 
 
 def model_entry(name: str) -> Mapping[str, Any]:
-    """Return what a model is: its sentence and papers, its abilities and parameters."""
-    model = MODELS.get(name)
+    """Return what a model is: its sentence and papers, its abilities, needs and parameters."""
+    kind, model = MODELS.get(name), build_unfitted(name)
     return {
         "name": name,
-        "summary": summary(model),
+        "summary": summary(kind),
         "family": model.family,
-        "source": source(model),
-        "abilities": _abilities(model),
-        "parameters": model().get_params(),
+        "source": source(kind),
+        "abilities": describe_abilities(model.provides),
+        "needs": describe_needs(model.needs),
+        "parameters": model.get_params(),
     }
 
 
@@ -130,14 +111,3 @@ def format_entry(name: str) -> Mapping[str, Any]:
         "suffixes": list(kind.suffixes),
         "needs": f"mocapbench[{kind.needs.name}]" if kind.needs else "",
     }
-
-
-def _abilities(model: type[Model]) -> list[str]:
-    """Return what a model can do, without what follows from something else that it can do."""
-    classes = {text: getattr(baselines, ability) for ability, text in _ABILITIES.items()}
-    able = {text: ability for text, ability in classes.items() if issubclass(model, ability)}
-    return [
-        text
-        for text, ability in able.items()
-        if not any(issubclass(other, ability) for other in able.values() if other is not ability)
-    ]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from numbers import Integral
 
+from mocapbench.baselines import ABILITIES, NEEDS
 from mocapbench.benchmark.errors import UnregisteredNameError, UsageError
 from mocapbench.benchmark.registry import METRICS, MODELS
 from mocapbench.benchmark.tasks.base import Entrant, Task
@@ -20,8 +21,8 @@ def require_consistent(task: Task) -> None:
     ------
     UsageError
         If two entrants or cases share a name, a label is empty, has a slash or is the name of
-        another model, a model has no such parameter, a profile has no case or no fold, or the page
-        shows no metric or one that is not registered.
+        another model, a model has no such parameter, an ability or need is unknown, a profile has
+        no case or no fold, or the page shows no metric or one that is not registered.
     UnregisteredNameError
         If a model is not registered.
     """
@@ -30,8 +31,19 @@ def require_consistent(task: Task) -> None:
     for entrant in task.entrants:
         _require_label(task, entrant)
         _require_parameters(task, entrant)
+    _require_known(task, "abilities", task.requires, ABILITIES)
+    _require_known(task, "needs", task.meets, NEEDS)
     _require_profiles(task)
     _require_metrics(task)
+
+
+def _require_known(task: Task, what: str, names: Iterable[str], known: Iterable[str]) -> None:
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise UsageError(
+            f"task {task.name!r}: expected {what} from mocapbench.baselines "
+            f"({', '.join(known)}), got {unknown[0]!r}; correct its name"
+        )
 
 
 def _require_distinct(task: Task, kind: str, names: Sequence[str]) -> None:

@@ -9,6 +9,7 @@ Ours and third parties' are found in the same way: by entry points of the groups
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Generic, TypeVar, cast
 
@@ -28,6 +29,7 @@ __all__ = [
     "REGISTRIES",
     "TASKS",
     "Registry",
+    "build_unfitted",
 ]
 
 T = TypeVar("T")
@@ -113,3 +115,33 @@ FORMATS: Registry[type[Format]] = Registry("format", "mocapbench.formats")
 """The classes of formats of files that are registered, by name."""
 
 REGISTRIES = (MODELS, TASKS, METRICS, LIBRARIES, FORMATS)
+
+
+def build_unfitted(name: str, parameters: Mapping[str, object] | None = None) -> Model:
+    """Return the model called ``name``, not fitted, which says what it provides and needs.
+
+    Parameters
+    ----------
+    name : str
+    parameters : mapping, optional
+        In place of defaults, as far as the model has them.
+
+    Raises
+    ------
+    UnregisteredNameError
+        If there is none.
+    UsageError
+        If it cannot be built without arguments.
+    """
+    kind = MODELS.get(name)
+    try:
+        model = kind()
+    except Exception as error:
+        raise UsageError(
+            f"model {name!r}: expected a class that can be built without arguments, got: "
+            f"{reason(error)}; give every parameter a default, and define abstract methods"
+        ) from error
+    known = model.get_params()
+    own = {key: value for key, value in (parameters or {}).items() if key in known}
+    model.set_params(**own)
+    return model

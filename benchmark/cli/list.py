@@ -83,7 +83,7 @@ def _listing(kind: ListedKind) -> _Listing:
             columns = {"title": "title", "cases": "cases", "reference": "from"}
             return _Listing(bench.TASKS, bench.task_entry, bench.task_entry, columns)
         case ListedKind.MODELS:
-            columns = {"summary": "what it is", "abilities": "abilities"}
+            columns = {"summary": "what it is", "abilities": "abilities", "needs": "needs"}
             return _Listing(bench.MODELS, bench.model_entry, bench.entrant_entry, columns)
         case ListedKind.METRICS:
             columns = {"title": "title", "better": "better", "of": "of"}

@@ -143,9 +143,10 @@ def _plan_jobs(request: Request, archive: Archive) -> Sequence[Job]:
     """Return the jobs of a request, of which there must be one at least."""
     planned = bench.plan(request, archive)
     if not planned:
+        unmet = "; ".join(bench.list_unmet_needs(request))
         raise UsageError(
-            "nothing to run: no chosen model has the abilities that the chosen tasks require; "
-            "`mocapbench list models` shows what each can do"
+            "nothing to run: no chosen model has the abilities that the chosen tasks require"
+            f"{f' ({unmet})' if unmet else ''}; `mocapbench list models` shows what each can do"
         )
     return planned
 

@@ -2,50 +2,40 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from mocapbench.baselines import (
-    BestOf,
-    ChannelKriging,
-    FrameImputer,
-    Imputer,
-    Informed,
-    Interpolator,
-    Misinformed,
-    Model,
-    Spatial,
-)
-from mocapbench.baselines.common.markers import markers_of
+from mocapbench.baselines.declarations.needs import describe_needs, find_met_needs
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.problem import GapProblem, drop_unseen
-from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.filling.problem import GapProblem, drop_unseen, pose_imputing
+from mocapbench.benchmark.registry import MODELS, build_unfitted
 
 __all__ = ["find_candidates", "require_candidate"]
 
-_ORDER = {Interpolator: 0, Spatial: 1, ChannelKriging: 2, BestOf: 4}
-"""In which models start; 3 for all others."""
+_ORDER = {"channel-kriging": 2, "best-of": 4}
+"""In which models start, by their names; 3 for all others that need nothing but recordings."""
 
 
 def find_candidates(problem: GapProblem) -> tuple[str, ...]:
     """Return the models that can fill the gaps of a problem, in the order in which they start.
 
-    Those that interpolate take no time and come first, then those made for markers, where there are
-    markers, and `ChannelKriging`, which is the best of the others more often than any: in a long
+    Those that interpolate take no time and come first, then those made for what there is, such as
+    markers, and ``channel-kriging``, which is the best of the others more often than any: in a long
     recording there may be time for no more. The others come in the order of `max_frames`, no limit
-    first. `BestOf`, which tries most of the others itself, is last. All models learn from the
-    recording that they fill, so that none needs to be `Inductive`.
+    first. ``best-of``, which tries most of the others itself, is last. All models learn from the
+    recording that they fill, so that none has to fill new recordings.
     """
-    needed, barred = _find_ability(problem), _find_marks_to_leave_out(problem)
-    names = [
-        name
-        for name in MODELS.names()
-        if issubclass(MODELS.get(name), needed) and not issubclass(MODELS.get(name), barred)
+    ability, met = _find_ability(problem), find_met_needs(pose_imputing(problem))
+    models = {name: build_unfitted(name) for name in MODELS.names()}
+    able = [
+        name for name, model in models.items() if ability in model.provides and model.needs <= met
     ]
-    return tuple(sorted(names, key=lambda name: _order_key(MODELS.get(name))))
+    return tuple(sorted(able, key=lambda name: _order_key(name, models[name])))
 
 
-def _order_key(model: type[FrameImputer]) -> tuple[int, float]:
-    first = min((place for kind, place in _ORDER.items() if issubclass(model, kind)), default=3)
+def _order_key(name: str, model: Any) -> tuple[int, float]:
+    first = 0 if "interpolates" in model.provides else _ORDER.get(name, 1 if model.needs else 3)
     return first, -(model.max_frames or np.inf)
 
 
@@ -57,29 +47,20 @@ def require_candidate(name: str, problem: GapProblem) -> None:
     UsageError
         The message names the models that can.
     """
-    MODELS.get(name)
-    candidates = find_candidates(problem)
+    model, candidates = build_unfitted(name), find_candidates(problem)
     if name in candidates:
         return
-    reason = "frames of which some channels are visible"
-    if issubclass(MODELS.get(name), Spatial):
-        reason = "channels that are not the x, y and z of markers"
-    elif _find_ability(problem) is FrameImputer:
-        reason = "gaps"
+    texts = {"fills frames": "gaps", "fills entries": "frames of which some channels are visible"}
+    unmet = describe_needs(model.needs - find_met_needs(pose_imputing(problem)))
     raise UsageError(
-        f"--model: expected a model that fills {reason}, got {name!r}; "
+        f"--model: expected a model that fills {texts[_find_ability(problem)]}, got {name!r}"
+        f"{', which needs ' if unmet else ''}{' and '.join(unmet)}; "
         f"choose {', '.join(candidates)}"
     )
 
 
-def _find_ability(problem: GapProblem) -> type[FrameImputer]:
+def _find_ability(problem: GapProblem) -> str:
     """Return the ability that it takes: the lesser one where every frame is whole or hidden."""
     visible = drop_unseen(problem).given.visible
     whole = bool((visible.all(axis=1) == visible.any(axis=1)).all())
-    return FrameImputer if whole else Imputer
-
-
-def _find_marks_to_leave_out(problem: GapProblem) -> tuple[type[Model], ...]:
-    """Return the marks of models that take what there is not: a process, or markers."""
-    has_markers = markers_of(problem.given.channels, problem.given.units)
-    return (Informed, Misinformed) if has_markers else (Informed, Misinformed, Spatial)
+    return "fills frames" if whole else "fills entries"

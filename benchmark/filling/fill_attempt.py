@@ -13,6 +13,7 @@ import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 from traceback import extract_tb
+from typing import Any
 
 import numpy as np
 
@@ -23,10 +24,9 @@ from mocapbench.benchmark.filling.problem import (
     PredictedEntries,
     cut_windows,
     drop_unseen,
+    pose_imputing,
 )
 from mocapbench.benchmark.messages import reason
-from mocapbench.benchmark.problems.impute import ImputeProblem
-from mocapbench.benchmark.problems.unit import Unit
 from mocapbench.benchmark.runs.fitting.solve import build_model
 from mocapbench.datasets import FrameByChannel
 
@@ -81,7 +81,8 @@ def attempt_fill(
     resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
     try:
         with warnings.catch_warnings(action="ignore"):
-            windows = cut_windows(problem, model.max_frames)
+            unfitted: Any = build_model(model, {}, _SEED)
+            windows = cut_windows(problem, unfitted.max_frames)
             parts = [(frames, part, _predict(model, part, method)) for frames, part in windows]
             prediction = keep_constants(problem, _merge_windows(problem, parts))
     except MemoryError:
@@ -104,12 +105,7 @@ def _locate_error(error: BaseException, model: type[FrameImputer]) -> str:
 def _predict(model: type[FrameImputer], problem: GapProblem, method: str) -> Prediction:
     """Return what the model predicts of all channels (N, D), NaN of those that nobody has seen."""
     seen = drop_unseen(problem)
-    imputing = ImputeProblem(
-        train=(*seen.train, seen.given),
-        given=(seen.given,),
-        truth=(seen.given.values,),  # nobody scores here, and nobody knows it
-        unit=Unit.natural(len(seen.given.channels)),
-    )
+    imputing = pose_imputing(seen)
     fitted = build_model(model, {}, _SEED)
     imputing.fit(fitted)
     (prediction,) = imputing.check_predictions(

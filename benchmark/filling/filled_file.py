@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mocapbench.baselines import Interpolator
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.candidates import find_candidates, require_candidate
@@ -16,7 +15,7 @@ from mocapbench.benchmark.filling.fill_attempt import FillAttempt
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.benchmark.filling.problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.filling.workers import Workers
-from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.registry import build_unfitted
 from mocapbench.datasets import Recording
 
 __all__ = ["BEST", "FilledFile", "fill"]
@@ -113,7 +112,7 @@ def fill(
 
 def _find_interpolations(problem: GapProblem) -> tuple[str, ...]:
     """Return the models that interpolate, of which linear interpolation cannot overshoot."""
-    able = [n for n in find_candidates(problem) if issubclass(MODELS.get(n), Interpolator)]
+    able = [n for n in find_candidates(problem) if "interpolates" in build_unfitted(n).provides]
     return tuple(sorted(able, key=lambda name: name != "linear"))
 
 

@@ -13,9 +13,18 @@ import numpy as np
 
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.filling.gaps import find_gaps
+from mocapbench.benchmark.problems.impute import ImputeProblem
+from mocapbench.benchmark.problems.unit import Unit
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["GapProblem", "PredictedEntries", "cut_windows", "drop_unseen", "select_channels"]
+__all__ = [
+    "GapProblem",
+    "PredictedEntries",
+    "cut_windows",
+    "drop_unseen",
+    "pose_imputing",
+    "select_channels",
+]
 
 _LEAST_CONTEXT = 10
 """Frames on each side of a gap, as far as there are any."""
@@ -58,6 +67,16 @@ class PredictedEntries:
 
     mean: Array
     variance: Array | None
+
+
+def pose_imputing(problem: GapProblem) -> ImputeProblem:
+    """Return the problem as one that models are fitted to and asked, as in a run."""
+    return ImputeProblem(
+        train=(*problem.train, problem.given),
+        given=(problem.given,),
+        truth=(problem.given.values,),  # nobody scores here, and nobody knows it
+        unit=Unit.natural(len(problem.given.channels)),
+    )
 
 
 def drop_unseen(problem: GapProblem) -> GapProblem:

@@ -11,7 +11,8 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar
 
-from mocapbench.baselines import Informed, Model
+from mocapbench.baselines import Model
+from mocapbench.baselines.declarations.needs import list_given
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.datasets import Recording, ToyProcess
 from mocapbench.metrics import Clustering, Imputation, Recovery, Synthesis
@@ -46,22 +47,24 @@ class Problem(ABC, Generic[A]):
     train : tuple of Recording
         What `fit` gets.
     process : ToyProcess or None
-        The process that generated them, for informed models.
+        The process that generated them, for models that need it.
+    control : ToyProcess or None
+        A process that generated none of them, for models that need it.
     parent : Recording or None
         The curves g of the parent that a known process drew, which no model sees.
     """
 
     train: tuple[Recording, ...]
     process: ToyProcess | None = field(default=None, kw_only=True)
+    control: ToyProcess | None = field(default=None, kw_only=True)
     parent: Recording | None = field(default=None, kw_only=True)
 
     answer_type: ClassVar[type[Answer]]
 
-    def fit(self, model: Model) -> Model:
-        """Fit ``model`` to what it may see."""
-        if self.process is not None and isinstance(model, Informed):
-            model.inform(self.process)
-        return model.fit(self.train)
+    def fit(self, model: Any) -> Model:
+        """Fit ``model`` to what it may see, and give it what it needs besides."""
+        fitted: Model = model.fit(self.train, **list_given(model.needs, self))
+        return fitted
 
     @abstractmethod
     def solve(self, model: Any, random_state: int) -> A:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines import Aligner, Blender, Clusterer
+from mocapbench.baselines import Clusterer
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
 from mocapbench.benchmark.problems.blending import Blend, blend_of
@@ -67,13 +67,13 @@ class ClusterProblem(Problem[Clusters]):
 
     answer_type = Clusters
 
-    def solve(self, model: Clusterer, random_state: int) -> Clusters:
+    def solve(self, model: Any, random_state: int) -> Clusters:
         """Return the clusters, and the alignment and the blend of a model that has them."""
         del random_state  # fit has done everything
         labels = self._labels(model)
-        alignment = alignment_of(model, self.train) if isinstance(model, Aligner) else None
+        alignment = alignment_of(model, self.train) if "aligns" in model.provides else None
         n_channels = len(self.train[0].channels)
-        blend = blend_of(model, labels, n_channels) if isinstance(model, Blender) else None
+        blend = blend_of(model, labels, n_channels) if "blends" in model.provides else None
         return Clusters(labels, alignment, blend)
 
     def outcome(self, answer: Clusters) -> Clustering:

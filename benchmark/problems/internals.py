@@ -9,7 +9,6 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines import Coregionalised, Dynamical, Embedded, Model, Trended
 from mocapbench.benchmark.problems.arrays import Arrays, with_prefix
 from mocapbench.benchmark.problems.latent import LatentSpace, LatentWalks, space_of, walks_of
 from mocapbench.datasets import FrameByChannel, Frames, Recording
@@ -75,12 +74,12 @@ class Internals:
         )
 
 
-def internals_of(model: Model, train: Sequence[Recording]) -> Internals:
+def internals_of(model: Any, train: Sequence[Recording]) -> Internals:
     """Return what a model fitted to ``train`` has; the trend at the first recording's times."""
     times = train[0].times
     return Internals(
-        Trend(times, *model.trend(times)) if isinstance(model, Trended) else None,
-        model.coregionalisation_ if isinstance(model, Coregionalised) else {},
-        space_of(model) if isinstance(model, Embedded) else None,
-        walks_of(model) if isinstance(model, Dynamical) else None,
+        Trend(times, *model.trend(times)) if "has a trend" in model.provides else None,
+        model.coregionalisation_ if "has coregionalisation" in model.provides else {},
+        space_of(model) if "has a latent space" in model.provides else None,
+        walks_of(model) if "has latent dynamics" in model.provides else None,
     )

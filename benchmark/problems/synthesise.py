@@ -9,12 +9,12 @@ from typing import Self
 
 import numpy as np
 
-from mocapbench.baselines import Misinformed, Model, SampleByFrameByChannel, Synthesiser
+from mocapbench.baselines import SampleByFrameByChannel, Synthesiser
 from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
 from mocapbench.benchmark.problems.body import Body
 from mocapbench.benchmark.problems.placement import sampled_poses
-from mocapbench.datasets import FrameByChannel, Frames, ToyProcess
+from mocapbench.datasets import FrameByChannel, Frames
 from mocapbench.metrics import SampledPoses, Synthesis
 
 __all__ = ["Samples", "SynthesiseProblem"]
@@ -54,13 +54,12 @@ class SynthesiseProblem(Problem[Samples]):
     n_samples : int
     references : tuple of ndarray (N, D)
         Recordings that no model sees.
-    control : ToyProcess or None
-        A process that generated neither the recordings nor the references, for misinformed
-        models.
     body : Body or None
         On which samples and references are placed in space, for metrics of positions.
     process : ToyProcess or None
-        The process that generated them, for informed models.
+        The process that generated them, for models that need it.
+    control : ToyProcess or None
+        A process that generated neither the recordings nor the references, for models that need it.
     parent : Recording or None
         The curves of the parent that a known process drew, which no model sees.
     """
@@ -68,16 +67,9 @@ class SynthesiseProblem(Problem[Samples]):
     times: Frames
     n_samples: int
     references: tuple[FrameByChannel, ...]
-    control: ToyProcess | None = None
     body: Body | None = None
 
     answer_type = Samples
-
-    def fit(self, model: Model) -> Model:
-        """Fit ``model`` to what it may see."""
-        if self.control is not None and isinstance(model, Misinformed):
-            model.misinform(self.control)
-        return super().fit(model)
 
     def solve(self, model: Synthesiser, random_state: int) -> Samples:
         """Return the model's samples."""

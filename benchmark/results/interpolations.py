@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from mocapbench.baselines import Interpolator
-from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.registry import MODELS, build_unfitted
 
 __all__ = ["interpolates"]
 
 
 def interpolates(model: str) -> bool:
     """Return whether a registered model interpolates; one that is gone does not tell."""
-    return model in MODELS.names() and issubclass(MODELS.get(model), Interpolator)
+    return model in MODELS.names() and "interpolates" in build_unfitted(model).provides

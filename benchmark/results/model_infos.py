@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from mocapbench.benchmark.docstrings import source, summary
-from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.registry import MODELS, build_unfitted
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.base import Task
 from mocapbench.reports import ModelInfo
@@ -28,4 +28,4 @@ def _info(name: str, parameters: Mapping[str, object]) -> ModelInfo:
     if name not in MODELS.names():
         return ModelInfo(name, parameters=text)
     model = MODELS.get(name)
-    return ModelInfo(name, summary(model), source(model), model.family, text)
+    return ModelInfo(name, summary(model), source(model), build_unfitted(name).family, text)

@@ -6,9 +6,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
+from mocapbench.baselines import Model
 from mocapbench.benchmark.consistency import require_consistent
 from mocapbench.benchmark.errors import UnknownNameError, UnregisteredNameError, UsageError
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.registry import METRICS, MODELS, TASKS, build_unfitted
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Entrant, Task
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "chosen_folds",
     "consistent_tasks",
     "entrants",
+    "list_unmet_needs",
     "matching_cases",
     "split_cases",
 ]
@@ -51,9 +53,19 @@ class Request:
 
 def entrants(task: Task) -> tuple[Entrant, ...]:
     """Return the task's entrants and, with defaults, every other registered model it accepts."""
-    configured = {entrant.model for entrant in task.entrants}
-    others = (Entrant(name, name) for name in MODELS.names() if name not in configured)
-    return tuple(e for e in (*task.entrants, *others) if task.accepts(MODELS.get(e.model)))
+    return tuple(e for e in _candidates(task) if task.accepts(_build_entrant(e)))
+
+
+def list_unmet_needs(request: Request) -> list[str]:
+    """Return what the models that a request names need and one of its tasks does not have."""
+    texts = [
+        f"{entrant.label} needs {' and '.join(unmet)}"
+        for task in _tasks(request)
+        for entrant in _candidates(task)
+        if {entrant.label, entrant.model} & {*request.models}
+        and (unmet := task.list_unmet(_build_entrant(entrant)))
+    ]
+    return list(dict.fromkeys(texts))
 
 
 def consistent_tasks(request: Request) -> list[Task]:
@@ -106,6 +118,16 @@ def chosen_folds(request: Request, task: Task) -> int:
             "leave it out with --tasks"
         )
     return folds
+
+
+def _candidates(task: Task) -> tuple[Entrant, ...]:
+    configured = {entrant.model for entrant in task.entrants}
+    others = (Entrant(name, name) for name in MODELS.names() if name not in configured)
+    return (*task.entrants, *others)
+
+
+def _build_entrant(entrant: Entrant) -> Model:
+    return build_unfitted(entrant.model, entrant.parameters)
 
 
 def _check_names(request: Request) -> None:

@@ -8,11 +8,10 @@ from functools import partial
 from itertools import product
 from pathlib import PurePosixPath
 
-from mocapbench.baselines import FrameImputer, Imputer
 from mocapbench.benchmark.figures.gap_error import GapError
 from mocapbench.benchmark.figures.longest_gaps import LongestGaps
 from mocapbench.benchmark.figures.motions.filled import FilledMotion
-from mocapbench.benchmark.registry import MODELS, TASKS
+from mocapbench.benchmark.registry import MODELS, TASKS, build_unfitted
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.hidden_settings import Hidden, read_hidden
 from mocapbench.benchmark.task_files.library import address_of
@@ -55,10 +54,10 @@ def build_task(file: TaskFile) -> Task:
         name=settings.name,
         version=1,
         page=_page(settings, cases, hidden),
-        requires=(FrameImputer if whole_frames else Imputer,),
+        requires={"fills frames" if whole_frames else "fills entries"},
         cases=cases,
         profiles=dict.fromkeys(PROFILES, profile),
-        has_markers=file.has_markers,
+        meets=frozenset(file.meets),
         max_folds=1 if hidden.repeats else None,
         independent_folds=not (hidden.repeats or hidden.pattern),
     )
@@ -121,15 +120,20 @@ def _check_folds(document: Document, settings: Settings, hidden: Hidden) -> None
 
 
 def _check_models(document: Document, settings: Settings, task: Task) -> None:
-    able = [name for name in MODELS.names() if task.accepts(MODELS.get(name))]
+    able = [name for name in MODELS.names() if task.accepts(build_unfitted(name))]
     for name in settings.models:
         if name not in able:
             raise document.error(
                 "models",
                 "models that can fill what is hidden here",
-                repr(name),
+                _describe_refused(name, task),
                 f"choose from {', '.join(able)}",
             )
+
+
+def _describe_refused(name: str, task: Task) -> str:
+    unmet = task.list_unmet(build_unfitted(name)) if name in MODELS.names() else []
+    return f"{name!r}{', which needs ' if unmet else ''}{' and '.join(unmet)}"
 
 
 def _not_chosen(settings: Settings) -> tuple[str, ...]:

@@ -107,7 +107,7 @@ def check_document(document: Document, folder: Path) -> TaskFile:
         tests,
         training,
         complete=facts.complete,
-        has_markers=facts.has_markers,
+        meets=facts.meets,
     )
     build_task(file)
     return file

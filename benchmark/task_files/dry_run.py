@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mocapbench.baselines.common.markers import markers_of
+from mocapbench.baselines.declarations.needs import find_met_needs
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.registry import METRICS
@@ -40,8 +40,8 @@ class RecordingFacts(NamedTuple):
 
     complete: bool
     """Whether no entry of them is missing."""
-    has_markers: bool
-    """Whether channels are the coordinates of markers or joints."""
+    meets: tuple[str, ...]
+    """The needs of models that they meet, such as coordinates."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class DryRun:
                 undefined.difference_update(defined_metrics(undefined, problem))
         if undefined:
             raise self._undefined_metric_error(min(undefined), tests, problem)
-        return RecordingFacts(complete, bool(markers_of(first.channels, first.units)))
+        return RecordingFacts(complete, tuple(sorted(find_met_needs(problem))))
 
     def _read(self, key: str, path: str) -> Recording:
         with self._blaming(key, path):

@@ -29,8 +29,8 @@ class TaskFile:
         Paths below the folder: of the recordings to fill, and of those to learn from.
     complete : bool
         Whether no entry of them is missing, so that models for whole hidden frames can take part.
-    has_markers : bool
-        Whether channels are the coordinates of markers, so that models of these can take part.
+    meets : tuple of str
+        The needs of models that the recordings meet, so that these models can take part.
     """
 
     file: str
@@ -39,7 +39,7 @@ class TaskFile:
     tests: tuple[str, ...]
     training: tuple[str, ...]
     complete: bool
-    has_markers: bool
+    meets: tuple[str, ...]
 
     @property
     def document(self) -> Document:
@@ -62,9 +62,8 @@ class TaskFile:
         try:
             file, text, folder = (str(plain[name]) for name in ("file", "text", "folder"))
             tests, training = (tuple(map(str, plain[name])) for name in ("tests", "training"))
-            # Runs of versions without models of markers do not say whether there are any.
-            has_markers = bool(plain.get("has_markers", False))
-            return cls(file, text, folder, tests, training, bool(plain["complete"]), has_markers)
+            meets = tuple(map(str, plain["meets"]))
+            return cls(file, text, folder, tests, training, bool(plain["complete"]), meets)
         except (KeyError, TypeError) as error:
             raise UsageError(
                 "the plan of the run holds a damaged task file; run `mocapbench run` with "

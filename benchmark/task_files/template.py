@@ -11,7 +11,7 @@ from textwrap import wrap
 
 import tomli_w
 
-from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.registry import MODELS, build_unfitted
 from mocapbench.benchmark.task_files.building import build_task
 from mocapbench.benchmark.task_files.checking import check_document, require_folder
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
@@ -138,7 +138,7 @@ def draft(file: str, folder: Path, rate: float | None) -> Draft:
             failure = error
             continue
         task = build_task(task_file)
-        able = [name for name in MODELS.names() if task.accepts(MODELS.get(name))]
+        able = [name for name in MODELS.names() if task.accepts(build_unfitted(name))]
         return Draft(content.text(hide, able), tests, left_out)
     raise failure
 

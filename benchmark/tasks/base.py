@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Any
 
-from mocapbench.baselines import Informed, Misinformed, Model, Spatial
+from mocapbench.baselines import Model
+from mocapbench.baselines.declarations.needs import describe_needs
 from mocapbench.benchmark.errors import UnknownNameError
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.tasks.seeds import Seeds
@@ -129,19 +130,14 @@ class Task:
         Identity; the version rises whenever the same address would give another problem.
     page : TaskPage
         How the report presents it; nothing in it changes a result.
-    requires : tuple of type
-        The abilities a model must have; others are not applicable.
+    requires : set of str
+        The abilities that a model must provide; others are not applicable.
     cases : tuple of Case
     profiles : mapping of str to Profile
     entrants : tuple of Entrant
         Configured models; a registered model without an entry enters with its defaults.
-    has_process : bool
-        Whether its data come from a known process, which informed models need.
-    has_control : bool
-        Whether its problems come with an unrelated process, which misinformed models need.
-    has_markers : bool
-        Whether its channels are, or may be, coordinates of markers or joints, which spatial models
-        need.
+    meets : set of str
+        The needs of models that its problems meet.
     max_folds : int or None
         How many folds there are, None where each draws anew.
     independent_folds : bool
@@ -150,7 +146,6 @@ class Task:
     Examples
     --------
     >>> import numpy as np
-    >>> from mocapbench.baselines import FrameImputer
     >>> from mocapbench.benchmark import Case, ImputeProblem, Profile, Task, hide_frames
     >>> from mocapbench.datasets import Recording
     >>> from mocapbench.reports import TaskPage
@@ -164,7 +159,7 @@ class Task:
     >>> task = Task(
     ...     name="wave",
     ...     version=1,
-    ...     requires=(FrameImputer,),
+    ...     requires={"fills frames"},
     ...     cases=(Case("gap of 10", gap_in_a_wave),),
     ...     profiles={"quick": Profile(("gap of 10",), folds=3)},
     ...     page=TaskPage(
@@ -178,23 +173,21 @@ class Task:
     name: str
     version: int
     page: TaskPage
-    requires: tuple[type[Model], ...]
+    requires: Set[str]
     cases: tuple[Case, ...]
     profiles: Mapping[str, Profile]
     entrants: tuple[Entrant, ...] = ()
-    has_process: bool = False
-    has_control: bool = False
-    has_markers: bool = False
+    meets: Set[str] = frozenset()
     max_folds: int | None = None
     independent_folds: bool = True
 
-    def accepts(self, model: type[Model]) -> bool:
-        """Return whether ``model`` has what the task requires, and the task what it requires."""
-        able = all(issubclass(model, ability) for ability in self.requires)
-        informed = self.has_process or not issubclass(model, Informed)
-        misinformed = self.has_control or not issubclass(model, Misinformed)
-        spatial = self.has_markers or not issubclass(model, Spatial)
-        return able and informed and misinformed and spatial
+    def accepts(self, model: Model) -> bool:
+        """Return whether ``model`` provides what the task requires, which meets what it needs."""
+        return set(self.requires) <= model.provides and not self.list_unmet(model)
+
+    def list_unmet(self, model: Model) -> list[str]:
+        """Return the sentences of what ``model`` needs and the task does not have."""
+        return describe_needs(model.needs.difference(self.meets))
 
     def case(self, name: str) -> Case:
         """Return the case called ``name``.

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 
-from mocapbench.baselines import Replay
 from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
 from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.pages.control_similarity import PAGE
@@ -60,7 +59,7 @@ control_similarity = Task(
     name="control-similarity",
     version=1,
     page=PAGE,
-    requires=(Replay,),
+    requires={"replays"},
     cases=_CASES,
     max_folds=1,
     profiles={

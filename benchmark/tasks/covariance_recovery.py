@@ -6,7 +6,6 @@ from functools import partial
 
 import numpy as np
 
-from mocapbench.baselines import Layered
 from mocapbench.benchmark.problems.recover import RecoverProblem
 from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task
 from mocapbench.benchmark.tasks.pages.covariance_recovery import PAGE
@@ -45,8 +44,8 @@ covariance_recovery = Task(
     name="covariance-recovery",
     version=1,
     page=PAGE,
-    requires=(Layered,),
-    has_process=True,
+    requires={"has layers"},
+    meets={"true process"},
     cases=(_CASE,),
     entrants=(
         _entrant("mohgp-3-starts-10", "mohgp", 10),

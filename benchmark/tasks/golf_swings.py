@@ -10,7 +10,6 @@ from functools import partial
 
 import numpy as np
 
-from mocapbench.baselines import FrameImputer, Inductive
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.masks import hide_frames
@@ -91,7 +90,7 @@ golf_swings = Task(
     name="golf-swings",
     version=1,
     page=PAGE,
-    requires=(FrameImputer, Inductive),
+    requires={"fills frames", "fills new recordings"},
     cases=_CASES,
     max_folds=N_WINDOWS,
     independent_folds=False,

@@ -12,7 +12,6 @@ from functools import partial
 
 import numpy as np
 
-from mocapbench.baselines import Imputer
 from mocapbench.benchmark.problems.body import JointPositions
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.masks import Run, hide_runs
@@ -196,9 +195,9 @@ marker_gaps = Task(
     name="marker-gaps",
     version=1,
     page=PAGE,
-    requires=(Imputer,),
+    requires={"fills entries"},
     cases=_CASES,
-    has_markers=True,
+    meets={"coordinates"},
     max_folds=N_FOLDS,
     profiles={
         "smoke": Profile(

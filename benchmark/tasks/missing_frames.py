@@ -9,7 +9,6 @@ from functools import partial
 
 import numpy as np
 
-from mocapbench.baselines import FrameImputer, Inductive
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.masks import hide_frames
@@ -113,7 +112,7 @@ missing_frames = Task(
     name="missing-frames",
     version=1,
     page=PAGE,
-    requires=(FrameImputer, Inductive),
+    requires={"fills frames", "fills new recordings"},
     cases=_CASES,
     entrants=(
         *POSE_VITERBI,

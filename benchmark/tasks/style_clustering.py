@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from functools import partial
 
-from mocapbench.baselines import Clusterer
 from mocapbench.benchmark.problems.cluster import ClusterProblem
 from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.hlm_recordings import CMU, SYNTHETIC, Corpus
@@ -53,7 +52,7 @@ style_clustering = Task(
     name="style-clustering",
     version=1,
     page=PAGE,
-    requires=(Clusterer,),
+    requires={"clusters"},
     cases=_CASES,
     entrants=(
         Entrant("cyclic-alignment", "cyclic-alignment", {"n_restarts": 1, "grouping": "similar"}),

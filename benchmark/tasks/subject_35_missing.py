@@ -12,7 +12,6 @@ from functools import partial
 
 import numpy as np
 
-from mocapbench.baselines import Imputer, Inductive
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.unit import Unit
 from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task, on_recordings
@@ -96,7 +95,7 @@ subject_35_missing = Task(
     name="subject-35-missing",
     version=1,
     page=PAGE,
-    requires=(Imputer, Inductive),
+    requires={"fills entries", "fills new recordings"},
     cases=_CASES,
     entrants=(
         Entrant("nn-scaled", "nn"),

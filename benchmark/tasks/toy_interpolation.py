@@ -11,7 +11,6 @@ from functools import partial
 
 import numpy as np
 
-from mocapbench.baselines import Imputer
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.masks import hide_all_but
 from mocapbench.benchmark.problems.unit import Unit
@@ -163,8 +162,8 @@ toy_interpolation_1 = Task(
     name="toy-interpolation-1",
     version=1,
     page=ONE_INCOMPLETE_PAGE,
-    requires=(Imputer,),
-    has_process=True,
+    requires={"fills entries"},
+    meets={"true process"},
     cases=_one_incomplete(),
     entrants=(Entrant("mohgp-3", "mohgp", THREE), Entrant("moa-3", "moa", THREE), *_OTHERS),
     profiles={
@@ -179,8 +178,8 @@ toy_interpolation_2 = Task(
     name="toy-interpolation-2",
     version=1,
     page=TOO_FEW_COMPONENTS_PAGE,
-    requires=(Imputer,),
-    has_process=True,
+    requires={"fills entries"},
+    meets={"true process"},
     cases=_too_few_components(),
     entrants=(_MOHGP_1, Entrant("moa-3", "moa", {"n_restarts": 5, **THREE}), *_OTHERS),
     profiles={
@@ -195,8 +194,8 @@ toy_interpolation_3 = Task(
     name="toy-interpolation-3",
     version=1,
     page=MUCH_NOISE_PAGE,
-    requires=(Imputer,),
-    has_process=True,
+    requires={"fills entries"},
+    meets={"true process"},
     cases=_much_noise(),
     entrants=(_MOHGP_1, Entrant("moa-3", "moa", {"n_restarts": 10, **THREE}), *_OTHERS),
     profiles={

@@ -6,7 +6,6 @@ from functools import partial
 
 import numpy as np
 
-from mocapbench.baselines import Synthesiser
 from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
 from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task
 from mocapbench.benchmark.tasks.pages.toy_synthesis import PAGE
@@ -59,9 +58,8 @@ toy_synthesis = Task(
     name="toy-synthesis",
     version=1,
     page=PAGE,
-    requires=(Synthesiser,),
-    has_process=True,
-    has_control=True,
+    requires={"draws samples"},
+    meets={"true process", "unrelated process"},
     cases=_CASES,
     entrants=(
         Entrant("mohgp-3", "mohgp", _THREE),

@@ -9,7 +9,6 @@ from functools import partial
 
 import numpy as np
 
-from mocapbench.baselines import Imputer, Inductive
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
@@ -65,7 +64,7 @@ upper_body_missing = Task(
     name="upper-body-missing",
     version=1,
     page=PAGE,
-    requires=(Imputer, Inductive),
+    requires={"fills entries", "fills new recordings"},
     cases=_CASES,
     max_folds=N_WALKS,
     profiles={

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import partial
 
-from mocapbench.baselines import Imputer
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.problems.masks import hide_all_but
@@ -63,7 +62,7 @@ walking_interpolation = Task(
     name="walking-interpolation",
     version=1,
     page=PAGE,
-    requires=(Imputer,),
+    requires={"fills entries"},
     cases=_CASES,
     entrants=(
         Entrant("mohgp-1", "mohgp", {"n_components": 1, **_ONE_SEARCH}),

@@ -8,20 +8,7 @@ from typing import Any
 
 from sklearn.base import clone
 
-from mocapbench.baselines import (
-    Aligner,
-    Blender,
-    Clusterer,
-    Coregionalised,
-    FrameImputer,
-    Imputer,
-    Inductive,
-    Interpolator,
-    Layered,
-    Model,
-    Synthesiser,
-    Trended,
-)
+from mocapbench.baselines import ABILITIES, NEEDS, Model
 from mocapbench.benchmark.testing import abilities, imputers, layers
 from mocapbench.benchmark.testing.errors import (
     global_randomness_untouched,
@@ -39,7 +26,7 @@ _UNNAMED = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
 
 
 def check_model(model: type[Model], **parameters: Any) -> None:
-    """Check a model class against the protocols of the abilities it inherits.
+    """Check a model class against what its abilities promise.
 
     The model runs in this process: if it calls ``os._exit`` or crashes, that ends the tests without
     a message, where a run would only fail its job.
@@ -56,28 +43,32 @@ def check_model(model: type[Model], **parameters: Any) -> None:
     ConformanceError
         At the first promise that it does not keep.
     """
-    for check in model_checks(model):
+    for check in model_checks(model, **parameters):
         check(model, **parameters)
 
 
-def model_checks(model: type[Model]) -> tuple[Callable[..., None], ...]:
+def model_checks(model: type[Model], **parameters: Any) -> tuple[Callable[..., None], ...]:
     """Return the checks that apply to ``model``, each to be called as `check_model` is.
 
     Raises
     ------
     ConformanceError
-        If it is not a class of models, or inherits no ability: there would be nothing to check.
+        If it is not a class of models, or has no ability: there would be nothing to check.
     """
     advice = "pass the class itself, which inherits the abilities that it has"
     kind = isinstance(model, type) and issubclass(model, Model)
     require(kind, "a subclass of mocapbench.baselines.Model", repr(model), advice)
-    able = any(issubclass(model, ability) for ability in _CHECKS if ability is not Model)
-    names = ", ".join(ability.__name__ for ability in _CHECKS if ability is not Model)
+    try:
+        provides = model().set_params(**parameters).provides
+    except Exception:  # what every model must do says why
+        return tuple(map(_name_check, _OF_EVERY_MODEL))
+    names = ", ".join(_OF_ABILITY)
+    able = not provides.isdisjoint(_OF_ABILITY)
     require(able, f"a model with an ability of {names}", model.__name__, advice)
-    groups = [group for ability, group in _CHECKS.items() if issubclass(model, ability)]
-    if issubclass(model, FrameImputer):
+    groups = [_OF_EVERY_MODEL, *(_OF_ABILITY[name] for name in _OF_ABILITY if name in provides)]
+    if "fills frames" in provides:
         new = {True: imputers.fills_new_recordings, False: imputers.refuses_new_recordings}
-        groups.append((new[issubclass(model, Inductive)],))
+        groups.append((new["fills new recordings" in provides],))
     return tuple(_name_check(check) for group in groups for check in group)
 
 
@@ -100,9 +91,23 @@ def is_documented(subject: Subject) -> None:
 
 def names_its_family(subject: Subject) -> None:
     """Check that the class says among which models a report shows it."""
-    family: object = subject.model.family
+    family: object = subject.model().family
     named = isinstance(family, str) and family.strip() != ""
     require(named, "a family, such as 'Your models'", repr(family), "name it or leave it out")
+
+
+def names_known_abilities_and_needs(subject: Subject) -> None:
+    """Check that what the model provides and needs has names that others know."""
+    model = subject.build()
+    implied = {ABILITIES[name].implies for name in model.provides & {*ABILITIES}} - {""}
+    lacking = sorted(implied - model.provides)
+    require(not lacking, "abilities with those that they imply", lacking, "add these to provides")
+    for what, names, known in (
+        ("abilities", model.provides, ABILITIES),
+        ("needs", model.needs, NEEDS),
+    ):
+        unknown = sorted(names - {*known})
+        require(not unknown, f"{what} among {', '.join(known)}", unknown, "correct their names")
 
 
 def constructor_only_stores(subject: Subject) -> None:
@@ -129,7 +134,7 @@ def fit_returns_the_model(subject: Subject) -> None:
     recordings, model = problem(GAP), subject.build(3)
     values = [recording.values.copy() for recording in recordings]
     before = repr(model.get_params())
-    returned = model.fit(recordings)
+    returned = subject.fit_built(model, recordings)
     require(returned is model, "fit to return self", repr(returned)[:80], "end it in return self")
     after = repr(model.get_params())
     require(before == after, f"the parameters {before}", after, "keep what is learned apart")
@@ -137,26 +142,28 @@ def fit_returns_the_model(subject: Subject) -> None:
         require_equal(recording.values, value, "recordings as they were", "copy before you change")
 
 
-_CHECKS: Mapping[type, tuple[ModelCheck, ...]] = {
-    Model: (
-        is_documented,
-        names_its_family,
-        constructor_only_stores,
-        fit_returns_the_model,
-    ),
-    FrameImputer: (
+_OF_EVERY_MODEL: tuple[ModelCheck, ...] = (
+    is_documented,
+    names_its_family,
+    names_known_abilities_and_needs,
+    constructor_only_stores,
+    fit_returns_the_model,
+)
+
+_OF_ABILITY: Mapping[str, tuple[ModelCheck, ...]] = {
+    "fills frames": (
         imputers.fills_whole_frames,
         imputers.repeats_itself,
         imputers.claims_the_same_means,
         imputers.ignores_the_order_of_recordings,
     ),
-    Imputer: (imputers.fills_any_mask,),
-    Interpolator: (imputers.fills_channels_apart,),
-    Synthesiser: (abilities.draws_samples,),
-    Clusterer: (abilities.clusters_every_recording, abilities.makes_one_cluster_of_one_style),
-    Aligner: (abilities.aligns_every_frame,),
-    Blender: (abilities.blends_frame_by_frame,),
-    Trended: (layers.infers_a_trend_at_any_time,),
-    Layered: (layers.shows_the_covariance_of_every_layer,),
-    Coregionalised: (layers.shows_matrices_that_add_up_to_the_covariance,),
+    "fills entries": (imputers.fills_any_mask,),
+    "interpolates": (imputers.fills_channels_apart,),
+    "draws samples": (abilities.draws_samples,),
+    "clusters": (abilities.clusters_every_recording, abilities.makes_one_cluster_of_one_style),
+    "aligns": (abilities.aligns_every_frame,),
+    "blends": (abilities.blends_frame_by_frame,),
+    "has a trend": (layers.infers_a_trend_at_any_time,),
+    "has layers": (layers.shows_the_covariance_of_every_layer,),
+    "has coregionalisation": (layers.shows_matrices_that_add_up_to_the_covariance,),
 }

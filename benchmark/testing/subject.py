@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mocapbench.baselines import Informed, Misinformed
+from mocapbench.benchmark.problems.synthesise import SynthesiseProblem
 from mocapbench.datasets import Recording, ToyProcess
 
 __all__ = ["COMPLETE", "GAP", "SCATTERED", "TIMES", "Subject", "problem"]
@@ -35,7 +35,6 @@ class Subject:
     Parameters
     ----------
     model : type
-        Its abilities are what it inherits.
     parameters : mapping
         Set on every instance, over a budget that keeps searches short.
     """
@@ -49,12 +48,15 @@ class Subject:
         usual = {**_BUDGET, "random_state": seed}
         known = {name: value for name, value in usual.items() if name in model.get_params()}
         model.set_params(**{**known, **self.parameters, **parameters})
-        if isinstance(model, Informed):
-            model.inform(_PROCESS)
-        if isinstance(model, Misinformed):
-            model.misinform(_OTHER_PROCESS)
         return model
 
     def fit_model(self, recordings: Sequence[Recording], seed: int = 0, **parameters: Any) -> Any:
         """Return a model fitted to ``recordings``."""
-        return self.build(seed, **parameters).fit(recordings)
+        return self.fit_built(self.build(seed, **parameters), recordings)
+
+    def fit_built(self, model: Any, recordings: Any) -> Any:
+        """Return what the ``fit`` of an unfitted model returns that is given all that it needs."""
+        posed = SynthesiseProblem(
+            recordings, TIMES, 1, (), process=_PROCESS, control=_OTHER_PROCESS
+        )
+        return posed.fit(model)

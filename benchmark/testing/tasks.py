@@ -8,7 +8,7 @@ from typing import Any
 import joblib
 import numpy as np
 
-from mocapbench.baselines import FrameImputer, Imputer, Model
+from mocapbench.baselines.declarations.needs import describe_needs, find_met_needs
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.consistency import require_consistent
 from mocapbench.benchmark.problems.base import Problem
@@ -51,8 +51,6 @@ def _check_names(task: Task) -> None:
     labels = [entrant.label for entrant in entrants(task)]
     require_consistent(task)
     require(task.version >= 1, "a version from 1", task.version, "raise it when problems change")
-    abilities = all(issubclass(ability, Model) for ability in task.requires)
-    require(abilities, "abilities from mocapbench.baselines", task.requires, "say what is needed")
     _require_among("published_models", task.page.published_models, labels)
     _require_among("published_metrics", task.page.published_metrics, task.page.metrics)
     _require_among("rows of the page", task.page.rows, cases)
@@ -78,13 +76,15 @@ def _check_problems(task: Task, archive: Archive) -> None:
     for a, b in zip(one.train, two.train, strict=True):
         require(a.name == b.name, f"the recording {a.name} again", b.name, advice)
         require_equal(a.values, b.values, f"{a.name} again at the same address", advice)
-    if {Imputer, FrameImputer} & set(task.requires):
+    if {"fills entries", "fills frames"} & set(task.requires):
         _check_masks(one, two)
         if task.max_folds != 1:
             other = _pose_problem(task, case, 1, archive)
             _check_folds(one, other)
             if case.training:
                 _check_training(one, other)
+    lacking = describe_needs(set(task.meets) - find_met_needs(one))
+    require(not lacking, "problems that meet what the task says", lacking, "leave it out of meets")
     # What no model sees counts too: the truth, the references and the process.
     same = joblib.hash(one) == joblib.hash(two)
     require(same, "the same problem again at the same address", "another", advice)

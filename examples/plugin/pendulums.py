@@ -71,7 +71,7 @@ def worst_error(outcome: Imputation):
 PENDULUMS = Task(
     name="pendulums",
     version=1,
-    requires=(FrameImputer, Inductive),
+    requires={"fills frames", "fills new recordings"},
     cases=tuple(
         Case(key, partial(pendulum_problem, key), {"length, m": LENGTHS[key]}, SOURCES)
         for key in LENGTHS

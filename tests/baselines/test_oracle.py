@@ -39,7 +39,7 @@ def test_it_is_the_joint_gaussian_conditioned(seed, n_masks):
     masks[0, 0] = False
     given = [recording.hide(masks[r % n_masks]) for r, recording in enumerate(recordings)]
     mean, variance = brute_force(process, given)
-    predictions = Oracle().inform(process).fit(given).impute(given)
+    predictions = Oracle().fit(given, process).impute(given)
     np.testing.assert_allclose([p.mean for p in predictions], mean, atol=1e-9)
     np.testing.assert_allclose([p.variance for p in predictions], variance, atol=1e-9)
 
@@ -48,7 +48,7 @@ def test_a_child_that_shows_nothing_is_predicted_from_its_siblings():
     process, recordings, _ = drawn(0)
     given = [*recordings[:-1], recordings[-1].hide(np.ones((len(TIMES), 2), dtype=bool))]
     mean, variance = brute_force(process, given)
-    prediction = Oracle().inform(process).fit(given).impute(given[-1:])[0]
+    prediction = Oracle().fit(given, process).impute(given[-1:])[0]
     np.testing.assert_allclose(prediction.mean, mean[-1], atol=1e-9)
     np.testing.assert_allclose(prediction.variance, variance[-1], atol=1e-9)
 
@@ -63,7 +63,7 @@ def test_recordings_may_have_grids_of_their_own():
         values[rows] = recording.values
         padded.append(recordings[0].with_values(values))
     mean, variance = brute_force(process, padded)
-    prediction = Oracle().inform(process).fit([even, other]).impute([other])[0]
+    prediction = Oracle().fit([even, other], process).impute([other])[0]
     np.testing.assert_allclose(prediction.mean, mean[1, [1, 3, 5]], atol=1e-9)
     np.testing.assert_allclose(prediction.variance, variance[1, [1, 3, 5]], atol=1e-9)
 
@@ -75,7 +75,7 @@ def test_its_standardised_errors_have_unit_variance():
         hidden = rng.random((len(TIMES), 2)) < 0.5
         hidden[0], hidden[1] = True, False
         given = [*recordings[:-1], recordings[-1].hide(hidden)]
-        prediction = Oracle().inform(process).fit(given).impute(given[-1:])[0]
+        prediction = Oracle().fit(given, process).impute(given[-1:])[0]
         errors = (prediction.mean - recordings[-1].values)[hidden]
         squares.append(np.mean(errors**2 / prediction.variance[hidden]))
     assert np.mean(squares) == pytest.approx(1.0, abs=4 * np.std(squares) / np.sqrt(len(squares)))
@@ -83,14 +83,16 @@ def test_its_standardised_errors_have_unit_variance():
 
 def test_what_it_refuses():
     process, recordings, _ = drawn(2)
-    with pytest.raises(ValueError, match="call inform first"):
+    with pytest.raises(
+        ValueError, match="expected a process that generated the recordings, got None"
+    ):
         Oracle().fit(recordings)
     with pytest.raises(ValueError, match="2 outputs"):
-        Oracle().inform(process).fit([recordings[0].select(["output-1"])])
+        Oracle().fit([recordings[0].select(["output-1"])], process)
     with pytest.raises(ValueError, match=r"expected recordings given to fit, .*, got"):
-        Oracle().inform(process).fit(recordings[:-1]).impute(recordings[-1:])
+        Oracle().fit(recordings[:-1], process).impute(recordings[-1:])
     with pytest.raises(ValueError, match="visible entries to condition on"):
-        Oracle().inform(process).fit([recordings[0].hide(np.ones((len(TIMES), 2), dtype=bool))])
+        Oracle().fit([recordings[0].hide(np.ones((len(TIMES), 2), dtype=bool))], process)
 
 
 def test_the_trend_is_the_parent_given_the_children():
@@ -106,6 +108,6 @@ def test_the_trend_is_the_parent_given_the_children():
     cross = np.tile(joint[:, :2, :, 2:].reshape(4, 14), 5)[:, seen]
     solved = np.linalg.solve(covariance, cross.T).T
     prior = np.diag(joint[:, :2, :, :2].reshape(4, 4))
-    mean, variance = Oracle().inform(process).fit(given).trend(apart)
+    mean, variance = Oracle().fit(given, process).trend(apart)
     np.testing.assert_allclose(mean.T.ravel(), solved @ values[seen], atol=1e-9)
     np.testing.assert_allclose(variance.T.ravel(), prior - (solved * cross).sum(axis=1), atol=1e-9)

@@ -154,7 +154,7 @@ def test_independent_channels_do_not_covary(recordings):
 
 
 def test_the_oracle_draws_new_children_of_the_one_parent_given_the_data(recordings):
-    model = Oracle().inform(PROCESS).fit(recordings)
+    model = Oracle().fit(recordings, PROCESS)
     noise = np.full(2, PROCESS.noise)
     within = PROCESS.child.covariance(SEEN) + noise_at(SEEN, noise)
     parent = PROCESS.parent.covariance(BOTH)
@@ -166,16 +166,18 @@ def test_the_oracle_draws_new_children_of_the_one_parent_given_the_data(recordin
 
 
 def test_the_control_draws_children_of_parents_of_their_own(recordings):
-    model = Control().misinform(PROCESS).fit(recordings)
+    model = Control().fit(recordings, PROCESS)
     own = PROCESS.covariance(NEW)
     assert p_values(pairs_from(model), *law(np.zeros(6), own, 0.0 * own)).min() > 1e-3
 
 
 def test_what_the_control_refuses(recordings):
-    with pytest.raises(ValueError, match="call misinform first"):
+    with pytest.raises(
+        ValueError, match="expected a process that generated none of the recordings, got None"
+    ):
         Control().fit(recordings)
     with pytest.raises(ValueError, match="2 outputs"):
-        Control().misinform(PROCESS).fit([recordings[0].select(["output-1"])])
+        Control().fit([recordings[0].select(["output-1"])], PROCESS)
 
 
 def test_the_trend_to_draw_around_is_checked(recordings):

@@ -78,7 +78,7 @@ def test_a_registered_model_has_one_thread_in_every_ability(name):
 @pytest.mark.parametrize("name", MODELS.names())
 def test_the_callers_number_is_back_after_a_registered_model_failed(name):
     with pytest.raises(MemoryError):
-        Subject(MODELS.get(name)).build().fit(Unreadable(problem(GAP)))
+        Subject(MODELS.get(name)).fit_model(Unreadable(problem(GAP)))
     assert n_threads() == {CALLERS}
 
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from mocapbench.baselines import Imputer
+from mocapbench.baselines import ABILITIES, Imputer
 from mocapbench.benchmark.catalogue import entrant_entry, library_entry, model_entry, task_entry
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.registry import LIBRARIES, MODELS, TASKS
@@ -51,7 +51,9 @@ def test_a_task_is_all_that_json_can_hold(name):
     for profile in entry["profiles"].values():
         assert set(profile["cases"]) <= set(entry["cases"])
     assert entry["entrants"]
-    assert not {ability.__name__ for ability in TASKS.get(name).requires} & {*entry["requires"]}
+    assert {*entry["requires"]} == {
+        ABILITIES[ability].sentence for ability in TASKS.get(name).requires
+    }
 
 
 def test_a_library_says_which_files_it_reads():

@@ -45,7 +45,7 @@ def task(name):
     return Task(
         name=name,
         version=1,
-        requires=(FrameImputer,),
+        requires={"fills frames"},
         cases=(Case("one", None),),
         profiles={"quick": Profile(("one",), folds=1)},
         page=TaskPage(title="Mine", reference="", description="Mine.", metrics=("mse",)),

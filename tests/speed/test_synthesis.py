@@ -31,9 +31,8 @@ def fitted(name):
     rng = np.random.default_rng(0)
     process = ToyProcess.random(rng, n_outputs=6, noise=0.01)
     model = MODELS[name]
-    if isinstance(model, Oracle):
-        model.inform(process)
-    return model.fit(process.draw(rng, TIMES, 5))
+    given = {"process": process} if "true process" in model.needs else {}
+    return model.fit(process.draw(rng, TIMES, 5), **given)
 
 
 @pytest.mark.parametrize("name", MODELS)

@@ -8,7 +8,7 @@ from typing import Any
 from catalogue.docstrings import api_name, described_class
 from catalogue.places import Place, two_digits
 from mocapbench.benchmark.catalogue import model_entry
-from mocapbench.benchmark.registry import MODELS, TASKS
+from mocapbench.benchmark.registry import MODELS, TASKS, build_unfitted
 
 __all__ = ["model_page"]
 
@@ -22,7 +22,7 @@ def model_page(name: str, found: Sequence[Place]) -> Mapping[str, Any]:
     found : sequence of Place
         Where its entrants stand.
     """
-    model, entry = MODELS.get(name), model_entry(name)
+    model, unfitted, entry = MODELS.get(name), build_unfitted(name), model_entry(name)
     seconds = sorted(place.seconds for place in found if place.seconds is not None)
     return {
         "name": name,
@@ -35,7 +35,7 @@ def model_page(name: str, found: Sequence[Place]) -> Mapping[str, Any]:
         "fastest": two_digits(seconds[0]) if seconds else "",
         "slowest": two_digits(seconds[-1]) if seconds else "",
         "profiles": sorted({place.profile for place in found}),
-        "tasks": [task for task in TASKS.names() if TASKS.get(task).accepts(model)],
+        "tasks": [task for task in TASKS.names() if TASKS.get(task).accepts(unfitted)],
     }
 
 

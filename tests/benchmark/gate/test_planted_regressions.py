@@ -85,15 +85,16 @@ def failing(cli, run, tmp_path):
 def test_a_kernel_with_a_wrong_factor(failing, monkeypatch):
     """exp(−d²/ℓ²) instead of exp(−d²/2ℓ²), in a model that cannot learn it away."""
 
-    def inform(self, process):
+    right = Oracle.fit
+
+    def fit(self, recordings, process):
         layers = {
             name: replace(layer, lengthscales=layer.lengthscales / np.sqrt(2.0))
             for name, layer in (("parent", process.parent), ("child", process.child))
         }
-        self.process_ = replace(process, **layers)
-        return self
+        return right(self, recordings, replace(process, **layers))
 
-    failed = failing("oracle", lambda: monkeypatch.setattr(Oracle, "inform", inform))
+    failed = failing("oracle", lambda: monkeypatch.setattr(Oracle, "fit", fit))
     assert {"mse", "smse_pooled", "msll", "crps"} <= failed
 
 

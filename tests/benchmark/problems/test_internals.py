@@ -25,7 +25,7 @@ def test_a_model_with_a_trend_and_matrices_leaves_both(toy):
 
 
 def test_a_model_leaves_what_it_has_and_no_more(toy):
-    oracle = Oracle().inform(toy.process).fit(toy.train)
+    oracle = Oracle().fit(toy.train, toy.process)
     arrays = internals_of(oracle, toy.train).to_arrays()
     assert set(arrays) == {"trend-times", "trend-mean", "trend-variance"}
     assert internals_of(Trivial().fit(toy.train), toy.train).to_arrays() == {}

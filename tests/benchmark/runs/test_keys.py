@@ -252,6 +252,7 @@ def _modules(*packages):
 def test_no_module_of_the_fit_path_is_forgotten(covered):
     ours = _modules(baselines, datasets, benchmark)
     used_elsewhere = {
+        "mocapbench.baselines.declarations.abilities",  # words for people
         "mocapbench.benchmark.problems.blending",  # figures
         "mocapbench.benchmark.problems.cycle",
     }
@@ -388,7 +389,7 @@ TASKS = {
     "waves": Task(
         name="waves",
         version=1,
-        requires=(FrameImputer,),
+        requires={"fills frames"},
         cases=(Case("gap", gap, sources=("waves:a",), parameters={"size": 2}),),
         profiles={"quick": Profile(("gap",), folds=1)},
         page=TaskPage(title="Waves", reference="", description="A gap.", metrics=("mse",)),

@@ -156,7 +156,7 @@ TASKS = {
     "waves": Task(
         name="waves",
         version=1,
-        requires=(FrameImputer,),
+        requires={"fills frames"},
         cases=(Case("gap", wave),),
         profiles={"smoke": Profile(("gap",), folds=1)},
         page=TaskPage(title="Waves", reference="", description="A gap.", metrics=("mse",)),

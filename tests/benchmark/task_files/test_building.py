@@ -155,8 +155,6 @@ def test_keys_cover_the_protocol_and_no_prose(check):
 def test_a_task_file_returns_from_what_json_can_hold(check):
     file = check(TEXT.format("others"))
     assert TaskFile.from_plain(file.to_plain()) == file
-    earlier = {name: value for name, value in file.to_plain().items() if name != "has_markers"}
-    assert TaskFile.from_plain(earlier) == file
 
 
 def test_task_files_of_merged_runs_have_the_recordings_of_all(check):

@@ -262,13 +262,13 @@ def test_missing_entries_of_files_are_noticed(check, folder):
 
 
 def test_coordinates_of_markers_are_noticed(check, folder):
-    assert not check(GOOD).has_markers
+    assert "coordinates" not in check(GOOD).meets
     for path in folder.iterdir():
         write_csv(path, channels=("knee.z", "knee.y", "knee.x"))
     file = check(GOOD)
-    assert file.has_markers
+    assert file.meets == ("coordinates",)
     assert build_task(file).accepts(RigidBody)
-    assert not build_task(replace(file, has_markers=False)).accepts(RigidBody)
+    assert not build_task(replace(file, meets=())).accepts(RigidBody)
 
 
 def test_files_without_times_take_a_rate(check, folder):

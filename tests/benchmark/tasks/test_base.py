@@ -7,7 +7,6 @@ import joblib
 import numpy as np
 import pytest
 
-from mocapbench.baselines import Imputer, Inductive
 from mocapbench.benchmark import (
     MODELS,
     TASKS,
@@ -45,7 +44,7 @@ def test_the_same_seeds_pose_the_same_bytes(name):
     assert (np.random.get_state()[1] == before).all()  # noqa: NPY002
 
 
-DRAWN = [name for name in NAMES if TASKS.get(name).has_process]
+DRAWN = [name for name in NAMES if "true process" in TASKS.get(name).meets]
 
 
 @pytest.mark.parametrize("name", [*DRAWN, "walking-interpolation"])
@@ -94,7 +93,7 @@ TASK = Task(
     name="made-up",
     version=1,
     page=TaskPage(title="Made up", reference="", description="", metrics=("mse",)),
-    requires=(Imputer, Inductive),
+    requires={"fills entries", "fills new recordings"},
     cases=(
         _case("of a", ("x:a",)),
         _case("of b", ("x:b",)),
@@ -134,7 +133,7 @@ def test_a_task_takes_models_with_all_abilities_and_gives_what_they_need():
     taken = {name for name in MODELS.names() if TASK.accepts(MODELS.get(name))}
     assert "cubic-spline" in taken
     assert not {"mohgp", "oracle", "control", "k-means", "rigid-body"} & taken
-    known = replace(TASK, requires=(Imputer,), has_process=True)
+    known = replace(TASK, requires={"fills entries"}, meets={"true process"})
     assert known.accepts(MODELS.get("oracle"))
     assert known.accepts(MODELS.get("mohgp"))
-    assert replace(known, has_markers=True).accepts(MODELS.get("rigid-body"))
+    assert replace(known, meets={"coordinates"}).accepts(MODELS.get("rigid-body"))

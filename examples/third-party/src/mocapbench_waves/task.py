@@ -6,7 +6,6 @@ from functools import partial
 
 import numpy as np
 
-from mocapbench.baselines import FrameImputer
 from mocapbench.benchmark import Case, ImputeProblem, Profile, Seeds, Task, hide_frames
 from mocapbench.datasets import Archive, Recording
 from mocapbench.reports import TaskPage
@@ -41,7 +40,7 @@ def _wave(rng: np.random.Generator, name: str) -> Recording:
 waves = Task(
     name="waves",
     version=1,
-    requires=(FrameImputer,),
+    requires={"fills frames"},
     cases=tuple(
         Case(f"gap of {length}", partial(waves_problem, length), {"gap": length})
         for length in (5, 15)
