@@ -2,7 +2,7 @@
 
 What a task, a comparison or a gate of your own needs is here: `Task`, `Case`, `Entrant`, `Profile`,
 the problems (`ImputeProblem`, `SynthesiseProblem`, `ClusterProblem`, `RecoverProblem`), the figures
-of a page (`GapError` …), and `plan`, `run`, `check` and `compare`. Each is loaded at
+of a page (`draw_gap_error` …), and `plan`, `run`, `check` and `compare`. Each is loaded at
 first use.
 """
 

@@ -9,18 +9,18 @@ from .catalogue import (
 )
 from .comparison.contrasts import compare
 from .errors import ExitCode, UnknownNameError, UsageError
-from .figures.alignment import Alignments
-from .figures.blends import Blends
-from .figures.coregionalisation import Coregionalisation
-from .figures.covariances import RecoveredCovariances
-from .figures.filled_channels import FilledChannels
-from .figures.gap_error import GapError
-from .figures.latent_space import LatentSpaces
-from .figures.longest_gaps import LongestGaps
-from .figures.motions.filled import FilledMotion
-from .figures.motions.sampled import SampledMotion
+from .figures.alignment import draw_alignments
+from .figures.blends import draw_blends
+from .figures.coregionalisation import draw_coregionalisation
+from .figures.covariances import draw_covariances
+from .figures.filled_channels import draw_filled_channels
+from .figures.gap_error import draw_gap_error
+from .figures.latent_space import draw_latent_spaces
+from .figures.longest_gaps import draw_longest_gaps
+from .figures.motions.filled import draw_filled_motion
+from .figures.motions.sampled import draw_sampled_motion
 from .figures.solved import Solved
-from .figures.trend import InferredTrend
+from .figures.trend import draw_trends
 from .formats import format_for
 from .gate.checking import check
 from .inspection.explanation import explain
@@ -76,42 +76,31 @@ __all__ = [
     "MODELS",
     "TASKS",
     "Address",
-    "Alignments",
     "Answer",
     "Backend",
-    "Blends",
     "Body",
     "Case",
     "ClusterProblem",
     "Clusters",
-    "Coregionalisation",
     "Covariances",
     "DataRequest",
     "Entrant",
     "ExitCode",
-    "FilledChannels",
-    "FilledMotion",
     "FilledRecordings",
-    "GapError",
     "ImputeProblem",
-    "InferredTrend",
     "Internals",
     "InvalidPredictionError",
     "Job",
     "JointAngles",
     "JointPositions",
-    "LatentSpaces",
-    "LongestGaps",
     "Problem",
     "Profile",
     "Record",
     "RecoverProblem",
-    "RecoveredCovariances",
     "Request",
     "Run",
     "RunDirectory",
     "RunState",
-    "SampledMotion",
     "Samples",
     "Seeds",
     "Solved",
@@ -131,6 +120,17 @@ __all__ = [
     "compare",
     "data_totals",
     "draft",
+    "draw_alignments",
+    "draw_blends",
+    "draw_coregionalisation",
+    "draw_covariances",
+    "draw_filled_channels",
+    "draw_filled_motion",
+    "draw_gap_error",
+    "draw_latent_spaces",
+    "draw_longest_gaps",
+    "draw_sampled_motion",
+    "draw_trends",
     "entrant_entry",
     "error_parts",
     "explain",

@@ -68,8 +68,9 @@ def motion(
             "run it again with `mocapbench run`"
         )
     made = motions.entrant_motion(task, solved)
+    recording, *_ = made
     for path in motions.write(made, files, str(record.address)):
-        console.print(f"{made.recording.name}: {path}", soft_wrap=True, highlight=False)
-    rate = datasets.frame_rate(made.recording)
+        console.print(f"{recording.name}: {path}", soft_wrap=True, highlight=False)
+    rate = datasets.frame_rate(recording)
     if amc is not None:
         console.print(f"{amc.name} has {rate:.6g} frames per second, which AMC does not state")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from sklearn.decomposition import PCA
@@ -15,31 +14,30 @@ from mocapbench.benchmark.problems.cluster import ClusterProblem, Clusters
 from mocapbench.benchmark.problems.cycle import Alignment
 from mocapbench.reports import Curve, Illustration, Panel
 
-__all__ = ["Alignments"]
+__all__ = ["draw_alignments"]
 
 
-@dataclass(frozen=True)
-class Alignments:
-    """The second principal component over time, and over the cycle of each model that aligns."""
+def draw_alignments(solved: Solved[ClusterProblem, Clusters], /) -> Sequence[Illustration]:
+    """Return the second principal component over time, and over the cycle of models that align.
 
-    def pictures(self, solved: Solved[ClusterProblem, Clusters], /) -> Sequence[Illustration]:
-        """Return one picture: a panel as recorded, then one per model that aligns."""
-        problem = solved.problem
-        component = _second_component([recording.values for recording in problem.train])
-        recorded = [recording.times - recording.times[0] for recording in problem.train]
-        panels = [_panel("as recorded", "time, s", recorded, component, problem.truth)]
-        for label, answer in solved.answers.items():
-            if answer.alignment is not None:
-                cycles = _cycles(answer.alignment)
-                title = f"aligned by {label}"
-                panels.append(_panel(title, "cycles", cycles, component, problem.truth))
-        caption = (
-            "the second principal component of every recording, first over time and then over the "
-            "states of the common cycle with which each model aligned its frames. Styles are those "
-            "of the labels, which no model saw."
-        )
-        title = "Before and after alignment"
-        return (Illustration(solved.task, title, caption, tuple(panels)),)
+    One picture: a panel as recorded, then one per model that aligns.
+    """
+    problem = solved.problem
+    component = _second_component([recording.values for recording in problem.train])
+    recorded = [recording.times - recording.times[0] for recording in problem.train]
+    panels = [_panel("as recorded", "time, s", recorded, component, problem.truth)]
+    for label, answer in solved.answers.items():
+        if answer.alignment is not None:
+            cycles = _cycles(answer.alignment)
+            title = f"aligned by {label}"
+            panels.append(_panel(title, "cycles", cycles, component, problem.truth))
+    caption = (
+        "the second principal component of every recording, first over time and then over the "
+        "states of the common cycle with which each model aligned its frames. Styles are those "
+        "of the labels, which no model saw."
+    )
+    title = "Before and after alignment"
+    return (Illustration(solved.task, title, caption, tuple(panels)),)
 
 
 def _panel(

@@ -4,72 +4,70 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.figures.stick_figures import strip
-from mocapbench.benchmark.problems.blending import Blend
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.cluster import ClusterProblem, Clusters
 from mocapbench.datasets import Recording
 from mocapbench.reports import Curve, Illustration, Panel
 
-__all__ = ["Blends"]
+__all__ = ["draw_blends"]
 
 TRANSITION = "transition"
 
 
-@dataclass(frozen=True)
-class Blends:
-    """Stick figures of each transition between two styles, and its channels beside theirs.
+def draw_blends(
+    solved: Solved[ClusterProblem, Clusters], /, channels: tuple[str, ...]
+) -> Sequence[Illustration]:
+    """Return stick figures of each transition between two styles, and its channels beside theirs.
+
+    One picture per model that blends.
 
     Parameters
     ----------
+    solved : Solved
     channels : tuple of str
     """
+    return [
+        _picture(solved, label, answer, channels)
+        for label, answer in solved.answers.items()
+        if answer.blend is not None
+    ]
 
-    channels: tuple[str, ...]
 
-    def pictures(self, solved: Solved[ClusterProblem, Clusters], /) -> Sequence[Illustration]:
-        """Return a picture per model that blends."""
-        return [
-            self._picture(solved, label, answer, answer.blend)
-            for label, answer in solved.answers.items()
-            if answer.blend is not None
-        ]
-
-    def _picture(
-        self,
-        solved: Solved[ClusterProblem, Clusters],
-        label: str,
-        answer: Clusters,
-        blend: Blend,
-    ) -> Illustration:
-        problem = solved.problem
-        first, second = (_name(problem, answer, cluster) for cluster in blend.clusters)
-        recording = problem.train[0]
-        times = np.arange(len(blend.between)) * np.diff(recording.times).mean()
-        motion = Recording(TRANSITION, times, blend.between, recording.channels, recording.units)
-        curves = [
-            _panel(
-                motion,
-                channel,
-                {TRANSITION: blend.between, first: blend.first, second: blend.second},
-            )
-            for channel in self.channels
-        ]
-        caption = (
-            f"a transition from {first} to {second}: the mean cycles of two styles of {label}, "
-            "mixed by a weight that changes smoothly from one to the other. A cluster is named "
-            "after the style of most of its recordings. Curves of a style are jagged where unlike "
-            "recordings share it: one that advances two or three states a frame skips those "
-            "between, which another recording then shapes."
+def _picture(
+    solved: Solved[ClusterProblem, Clusters],
+    label: str,
+    answer: Clusters,
+    channels: Sequence[str],
+) -> Illustration:
+    problem, blend = solved.problem, answer.blend
+    assert blend is not None
+    first, second = (_name(problem, answer, cluster) for cluster in blend.clusters)
+    recording = problem.train[0]
+    times = np.arange(len(blend.between)) * np.diff(recording.times).mean()
+    motion = Recording(TRANSITION, times, blend.between, recording.channels, recording.units)
+    curves = [
+        _panel(
+            motion,
+            channel,
+            {TRANSITION: blend.between, first: blend.first, second: blend.second},
         )
-        moving = strip(motion, JointAngles(problem.skeleton), [TRANSITION] * len(times))
-        panels = (moving, *curves)
-        return Illustration(solved.task, f"Blend by {label}", caption, panels)
+        for channel in channels
+    ]
+    caption = (
+        f"a transition from {first} to {second}: the mean cycles of two styles of {label}, "
+        "mixed by a weight that changes smoothly from one to the other. A cluster is named "
+        "after the style of most of its recordings. Curves of a style are jagged where unlike "
+        "recordings share it: one that advances two or three states a frame skips those "
+        "between, which another recording then shapes."
+    )
+    moving = strip(motion, JointAngles(problem.skeleton), [TRANSITION] * len(times))
+    panels = (moving, *curves)
+    return Illustration(solved.task, f"Blend by {label}", caption, panels)
 
 
 def _panel(motion: Recording, channel: str, values: dict[str, np.ndarray]) -> Panel:

@@ -7,7 +7,7 @@ thesis, Universidad Tecnológica de Pereira, 2017, Figures 14–16.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -16,38 +16,39 @@ from numpy.typing import NDArray
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.reports import HeatMap, HeatMaps
 
-__all__ = ["Coregionalisation"]
+__all__ = ["draw_coregionalisation"]
 
 
-@dataclass(frozen=True)
-class Coregionalisation:
-    """The matrices of one entrant: of all joints, and of groups of joints by themselves.
+def draw_coregionalisation(
+    solved: Solved[Any, Any],
+    /,
+    label: str,
+    joint_groups: Mapping[str, tuple[str, ...]] = MappingProxyType({}),
+) -> Sequence[HeatMaps]:
+    """Return the matrices of one entrant: of all joints, and of groups of joints by themselves.
+
+    One picture of all joints, then one per group.
 
     Parameters
     ----------
+    solved : Solved
     label : str
         The entrant; nothing is drawn if it did not run.
     joint_groups : mapping of str to tuple of str
         Joints whose part of the matrices is shown by itself, by a name for the group.
     """
-
-    label: str
-    joint_groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-
-    def pictures(self, solved: Solved[Any, Any], /) -> Sequence[HeatMaps]:
-        """Return a picture of all joints, then one per group."""
-        if self.label not in solved.internals:
-            return ()
-        channels = solved.problem.train[0].channels
-        layers = _correlations(solved.internals[self.label].coregionalisation)
-        joints = [channel.partition(".")[0] for channel in channels]
-        pictures = [_picture(solved.task, f"{self.label}, all joints", joints, layers)]
-        for title, group in self.joint_groups.items():
-            chosen = [place for place, joint in enumerate(joints) if joint in group]
-            names = [channels[place] for place in chosen]
-            parts = {name: matrices[:, chosen][:, :, chosen] for name, matrices in layers.items()}
-            pictures.append(_picture(solved.task, f"{self.label}, {title}", names, parts))
-        return pictures
+    if label not in solved.internals:
+        return ()
+    channels = solved.problem.train[0].channels
+    layers = _correlations(solved.internals[label].coregionalisation)
+    joints = [channel.partition(".")[0] for channel in channels]
+    pictures = [_picture(solved.task, f"{label}, all joints", joints, layers)]
+    for title, group in joint_groups.items():
+        chosen = [place for place, joint in enumerate(joints) if joint in group]
+        names = [channels[place] for place in chosen]
+        parts = {name: matrices[:, chosen][:, :, chosen] for name, matrices in layers.items()}
+        pictures.append(_picture(solved.task, f"{label}, {title}", names, parts))
+    return pictures
 
 
 def _picture(

@@ -7,7 +7,6 @@ thesis, Universidad Tecnológica de Pereira, 2017, Figures 11–13.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +15,7 @@ from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.recover import LAYERS, Covariances, RecoverProblem
 from mocapbench.reports import HeatMap, HeatMaps
 
-__all__ = ["RecoveredCovariances"]
+__all__ = ["draw_covariances"]
 
 EVERY = 2
 """Every so many points are drawn."""
@@ -26,13 +25,12 @@ TITLES = {
 }
 
 
-@dataclass(frozen=True)
-class RecoveredCovariances:
-    """For each layer its true covariance, and the estimates of all entrants that have one."""
+def draw_covariances(solved: Solved[RecoverProblem, Covariances], /) -> Sequence[HeatMaps]:
+    """Return for each layer its true covariance, and the estimates of all entrants that have one.
 
-    def pictures(self, solved: Solved[RecoverProblem, Covariances], /) -> Sequence[HeatMaps]:
-        """Return a picture per layer, the innermost first."""
-        return [_picture(solved, layer) for layer in reversed(LAYERS)]
+    One picture per layer, the innermost first.
+    """
+    return [_picture(solved, layer) for layer in reversed(LAYERS)]
 
 
 def _picture(solved: Solved[RecoverProblem, Covariances], layer: str) -> HeatMaps:

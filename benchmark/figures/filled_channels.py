@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,42 +10,39 @@ from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.reports import Curve, Illustration, Panel
 
-__all__ = ["FilledChannels"]
+__all__ = ["draw_filled_channels"]
 
 
-@dataclass(frozen=True)
-class FilledChannels:
-    """Some channels of the first recording, by the papers' models and the best of the others.
+def draw_filled_channels(
+    solved: Solved[ImputeProblem, FilledRecordings], /, channels: tuple[str, ...]
+) -> Sequence[Illustration]:
+    """Return channels of the first recording, by the papers' models and the best of the others.
+
+    One picture, with a panel per channel.
 
     Parameters
     ----------
+    solved : Solved
     channels : tuple of str
     """
-
-    channels: tuple[str, ...]
-
-    def pictures(
-        self, solved: Solved[ImputeProblem, FilledRecordings], /
-    ) -> Sequence[Illustration]:
-        """Return one picture, with a panel per channel."""
-        recording, truth = solved.problem.given[0], solved.problem.truth[0]
-        filled = {
-            label: np.where(recording.visible, np.nan, solved.answers[label].predictions[0].mean)
-            for label in _of_interest(solved)
-        }
-        caption = (
-            f"{recording.name}: the truth, and the values that the paper’s models and the best of "
-            "the other models of this run put where it is hidden."
+    recording, truth = solved.problem.given[0], solved.problem.truth[0]
+    filled = {
+        label: np.where(recording.visible, np.nan, solved.answers[label].predictions[0].mean)
+        for label in _of_interest(solved)
+    }
+    caption = (
+        f"{recording.name}: the truth, and the values that the paper’s models and the best of "
+        "the other models of this run put where it is hidden."
+    )
+    panels = []
+    for channel in channels:
+        column = recording.channels.index(channel)
+        curves = tuple(
+            Curve(recording.times, values[:, column], label)
+            for label, values in {"truth": truth, **filled}.items()
         )
-        panels = []
-        for channel in self.channels:
-            column = recording.channels.index(channel)
-            curves = tuple(
-                Curve(recording.times, values[:, column], label)
-                for label, values in {"truth": truth, **filled}.items()
-            )
-            panels.append(Panel(channel, "time, s", recording.units[column], curves))
-        return (Illustration(solved.task, "Filled channels", caption, tuple(panels)),)
+        panels.append(Panel(channel, "time, s", recording.units[column], curves))
+    return (Illustration(solved.task, "Filled channels", caption, tuple(panels)),)
 
 
 def _of_interest(solved: Solved[ImputeProblem, FilledRecordings]) -> list[str]:

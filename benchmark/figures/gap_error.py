@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.linalg import norm
@@ -12,39 +11,36 @@ from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.reports import Curve, Illustration, Panel
 
-__all__ = ["GapError"]
+__all__ = ["draw_gap_error"]
 
 
-@dataclass(frozen=True)
-class GapError:
-    """The norm of the error at every hidden frame, of the entrants with the least mean.
+def draw_gap_error(
+    solved: Solved[ImputeProblem, FilledRecordings], /, n_best: int = 5
+) -> Sequence[Illustration]:
+    """Return the norm of the error at every hidden frame, of the entrants with the least mean.
+
+    One picture of the first recording; none if no whole frame is hidden.
 
     Parameters
     ----------
+    solved : Solved
     n_best : int
         How many entrants to show.
     """
-
-    n_best: int = 5
-
-    def pictures(
-        self, solved: Solved[ImputeProblem, FilledRecordings], /
-    ) -> Sequence[Illustration]:
-        """Return one picture of the first recording; none if no whole frame is hidden."""
-        recording, truth = solved.problem.given[0], solved.problem.truth[0]
-        hidden = ~recording.visible.any(axis=1)
-        if not hidden.any():
-            return ()
-        errors = {
-            label: np.asarray(norm((answer.predictions[0].mean - truth)[hidden], axis=1))
-            for label, answer in solved.answers.items()
-        }
-        best = sorted(errors, key=lambda label: float(errors[label].mean()))[: self.n_best]
-        frames = np.asarray(np.flatnonzero(hidden) + 1, dtype=np.float64)
-        curves = tuple(Curve(frames, errors[label], label) for label in best)
-        caption = (
-            f"{recording.name}: the Euclidean norm of the error over all channels at every hidden "
-            f"frame, of the {len(best)} entrants with the least mean in this window."
-        )
-        panel = Panel("all channels", "frame", "error per frame", curves)
-        return (Illustration(solved.task, "Error along the gap", caption, (panel,)),)
+    recording, truth = solved.problem.given[0], solved.problem.truth[0]
+    hidden = ~recording.visible.any(axis=1)
+    if not hidden.any():
+        return ()
+    errors = {
+        label: np.asarray(norm((answer.predictions[0].mean - truth)[hidden], axis=1))
+        for label, answer in solved.answers.items()
+    }
+    best = sorted(errors, key=lambda label: float(errors[label].mean()))[:n_best]
+    frames = np.asarray(np.flatnonzero(hidden) + 1, dtype=np.float64)
+    curves = tuple(Curve(frames, errors[label], label) for label in best)
+    caption = (
+        f"{recording.name}: the Euclidean norm of the error over all channels at every hidden "
+        f"frame, of the {len(best)} entrants with the least mean in this window."
+    )
+    panel = Panel("all channels", "frame", "error per frame", curves)
+    return (Illustration(solved.task, "Error along the gap", caption, (panel,)),)

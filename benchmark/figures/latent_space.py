@@ -6,7 +6,6 @@ After Wang, Fleet and Hertzmann 2008 (GPDM), Figures 3 to 11.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,34 +17,31 @@ from mocapbench.benchmark.problems.latent import LatentSpace, LatentWalks
 from mocapbench.datasets import Recording
 from mocapbench.reports import Illustration, Path3D, Picture, Space
 
-__all__ = ["LatentSpaces"]
+__all__ = ["draw_latent_spaces"]
 
 TRAINING, MEAN, SAMPLE = "training", "mean prediction", "fair sample"
 
 
-@dataclass(frozen=True)
-class LatentSpaces:
-    """The latent space of each entrant named, then motions along walks through them.
+def draw_latent_spaces(
+    solved: Solved[ImputeProblem, FilledRecordings], /, labels: tuple[str, ...]
+) -> Sequence[Picture]:
+    """Return the latent space of each entrant named, then motions along walks through them.
+
+    One picture per latent space, and one of all walks.
 
     Parameters
     ----------
+    solved : Solved
     labels : tuple of str
         Entrants; those that did not run, or have no such space, are left out.
     """
-
-    labels: tuple[str, ...]
-
-    def pictures(self, solved: Solved[ImputeProblem, FilledRecordings], /) -> Sequence[Picture]:
-        """Return a picture per latent space, and one of all walks."""
-        internals = {
-            label: solved.internals[label] for label in self.labels if label in solved.internals
-        }
-        spaces = [
-            _space(solved.task, label, of_label.latent_space, of_label.latent_walks)
-            for label, of_label in internals.items()
-            if of_label.latent_space is not None and of_label.latent_space.cloud is not None
-        ]
-        return [*spaces, *_walks(solved, internals)]
+    internals = {label: solved.internals[label] for label in labels if label in solved.internals}
+    spaces = [
+        _space(solved.task, label, of_label.latent_space, of_label.latent_walks)
+        for label, of_label in internals.items()
+        if of_label.latent_space is not None and of_label.latent_space.cloud is not None
+    ]
+    return [*spaces, *_walks(solved, internals)]
 
 
 def _space(task: str, label: str, space: LatentSpace, walks: LatentWalks | None) -> Space:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,48 +13,42 @@ from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.datasets import FrameByChannel, Mask, Recording
 from mocapbench.reports import Curve, Illustration, Panel
 
-__all__ = ["LongestGaps"]
+__all__ = ["draw_longest_gaps"]
 
 _MOST_FRAMES = 600
 """More of a gap cannot be told apart in a panel."""
 
 
-@dataclass(frozen=True)
-class LongestGaps:
-    """The longest gap of some channels, and as much of the recording before and after it.
+def draw_longest_gaps(
+    solved: Solved[ImputeProblem, FilledRecordings], /, n_channels: int = 3, n_best: int = 3
+) -> Sequence[Illustration]:
+    """Return the longest gap of some channels, and as much of the recording before and after it.
+
+    One picture of the first recording, with a panel per channel.
 
     Parameters
     ----------
+    solved : Solved
     n_channels : int
         How many channels to show: those with most hidden entries.
     n_best : int
         How many entrants to show: those with the least squared error.
     """
-
-    n_channels: int = 3
-    n_best: int = 3
-
-    def pictures(
-        self, solved: Solved[ImputeProblem, FilledRecordings], /
-    ) -> Sequence[Illustration]:
-        """Return one picture of the first recording, with a panel per channel."""
-        recording, truth = solved.problem.given[0], solved.problem.truth[0]
-        hidden = ~recording.visible & np.isfinite(truth)
-        means = {label: answer.predictions[0].mean for label, answer in solved.answers.items()}
-        errors = {label: float(((m - truth)[hidden] ** 2).mean()) for label, m in means.items()}
-        best = sorted(errors, key=errors.__getitem__)[: self.n_best]
-        shown = {"truth": truth, **{b: np.where(hidden, means[b], np.nan) for b in best}}
-        most = np.argsort(-hidden.sum(axis=0), kind="stable")[: self.n_channels]
-        panels = tuple(
-            _panel(recording, int(column), hidden, shown)
-            for column in most
-            if hidden[:, column].any()
-        )
-        caption = (
-            f"{recording.name}: the longest gap of the channels that lack most, with the truth and "
-            f"what the {len(best)} entrants with the least squared error put there."
-        )
-        return (Illustration(solved.task, "Longest gaps", caption, panels),)
+    recording, truth = solved.problem.given[0], solved.problem.truth[0]
+    hidden = ~recording.visible & np.isfinite(truth)
+    means = {label: answer.predictions[0].mean for label, answer in solved.answers.items()}
+    errors = {label: float(((m - truth)[hidden] ** 2).mean()) for label, m in means.items()}
+    best = sorted(errors, key=errors.__getitem__)[:n_best]
+    shown = {"truth": truth, **{b: np.where(hidden, means[b], np.nan) for b in best}}
+    most = np.argsort(-hidden.sum(axis=0), kind="stable")[:n_channels]
+    panels = tuple(
+        _panel(recording, int(column), hidden, shown) for column in most if hidden[:, column].any()
+    )
+    caption = (
+        f"{recording.name}: the longest gap of the channels that lack most, with the truth and "
+        f"what the {len(best)} entrants with the least squared error put there."
+    )
+    return (Illustration(solved.task, "Longest gaps", caption, panels),)
 
 
 def _panel(

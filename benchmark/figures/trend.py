@@ -7,7 +7,6 @@ thesis, Universidad Tecnológica de Pereira, 2017, Figure 6.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,43 +16,40 @@ from mocapbench.benchmark.problems.internals import Trend
 from mocapbench.datasets import Recording
 from mocapbench.reports import Band, Curve, Illustration, Panel
 
-__all__ = ["InferredTrend"]
+__all__ = ["draw_trends"]
 
 TRUE, INFERRED = "true parent", "inferred trend"
 WIDTH_95 = 1.96
 
 
-@dataclass(frozen=True)
-class InferredTrend:
-    """The trend of every entrant that has one, where the true parent is known.
+def draw_trends(solved: Solved[Any, Any], /, channels: tuple[str, ...]) -> Sequence[Illustration]:
+    """Return the trend of every entrant that has one, where the true parent is known.
+
+    One picture, a panel per channel and entrant; none if no entrant has a trend.
 
     Parameters
     ----------
+    solved : Solved
     channels : tuple of str
     """
-
-    channels: tuple[str, ...]
-
-    def pictures(self, solved: Solved[Any, Any], /) -> Sequence[Illustration]:
-        """Return one picture, a panel per channel and entrant; none if no entrant has a trend."""
-        parent = solved.problem.parent
-        trends = {
-            label: internals.trend
-            for label, internals in solved.internals.items()
-            if internals.trend is not None
-        }
-        if parent is None or not trends:
-            return ()
-        panels = tuple(
-            _panel(parent, parent.channels.index(channel), label, trend)
-            for channel in self.channels
-            for label, trend in trends.items()
-        )
-        caption = (
-            "the true parent, and the posterior mean and central 95 % band of the trend given the "
-            "children. The band is that of the curve, without noise."
-        )
-        return (Illustration(solved.task, "Underlying trend", caption, panels),)
+    parent = solved.problem.parent
+    trends = {
+        label: internals.trend
+        for label, internals in solved.internals.items()
+        if internals.trend is not None
+    }
+    if parent is None or not trends:
+        return ()
+    panels = tuple(
+        _panel(parent, parent.channels.index(channel), label, trend)
+        for channel in channels
+        for label, trend in trends.items()
+    )
+    caption = (
+        "the true parent, and the posterior mean and central 95 % band of the trend given the "
+        "children. The band is that of the curve, without noise."
+    )
+    return (Illustration(solved.task, "Underlying trend", caption, panels),)
 
 
 def _panel(parent: Recording, column: int, label: str, trend: Trend) -> Panel:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from functools import singledispatch
 from typing import Any
 
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.figures.motions.filled import FilledMotion
-from mocapbench.benchmark.figures.motions.sampled import SampledMotion
+from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
+from mocapbench.benchmark.figures.motions.sampled import draw_sampled_motion
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.base import Problem
 from mocapbench.benchmark.problems.body import JointAngles
@@ -20,29 +21,15 @@ from mocapbench.benchmark.tasks.base import Task
 from mocapbench.datasets import Recording, Skeleton
 from mocapbench.reports import Motions
 
-__all__ = ["EntrantMotion", "entrant_motion"]
+__all__ = ["MadeMotion", "entrant_motion"]
 
 
-@dataclass(frozen=True, eq=False)
-class EntrantMotion:
-    """What one entrant made: the first recording that it filled, or its first sample.
-
-    Parameters
-    ----------
-    recording : Recording
-        Visible entries are as recorded.
-    skeleton : Skeleton or None
-        Of which the channels are joint angles; None where they are not.
-    picture : Motions or None
-        Beside the truth; None where joints have no positions.
-    """
-
-    recording: Recording
-    skeleton: Skeleton | None
-    picture: Motions | None
+MadeMotion = tuple[Recording, Skeleton | None, Motions | None]
+"""The first recording that an entrant filled, or its first sample; with the skeleton of which the
+channels are joint angles, and the picture beside the truth, where there are any."""
 
 
-def entrant_motion(task: Task, solved: Solved[Any, Any]) -> EntrantMotion:
+def entrant_motion(task: Task, solved: Solved[Any, Any]) -> MadeMotion:
     """Return what the only entrant of a solved problem made.
 
     Raises
@@ -52,18 +39,17 @@ def entrant_motion(task: Task, solved: Solved[Any, Any]) -> EntrantMotion:
     """
     ((label, answer),) = solved.answers.items()
     recording, figure = _make_motion(solved.problem, answer)
-    figures = [f for f in task.page.figures if isinstance(f, type(figure))] or [figure]
-    pictures = figures[0].pictures(solved)
+    on_page: Iterable[Callable[..., Any]] = task.page.figures
+    same = (f for f in on_page if getattr(f, "func", f) is figure)  # perhaps a partial
+    pictures: Sequence[Motions] = next(same, figure)(solved)
     body = solved.problem.body
     skeleton = body.skeleton if isinstance(body, JointAngles) else None
     named = replace(recording, name=f"{recording.name}, {label}")
-    return EntrantMotion(named, skeleton, pictures[0] if pictures else None)
+    return named, skeleton, pictures[0] if pictures else None
 
 
 @singledispatch
-def _make_motion(
-    problem: Problem[Any], answer: Any
-) -> tuple[Recording, FilledMotion | SampledMotion]:
+def _make_motion(problem: Problem[Any], answer: Any) -> tuple[Recording, Callable[..., Any]]:
     """Return what was made, and the figure that shows it."""
     del answer
     raise UsageError(
@@ -75,14 +61,14 @@ def _make_motion(
 @_make_motion.register
 def _fill_recording(
     problem: ImputeProblem, answer: FilledRecordings
-) -> tuple[Recording, FilledMotion | SampledMotion]:
+) -> tuple[Recording, Callable[..., Any]]:
     given, mean = problem.given[0], answer.predictions[0].mean
-    return given.with_values(np.where(given.visible, given.values, mean)), FilledMotion()
+    return given.with_values(np.where(given.visible, given.values, mean)), draw_filled_motion
 
 
 @_make_motion.register
 def _sample_motion(
     problem: SynthesiseProblem, answer: Samples
-) -> tuple[Recording, FilledMotion | SampledMotion]:
+) -> tuple[Recording, Callable[..., Any]]:
     sample = replace(problem.train[0], times=problem.times, values=answer.values[0])
-    return sample, SampledMotion()
+    return sample, draw_sampled_motion

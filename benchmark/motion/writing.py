@@ -12,7 +12,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import require_writable_folder
 from mocapbench.benchmark.motion.gif import gif_bytes
 from mocapbench.benchmark.motion.joint_angles import amc_text, bvh_text
-from mocapbench.benchmark.motion.made import EntrantMotion
+from mocapbench.benchmark.motion.made import MadeMotion
 from mocapbench.datasets import Recording, format_skeleton
 
 __all__ = ["require_new", "write"]
@@ -48,12 +48,12 @@ def require_new(files: Mapping[str, Path]) -> None:
                 )
 
 
-def write(motion: EntrantMotion, files: Mapping[str, Path], title: str) -> list[Path]:
+def write(motion: MadeMotion, files: Mapping[str, Path], title: str) -> list[Path]:
     """Write all files, or none, and return them.
 
     Parameters
     ----------
-    motion : EntrantMotion
+    motion : MadeMotion
     files : mapping of str to Path
         By format; see `require_new`. An .amc file gets its skeleton, an .asf file, beside it.
     title : str
@@ -86,9 +86,9 @@ _NEEDED = {"gif": "place joints in space", "amc": _ANGLES, "bvh": _ANGLES}
 _Contents = Callable[[Path], Mapping[Path, bytes]]
 
 
-def _contents(motion: EntrantMotion, title: str) -> dict[str, _Contents]:
+def _contents(motion: MadeMotion, title: str) -> dict[str, _Contents]:
     """Return what each format that is possible writes to which file."""
-    skeleton, picture, recording = motion.skeleton, motion.picture, motion.recording
+    recording, skeleton, picture = motion
     contents: dict[str, _Contents] = {"csv": lambda path: {path: _csv_text(recording).encode()}}
     if picture is not None:
         contents["gif"] = lambda path: {path: gif_bytes(picture, title)}

@@ -58,7 +58,7 @@ def _illustrate(
     return [
         replace(picture, title=f"{picture.title}: {case.problem_name}{suffix}")
         for figure in task.page.figures
-        for picture in figure.pictures(solved)
+        for picture in figure(solved)
     ]
 
 

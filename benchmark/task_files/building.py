@@ -8,9 +8,9 @@ from functools import partial
 from itertools import product
 from pathlib import PurePosixPath
 
-from mocapbench.benchmark.figures.gap_error import GapError
-from mocapbench.benchmark.figures.longest_gaps import LongestGaps
-from mocapbench.benchmark.figures.motions.filled import FilledMotion
+from mocapbench.benchmark.figures.gap_error import draw_gap_error
+from mocapbench.benchmark.figures.longest_gaps import draw_longest_gaps
+from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
 from mocapbench.benchmark.registry import MODELS, TASKS, build_unfitted
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.hidden_settings import Hidden, read_hidden
@@ -150,7 +150,11 @@ def _page(settings: Settings, cases: tuple[Case, ...], hidden: Hidden) -> TaskPa
         metrics=settings.metrics,
         along=columns[0] if columns else None,
         illustrated=tuple(case.name for case in cases if case.columns.items() >= most.items()),
-        figures=(FilledMotion(), LongestGaps(), *((GapError(),) if hidden.whole_frames else ())),
+        figures=(
+            draw_filled_motion,
+            draw_longest_gaps,
+            *((draw_gap_error,) if hidden.whole_frames else ()),
+        ),
     )
 
 

@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from mocapbench.baselines import FrameImputer, Inductive, Prediction
-from mocapbench.benchmark import Case, GapError, ImputeProblem, Profile, Task, hide_frames
+from mocapbench.benchmark import Case, ImputeProblem, Profile, Task, draw_gap_error, hide_frames
 from mocapbench.datasets import Library, Recording
 from mocapbench.metrics import Direction, Imputation, Score, metric
 from mocapbench.reports import TaskPage
@@ -83,7 +83,7 @@ PENDULUMS = Task(
         description="Fill a gap in the swing of a pendulum, having seen others of other lengths.",
         metrics=("rms_per_frame", "worst_error"),
         illustrated=("long",),
-        figures=(GapError(),),
+        figures=(draw_gap_error,),
     ),
 )
 

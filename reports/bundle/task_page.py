@@ -77,7 +77,7 @@ class Figure(Protocol):
     What a solved problem is belongs to the harness. This package only draws the pictures.
     """
 
-    def pictures(self, solved: Any, /) -> Sequence[Picture]:
+    def __call__(self, solved: Any, /) -> Sequence[Picture]:
         """Return the pictures of ``solved``, none where it has nothing to show."""
         ...
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.linalg import norm
@@ -17,42 +17,39 @@ from mocapbench.benchmark.problems.synthesise import Samples, SynthesiseProblem
 from mocapbench.datasets import FrameByJointBy3
 from mocapbench.reports import Motions
 
-__all__ = ["SampledMotion"]
+__all__ = ["draw_sampled_motion"]
 
 
-@dataclass(frozen=True)
-class SampledMotion:
-    """The first sample of each entrant, and the reference that it resembles best.
+def draw_sampled_motion(
+    solved: Solved[SynthesiseProblem, Samples], /, n_most: int = 8
+) -> Sequence[Motions]:
+    """Return the first sample of each entrant, and the reference that it resembles best.
+
+    One player; none if the problem states no body.
 
     Parameters
     ----------
+    solved : Solved
     n_most : int
         How many entrants to show, best first by the task's first metric.
     """
-
-    n_most: int = 8
-
-    def pictures(self, solved: Solved[SynthesiseProblem, Samples], /) -> Sequence[Motions]:
-        """Return one player; none if the problem states no body."""
-        problem, body = solved.problem, solved.problem.body
-        if body is None:
-            return ()
-        entrants = choose_entrants(solved, self.n_most)
-        window = ShownWindow(problem.times, np.zeros(len(problem.times), dtype=bool))
-        samples = [solved.answers[label].values[0] for label in entrants.labels]
-        values = [motion[window.part] for motion in (*problem.references, *samples)]
-        like = replace(problem.train[0], times=problem.times[window.part], values=values[0])
-        motions = [on_the_spot(motion) for motion in place_joints(body, like, values)]
-        references, made = motions[: -len(samples)], motions[-len(samples) :]
-        pairs = [_beside_nearest(sample, references) for sample in made]
-        caption = (
-            f"The first sample of each entrant, beside the reference, of {len(references)}, whose "
-            f"joints are nearest on average; all on the body of {like.name}, without the path on "
-            "the floor."
-        )
-        return (
-            build_player(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),
-        )
+    problem, body = solved.problem, solved.problem.body
+    if body is None:
+        return ()
+    entrants = choose_entrants(solved, n_most)
+    window = ShownWindow(problem.times, np.zeros(len(problem.times), dtype=bool))
+    samples = [solved.answers[label].values[0] for label in entrants.labels]
+    values = [motion[window.part] for motion in (*problem.references, *samples)]
+    like = replace(problem.train[0], times=problem.times[window.part], values=values[0])
+    motions = [on_the_spot(motion) for motion in place_joints(body, like, values)]
+    references, made = motions[: -len(samples)], motions[-len(samples) :]
+    pairs = [_beside_nearest(sample, references) for sample in made]
+    caption = (
+        f"The first sample of each entrant, beside the reference, of {len(references)}, whose "
+        f"joints are nearest on average; all on the body of {like.name}, without the path on "
+        "the floor."
+    )
+    return (build_player(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),)
 
 
 def _beside_nearest(sample: FrameByJointBy3, references: Sequence[FrameByJointBy3]) -> Pair:

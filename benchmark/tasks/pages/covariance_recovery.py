@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mocapbench.benchmark.figures.covariances import RecoveredCovariances
+from mocapbench.benchmark.figures.covariances import draw_covariances
 from mocapbench.reports.bundle.task_page import TaskPage
 
 __all__ = ["PAGE"]
@@ -28,5 +28,5 @@ PAGE = TaskPage(
         "One parent was drawn, so that an estimate of K_g is poor however well a model is trained.",
     ),
     illustrated=("correlated outputs",),
-    figures=(RecoveredCovariances(),),
+    figures=(draw_covariances,),
 )

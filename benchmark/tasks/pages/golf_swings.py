@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from mocapbench.benchmark.figures.filled_channels import FilledChannels
-from mocapbench.benchmark.figures.latent_space import LatentSpaces
-from mocapbench.benchmark.figures.motions.filled import FilledMotion
+from functools import partial
+
+from mocapbench.benchmark.figures.filled_channels import draw_filled_channels
+from mocapbench.benchmark.figures.latent_space import draw_latent_spaces
+from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
 from mocapbench.benchmark.tasks.gpdm_entrants import WITH_BEST_START
 from mocapbench.benchmark.tasks.pages.missing_frames import NOTHING_OVER_TIME
 from mocapbench.reports.bundle.task_page import TaskPage
@@ -32,8 +34,8 @@ PAGE = TaskPage(
     ),
     illustrated=("64-01", "synthetic"),
     figures=(
-        FilledMotion(),
-        FilledChannels(("rhumerus.rx", "thorax.ry")),
-        LatentSpaces(tuple(entrant.label for entrant in WITH_BEST_START)),
+        draw_filled_motion,
+        partial(draw_filled_channels, channels=("rhumerus.rx", "thorax.ry")),
+        partial(draw_latent_spaces, labels=tuple(entrant.label for entrant in WITH_BEST_START)),
     ),
 )

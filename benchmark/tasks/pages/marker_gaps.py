@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mocapbench.benchmark.figures.motions.filled import FilledMotion
+from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
 from mocapbench.reports.bundle.task_page import TaskPage
 
 __all__ = ["PAGE"]
@@ -24,7 +24,7 @@ PAGE = TaskPage(
         "a limb 1 s, others of the subject",
         "synthetic a limb 0.5 s, others of the subject",
     ),
-    figures=(FilledMotion(),),
+    figures=(draw_filled_motion,),
     remarks=(
         "Gløersen and Federolf hide skin markers at random times and places, in longer recordings "
         "of treadmill walking and other gait. Here joints stand for markers: they follow from "

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from mocapbench.benchmark.figures.filled_channels import FilledChannels
-from mocapbench.benchmark.figures.latent_space import LatentSpaces
-from mocapbench.benchmark.figures.motions.filled import FilledMotion
+from functools import partial
+
+from mocapbench.benchmark.figures.filled_channels import draw_filled_channels
+from mocapbench.benchmark.figures.latent_space import draw_latent_spaces
+from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
 from mocapbench.benchmark.tasks.gpdm_entrants import WITH_BEST_START
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
@@ -75,8 +77,8 @@ PAGE = TaskPage(
     ),
     illustrated=("07-01 three-walkers", "synthetic 1"),
     figures=(
-        FilledMotion(),
-        FilledChannels(("lfemur.rx", "rhumerus.rx")),
-        LatentSpaces(tuple(entrant.label for entrant in WITH_BEST_START)),
+        draw_filled_motion,
+        partial(draw_filled_channels, channels=("lfemur.rx", "rhumerus.rx")),
+        partial(draw_latent_spaces, labels=tuple(entrant.label for entrant in WITH_BEST_START)),
     ),
 )

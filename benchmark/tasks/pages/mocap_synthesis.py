@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 
-from mocapbench.benchmark.figures.coregionalisation import Coregionalisation
-from mocapbench.benchmark.figures.motions.sampled import SampledMotion
+from mocapbench.benchmark.figures.coregionalisation import draw_coregionalisation
+from mocapbench.benchmark.figures.motions.sampled import draw_sampled_motion
 from mocapbench.benchmark.tasks.pages.joints import JOINT_GROUPS
 from mocapbench.benchmark.tasks.thesis_recordings import KICKS, WALKS
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
@@ -81,7 +82,10 @@ WALKING_PAGE = TaskPage(
     published_metrics=_PUBLISHED_METRICS,
     remarks=_REMARKS,
     illustrated=("35(1)", "12(1)", "synthetic"),
-    figures=(SampledMotion(), Coregionalisation("mohgp-3", JOINT_GROUPS)),
+    figures=(
+        draw_sampled_motion,
+        partial(draw_coregionalisation, label="mohgp-3", joint_groups=JOINT_GROUPS),
+    ),
 )
 
 EXAGGERATED_PAGE = TaskPage(
@@ -100,7 +104,7 @@ EXAGGERATED_PAGE = TaskPage(
     published_metrics=_PUBLISHED_METRICS,
     remarks=_REMARKS,
     illustrated=("without 38(2)", "all five", "synthetic"),
-    figures=(SampledMotion(),),
+    figures=(draw_sampled_motion,),
 )
 
 
@@ -131,5 +135,5 @@ SOCCER_PAGE = TaskPage(
         "for both, are that reading.",
     ),
     illustrated=("all five", "synthetic"),
-    figures=(SampledMotion(),),
+    figures=(draw_sampled_motion,),
 )

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from mocapbench.benchmark.figures.alignment import Alignments
-from mocapbench.benchmark.figures.blends import Blends
+from functools import partial
+
+from mocapbench.benchmark.figures.alignment import draw_alignments
+from mocapbench.benchmark.figures.blends import draw_blends
 from mocapbench.reports.bundle.task_page import TaskPage
 
 __all__ = ["PAGE"]
@@ -32,5 +34,5 @@ PAGE = TaskPage(
         *(f"C = {n}" for n in _NUMBERS[1:]),
         *(f"synthetic C = {n}" for n in _NUMBERS[1:]),
     ),
-    figures=(Alignments(), Blends(("lfemur.rx", "ltibia.rx"))),
+    figures=(draw_alignments, partial(draw_blends, channels=("lfemur.rx", "ltibia.rx"))),
 )

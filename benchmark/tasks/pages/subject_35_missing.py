@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from mocapbench.benchmark.figures.filled_channels import FilledChannels
-from mocapbench.benchmark.figures.motions.filled import FilledMotion
+from functools import partial
+
+from mocapbench.benchmark.figures.filled_channels import draw_filled_channels
+from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
 from mocapbench.benchmark.figures.motions.scaled_values import scaled_angles
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
@@ -48,13 +50,14 @@ PAGE = TaskPage(
     ),
     illustrated=("right leg", "synthetic right leg"),
     figures=(
-        FilledMotion(
-            body=scaled_angles,
+        partial(
+            draw_filled_motion,
+            find_body=scaled_angles,
             remark=(
                 " The values do not say where the walker is and which way it faces, so it walks on "
                 "the spot; angles beyond a right angle are folded back, in the truth too."
             ),
         ),
-        FilledChannels(("rfemur.rx", "rtibia.rx")),
+        partial(draw_filled_channels, channels=("rfemur.rx", "rtibia.rx")),
     ),
 )

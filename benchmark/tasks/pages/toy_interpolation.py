@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from mocapbench.benchmark.figures.filled_channels import FilledChannels
-from mocapbench.benchmark.figures.trend import InferredTrend
+from functools import partial
+
+from mocapbench.benchmark.figures.filled_channels import draw_filled_channels
+from mocapbench.benchmark.figures.trend import draw_trends
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
 __all__ = ["MUCH_NOISE_PAGE", "ONE_INCOMPLETE_PAGE", "TOO_FEW_COMPONENTS_PAGE"]
 
 _METRICS = ("smse_pooled", "mse", "msll", "smse")
 _PUBLISHED_METRICS = {"mse": "MSE", "smse_pooled": "SMSE", "msll": "MSLL"}
-_FIGURES = (FilledChannels(("output-1",)), InferredTrend(("output-1",)))
+_FIGURES = (
+    partial(draw_filled_channels, channels=("output-1",)),
+    partial(draw_trends, channels=("output-1",)),
+)
 _REMARKS = (
     "The thesis used one dataset per test and does not disclose the variances of its layers. Here "
     "every fold draws a new dataset, so that ± describes the protocol and not one draw.",

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from mocapbench.benchmark.figures.filled_channels import FilledChannels
-from mocapbench.benchmark.figures.motions.filled import FilledMotion
+from functools import partial
+
+from mocapbench.benchmark.figures.filled_channels import draw_filled_channels
+from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
 __all__ = ["PAGE"]
@@ -35,5 +37,8 @@ PAGE = TaskPage(
         "number. Here it is fam, with three components; with five, the worst walk exceeds 200.",
     ),
     illustrated=("subject 07 walks", "synthetic walks"),
-    figures=(FilledMotion(), FilledChannels(("rhumerus.rx", "thorax.ry"))),
+    figures=(
+        draw_filled_motion,
+        partial(draw_filled_channels, channels=("rhumerus.rx", "thorax.ry")),
+    ),
 )

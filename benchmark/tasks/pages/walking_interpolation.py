@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from mocapbench.benchmark.figures.coregionalisation import Coregionalisation
-from mocapbench.benchmark.figures.filled_channels import FilledChannels
-from mocapbench.benchmark.figures.motions.filled import FilledMotion
+from functools import partial
+
+from mocapbench.benchmark.figures.coregionalisation import draw_coregionalisation
+from mocapbench.benchmark.figures.filled_channels import draw_filled_channels
+from mocapbench.benchmark.figures.motions.filled import draw_filled_motion
 from mocapbench.benchmark.tasks.pages.joints import JOINT_GROUPS
 from mocapbench.reports.bundle.task_page import RowNotes, TaskPage
 
@@ -36,8 +38,8 @@ PAGE = TaskPage(
     ),
     illustrated=("observed 40", "synthetic observed 40"),
     figures=(
-        FilledMotion(),
-        FilledChannels(("lfemur.rx", "ltibia.rx")),
-        Coregionalisation("mohgp-3", JOINT_GROUPS),
+        draw_filled_motion,
+        partial(draw_filled_channels, channels=("lfemur.rx", "ltibia.rx")),
+        partial(draw_coregionalisation, label="mohgp-3", joint_groups=JOINT_GROUPS),
     ),
 )

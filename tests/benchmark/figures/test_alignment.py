@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.benchmark import Alignments, ClusterProblem, Clusters, Solved
+from mocapbench.benchmark import ClusterProblem, Clusters, Solved, draw_alignments
 from mocapbench.benchmark.problems.cycle import Alignment
 from mocapbench.datasets import Recording, Skeleton
 
@@ -26,7 +26,7 @@ def test_each_model_that_aligns_has_a_panel_beside_the_recordings(problem):
         "groups only": Clusters(LABELS),
         "aligner": Clusters(LABELS, Alignment(4, (path, path, path))),
     }
-    (illustration,) = Alignments().pictures(Solved("style-clustering", problem, answers))
+    (illustration,) = draw_alignments(Solved("style-clustering", problem, answers))
     before, after = illustration.panels
     assert illustration.groups == ("walk", "run")
     assert after.title == "aligned by aligner"
@@ -40,6 +40,6 @@ def test_the_curve_is_the_second_principal_component(problem):
     frames = np.concatenate([recording.values for recording in problem.train])
     centred = frames - frames.mean(axis=0)
     _, _, axes = np.linalg.svd(centred, full_matrices=False)
-    (illustration,) = Alignments().pictures(Solved("style-clustering", problem, {}))
+    (illustration,) = draw_alignments(Solved("style-clustering", problem, {}))
     drawn = np.concatenate([curve.y for curve in illustration.panels[0].curves])
     np.testing.assert_allclose(np.abs(drawn), np.abs(centred @ axes[1]))

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.benchmark import Blends, ClusterProblem, Clusters, Solved
+from mocapbench.benchmark import ClusterProblem, Clusters, Solved, draw_blends
 from mocapbench.benchmark.problems.blending import N_FRAMES, Blend
 from mocapbench.datasets import GaitLibrary, Recording, hlm_features
 
@@ -23,7 +23,7 @@ def test_it_is_drawn_as_stick_figures_and_as_curves_between_the_styles(problem):
     still = np.tile(problem.train[0].values[0], (N_FRAMES, 1))
     blend = Blend(still - 1.0, still, still + 1.0, (0, 2))
     solved = Solved("style-clustering", problem, {"poses": Clusters(LABELS, blend=blend)})
-    (illustration,) = Blends(CHANNELS).pictures(solved)
+    (illustration,) = draw_blends(solved, CHANNELS)
     strip, *curves = illustration.panels
     assert illustration.title == "Blend by poses"
     assert illustration.groups == ("transition", "cluster 0 (walk)", "cluster 2 (run)")
@@ -40,4 +40,4 @@ def test_it_is_drawn_as_stick_figures_and_as_curves_between_the_styles(problem):
 
 def test_a_model_that_does_not_blend_has_no_picture(problem):
     solved = Solved("style-clustering", problem, {"groups only": Clusters(LABELS)})
-    assert list(Blends(CHANNELS).pictures(solved)) == []
+    assert list(draw_blends(solved, CHANNELS)) == []

@@ -1,10 +1,12 @@
+from functools import partial
+
 import numpy as np
 import pytest
 
-from mocapbench.benchmark import Coregionalisation, Internals, Solved
+from mocapbench.benchmark import Internals, Solved, draw_coregionalisation
 from mocapbench.benchmark.tasks.pages.joints import JOINT_GROUPS
 
-FIGURE = Coregionalisation("mohgp-3", JOINT_GROUPS)
+FIGURE = partial(draw_coregionalisation, label="mohgp-3", joint_groups=JOINT_GROUPS)
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +23,7 @@ def matrices():
 def test_components_of_a_layer_add_up_to_its_correlations(walking, matrices):
     internals = Internals(coregionalisation={"parent": matrices, "child": 4.0 * matrices})
     solved = Solved("walking", walking, {}, {"mohgp-3": internals})
-    whole, leg, _ = FIGURE.pictures(solved)
+    whole, leg, _ = FIGURE(solved)
     assert [each.title for each in whole.maps][:4:3] == [
         "parent, component 1",
         "child, component 1",
@@ -40,4 +42,4 @@ def test_components_of_a_layer_add_up_to_its_correlations(walking, matrices):
 
 def test_matrices_are_shown_of_the_entrant_that_the_page_names(walking, matrices):
     internals = {"moa-1": Internals(coregionalisation={"parent": matrices})}
-    assert list(FIGURE.pictures(Solved("walking", walking, {}, internals))) == []
+    assert list(FIGURE(Solved("walking", walking, {}, internals))) == []

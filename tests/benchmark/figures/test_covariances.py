@@ -1,6 +1,6 @@
 import numpy as np
 
-from mocapbench.benchmark import Covariances, RecoveredCovariances, Solved
+from mocapbench.benchmark import Covariances, Solved, draw_covariances
 
 
 def test_covariances_are_shown_beside_the_true_ones_layer_by_layer(posed):
@@ -10,7 +10,7 @@ def test_covariances_are_shown_beside_the_true_ones_layer_by_layer(posed):
         "moa": Covariances({"child": problem.truth["child"]}),
     }
     solved = Solved("covariance-recovery", problem, answers)
-    child, parent = RecoveredCovariances().pictures(solved)
+    child, parent = draw_covariances(solved)
     assert [each.title for each in child.maps] == ["truth", "mohgp", "moa"]
     assert [each.title for each in parent.maps] == ["truth", "mohgp"]
     truth, double, same = (each.values for each in child.maps)

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import Prediction
-from mocapbench.benchmark import FilledChannels, FilledRecordings, ImputeProblem, Solved
+from mocapbench.benchmark import FilledRecordings, ImputeProblem, Solved, draw_filled_channels
 from mocapbench.datasets import Recording
 
 CHANNELS = ("rhumerus.rx", "thorax.ry")
@@ -28,7 +28,7 @@ def _solved(problem, errors):
 
 def test_the_papers_models_and_the_best_other_are_shown_where_entries_are_hidden(problem):
     solved = _solved(problem, {"far": 9.0, "near": 1.0, "nn": 5.0})
-    (illustration,) = FilledChannels(CHANNELS).pictures(solved)
+    (illustration,) = draw_filled_channels(solved, CHANNELS)
     assert illustration.task == "upper-body-missing"
     assert illustration.groups == ("truth", "nn", "near")
     assert [panel.title for panel in illustration.panels] == list(CHANNELS)
@@ -40,7 +40,7 @@ def test_the_papers_models_and_the_best_other_are_shown_where_entries_are_hidden
 
 
 def test_the_channels_are_those_that_the_page_names(problem):
-    (illustration,) = FilledChannels(CHANNELS[1:]).pictures(_solved(problem, {"near": 1.0}))
+    (illustration,) = draw_filled_channels(_solved(problem, {"near": 1.0}), CHANNELS[1:])
     (panel,) = illustration.panels
     assert (panel.title, panel.y_label) == ("thorax.ry", "deg")
     np.testing.assert_array_equal(panel.curves[0].y, problem.truth[0][:, 1])

@@ -4,9 +4,9 @@ import pytest
 from mocapbench.baselines import Prediction
 from mocapbench.benchmark import (
     FilledRecordings,
-    GapError,
     ImputeProblem,
     Solved,
+    draw_gap_error,
     hide_all_but,
     hide_frames,
 )
@@ -34,7 +34,7 @@ def solved():
 
 
 def test_the_error_along_the_gap_is_that_of_hidden_frames(solved):
-    (illustration,) = GapError().pictures(solved)
+    (illustration,) = draw_gap_error(solved)
     hidden = np.flatnonzero(~solved.problem.given[0].visible[:, 0])
     for curve in illustration.panels[0].curves:
         error = solved.answers[curve.group].predictions[0].mean - solved.problem.truth[0]
@@ -44,7 +44,7 @@ def test_the_error_along_the_gap_is_that_of_hidden_frames(solved):
 
 @pytest.mark.parametrize("n_best", [1, 5, 9])
 def test_the_best_are_shown_the_very_best_first(solved, n_best):
-    (illustration,) = GapError(n_best).pictures(solved)
+    (illustration,) = draw_gap_error(solved, n_best)
     expected = [f"off by {size}" for size in range(1, 8)][:n_best]
     assert list(illustration.groups) == expected
     assert f"the {len(expected)} entrants" in illustration.caption
@@ -53,4 +53,4 @@ def test_the_best_are_shown_the_very_best_first(solved, n_best):
 def test_there_is_no_gap_where_no_frame_is_hidden_as_a_whole():
     scattered = hide_all_but(np.random.default_rng(1), 5, 9, 2)
     scattered[:, 1] &= ~scattered[:, 0]
-    assert GapError().pictures(_solved(scattered)) == ()
+    assert draw_gap_error(_solved(scattered)) == ()

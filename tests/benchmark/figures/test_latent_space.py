@@ -1,12 +1,16 @@
+from functools import partial
+
 import numpy as np
 import pytest
 
 from mocapbench.baselines import GPDM, GPLVM
-from mocapbench.benchmark import Internals, LatentSpaces, Solved
+from mocapbench.benchmark import Internals, Solved, draw_latent_spaces
 from mocapbench.benchmark.problems.internals import internals_of
 from mocapbench.reports import Space
 
-FIGURE = LatentSpaces(("gplvm-window", "gpdm-map-viterbi", "gpdm-6d", "absent"))
+FIGURE = partial(
+    draw_latent_spaces, labels=("gplvm-window", "gpdm-map-viterbi", "gpdm-6d", "absent")
+)
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +33,7 @@ def solved(problem):
 
 
 def test_latent_spaces_of_three_dimensions_are_shown(solved):
-    gplvm, gpdm, walks = FIGURE.pictures(solved)
+    gplvm, gpdm, walks = FIGURE(solved)
     assert isinstance(gplvm, Space)
     assert gplvm.title == "Latent space of gplvm-window"
     assert [path.group for path in gplvm.paths] == ["training"] * 3
@@ -43,7 +47,7 @@ def test_latent_spaces_of_three_dimensions_are_shown(solved):
 
 
 def test_the_cloud_has_the_confidence_for_its_values(solved):
-    gplvm, *_ = FIGURE.pictures(solved)
+    gplvm, *_ = FIGURE(solved)
     stored = solved.internals["gplvm-window"].latent_space.cloud
     np.testing.assert_array_equal(gplvm.cloud, stored[:, :3])
     np.testing.assert_array_equal(gplvm.values, stored[:, 3])
@@ -53,4 +57,4 @@ def test_the_cloud_has_the_confidence_for_its_values(solved):
 def test_an_entrant_without_such_a_space_is_left_out(problem, solved, label):
     internals = {"trivial": Internals(), **solved.internals}
     alone = Solved("missing-frames", problem, {}, {label: internals[label]})
-    assert list(LatentSpaces((label,)).pictures(alone)) == []
+    assert list(draw_latent_spaces(alone, (label,))) == []

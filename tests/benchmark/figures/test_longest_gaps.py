@@ -1,7 +1,7 @@
 import numpy as np
 
 from mocapbench.baselines import Prediction
-from mocapbench.benchmark import FilledRecordings, ImputeProblem, LongestGaps, Solved
+from mocapbench.benchmark import FilledRecordings, ImputeProblem, Solved, draw_longest_gaps
 from mocapbench.datasets import Recording
 
 
@@ -24,7 +24,7 @@ def solved(gaps, offsets, n_frames=200):
 
 def test_the_channels_that_lack_most_are_shown_around_their_longest_gap():
     gaps = [(20, 25, 0), (100, 140, 1), (10, 12, 1), (50, 70, 3)]
-    (picture,) = LongestGaps(n_channels=2).pictures(solved(gaps, {"good": 0.1, "bad": 3.0}))
+    (picture,) = draw_longest_gaps(solved(gaps, {"good": 0.1, "bad": 3.0}), n_channels=2)
     assert [panel.title for panel in picture.panels] == ["b", "d"]
     b, d = picture.panels
     assert (b.curves[0].x[0], b.curves[0].x[-1]) == (60 / 50, 179 / 50)
@@ -35,11 +35,11 @@ def test_the_channels_that_lack_most_are_shown_around_their_longest_gap():
 
 def test_the_best_are_shown_best_first_and_the_own_gap_is_not_scored():
     offsets = {"worst": 9.0, "best": 0.0, "second": -1.0}
-    (picture,) = LongestGaps(n_best=2).pictures(solved([(185, 195, 0)], offsets))
+    (picture,) = draw_longest_gaps(solved([(185, 195, 0)], offsets), n_best=2)
     (panel,) = picture.panels
     assert [curve.group for curve in panel.curves] == ["truth", "best", "second"]
 
 
 def test_a_long_gap_is_shown_in_part():
-    (picture,) = LongestGaps().pictures(solved([(0, 3000, 1)], {"one": 1.0}, n_frames=3000))
+    (picture,) = draw_longest_gaps(solved([(0, 3000, 1)], {"one": 1.0}, n_frames=3000))
     assert len(picture.panels[0].curves[0].x) <= 1200

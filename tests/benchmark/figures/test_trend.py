@@ -1,10 +1,12 @@
+from functools import partial
+
 import numpy as np
 import pytest
 
-from mocapbench.benchmark import InferredTrend, Internals, Solved
+from mocapbench.benchmark import Internals, Solved, draw_trends
 from mocapbench.benchmark.problems.internals import Trend
 
-FIGURE = InferredTrend(("output-1",))
+FIGURE = partial(draw_trends, channels=("output-1",))
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +22,7 @@ def internals(toy):
 
 def test_the_trend_is_shown_beside_the_true_parent_with_its_band(toy, internals):
     solved = Solved("toy", toy, {}, {"mohgp-1": internals, "trivial": Internals()})
-    (figure,) = FIGURE.pictures(solved)
+    (figure,) = FIGURE(solved)
     (panel,) = figure.panels
     true, inferred = panel.curves
     np.testing.assert_array_equal(true.y, toy.parent.values[:, 0])
@@ -32,8 +34,8 @@ def test_the_trend_is_shown_beside_the_true_parent_with_its_band(toy, internals)
 
 
 def test_each_channel_and_each_entrant_has_a_panel(toy, internals):
-    figure = InferredTrend(("output-1", "output-3"))
-    (illustration,) = figure.pictures(Solved("toy", toy, {}, {"one": internals, "two": internals}))
+    figure = partial(draw_trends, channels=("output-1", "output-3"))
+    (illustration,) = figure(Solved("toy", toy, {}, {"one": internals, "two": internals}))
     expected = [f"{label}, {c}" for c in figure.channels for label in ("one", "two")]
     assert [panel.title for panel in illustration.panels] == expected
     last = illustration.panels[-1]
@@ -43,5 +45,5 @@ def test_each_channel_and_each_entrant_has_a_panel(toy, internals):
 
 def test_there_is_no_picture_without_a_known_parent_or_without_a_trend(posed, toy, internals):
     walking = posed("walking-interpolation", "synthetic observed 40")
-    assert FIGURE.pictures(Solved("walking", walking, {}, {"mohgp-3": internals})) == ()
-    assert FIGURE.pictures(Solved("toy", toy, {}, {"trivial": Internals()})) == ()
+    assert FIGURE(Solved("walking", walking, {}, {"mohgp-3": internals})) == ()
+    assert FIGURE(Solved("toy", toy, {}, {"trivial": Internals()})) == ()

@@ -1,14 +1,15 @@
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
 from mocapbench.benchmark import (
     TASKS,
-    FilledChannels,
-    GapError,
     Record,
     RunDirectory,
     archive_at,
+    draw_filled_channels,
+    draw_gap_error,
     illustrations,
 )
 from mocapbench.benchmark.cli.main import main
@@ -59,7 +60,10 @@ def test_a_case_that_no_page_names_is_not_shown(store):
 
 def test_the_figures_are_those_that_the_page_declares(store):
     channels = ("lfemur.rx", "thorax.ry", "lowerback.rx")
-    _change_page(figures=(GapError(), FilledChannels(channels[:1]), FilledChannels(channels)))
+    one, all_three = (
+        partial(draw_filled_channels, channels=names) for names in (channels[:1], channels)
+    )
+    _change_page(figures=(draw_gap_error, one, all_three))
     one, three = illustrations(store.records(), store, archive_at(None))
     assert [panel.title for panel in one.panels] == list(channels[:1])
     assert [panel.title for panel in three.panels] == list(channels)

@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import Prediction
-from mocapbench.benchmark import FilledMotion, FilledRecordings, SampledMotion, Samples, Solved
+from mocapbench.benchmark import (
+    FilledRecordings,
+    Samples,
+    Solved,
+    draw_filled_motion,
+    draw_sampled_motion,
+)
 from mocapbench.benchmark import archive_at as archive
 from mocapbench.benchmark.figures.motions.scaled_values import scaled_angles
 
@@ -25,7 +31,7 @@ def gap(posed):
 
 
 def test_a_filled_gap_is_beside_the_truth(gap):
-    (picture,) = FilledMotion().pictures(gap)
+    (picture,) = draw_filled_motion(gap)
     right, wrong = picture.motions
     assert (right.label, wrong.label) == ("right", "wrong")
     assert picture.hidden.sum() == 31
@@ -37,7 +43,7 @@ def test_a_filled_gap_is_beside_the_truth(gap):
 
 
 def test_the_ground_is_below_the_lowest_foot(gap):
-    (picture,) = FilledMotion().pictures(gap)
+    (picture,) = draw_filled_motion(gap)
     assert picture.truths["truth"][..., 1].min() == pytest.approx(0.0)
 
 
@@ -46,14 +52,14 @@ def test_there_is_no_player_without_a_body_or_without_a_truth(gap):
     unknown = gap.problem.truth[0].copy()
     unknown[3, 3] = np.nan
     unsure = replace(gap, problem=replace(gap.problem, truth=(unknown,)))
-    assert FilledMotion().pictures(bodiless) == FilledMotion().pictures(unsure) == ()
+    assert draw_filled_motion(bodiless) == draw_filled_motion(unsure) == ()
 
 
 def test_scaled_values_are_placed_on_the_spot(posed):
     problem = posed("subject-35-missing", "synthetic right leg")
     answers = filled(problem, {"right": 0.0, "wrong": 0.5})
     solved = Solved("subject-35-missing", problem, answers, archive=archive(None))
-    (picture,) = FilledMotion(body=scaled_angles).pictures(solved)
+    (picture,) = draw_filled_motion(solved, find_body=scaled_angles)
     truth = picture.truths["truth"]
     heights = truth[..., 1].max(axis=1) - truth[..., 1].min(axis=1)
     assert (heights > 120.0).all()  # upright
@@ -61,7 +67,7 @@ def test_scaled_values_are_placed_on_the_spot(posed):
     leg = [picture.joints.index(name) for name in ("rfemur", "rtibia", "rfoot", "rtoes")]
     moved = np.abs(picture.motions[1].positions - truth).max(axis=(0, 2)) > 1.0
     assert {*np.flatnonzero(moved)} == {*leg}
-    assert FilledMotion(body=scaled_angles).pictures(replace(solved, archive=None)) == ()
+    assert draw_filled_motion(replace(solved, archive=None), find_body=scaled_angles) == ()
 
 
 def test_a_sample_is_beside_the_reference_that_it_is_nearest_to(posed):
@@ -70,7 +76,7 @@ def test_a_sample_is_beside_the_reference_that_it_is_nearest_to(posed):
         f"like-{k + 1}": Samples(np.stack([reference, problem.references[0]]))
         for k, reference in enumerate(problem.references)
     }
-    (picture,) = SampledMotion().pictures(Solved("walking-synthesis", problem, answers))
+    (picture,) = draw_sampled_motion(Solved("walking-synthesis", problem, answers))
     assert [motion.against for motion in picture.motions] == [
         f"reference {k + 1}" for k in range(len(problem.references))
     ]
@@ -78,7 +84,7 @@ def test_a_sample_is_beside_the_reference_that_it_is_nearest_to(posed):
         np.testing.assert_allclose(motion.positions, picture.truths[motion.against], atol=1e-9)
     assert not picture.hidden.any()
     bodiless = Solved("walking-synthesis", replace(problem, body=None), answers)
-    assert SampledMotion().pictures(bodiless) == ()
+    assert draw_sampled_motion(bodiless) == ()
 
 
 def test_a_long_recording_is_cut_before_it_is_placed(gap):
@@ -101,7 +107,7 @@ def test_a_long_recording_is_cut_before_it_is_placed(gap):
 
     longer = replace(problem, given=(recording.hide(hidden),), truth=(truth,), body=Counting())
     solved = replace(gap, problem=longer, answers=filled(longer, {"right": 0.0}))
-    (picture,) = FilledMotion().pictures(solved)
+    (picture,) = draw_filled_motion(solved)
     assert asked == [2 * 300]  # ten seconds of the truth and of one entrant
     assert "10.0 s at 30 Hz, of 60.0 s" in picture.caption
     assert (picture.hidden.sum(), len(picture.hidden)) == (30, 300)

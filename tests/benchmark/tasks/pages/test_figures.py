@@ -73,7 +73,7 @@ def test_every_figure_of_a_page_draws(stored):
     internals = {label: Internals.from_arrays(a) for label, a in fits.items()}
     published = task.page.published_models
     solved = Solved(task.name, problem, answers, internals, published, archive=archive_at(None))
-    pictures = [list(figure.pictures(solved)) for figure in task.page.figures]
+    pictures = [list(figure(solved)) for figure in task.page.figures]
     assert all(pictures)
     shown = [picture for of_figure in pictures for picture in of_figure]
     assert {picture.task for picture in shown} == {task.name}
