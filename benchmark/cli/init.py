@@ -40,11 +40,11 @@ def init(
             f"{', which exists' if task_file.exists() else ''}; choose another name"
         )
     require_writable(task_file)
-    draft = bench.draft(str(task_file), recordings, rate)
-    write_text(task_file, draft.text)
-    for reason in draft.left_out:
+    text, tests, left_out = bench.draft(str(task_file), recordings, rate)
+    write_text(task_file, text)
+    for reason in left_out:
         console.print(f"left out: {reason}", soft_wrap=True, highlight=False)
-    count = format_count(len(draft.tests), "recording")
+    count = format_count(len(tests), "recording")
     console.print(f"{task_file}: a task on {count} of {recordings}")
     command = shlex.join(
         [

@@ -15,7 +15,7 @@ from mocapbench.benchmark.registry import MODELS, TASKS, build_unfitted
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.hidden_settings import Hidden, read_hidden
 from mocapbench.benchmark.task_files.library import address_of
-from mocapbench.benchmark.task_files.problem import Protocol, own_problem
+from mocapbench.benchmark.task_files.problem import own_problem
 from mocapbench.benchmark.task_files.settings import Settings, read_settings
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Profile, Task
@@ -69,15 +69,14 @@ def _cases(file: TaskFile, settings: Settings, hidden: Hidden) -> tuple[Case, ..
     address = partial(address_of, rate=settings.rate)
     names, subjects = _names(file.tests), _subjects(file.tests)
     cases = []
-    for test, variant in product(file.tests, hidden.variants):
-        training = tuple(address(path) for path in file.training if path != test)
+    for test, (name, columns, hide) in product(file.tests, hidden.variants):
+        uris = address(test), *(address(path) for path in file.training if path != test)
         patterns = (address(hidden.pattern),) if hidden.pattern else ()
-        protocol = Protocol(settings.selection, variant.hiding)
         case = Case(
-            f"{names[test]} {variant.name}" if variant.name else names[test],
-            partial(own_problem, protocol, address(test), training),
-            {"recording": names[test], **variant.columns},
-            tuple(dict.fromkeys((address(test), *training, *patterns))),
+            f"{names[test]} {name}" if name else names[test],
+            partial(own_problem, settings.select, hide, uris),
+            {"recording": names[test], **columns},
+            tuple(dict.fromkeys((*uris, *patterns))),
             subjects=subjects[test],
         )
         cases.append(case)
@@ -141,7 +140,7 @@ def _not_chosen(settings: Settings) -> tuple[str, ...]:
 
 
 def _page(settings: Settings, cases: tuple[Case, ...], hidden: Hidden) -> TaskPage:
-    columns, most = list(hidden.variants[0].columns), hidden.variants[-1].columns
+    columns, most = [*hidden.variants[0][1]], hidden.variants[-1][1]
     return TaskPage(
         title=settings.title,
         reference="a task file of your own",

@@ -99,15 +99,15 @@ def check_document(document: Document, folder: Path) -> TaskFile:
     hidden = read_hidden(document, partial(address_of, rate=settings.rate))
     _check_training(document, hidden, tests, training)
     dry_run = DryRun(document, settings, hidden, archive_at(folder.resolve()))
-    facts = dry_run.run(tests, training)
+    complete, meets = dry_run.run(tests, training)
     file = TaskFile(
         document.file,
         document.text,
         str(folder.resolve()),
         tests,
         training,
-        complete=facts.complete,
-        meets=facts.meets,
+        complete=complete,
+        meets=meets,
     )
     build_task(file)
     return file

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,8 +16,7 @@ from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
 from mocapbench.benchmark.task_files.grouping import check_alike_in_any_order
 from mocapbench.benchmark.task_files.hidden_settings import Hidden
-from mocapbench.benchmark.task_files.hiding.base import HidingError, HidingPlace
-from mocapbench.benchmark.task_files.hiding.random_gaps import RandomGaps
+from mocapbench.benchmark.task_files.hiding import HidingError, HidingPlace, gap_length
 from mocapbench.benchmark.task_files.library import address_of
 from mocapbench.benchmark.task_files.problem import defined_metrics, own_body
 from mocapbench.benchmark.task_files.settings import Settings
@@ -30,18 +28,9 @@ from mocapbench.datasets import (
     RecordingUnavailable,
 )
 
-__all__ = ["DryRun", "RecordingFacts"]
+__all__ = ["DryRun"]
 
 _SHOWN = 6
-
-
-class RecordingFacts(NamedTuple):
-    """What recordings have in common that decides which models can fill them."""
-
-    complete: bool
-    """Whether no entry of them is missing."""
-    meets: tuple[str, ...]
-    """The needs of models that they meet, such as coordinates."""
 
 
 @dataclass(frozen=True)
@@ -61,8 +50,10 @@ class DryRun:
     hidden: Hidden
     archive: Archive
 
-    def run(self, tests: tuple[str, ...], training: tuple[str, ...]) -> RecordingFacts:
-        """Return what models need to know of the recordings.
+    def run(
+        self, tests: tuple[str, ...], training: tuple[str, ...]
+    ) -> tuple[bool, tuple[str, ...]]:
+        """Return whether no entry of the recordings is missing, and whether they have markers.
 
         Parameters
         ----------
@@ -89,7 +80,7 @@ class DryRun:
                 undefined.difference_update(defined_metrics(undefined, problem))
         if undefined:
             raise self._undefined_metric_error(min(undefined), tests, problem)
-        return RecordingFacts(complete, tuple(sorted(find_met_needs(problem))))
+        return complete, tuple(sorted(find_met_needs(problem)))
 
     def _read(self, key: str, path: str) -> Recording:
         with self._blaming(key, path):
@@ -98,7 +89,7 @@ class DryRun:
 
     def _select_part(self, path: str) -> Recording:
         recording = self._read("files", path)
-        selected = self.settings.selection.of(recording)
+        selected = self.settings.select(recording)
         if not selected.channels:
             names = ", ".join(recording.channels[:_SHOWN])
             got = f"none in {path}"
@@ -114,31 +105,29 @@ class DryRun:
     def _pose_problems(self, recording: Recording, path: str) -> ImputeProblem:
         """Return the problem of the last variant and fold, after all were posed."""
         self._check_lengths(recording, path)
-        for variant in self.hidden.variants:
+        for _, _, hide in self.hidden.variants:
             for fold in range(self.settings.folds):
                 place = HidingPlace(fold, np.random.default_rng(fold), self.archive)
                 with self._blaming("hide", path):
-                    hidden = variant.hiding.mask(recording, place)
+                    hidden = hide(recording, place)
                 self._check_mask(hidden, recording, path)
         body = own_body(recording, address_of(path, self.settings.rate), self.archive)
         return ImputeProblem.of_one(recording, hidden, body=body)
 
     def _check_lengths(self, recording: Recording, path: str) -> None:
         """Refuse gaps of different lengths that are as many frames."""
-        hidings = [variant.hiding for variant in self.hidden.variants]
-        seconds: dict[int, float] = {}
-        for gaps in (hiding for hiding in hidings if isinstance(hiding, RandomGaps)):
+        known: dict[int, float] = {}
+        for seconds in self.hidden.lengths:
             with self._blaming("hide.runs.seconds", path):
-                length = gaps.frames(recording)
-            if length in seconds:
+                length = gap_length(seconds, recording)
+            if length in known:
                 raise self.document.error(
                     "hide.runs.seconds",
                     f"lengths of different numbers of frames in {path}",
-                    f"{seconds[length]:g} and {gaps.seconds:g} s "
-                    f"of {format_count(length, 'frame')}",
+                    f"{known[length]:g} and {seconds:g} s of {format_count(length, 'frame')}",
                     "leave one of them out",
                 )
-            seconds[length] = gaps.seconds
+            known[length] = seconds
 
     def _undefined_metric_error(
         self, name: str, tests: tuple[str, ...], problem: ImputeProblem

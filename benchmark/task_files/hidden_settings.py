@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from mocapbench.benchmark.task_files.document import Document
-from mocapbench.benchmark.task_files.hiding.base import Hiding
-from mocapbench.benchmark.task_files.hiding.random_entries import RandomEntries
-from mocapbench.benchmark.task_files.hiding.random_gaps import RandomGaps
-from mocapbench.benchmark.task_files.hiding.same_gaps import SameGaps
-from mocapbench.benchmark.task_files.hiding.spans import Spans
-from mocapbench.benchmark.task_files.selection import Span
+from mocapbench.benchmark.task_files.hiding import (
+    Hiding,
+    group_columns,
+    hide_entries,
+    hide_gaps,
+    hide_same_gaps,
+    hide_spans,
+)
 from mocapbench.benchmark.task_files.values import (
     is_count,
     is_path,
@@ -28,23 +31,8 @@ HIDE_KEYS = (*_WAYS, "channels")
 RUN_KEYS = ("seconds", "count", "together")
 _TOGETHER = ("all", "joint", "channel")
 
-
-@dataclass(frozen=True)
-class Variant:
-    """One of the problems that a task poses of every recording.
-
-    Parameters
-    ----------
-    hiding : Hiding
-    name : str
-        What sets it apart from the others; empty if there is but one.
-    columns : mapping of str to float
-        The same as columns of the table.
-    """
-
-    hiding: Hiding
-    name: str = ""
-    columns: Mapping[str, float] = field(default_factory=dict)
+Variant = tuple[str, Mapping[str, float], Hiding]
+"""One of the problems that a task poses of every recording."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +42,8 @@ class Hidden:
     Parameters
     ----------
     variants : tuple of Variant
+        Each has a name, empty if there is but one; the same as columns of the table; and the way
+        to hide.
     whole_frames : bool
         Whether all channels are hidden wherever one is.
     whole_channels : bool
@@ -62,6 +52,10 @@ class Hidden:
         Whether entries are hidden one by one.
     pattern : str
         Path of the file whose gaps are hidden, below the folder of recordings; mostly empty.
+    repeats : bool
+        Whether every fold hides the same.
+    lengths : tuple of float
+        Seconds of gaps at random places; mostly none.
     """
 
     variants: tuple[Variant, ...]
@@ -69,11 +63,8 @@ class Hidden:
     whole_channels: bool = False
     scattered: bool = False
     pattern: str = ""
-
-    @property
-    def repeats(self) -> bool:
-        """Whether every fold hides the same."""
-        return any(isinstance(variant.hiding, Spans) for variant in self.variants)
+    repeats: bool = False
+    lengths: tuple[float, ...] = ()
 
 
 def read_hidden(document: Document, address: Callable[[str], str]) -> Hidden:
@@ -98,10 +89,12 @@ def read_hidden(document: Document, address: Callable[[str], str]) -> Hidden:
     ways = [way for way in _WAYS if way in document.get("hide")]
     match ways:
         case []:
-            return Hidden((Variant(Spans((Span(),), channels)),), whole_channels=True)
+            hide = partial(hide_spans, spans=((0, None),), channels=channels)
+            return Hidden((("", {}, hide),), whole_channels=True, repeats=True)
         case ["frames"]:
             spans = read_spans(document, "hide.frames", [])
-            return Hidden((Variant(Spans(spans, channels)),), whole_frames=not channels)
+            hide = partial(hide_spans, spans=spans, channels=channels)
+            return Hidden((("", {}, hide),), whole_frames=not channels, repeats=True)
         case ["fraction"]:
             return Hidden(_fractions(document, channels), scattered=True)
         case ["runs"]:
@@ -110,7 +103,8 @@ def read_hidden(document: Document, address: Callable[[str], str]) -> Hidden:
             path = document.read(
                 "hide.pattern-of", "", is_path, "a file of the folder", '"gaps.csv"'
             )
-            return Hidden((Variant(SameGaps(address(path), channels)),), pattern=path)
+            hide = partial(hide_same_gaps, uri=address(path), channels=channels)
+            return Hidden((("", {}, hide),), pattern=path)
         case _:
             advice = f"remove all but one, or write a task file for each; got {ways}"
             key = f"hide.{ways[1]}"
@@ -121,7 +115,8 @@ def _fractions(document: Document, channels: tuple[str, ...]) -> tuple[Variant, 
     shares = _numbers(
         document, "hide.fraction", _is_share, "a share between 0 and 1, or a list", "0.2"
     )
-    return _variants({s: RandomEntries(s, channels) for s in shares}, "hidden", "of entries")
+    hidings = {share: partial(hide_entries, share=share, channels=channels) for share in shares}
+    return _variants(hidings, "hidden", "of entries")
 
 
 def _runs(document: Document, channels: tuple[str, ...]) -> Hidden:
@@ -140,17 +135,18 @@ def _runs(document: Document, channels: tuple[str, ...]) -> Hidden:
     together = document.read(
         "hide.runs.together", "all", _TOGETHER.__contains__, f"one of {_TOGETHER}", '"joint"'
     )
-    gaps = {length: RandomGaps(length, count, together, channels) for length in lengths}
-    return Hidden(_variants(gaps, "seconds", "s"), whole_frames=together == "all" and not channels)
+    group = partial(group_columns, together=together, channels=channels)
+    hide = partial(hide_gaps, count=count, group=group)
+    gaps = {length: partial(hide, seconds=length) for length in lengths}
+    whole_frames = together == "all" and not channels
+    return Hidden(_variants(gaps, "seconds", "s"), whole_frames=whole_frames, lengths=lengths)
 
 
 def _variants(hidings: Mapping[float, Hiding], column: str, unit: str) -> tuple[Variant, ...]:
     """Return a variant for each value; the value is its name if there are several."""
     if len(hidings) == 1:
-        return tuple(map(Variant, hidings.values()))
-    return tuple(
-        Variant(hiding, f"{value:g} {unit}", {column: value}) for value, hiding in hidings.items()
-    )
+        return tuple(("", {}, hide) for hide in hidings.values())
+    return tuple((f"{value:g} {unit}", {column: value}, hide) for value, hide in hidings.items())
 
 
 def _numbers(

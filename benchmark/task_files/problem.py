@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -11,60 +10,45 @@ from mocapbench.baselines import Prediction
 from mocapbench.benchmark.problems.body import Body, JointAngles
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.benchmark.registry import METRICS
-from mocapbench.benchmark.task_files.hiding.base import Hiding, HidingPlace
-from mocapbench.benchmark.task_files.selection import Selection
+from mocapbench.benchmark.task_files.hiding import Hiding, HidingPlace
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive, Recording, SkeletonUnavailable
 
-__all__ = ["Protocol", "defined_metrics", "own_body", "own_problem"]
-
-
-@dataclass(frozen=True)
-class Protocol:
-    """What is done with a recording, whichever it is.
-
-    Parameters
-    ----------
-    selection : Selection
-        What is taken of it, and of those that models learn from.
-    hiding : Hiding
-        What is hidden of that.
-    """
-
-    selection: Selection
-    hiding: Hiding
+__all__ = ["defined_metrics", "own_body", "own_problem"]
 
 
 def own_problem(
-    protocol: Protocol, test: str, training: tuple[str, ...], seeds: Seeds, archive: Archive
+    select: Callable[[Recording], Recording],
+    hide: Hiding,
+    uris: tuple[str, ...],
+    seeds: Seeds,
+    archive: Archive,
 ) -> ImputeProblem:
-    """Hide the fold's entries of the recording at ``test``; models see what is left of it.
+    """Hide the fold's entries of a recording; models see what is left of it.
 
     Parameters
     ----------
-    protocol : Protocol
-    test : str
-        Address of the recording.
-    training : tuple of str
-        Addresses of what models learn from besides.
+    select : callable
+        Returns what is taken of a recording, here and of those that models learn from.
+    hide : Hiding
+        Returns what is hidden of that.
+    uris : tuple of str
+        Addresses of the recording to fill, and of what models learn from besides.
     seeds, archive
         See `mocapbench.benchmark.tasks.base.Case`.
 
     Raises
     ------
     ValueError
-        If the recordings do not have what the protocol asks for.
+        If the recordings do not have what is asked of them.
     """
-    recording = protocol.selection.of(archive.recording(test))
+    recording, *others = (select(archive.recording(uri)) for uri in uris)
     place = HidingPlace(seeds.fold, seeds.generator("mask"), archive)
     return ImputeProblem.of_one(
         recording,
-        protocol.hiding.mask(recording, place),
-        [
-            protocol.selection.of(archive.recording(uri)).select(recording.channels)
-            for uri in training
-        ],
-        body=own_body(recording, test, archive),
+        hide(recording, place),
+        [other.select(recording.channels) for other in others],
+        body=own_body(recording, uris[0], archive),
     )
 
 

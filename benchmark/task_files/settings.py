@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import PurePath
 from typing import Any
 
 from mocapbench.benchmark.errors import UnregisteredNameError
 from mocapbench.benchmark.registry import METRICS, MODELS, NAME, TASKS, Registry
 from mocapbench.benchmark.task_files.document import Document
-from mocapbench.benchmark.task_files.selection import Selection
+from mocapbench.benchmark.task_files.selection import select_part
 from mocapbench.benchmark.task_files.values import (
     is_count,
     is_positive,
@@ -19,6 +21,7 @@ from mocapbench.benchmark.task_files.values import (
     read_patterns,
     read_spans,
 )
+from mocapbench.datasets import Recording
 from mocapbench.metrics import Imputation
 
 __all__ = ["KEYS", "NONE", "OTHERS", "Settings", "read_settings"]
@@ -45,8 +48,8 @@ class Settings:
         Patterns of the recordings that models learn from besides; or ``others`` or ``none`` alone.
     rate : float or None
         Frames per second, in place of what files say.
-    selection : Selection
-        What is taken of every recording.
+    select : callable
+        Returns what is taken of a recording.
     folds : int
     models : tuple of str
         Names; none stands for every model that can.
@@ -59,7 +62,7 @@ class Settings:
     files: tuple[str, ...]
     training: tuple[str, ...]
     rate: float | None
-    selection: Selection
+    select: Callable[[Recording], Recording]
     folds: int
     models: tuple[str, ...]
     metrics: tuple[str, ...]
@@ -84,7 +87,7 @@ def read_settings(document: Document) -> Settings:
         files=_files(document),
         training=read_patterns(document, "training", [OTHERS]),
         rate=None if rate is None else float(rate),
-        selection=Selection(frames, read_channels(document, "channels")),
+        select=partial(select_part, frames=frames, channels=read_channels(document, "channels")),
         folds=document.read("folds", 1, is_count, "a whole number from 1", "5"),
         models=_read_registered(document, "models", MODELS, '["linear", "knn"]'),
         metrics=_metrics(document),

@@ -62,8 +62,8 @@ class TaskFile:
         try:
             file, text, folder = (str(plain[name]) for name in ("file", "text", "folder"))
             tests, training = (tuple(map(str, plain[name])) for name in ("tests", "training"))
-            meets = tuple(map(str, plain["meets"]))
-            return cls(file, text, folder, tests, training, bool(plain["complete"]), meets)
+            complete, meets = bool(plain["complete"]), tuple(map(str, plain["meets"]))
+            return cls(file, text, folder, tests, training, complete, meets)
         except (KeyError, TypeError) as error:
             raise UsageError(
                 "the plan of the run holds a damaged task file; run `mocapbench run` with "

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from functools import partial
 from glob import escape
 from pathlib import Path, PurePosixPath
 from string import Template
@@ -17,7 +17,7 @@ from mocapbench.benchmark.task_files.checking import check_document, require_fol
 from mocapbench.benchmark.task_files.document import Document, TaskFileError
 from mocapbench.benchmark.task_files.grouping import largest_group
 
-__all__ = ["Draft", "draft"]
+__all__ = ["draft"]
 
 _QUICK = (
     *("hold", "linear", "pchip", "makima", "cubic-spline"),
@@ -93,26 +93,9 @@ $models
 """)
 
 
-@dataclass(frozen=True)
-class Draft:
-    """A task file that runs.
-
-    Parameters
-    ----------
-    text : str
-        The TOML.
-    tests : tuple of str
-        Paths of the recordings that it names.
-    left_out : tuple of str
-        Why other files are not among them.
-    """
-
-    text: str
-    tests: tuple[str, ...]
-    left_out: tuple[str, ...]
-
-
-def draft(file: str, folder: Path, rate: float | None) -> Draft:
+def draft(
+    file: str, folder: Path, rate: float | None
+) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     """Return a task file for the most recordings of a folder that are alike.
 
     Parameters
@@ -123,6 +106,15 @@ def draft(file: str, folder: Path, rate: float | None) -> Draft:
     rate : float or None
         Frames per second, in place of what the files say.
 
+    Returns
+    -------
+    text : str
+        TOML that runs.
+    tests : tuple of str
+        Paths of the recordings that it names.
+    left_out : tuple of str
+        Why other files are not among them.
+
     Raises
     ------
     UsageError
@@ -130,16 +122,16 @@ def draft(file: str, folder: Path, rate: float | None) -> Draft:
     """
     require_folder(folder)
     tests, left_out = largest_group(folder, rate)
-    content = _Content(tests, _patterns(tests, left_out), rate)
+    write = partial(_write_text, tests, _patterns(tests, left_out), rate)
     for hide in _HIDE:
         try:
-            task_file = check_document(Document(file, content.text(hide, ())), folder)
+            task_file = check_document(Document(file, write(hide, ())), folder)
         except TaskFileError as error:
             failure = error
             continue
         task = build_task(task_file)
         able = [name for name in MODELS.names() if task.accepts(build_unfitted(name))]
-        return Draft(content.text(hide, able), tests, left_out)
+        return write(hide, able), tests, left_out
     raise failure
 
 
@@ -152,24 +144,18 @@ def _patterns(tests: tuple[str, ...], left_out: tuple[str, ...]) -> list[str]:
     return [f"{below}*{suffixes.pop()}"]
 
 
-@dataclass(frozen=True)
-class _Content:
-    """What the drafts for one folder have in common."""
-
-    tests: tuple[str, ...]
-    patterns: list[str]
-    rate: float | None
-
-    def text(self, hide: str, able: Sequence[str]) -> str:
-        """Return a draft that hides so, for these models, or for all if none is named."""
-        return _FILE.substitute(
-            files=_setting("files", self.patterns),
-            training=_setting("training", "others" if len(self.tests) > 1 else "none"),
-            rate="" if self.rate is None else _RATE.substitute(rate=_setting("rate", self.rate)),
-            folds=max(1, min(5, 20 // len(self.tests))),
-            models=_models(able) if able else "",
-            hide=hide,
-        )
+def _write_text(
+    tests: Sequence[str], patterns: list[str], rate: float | None, hide: str, able: Sequence[str]
+) -> str:
+    """Return a draft that hides so, for these models, or for all if none is named."""
+    return _FILE.substitute(
+        files=_setting("files", patterns),
+        training=_setting("training", "others" if len(tests) > 1 else "none"),
+        rate="" if rate is None else _RATE.substitute(rate=_setting("rate", rate)),
+        folds=max(1, min(5, 20 // len(tests))),
+        models=_models(able) if able else "",
+        hide=hide,
+    )
 
 
 def _models(able: Sequence[str]) -> str:

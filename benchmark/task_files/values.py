@@ -8,7 +8,7 @@ from pathlib import PurePosixPath
 from typing import Any
 
 from mocapbench.benchmark.task_files.document import Document
-from mocapbench.benchmark.task_files.selection import Span
+from mocapbench.benchmark.task_files.selection import Span, parse_span
 
 __all__ = [
     "is_count",
@@ -82,7 +82,7 @@ def read_spans(document: Document, key: str, default: list[str]) -> tuple[Span, 
     texts = document.read(
         key, default, lambda value: _are_spans(_list_values(value)), _SPANS, '"120:180"'
     )
-    return tuple(Span.of_text(text) for text in _list_values(texts))
+    return tuple(map(parse_span, _list_values(texts)))
 
 
 def _list_values(value: Any) -> Any:
@@ -110,6 +110,6 @@ def _are_expressions(value: Any) -> bool:
 
 def _are_spans(value: Any) -> bool:
     try:
-        return _are_texts(value) and all(map(Span.of_text, value))
+        return _are_texts(value) and all(map(parse_span, value))
     except ValueError:
         return False

@@ -36,7 +36,7 @@ def quoted(channels):
 def run_draft(folder, rate=None):
     """Return the recordings of the first task file of a folder, which is read again and tried."""
     path = folder.parent / "first.toml"
-    path.write_text(draft(str(path), folder, rate).text, encoding="utf-8")
+    path.write_text(draft(str(path), folder, rate)[0], encoding="utf-8")
     return open_task_file(path, folder)
 
 
@@ -69,7 +69,7 @@ def test_the_first_task_file_runs_whatever_the_names_are(files, channels, models
 @pytest.mark.parametrize("rate", [0.001, 29.97, 1e17, 120.0])
 def test_the_rate_of_the_first_task_file_is_the_one_given(tmp_path, rate):
     write_csv(tmp_path / "walks" / "a.csv")
-    text = draft("first.toml", tmp_path / "walks", rate).text
+    text = draft("first.toml", tmp_path / "walks", rate)[0]
     assert tomllib.loads(text)["rate"] == rate
 
 
@@ -77,10 +77,10 @@ def test_a_file_that_no_task_file_can_name_is_left_out(tmp_path):
     folder = tmp_path / "walks"
     for name in ("a", "b:c", "d?rate=5", "T\udceate"):
         write_csv(folder / f"{name}.csv")
-    drafted = draft("first.toml", folder, None)
-    assert drafted.tests == ("a.csv",)
-    assert len(drafted.left_out) == 3
-    assert all("expected a file whose path is UTF-8" in reason for reason in drafted.left_out)
+    _, tests, left_out = draft("first.toml", folder, None)
+    assert tests == ("a.csv",)
+    assert len(left_out) == 3
+    assert all("expected a file whose path is UTF-8" in reason for reason in left_out)
     assert run_draft(folder).tests == ("a.csv",)
 
 

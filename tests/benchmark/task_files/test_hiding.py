@@ -1,14 +1,20 @@
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.task_files.hiding.base import HidingError, HidingPlace
-from mocapbench.benchmark.task_files.hiding.random_entries import RandomEntries
-from mocapbench.benchmark.task_files.hiding.random_gaps import RandomGaps
-from mocapbench.benchmark.task_files.hiding.same_gaps import SameGaps
-from mocapbench.benchmark.task_files.hiding.spans import Spans
-from mocapbench.benchmark.task_files.selection import Selection, Span
+from mocapbench.benchmark.task_files.hiding import (
+    HidingError,
+    HidingPlace,
+    group_columns,
+    hide_entries,
+    hide_gaps,
+    hide_same_gaps,
+    hide_spans,
+)
+from mocapbench.benchmark.task_files.selection import select_part
 from mocapbench.datasets import Archive, Library, Recording
 
 RATE, CHANNELS = 50.0, ("hip.x", "hip.y", "knee.x", "sole")
@@ -49,7 +55,7 @@ def runs_of(column):
 @given(start=st.integers(0, 79), length=st.integers(1, 80), fold=st.integers(0, 3))
 def test_spans_hide_what_they_say_in_every_fold(start, length, fold):
     stop = min(start + length, 80)
-    hidden = Spans((Span(start, stop),), ("hip.*",)).mask(recording(), place(fold))
+    hidden = hide_spans(recording(), place(fold), ((start, stop),), ("hip.*",))
     assert runs_of(hidden[:, 0]) == [(start, stop - start)]
     assert (hidden[:, 0] == hidden[:, 1]).all()
     assert not hidden[:, 2:].any()
@@ -57,13 +63,13 @@ def test_spans_hide_what_they_say_in_every_fold(start, length, fold):
 
 def test_spans_beyond_the_recording_are_refused():
     with pytest.raises(HidingError, match=r"expected frames within its 80, got 70:90"):
-        Spans((Span(70, 90),)).mask(recording(), place())
+        hide_spans(recording(), place(), ((70, 90),))
 
 
 @given(share=st.floats(0.01, 0.99), seed=st.integers(0, 20))
 def test_a_share_is_of_the_visible_entries_of_the_channels(share, seed):
     given_ = recording(gaps=[(10, 30, 1)])
-    hidden = RandomEntries(share, ("hip.*",)).mask(given_, place(seed=seed))
+    hidden = hide_entries(given_, place(seed=seed), share, ("hip.*",))
     assert hidden.sum() == round(share * (80 + 60))
     assert not (hidden & ~given_.visible).any()
     assert not hidden[:, 2:].any()
@@ -77,7 +83,9 @@ def test_a_share_is_of_the_visible_entries_of_the_channels(share, seed):
 )
 def test_gaps_have_their_length_and_number_and_visible_neighbours(length, count, together, seed):
     given_ = recording(gaps=[(20, 25, 0), (70, 80, 3)])
-    hidden = RandomGaps(length / RATE, count, together).mask(given_, place(seed=seed))
+    hidden = hide_gaps(
+        given_, place(seed=seed), length / RATE, count, partial(group_columns, together=together)
+    )
     assert not (hidden & ~given_.visible).any()
     runs = [(column, run) for column in range(4) for run in runs_of(hidden[:, column])]
     assert {n for _, (_, n) in runs} == {length}
@@ -95,21 +103,21 @@ def test_gaps_have_their_length_and_number_and_visible_neighbours(length, count,
 
 def test_gaps_that_have_no_room_are_refused():
     with pytest.raises(HidingError, match=r"expected 3 visible stretches of 0.5 s, 25 frames each"):
-        RandomGaps(0.5, 3).mask(recording(), place())
+        hide_gaps(recording(), place(), 0.5, 3, group_columns)
 
 
 PATTERN = recording(60, [(5, 15, 0), (40, 42, 2)], "pattern")
 
 
 def test_the_first_fold_has_the_gaps_where_the_other_recording_has_them():
-    hidden = SameGaps("shelf:other").mask(recording(), place(other=PATTERN))
+    hidden = hide_same_gaps(recording(), place(other=PATTERN), "shelf:other")
     assert (hidden[:60] == ~PATTERN.visible).all()
     assert not hidden[60:].any()
 
 
 @given(fold=st.integers(1, 5), n_frames=st.integers(20, 100), seed=st.integers(0, 10))
 def test_later_folds_move_all_gaps_by_one_time(fold, n_frames, seed):
-    hidden = SameGaps("shelf:other").mask(recording(n_frames), place(fold, seed, other=PATTERN))
+    hidden = hide_same_gaps(recording(n_frames), place(fold, seed, other=PATTERN), "shelf:other")
     longer = max(n_frames, 60)
     whole = np.zeros((longer, 4), dtype=bool)
     whole[:60] = ~PATTERN.visible
@@ -119,30 +127,38 @@ def test_later_folds_move_all_gaps_by_one_time(fold, n_frames, seed):
 
 
 def test_folds_differ():
-    for hiding in (RandomEntries(0.2), RandomGaps(0.1, 2), SameGaps("shelf:other")):
-        masks = [hiding.mask(recording(), place(fold, other=PATTERN)) for fold in (1, 2)]
+    for hide in (
+        partial(hide_entries, share=0.2),
+        partial(hide_gaps, seconds=0.1, count=2, group=group_columns),
+        partial(hide_same_gaps, uri="shelf:other"),
+    ):
+        masks = [hide(recording(), place(fold, other=PATTERN)) for fold in (1, 2)]
         assert (masks[0] != masks[1]).any()
 
 
 def test_gaps_of_another_rate_or_of_none_are_refused():
     other = recording(60, [(5, 15, 0)], rate=100.0)
     with pytest.raises(HidingError, match=r"50 frames per second in shelf:other too, got 100"):
-        SameGaps("shelf:other").mask(recording(), place(other=other))
+        hide_same_gaps(recording(), place(other=other), "shelf:other")
     with pytest.raises(HidingError, match=r"expected gaps of its channels .* got none"):
-        SameGaps("shelf:other").mask(recording(), place(other=recording(60)))
+        hide_same_gaps(recording(), place(other=recording(60)), "shelf:other")
 
 
 @pytest.mark.parametrize(
-    "hiding",
-    [Spans((Span(),), ("toe",)), RandomEntries(0.5, ("toe",)), RandomGaps(0.1, 1, "all", ("toe",))],
+    "hide",
+    [
+        partial(hide_spans, spans=((0, None),), channels=("toe",)),
+        partial(hide_entries, share=0.5, channels=("toe",)),
+        partial(hide_gaps, seconds=0.1, count=1, group=partial(group_columns, channels=("toe",))),
+    ],
 )
-def test_channels_that_are_not_there_are_refused(hiding):
+def test_channels_that_are_not_there_are_refused(hide):
     with pytest.raises(HidingError, match=r"expected channels that match 'toe', got hip.x, hip.y"):
-        hiding.mask(recording(), place())
+        hide(recording(), place())
 
 
 def test_a_selection_takes_frames_and_channels():
-    selected = Selection(Span(10, 30), ("hip.*", "sole")).of(recording())
+    selected = select_part(recording(), (10, 30), ("hip.*", "sole"))
     assert selected.channels == ("hip.x", "hip.y", "sole")
     assert (selected.times == recording().times[10:30]).all()
-    assert Selection(channels=("hip",)).of(recording()).channels == ()  # whole names
+    assert select_part(recording(), channels=("hip",)).channels == ()  # whole names

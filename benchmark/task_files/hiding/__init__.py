@@ -1,1 +1,0 @@
-"""What a task file hides: frames, entries, gaps, or the gaps of another file; one way a module."""
