@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.table import Column, Table
@@ -17,6 +17,8 @@ from mocapbench.benchmark.cli.options import Plugins, load_plugins
 
 if TYPE_CHECKING:
     from mocapbench.benchmark.registry import Registry
+
+    Describe = Callable[[str], Mapping[str, Any]]
 
 __all__ = ["app"]
 
@@ -35,17 +37,6 @@ class ListedKind(StrEnum):
     FORMATS = "formats"
 
 
-class _Listing(NamedTuple):
-    """How one kind is listed."""
-
-    registry: Registry[Any]
-    entry: Callable[[str], Entry]
-    details: Callable[[str], Entry]
-    """All there is to say of one; of the others it may take longer."""
-    columns: Mapping[str, str]
-    """What the table shows of an entry besides its name, and under which heads."""
-
-
 @app.command("list")
 def list_registered(
     kind: Annotated[ListedKind, typer.Argument(help="What to list.")],
@@ -62,9 +53,9 @@ def list_registered(
     With names, such as those of tasks, all there is to say of them: cases, entrants, parameters.
     """
     load_plugins(plugin)
-    listing = _listing(kind)
-    every = map(listing.entry, listing.registry.names())
-    entries = [*(map(listing.details, names) if names else every)]
+    registry, describe, describe_fully, columns = _listing(kind)
+    every = map(describe, registry.names())
+    entries = [*(map(describe_fully, names) if names else every)]
     if as_json:
         typer.echo(json.dumps(entries, indent=1, default=str))
         return
@@ -73,34 +64,46 @@ def list_registered(
         for entry in entries:
             console.print(_details(entry))
         return
-    console.print(_table(listing, entries))
+    console.print(_table(registry.kind, columns, entries))
     console.print(f"`mocapbench list {kind} NAME` shows all there is to say of one; --json, of all")
 
 
-def _listing(kind: ListedKind) -> _Listing:
+def _listing(
+    kind: ListedKind,
+) -> tuple[Registry[Any], Describe, Describe, Mapping[str, str]]:
+    """Return how one kind is listed.
+
+    Returns
+    -------
+    registry : Registry
+    describe, describe_fully : callable
+        What to say of one beside others, and all there is to say of it, which may take longer.
+    columns : mapping of str to str
+        What the table shows besides the name, and under which heads.
+    """
     match kind:
         case ListedKind.TASKS:
             columns = {"title": "title", "cases": "cases", "reference": "from"}
-            return _Listing(bench.TASKS, bench.task_entry, bench.task_entry, columns)
+            return bench.TASKS, bench.task_entry, bench.task_entry, columns
         case ListedKind.MODELS:
             columns = {"summary": "what it is", "abilities": "abilities", "needs": "needs"}
-            return _Listing(bench.MODELS, bench.model_entry, bench.entrant_entry, columns)
+            return bench.MODELS, bench.model_entry, bench.entrant_entry, columns
         case ListedKind.METRICS:
             columns = {"title": "title", "better": "better", "of": "of"}
-            return _Listing(bench.METRICS, bench.metric_entry, bench.metric_entry, columns)
+            return bench.METRICS, bench.metric_entry, bench.metric_entry, columns
         case ListedKind.LIBRARIES:
             columns = {"summary": "what it is", "layout": "reads"}
-            return _Listing(bench.LIBRARIES, bench.library_entry, bench.library_entry, columns)
+            return bench.LIBRARIES, bench.library_entry, bench.library_entry, columns
         case ListedKind.FORMATS:
             columns = {"summary": "what it is", "suffixes": "files", "needs": "needs"}
-            return _Listing(bench.FORMATS, bench.format_entry, bench.format_entry, columns)
+            return bench.FORMATS, bench.format_entry, bench.format_entry, columns
 
 
-def _table(listing: _Listing, entries: Sequence[Entry]) -> Table:
+def _table(kind: str, columns: Mapping[str, str], entries: Sequence[Entry]) -> Table:
     """Return one row an entry; of the cases of a task, which may be many, their number."""
-    table = Table(Column(listing.registry.kind, no_wrap=True), *listing.columns.values())
+    table = Table(Column(kind, no_wrap=True), *columns.values())
     for entry in entries:
-        cells = {name: _text(entry[name]) for name in listing.columns}
+        cells = {name: _text(entry[name]) for name in columns}
         if "cases" in cells:
             cells["cases"] = str(len(entry["cases"]))
         table.add_row(entry["name"], *cells.values())

@@ -38,6 +38,6 @@ def status(
 
 
 def _exit_code(state: RunState) -> ExitCode:
-    if state.total.failed:
+    if state.total["failed"]:
         return ExitCode.JOBS_FAILED
-    return ExitCode.OK if state.total.done or state.writing else ExitCode.NOTHING_RAN
+    return ExitCode.OK if state.total["done"] or state.writing else ExitCode.NOTHING_RAN

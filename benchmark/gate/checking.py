@@ -7,8 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.gate.findings import Finding
 from mocapbench.benchmark.gate.reference import ENVIRONMENT, Folds, Reference, Series
-from mocapbench.benchmark.gate.rule import Judgement, Verdict, judge
-from mocapbench.benchmark.gate.tolerances import Tolerances
+from mocapbench.benchmark.gate.rule import Judgement, Tolerance, Verdict, judge
 from mocapbench.benchmark.registry import METRICS
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
@@ -26,7 +25,10 @@ def differences(reference: Reference, run: Reference) -> tuple[str, ...]:
 
 
 def check(
-    reference: Reference, run: Reference, records: Sequence[Record], tolerances: Tolerances
+    reference: Reference,
+    run: Reference,
+    records: Sequence[Record],
+    tolerances: Mapping[str, Tolerance],
 ) -> tuple[Finding, ...]:
     """Return a finding per series of the reference values or the run.
 
@@ -35,7 +37,7 @@ def check(
     reference, run : Reference
     records : sequence of Record
         Of the run, failed ones included.
-    tolerances : Tolerances
+    tolerances : mapping of str to Tolerance
 
     Raises
     ------
@@ -54,7 +56,7 @@ def check(
 
 
 def _pair_values(
-    reference: Reference, run: Reference, troubles: Troubles, tolerances: Tolerances
+    reference: Reference, run: Reference, troubles: Troubles, tolerances: Mapping[str, Tolerance]
 ) -> Iterator[Finding]:
     for series in sorted({*reference.values, *run.values}):
         expected, got = (side.values.get(series, {}) for side in (reference, run))
@@ -70,13 +72,13 @@ def _pair_values(
 
 
 def _judgement(
-    metric: str, expected: Folds, got: Folds, tolerances: Tolerances
+    metric: str, expected: Folds, got: Folds, tolerances: Mapping[str, Tolerance]
 ) -> Judgement | None:
     folds = sorted(expected.keys() & got.keys())
     if not folds:
         return None
     before, after = ([side[fold] for fold in folds] for side in (expected, got))
-    return judge(before, after, METRICS.get(metric).loss, tolerances.of(metric))
+    return judge(before, after, METRICS.get(metric).loss, tolerances[metric])
 
 
 def _absence(series: Series, fold: int, troubles: Troubles) -> tuple[Verdict, str]:

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -27,32 +27,14 @@ from mocapbench.benchmark.gate.environment import Environment
 from mocapbench.benchmark.gate.rule import DEFAULT_TOLERANCES, Tolerance
 from mocapbench.benchmark.registry import METRICS
 
-__all__ = ["Tolerances", "read_tolerances"]
+__all__ = ["read_tolerances"]
 
 _METRICS = "metrics"
 _NAMES = tuple(parameter.name for parameter in fields(Tolerance))
 
 
-@dataclass(frozen=True)
-class Tolerances:
-    """A tolerance for every metric.
-
-    Parameters
-    ----------
-    default : Tolerance
-    by_metric : mapping of str to Tolerance
-    """
-
-    default: Tolerance
-    by_metric: Mapping[str, Tolerance] = field(default_factory=dict)
-
-    def of(self, metric: str) -> Tolerance:
-        """Return the tolerance of ``metric``."""
-        return self.by_metric.get(metric, self.default)
-
-
-def read_tolerances(environment: Environment, path: Path | None) -> Tolerances:
-    """Return the tolerances for ``environment``, as the file changes them.
+def read_tolerances(environment: Environment, path: Path | None) -> Mapping[str, Tolerance]:
+    """Return the tolerance of every metric for ``environment``, as the file changes them.
 
     Raises
     ------
@@ -72,7 +54,7 @@ def _read(path: Path) -> Mapping[str, Any]:
         raise UsageError(f"--tolerances: {path} cannot be read as TOML: {error}") from error
 
 
-def _tolerances(environment: Environment, table: object) -> Tolerances:
+def _tolerances(environment: Environment, table: object) -> dict[str, Tolerance]:
     options = _table(environment, table)
     own = _table(f"{environment}.{_METRICS}", options.get(_METRICS, {}))
     _check_names(environment, options, (*_NAMES, _METRICS))
@@ -80,11 +62,10 @@ def _tolerances(environment: Environment, table: object) -> Tolerances:
     default = _change_tolerance(DEFAULT_TOLERANCES[environment], environment, general)
     for name in own:
         METRICS.get(name)
-    by_metric = {
-        name: _change_tolerance(default, f"{environment}.{_METRICS}.{name}", table)
-        for name, table in own.items()
+    return {
+        name: _change_tolerance(default, f"{environment}.{_METRICS}.{name}", own.get(name, {}))
+        for name in METRICS.names()
     }
-    return Tolerances(default, by_metric)
 
 
 def _change_tolerance(tolerance: Tolerance, where: str, table: object) -> Tolerance:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
 
@@ -11,12 +11,13 @@ from rich.table import Column, Table
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.inspection.changes import Change, in_words
 from mocapbench.benchmark.inspection.explanation import Explanation, Step
-from mocapbench.benchmark.inspection.state import RunState, TaskState
+from mocapbench.benchmark.inspection.state import RunState
 from mocapbench.benchmark.runs import progress
 from mocapbench.benchmark.runs.key_parts import DIGEST
 
 __all__ = ["explanation_table", "state_lines", "state_table"]
 
+_STATES = ("done", "failed", "data missing", "left")
 _DIFFERENT = DIGEST
 """In place of a value that is not the same for all jobs of a line: it is not shown."""
 
@@ -59,18 +60,18 @@ def _common(several: Sequence[Sequence[Change]]) -> Iterator[Change]:
         yield Change(changes[0].part, before, after)
 
 
-def state_table(tasks: Mapping[str, TaskState], total: TaskState) -> Table:
+def state_table(tasks: Mapping[str, Counter[str]], total: Counter[str]) -> Table:
     """Return one line a task, and one for all."""
-    table = Table("task", "jobs", "done", "failed", "data missing", "left")
-    for name, state in tasks.items():
-        table.add_row(name, *_cells(state))
+    table = Table("task", "jobs", *_STATES)
+    for name, counts in tasks.items():
+        table.add_row(name, *_cells(counts))
     table.add_section()
     table.add_row("all", *_cells(total))
     return table
 
 
-def _cells(state: TaskState) -> Iterator[str]:
-    yield from map(str, (state.planned, state.done, state.failed, state.missing, state.left))
+def _cells(counts: Counter[str]) -> Iterator[str]:
+    yield from map(str, (counts.total(), *(counts[state] for state in _STATES)))
 
 
 def state_lines(state: RunState, now: datetime) -> Iterable[str]:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from mocapbench.benchmark.inspection.fit_seconds import MEASURED
 from mocapbench.benchmark.inspection.work import ExpectedWork, work_of
@@ -13,26 +12,7 @@ from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.plan_document import PlannedJob, planned_jobs
 from mocapbench.benchmark.runs.record import Record, Status
 
-__all__ = ["RunState", "TaskState", "run_state"]
-
-
-class TaskState(NamedTuple):
-    """How many jobs of a task are in which state."""
-
-    done: int
-    failed: int
-    missing: int
-    """Without the recordings that they need."""
-    left: int
-    """Without a record, running or not."""
-
-    @property
-    def planned(self) -> int:
-        """All of them."""
-        return sum(self)
-
-
-_NONE = TaskState(0, 0, 0, 0)
+__all__ = ["RunState", "run_state"]
 
 
 @dataclass(frozen=True)
@@ -41,8 +21,9 @@ class RunState:
 
     Parameters
     ----------
-    tasks : mapping of str to TaskState
-        In table order.
+    tasks : mapping of str to Counter
+        How many jobs of each task, in table order, are ``"done"``, ``"failed"``, have
+        ``"data missing"``, or are ``"left"``, running or not.
     writing : bool
         Whether a run is writing to the folder now.
     about : mapping of str to str
@@ -55,7 +36,7 @@ class RunState:
         Files that are not whole.
     """
 
-    tasks: Mapping[str, TaskState]
+    tasks: Mapping[str, Counter[str]]
     writing: bool
     about: Mapping[str, str]
     work_left: ExpectedWork
@@ -63,16 +44,16 @@ class RunState:
     damaged: tuple[str, ...]
 
     @property
-    def total(self) -> TaskState:
+    def total(self) -> Counter[str]:
         """All tasks together."""
-        return TaskState(*map(sum, zip(_NONE, *self.tasks.values(), strict=True)))
+        return sum(self.tasks.values(), Counter())
 
     @property
     def name(self) -> str:
         """The state in one word."""
         if self.writing:
             return "running"
-        return "interrupted" if self.total.left else "finished"
+        return "interrupted" if self.total["left"] else "finished"
 
 
 def run_state(store: RunDirectory) -> RunState:
@@ -86,12 +67,12 @@ def run_state(store: RunDirectory) -> RunState:
     writing, plan = store.is_locked, store.load_plan()
     jobs = planned_jobs(plan)
     records = {job.key: store.load(job.key) for job in jobs}
-    tasks: dict[str, list[Record | None]] = defaultdict(list)
+    tasks: dict[str, Counter[str]] = defaultdict(Counter)
     for job in jobs:
-        tasks[job.address.task].append(records[job.key])
+        tasks[job.address.task][_name_state(records[job.key])] += 1
     left = [job for job in jobs if records[job.key] is None]
     return RunState(
-        {task: _count_records(several) for task, several in tasks.items()},
+        tasks,
         writing,
         plan["provenance"],
         _work_left(left, store, plan["provenance"].get("profile", "")),
@@ -100,10 +81,13 @@ def run_state(store: RunDirectory) -> RunState:
     )
 
 
-def _count_records(records: Iterable[Record | None]) -> TaskState:
-    counts = Counter(record.status if record else None for record in records)
-    failed = sum(count for status, count in counts.items() if status and status.broken)
-    return TaskState(counts[Status.OK], failed, counts[Status.DATA_MISSING], counts[None])
+def _name_state(record: Record | None) -> str:
+    """Return the state of a job that has this record."""
+    if record is None:
+        return "left"
+    if record.status.broken:
+        return "failed"
+    return "done" if record.status is Status.OK else "data missing"
 
 
 def _work_left(left: Sequence[PlannedJob], store: RunDirectory, profile: str) -> ExpectedWork:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -68,32 +68,17 @@ def work_of(fits: Iterable[Address], records: Iterable[Record], profile: str) ->
     profile : str
         Tells how long a fit takes of which there is no record.
     """
-    ways = _ways(records, profile)
-    estimates = [_estimate(address, ways) for address in fits]
+    own, developers = of_records(records), typical(profile)
+    estimates = [_estimate(address, own, developers) for address in fits]
     seconds = tuple(seconds for _, seconds in estimates)
     return ExpectedWork(seconds, Counter(basis for basis, _ in estimates))
 
 
-class _Way(NamedTuple):
-    """A way to know how long a fit takes."""
-
-    basis: Basis
-    durations: Durations
-    of: slice
-    """Which of the kinds that a job belongs to count."""
-
-
-def _ways(records: Iterable[Record], profile: str) -> tuple[_Way, ...]:
-    entrant, anything = slice(0, 2), slice(2, 3)
-    return (
-        _Way(Basis.RECORDS, of_records(records), entrant),
-        _Way(Basis.TYPICAL, typical(profile), entrant),
-        _Way(Basis.MEAN, typical(profile), anything),
-    )
-
-
-def _estimate(address: Address, ways: Sequence[_Way]) -> tuple[Basis, float]:
-    """Return how long a fit takes by the first way that knows; the last always does."""
-    kinds = alike(address)
-    way = next(way for way in ways if way.durations.knows(kinds[way.of]))
-    return way.basis, way.durations.expect_seconds(kinds[way.of])
+def _estimate(address: Address, own: Durations, developers: Durations) -> tuple[Basis, float]:
+    """Return how long a fit takes by the surest of the ways that know; the last always does."""
+    *entrant, anything = alike(address)
+    if own.knows(entrant):
+        return Basis.RECORDS, own.expect_seconds(entrant)
+    if developers.knows(entrant):
+        return Basis.TYPICAL, developers.expect_seconds(entrant)
+    return Basis.MEAN, developers.expect_seconds([anything])

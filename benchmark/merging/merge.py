@@ -82,7 +82,7 @@ def _unite_runs(paths: Sequence[Path], locked: Path | None = None) -> Merged:
     records = unite_records(sources)
     entries = {key: entry for source in reversed(sources) for key, entry in source.keys.items()}
     return Merged(
-        records={key: found.path for key, found in records.items()},
+        records={key: path for key, (_, path) in records.items()},
         fits=unite_fits(sources),
         keys=entries,
         plan=unite_plans(sources, records, entries),

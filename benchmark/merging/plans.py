@@ -60,7 +60,7 @@ def _one(
     lacking = {
         job.key
         for job in row
-        if job.key in records and records[job.key].record.status is Status.DATA_MISSING
+        if job.key in records and records[job.key][0].status is Status.DATA_MISSING
     }
     with_data = [job for job in row if job.key not in lacking] or list(row)
     if len(with_data) > 1:

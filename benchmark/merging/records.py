@@ -7,7 +7,6 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from pathlib import Path
-from typing import NamedTuple
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.merging.sources import MergeSource
@@ -19,11 +18,8 @@ _SHOWN = 10
 """Differences, of which there may be thousands."""
 
 
-class Found(NamedTuple):
-    """A record and the file that it is in."""
-
-    record: Record
-    path: Path
+Found = tuple[Record, Path]
+"""A record and the file that it is in."""
 
 
 def unite_records(sources: Sequence[MergeSource]) -> dict[str, Found]:
@@ -40,20 +36,21 @@ def unite_records(sources: Sequence[MergeSource]) -> dict[str, Found]:
     found: dict[str, list[Found]] = defaultdict(list)
     for source in sources:
         for key, record in source.records.items():
-            found[key].append(Found(record, source.store.record_path(key)))
+            found[key].append((record, source.store.record_path(key)))
     _check_agreement(found.values())
     return {key: min(several, key=_preference) for key, several in found.items()}
 
 
 def _preference(found: Found) -> tuple[bool, str]:
-    return found.record.status is not Status.OK, found.record.to_json()
+    record, _ = found
+    return record.status is not Status.OK, record.to_json()
 
 
 def _check_agreement(several: Iterable[Sequence[Found]]) -> None:
     differences = [
         text
         for found in several
-        for one, other in pairwise([item for item in found if item.record.status is Status.OK])
+        for one, other in pairwise([item for item in found if item[0].status is Status.OK])
         for text in _differences(one, other)
     ]
     if differences:
@@ -68,10 +65,11 @@ def _check_agreement(several: Iterable[Sequence[Found]]) -> None:
 
 def _differences(one: Found, other: Found) -> list[str]:
     """Return in words which scores of one job differ; NaN is equal to itself."""
-    values, others = ({name: repr(v) for name, v in f.record.scores.items()} for f in (one, other))
+    (record, path), (twin, other_path) = one, other
+    values, others = ({name: repr(v) for name, v in r.scores.items()} for r in (record, twin))
     return [
-        f"{one.record.address}: {name} {values.get(name, 'none')} in {one.path}, "
-        f"{others.get(name, 'none')} in {other.path}"
+        f"{record.address}: {name} {values.get(name, 'none')} in {path}, "
+        f"{others.get(name, 'none')} in {other_path}"
         for name in {**values, **others}
         if values.get(name) != others.get(name)
     ]

@@ -53,7 +53,7 @@ class DryRun:
     def run(
         self, tests: tuple[str, ...], training: tuple[str, ...]
     ) -> tuple[bool, tuple[str, ...]]:
-        """Return whether no entry of the recordings is missing, and whether they have markers.
+        """Return whether no entry of the recordings is missing, and what they meet of models' needs.
 
         Parameters
         ----------

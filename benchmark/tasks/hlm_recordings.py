@@ -6,37 +6,24 @@ HLM: W. Pan and L. Torresani, *Unsupervised Hierarchical Modeling of Locomotion 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from mocapbench.datasets import Archive, Recording, gait_style, hlm_features
 
-__all__ = ["CMU", "SYNTHETIC", "Corpus"]
+__all__ = ["CMU", "SYNTHETIC", "Styles", "read_features", "select_subject"]
 
 
-@dataclass(frozen=True)
-class Corpus:
-    """Recordings of cyclic motion whose styles are known.
+Styles = Mapping[str, str]
+"""The style of each recording of cyclic motion, by its address."""
 
-    Parameters
-    ----------
-    styles : mapping of str to str
-        Style of each recording, by its address.
-    """
 
-    styles: Mapping[str, str]
+def read_features(styles: Styles, archive: Archive) -> dict[str, Recording]:
+    """Return HLM's 62 channels at 30 Hz of each recording, by its address."""
+    return {uri: hlm_features(archive.recording(uri)) for uri in styles}
 
-    @property
-    def sources(self) -> tuple[str, ...]:
-        """The addresses of the recordings."""
-        return tuple(self.styles)
 
-    def read(self, archive: Archive) -> dict[str, Recording]:
-        """Return HLM's 62 channels at 30 Hz of each recording, by its address."""
-        return {uri: hlm_features(archive.recording(uri)) for uri in self.styles}
-
-    def of_subject(self, subject: str) -> tuple[str, ...]:
-        """Return the addresses of the recordings of a subject such as ``cmu:07``."""
-        return tuple(uri for uri in self.styles if uri.startswith(f"{subject}_"))
+def select_subject(styles: Styles, subject: str) -> tuple[str, ...]:
+    """Return the addresses of the recordings of a subject such as ``cmu:07``."""
+    return tuple(uri for uri in styles if uri.startswith(f"{subject}_"))
 
 
 # Subject and trials of each style, after the database's index of motions.
@@ -59,14 +46,12 @@ _SYNTHETIC_TRIALS = (
 _CMU_STYLES = {
     f"cmu:{subject}_{trial:02}": style for subject, style, trials in _CMU_TRIALS for trial in trials
 }
-_SYNTHETIC_STYLES = {
+SYNTHETIC: Styles = {
     f"gait:{key}": gait_style(key)
     for subject, trials in _SYNTHETIC_TRIALS
     for key in (f"{subject}_{trial:02}" for trial in trials)
 }
-
-CMU = Corpus(dict(sorted(_CMU_STYLES.items())))
-"""HLM §4.1: 39 recordings of subjects 07, 08, 09 and 35 in four styles."""
-
-SYNTHETIC = Corpus(_SYNTHETIC_STYLES)
 """21 generated recordings of three subjects in the same four styles."""
+
+CMU: Styles = dict(sorted(_CMU_STYLES.items()))
+"""HLM §4.1: 39 recordings of subjects 07, 08, 09 and 35 in four styles."""

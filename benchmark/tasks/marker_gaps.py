@@ -7,7 +7,7 @@ Using Marker Intercorrelations*, PLoS ONE 11(3), 2016.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -68,67 +68,53 @@ PLACES: Mapping[str, ChooseJoints] = {
 }
 
 
-@dataclass(frozen=True)
-class GappedMotion:
-    """A recording with gaps, and others of the same subject.
+Motions = Mapping[str, tuple[str, ...]]
+"""Addresses of recordings with gaps, and for each of others of the same subject."""
 
-    Parameters
-    ----------
-    tested : str
-        Address of the recording with gaps.
-    others : tuple of str
-        Addresses of recordings without.
-    """
-
-    tested: str
-    others: tuple[str, ...]
-
-
-WALK = GappedMotion("cmu:35_03", ("cmu:35_01", "cmu:35_02", "cmu:35_04"))
-KICK = GappedMotion("cmu:10_06", ("cmu:10_02", "cmu:10_03", "cmu:10_05"))
-SWING = GappedMotion("cmu:64_02", ("cmu:64_01", "cmu:64_03", "cmu:64_04"))
-PUNCHES = GappedMotion("cmu:02_05", ("cmu:02_01", "cmu:02_06", "cmu:02_10"))
-MOTIONS = (WALK, KICK, SWING, PUNCHES)
-SYNTHETIC = (
-    GappedMotion("gait:01_01", ("gait:01_02", "gait:01_03", "gait:01_06")),
-    GappedMotion("gait:02_01", ("gait:02_02", "gait:02_03", "gait:02_04")),
-)
-
-
-@dataclass(frozen=True)
-class Gaps:
-    """Which joints are hidden, a key of `PLACES`, and for how long."""
-
-    place: str
-    seconds: float
+MOTIONS: Motions = {
+    "cmu:35_03": ("cmu:35_01", "cmu:35_02", "cmu:35_04"),  # walking
+    "cmu:10_06": ("cmu:10_02", "cmu:10_03", "cmu:10_05"),  # kicking
+    "cmu:64_02": ("cmu:64_01", "cmu:64_03", "cmu:64_04"),  # swinging a golf club
+    "cmu:02_05": ("cmu:02_01", "cmu:02_06", "cmu:02_10"),  # punching
+}
+SYNTHETIC: Motions = {
+    "gait:01_01": ("gait:01_02", "gait:01_03", "gait:01_06"),
+    "gait:02_01": ("gait:02_02", "gait:02_03", "gait:02_04"),
+}
 
 
 def marker_gaps_problem(
-    motions: tuple[GappedMotion, ...],
-    gaps: Gaps,
-    trained_on: Callable[[GappedMotion], tuple[str, ...]],
-    seeds: Seeds,
-    archive: Archive,
+    motions: Motions, place: str, seconds: float, seeds: Seeds, archive: Archive
 ) -> ImputeProblem:
     """Hide joints of the fold's recording.
 
     The joints, and where between the ends of the recording a gap lies, depend on the place and the
     fold alone: rows that differ in the length of gaps or in training share them.
+
+    Parameters
+    ----------
+    motions : mapping of str to tuple of str
+        Addresses of recordings, and of those that models learn from besides.
+    place : str
+        Which joints are hidden: a key of `PLACES`.
+    seconds : float
+        For how long.
+    seeds, archive
+        See `mocapbench.benchmark.tasks.base.Case`.
     """
-    motion = motions[seeds.fold % len(motions)]
-    skeleton = archive.skeleton(motion.tested)
-    recording = _markers(archive, motion.tested)
-    n_hidden = round(RATE * gaps.seconds)
+    tested = [*motions][seeds.fold % len(motions)]
+    skeleton, recording = archive.skeleton(tested), _markers(archive, tested)
+    n_hidden = round(RATE * seconds)
     joints = tuple(segment.name for segment in skeleton.segments[1:])
-    rng = replace(seeds, address=seeds.address._replace(case=gaps.place)).generator("mask")
+    rng = replace(seeds, address=seeds.address._replace(case=place)).generator("mask")
     runs = [
         Run(_channels(names), _start(rng.random(), n_hidden, recording), n_hidden)
-        for names in PLACES[gaps.place](rng, joints)
+        for names in PLACES[place](rng, joints)
     ]
     return ImputeProblem.of_one(
         recording,
         hide_runs(runs, recording),
-        tuple(_markers(archive, uri) for uri in trained_on(motion)),
+        tuple(_markers(archive, uri) for uri in motions[tested]),
         body=JointPositions(skeleton),
     )
 
@@ -151,32 +137,21 @@ def _start(place: float, n_hidden: int, recording: Recording) -> int:
     return N_BESIDE + round(place * room)
 
 
-def _alone(motion: GappedMotion) -> tuple[str, ...]:
-    del motion
-    return ()
-
-
-def _others(motion: GappedMotion) -> tuple[str, ...]:
-    return motion.others
-
-
-_TRAINING = {ALONE: _alone, OTHERS: _others}
-
-
 def _cases(
-    motions: tuple[GappedMotion, ...], places: tuple[str, ...], prefix: str = "", *, synthetic: bool
+    motions: Motions, places: tuple[str, ...], prefix: str = "", *, synthetic: bool
 ) -> tuple[Case, ...]:
+    by_training = {ALONE: dict.fromkeys(motions, ()), OTHERS: motions}
     return tuple(
         Case(
             f"{prefix}{place} {seconds:g} s, {training}",
-            partial(marker_gaps_problem, motions, Gaps(place, seconds), trained_on),
+            partial(marker_gaps_problem, trained_on, place, seconds),
             {"hidden": place, "trained on": training, "seconds": seconds},
-            tuple(uri for motion in motions for uri in (motion.tested, *trained_on(motion))),
+            tuple(uri for tested, others in trained_on.items() for uri in (tested, *others)),
             synthetic=synthetic,
-            subjects=() if synthetic else tuple(subject_of(motion.tested) for motion in motions),
+            subjects=() if synthetic else tuple(map(subject_of, motions)),
         )
         for place in places
-        for training, trained_on in _TRAINING.items()
+        for training, trained_on in by_training.items()
         for seconds in SECONDS
     )
 

@@ -9,7 +9,7 @@ from functools import partial
 
 from mocapbench.benchmark.problems.cluster import ClusterProblem
 from mocapbench.benchmark.tasks.base import Case, Entrant, Profile, Task, on_recordings
-from mocapbench.benchmark.tasks.hlm_recordings import CMU, SYNTHETIC, Corpus
+from mocapbench.benchmark.tasks.hlm_recordings import CMU, SYNTHETIC, Styles, read_features
 from mocapbench.benchmark.tasks.pages.style_clustering import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive
@@ -19,23 +19,23 @@ __all__ = ["clustering_problem", "style_clustering"]
 MOST_STYLES = 8
 
 
-def clustering_problem(corpus: Corpus, seeds: Seeds, archive: Archive) -> ClusterProblem:
+def clustering_problem(styles: Styles, seeds: Seeds, archive: Archive) -> ClusterProblem:
     """Give the recordings without their styles; every fold is the same problem."""
     del seeds  # a fold is a restart, which the entrant's own stream decides
     return ClusterProblem(
-        train=tuple(corpus.read(archive).values()),
-        truth=tuple(corpus.styles.values()),
-        skeleton=archive.skeleton(corpus.sources[0]),
+        train=tuple(read_features(styles, archive).values()),
+        truth=tuple(styles.values()),
+        skeleton=archive.skeleton(next(iter(styles))),
     )
 
 
-def _cases(corpus: Corpus, prefix: str, *, synthetic: bool) -> tuple[Case, ...]:
+def _cases(styles: Styles, prefix: str, *, synthetic: bool) -> tuple[Case, ...]:
     return tuple(
         Case(
             f"{prefix}C = {n}",
-            partial(clustering_problem, corpus),
+            partial(clustering_problem, styles),
             {"styles": n},
-            corpus.sources,
+            tuple(styles),
             synthetic=synthetic,
             parameters={"n_styles": n},
         )

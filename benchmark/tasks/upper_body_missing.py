@@ -12,7 +12,13 @@ import numpy as np
 from mocapbench.benchmark.problems.body import JointAngles
 from mocapbench.benchmark.problems.impute import ImputeProblem
 from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
-from mocapbench.benchmark.tasks.hlm_recordings import CMU, SYNTHETIC, Corpus
+from mocapbench.benchmark.tasks.hlm_recordings import (
+    CMU,
+    SYNTHETIC,
+    Styles,
+    read_features,
+    select_subject,
+)
 from mocapbench.benchmark.tasks.pages.upper_body_missing import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.datasets import Archive, Mask, Recording
@@ -24,11 +30,11 @@ VISIBLE_SEGMENTS = ("root", "tibia", "foot", "toes")
 
 
 def upper_body_problem(
-    corpus: Corpus, subject: str, seeds: Seeds, archive: Archive
+    styles: Styles, subject: str, seeds: Seeds, archive: Archive
 ) -> ImputeProblem:
     """Hold out the fold's walk of ``subject`` and hide the upper body in its second half."""
-    recordings = corpus.read(archive)
-    held_out = corpus.of_subject(subject)[seeds.fold]
+    recordings = read_features(styles, archive)
+    held_out = select_subject(styles, subject)[seeds.fold]
     test = recordings.pop(held_out)
     others = tuple(recordings.values())
     body = JointAngles(archive.skeleton(held_out))
@@ -48,14 +54,14 @@ _CASES = (
         "subject 07 walks",
         partial(upper_body_problem, CMU, "cmu:07"),
         {"trained on": "subjects 07, 08, 09, 35"},
-        CMU.sources,
+        tuple(CMU),
         subjects=("07",),
     ),
     Case(
         "synthetic walks",
         partial(upper_body_problem, SYNTHETIC, "gait:01"),
         {"trained on": "three generated walkers"},
-        SYNTHETIC.sources,
+        tuple(SYNTHETIC),
         synthetic=True,
     ),
 )

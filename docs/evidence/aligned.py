@@ -25,7 +25,7 @@ from mocapbench.baselines import CyclicAlignment
 from mocapbench.baselines.alignment.cycle_start import best_paths, prototypes
 from mocapbench.baselines.alignment.restarts import copy_style, run_em
 from mocapbench.baselines.common.prototypes import group_rows, of_unit_variance, tempi
-from mocapbench.benchmark.tasks.hlm_recordings import CMU, Corpus
+from mocapbench.benchmark.tasks.hlm_recordings import CMU, Styles, read_features
 from mocapbench.datasets import Recording
 
 VISIBLE = ("root", "tibia", "foot", "toes")
@@ -33,41 +33,39 @@ LEFT_OUT = ("08_01", "08_03", "08_06", "08_09", "35_01", "35_03", "35_05", "35_0
 
 
 # After the database's index of motions.
-OTHERS = Corpus(
-    {
-        f"cmu:{subject}_{trial:02}": style
-        for subject, style, trials in (
-            ("02", "walk", (1, 2)),
-            ("02", "run", (3,)),
-            ("16", "walk", (15, 16, 21, 22, 31, 32, 47, 58)),
-            ("16", "slow walk", (33, 34)),
-            ("16", "run", (35, 36, 45, 46)),
-            ("35", "walk", (15, 16, *range(28, 35))),
-            ("35", "run", (17, 18, 20, 21, 22)),
-        )
-        for trial in trials
-    }
-)
+OTHERS = {
+    f"cmu:{subject}_{trial:02}": style
+    for subject, style, trials in (
+        ("02", "walk", (1, 2)),
+        ("02", "run", (3,)),
+        ("16", "walk", (15, 16, 21, 22, 31, 32, 47, 58)),
+        ("16", "slow walk", (33, 34)),
+        ("16", "run", (35, 36, 45, 46)),
+        ("35", "walk", (15, 16, *range(28, 35))),
+        ("35", "run", (17, 18, 20, 21, 22)),
+    )
+    for trial in trials
+}
 
 
-def purity(labels: np.typing.NDArray[np.intp], corpus: Corpus = CMU) -> float:
+def purity(labels: np.typing.NDArray[np.intp], styles: Styles = CMU) -> float:
     """Return the share of recordings whose label is the commonest of their cluster."""
-    truth = np.array([style for _, style in sorted(corpus.styles.items())])
+    truth = np.array([style for _, style in sorted(styles.items())])
     tops = [np.unique(truth[labels == c], return_counts=True)[1].max() for c in set(labels)]
     return float(np.sum(tops)) / len(truth)
 
 
 def tempo(n_restarts: int = 5) -> None:
     """Print the purity of groups by shape, and by shape and tempo, as they start and after EM."""
-    for name, corpus in (("others", OTHERS), ("the task's", CMU)):
-        recordings = list(corpus.read(bench.archive_at(None)).values())
+    for name, styles in (("others", OTHERS), ("the task's", CMU)):
+        recordings = list(read_features(styles, bench.archive_at(None)).values())
         for n_styles in range(2, 9):
-            rows = [_by_tempo(recordings, corpus, n_styles, seed) for seed in range(n_restarts)]
+            rows = [_by_tempo(recordings, styles, n_styles, seed) for seed in range(n_restarts)]
             print(name, n_styles, "shape, and tempo:", *np.mean(rows, axis=0).round(3))
 
 
 def _by_tempo(
-    recordings: Sequence[Recording], corpus: Corpus, n_styles: int, seed: int
+    recordings: Sequence[Recording], styles: Styles, n_styles: int, seed: int
 ) -> list[float]:
     rng = np.random.default_rng(seed)
     model = CyclicAlignment(n_styles=1, n_restarts=1, max_iter=1, random_state=rng).fit(recordings)
@@ -80,7 +78,7 @@ def _by_tempo(
         labels = group_rows(chosen, n_styles, 10, rng)
         state = copy_style(model.state_, np.eye(n_styles)[labels])
         ended = run_em(state, model.sequences_, model.hyper_, 40).state.labels.argmax(axis=1)
-        found += [purity(labels, corpus), purity(ended, corpus)]
+        found += [purity(labels, styles), purity(ended, styles)]
     return found
 
 
@@ -108,14 +106,14 @@ def _left_out(recordings: dict[str, Recording], names: Sequence[str], seed: int)
 
 def bodies() -> None:
     """Print the errors on walks of subjects 08 and 35, without subject 07."""
-    recordings = CMU.read(bench.archive_at(None))
+    recordings = read_features(CMU, bench.archive_at(None))
     others = {name: r for name, r in recordings.items() if not name.startswith("cmu:07")}
     _left_out(others, [f"cmu:{trial}" for trial in LEFT_OUT], 0)
 
 
 def walks() -> None:
     """Print the errors on the task's walks."""
-    recordings = CMU.read(bench.archive_at(None))
+    recordings = read_features(CMU, bench.archive_at(None))
     for seed in range(5):
         _left_out(recordings, [n for n in recordings if n.startswith("cmu:07")], seed)
 

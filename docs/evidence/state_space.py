@@ -21,7 +21,7 @@ import numpy as np
 
 from mocapbench import benchmark as bench
 from mocapbench.baselines import LDS, LGSSM
-from mocapbench.benchmark.tasks.hlm_recordings import CMU
+from mocapbench.benchmark.tasks.hlm_recordings import CMU, read_features
 from mocapbench.benchmark.tasks.missing_frames import (
     FIRST_HIDDEN,
     GROUPS,
@@ -79,11 +79,11 @@ def states() -> None:
 
 def clusters() -> None:
     """Print the purity of eight clusters, for styles and for subjects, by start."""
-    recordings = list(CMU.read(bench.archive_at(None)).values())
-    subjects = [uri.partition("_")[0] for uri in CMU.sources]
+    recordings = list(read_features(CMU, bench.archive_at(None)).values())
+    subjects = [uri.partition("_")[0] for uri in CMU]
     for start in range(N_STARTS):
         labels = LGSSM(8, n_restarts=1, random_state=start).fit(recordings).labels_
-        styles, people = (_purity(labels, kinds) for kinds in (CMU.styles.values(), subjects))
+        styles, people = (_purity(labels, kinds) for kinds in (CMU.values(), subjects))
         print(f"start {start:2}   styles {styles:.2f}   subjects {people:.2f}")
 
 

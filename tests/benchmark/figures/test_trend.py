@@ -34,9 +34,10 @@ def test_the_trend_is_shown_beside_the_true_parent_with_its_band(toy, internals)
 
 
 def test_each_channel_and_each_entrant_has_a_panel(toy, internals):
-    figure = partial(draw_trends, channels=("output-1", "output-3"))
-    (illustration,) = figure(Solved("toy", toy, {}, {"one": internals, "two": internals}))
-    expected = [f"{label}, {c}" for c in figure.channels for label in ("one", "two")]
+    channels = ("output-1", "output-3")
+    solved = Solved("toy", toy, {}, {"one": internals, "two": internals})
+    (illustration,) = draw_trends(solved, channels)
+    expected = [f"{label}, {c}" for c in channels for label in ("one", "two")]
     assert [panel.title for panel in illustration.panels] == expected
     last = illustration.panels[-1]
     np.testing.assert_array_equal(last.curves[0].y, toy.parent.values[:, 2])

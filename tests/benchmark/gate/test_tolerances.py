@@ -16,7 +16,7 @@ def written(tmp_path):
 
 
 def test_defaults_are_tight_in_one_environment_and_two_percent_across():
-    same, cross = (read_tolerances(each, None).of("mse") for each in Environment)
+    same, cross = (read_tolerances(each, None)["mse"] for each in Environment)
     assert same == Tolerance(k=3.0, relative=1e-9, absolute=0.0)
     assert cross == Tolerance(k=3.0, relative=0.02, absolute=0.0)
 
@@ -24,9 +24,9 @@ def test_defaults_are_tight_in_one_environment_and_two_percent_across():
 def test_a_metrics_own_table_goes_over_the_environments(written):
     path = written("[cross]\nk = 2\n[cross.metrics.msll]\nabsolute = 0.01\n")
     cross, same = (read_tolerances(each, path) for each in ("cross", "same"))
-    assert cross.of("mse") == Tolerance(2, 0.02, 0.0)
-    assert cross.of("msll") == Tolerance(2, 0.02, 0.01)
-    assert same.of("msll") == Tolerance()
+    assert cross["mse"] == Tolerance(2, 0.02, 0.0)
+    assert cross["msll"] == Tolerance(2, 0.02, 0.01)
+    assert same["msll"] == Tolerance()
 
 
 @pytest.mark.parametrize(

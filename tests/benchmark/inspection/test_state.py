@@ -33,10 +33,10 @@ def test_jobs_are_counted_by_task(write_run, tmp_path):
     store = RunDirectory(write_run(tmp_path / "run", ROWS, statuses=statuses, left=ROWS[6:8]))
     state = run_state(store)
     assert list(state.tasks) == ["t", "u"]
-    assert state.tasks["t"] == (2, 3, 1, 0)
-    assert state.tasks["u"] == (4, 0, 0, 2)
-    assert state.total == (6, 3, 1, 2)
-    assert state.total.planned == len(ROWS)
+    assert state.tasks["t"] == {"done": 2, "failed": 3, "data missing": 1}
+    assert state.tasks["u"] == {"done": 4, "left": 2}
+    assert state.total == {"done": 6, "failed": 3, "data missing": 1, "left": 2}
+    assert state.total.total() == len(ROWS)
 
 
 def test_a_run_is_running_interrupted_or_finished(write_run, tmp_path):
@@ -93,7 +93,7 @@ def test_to_score_what_is_predicted_takes_no_time(write_run, tmp_path):
     record = store.planned()[0]
     store.record_path(record.key).unlink()
     state = run_state(store)
-    assert (state.total.left, state.work_left.seconds) == (1, ())
+    assert (state.total["left"], state.work_left.seconds) == (1, ())
     store.fit_path(record.fit_key).unlink()
     assert run_state(store).work_left.seconds == (1.0,)
 
@@ -116,11 +116,11 @@ def test_damaged_files_are_named(write_run, tmp_path):
     assert [any(str(path) in message for message in state.damaged) for path in victims] == [
         True
     ] * 2
-    assert state.total.left == 1
+    assert state.total["left"] == 1
 
 
 def test_an_empty_plan_has_no_jobs(write_run, tmp_path):
-    assert run_state(RunDirectory(write_run(tmp_path / "run", []))).total.planned == 0
+    assert run_state(RunDirectory(write_run(tmp_path / "run", []))).total.total() == 0
 
 
 def test_a_run_without_a_plan_is_refused(tmp_path):

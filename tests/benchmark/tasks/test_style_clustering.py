@@ -9,7 +9,7 @@ TASK = TASKS.get("style-clustering")
 
 def test_recordings_are_clustered_without_their_styles(posed):
     problem = posed(TASK.name, "synthetic C = 3")
-    assert [recording.name for recording in problem.train] == list(SYNTHETIC.sources)
+    assert [recording.name for recording in problem.train] == list(SYNTHETIC)
     outcome = problem.outcome(Clusters(np.zeros(len(problem.train), dtype=int)))
     assert METRICS.get("purity")(outcome).value == pytest.approx(12 / 21)
 

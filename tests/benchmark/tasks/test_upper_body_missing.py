@@ -37,7 +37,7 @@ def test_48_joint_angles_are_hidden_in_the_second_half(synthetic):
 def test_the_walk_is_held_out(synthetic):
     (given,) = synthetic.given
     assert given.name == "gait:01_03"
-    assert [r.name for r in synthetic.train] == [u for u in SYNTHETIC.sources if u != given.name]
+    assert [r.name for r in synthetic.train] == [u for u in SYNTHETIC if u != given.name]
     assert all(recording.visible.all() for recording in synthetic.train)
 
 
