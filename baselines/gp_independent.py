@@ -8,8 +8,6 @@ channels or recordings.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from mocapbench.baselines.gp.channelwise import Channelwise
 from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.lmc_independent import LMCIndependent
@@ -18,7 +16,6 @@ __all__ = ["GPIndependent"]
 
 
 @document_like(Channelwise)
-@dataclass(kw_only=True, eq=False, repr=False)
 class GPIndependent(Channelwise[LMCIndependent]):
     r"""A Gaussian process with noise for each channel on its own.
 

@@ -11,12 +11,11 @@ thesis, Universidad Tecnológica de Pereira, 2017, is cited as the thesis.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.gp.prior.parameters import CHILD
-from mocapbench.baselines.gp.reduction.independent import independent
+from mocapbench.baselines.gp.reduction.one_layer import separate_replicates
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
@@ -25,7 +24,6 @@ __all__ = ["LMCIndependent"]
 
 
 @document_like(GaussianProcess)
-@dataclass(kw_only=True, eq=False, repr=False)
 class LMCIndependent(GaussianProcess):
     r"""A Gaussian process over all channels, of which recordings are independent draws.
 
@@ -81,4 +79,4 @@ class LMCIndependent(GaussianProcess):
 
     def reduce(self, replicates: Replicates) -> Reduction:
         """Return the likelihood of replicates in standard units as block problems."""
-        return independent(replicates)
+        return separate_replicates(replicates)

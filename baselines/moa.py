@@ -11,14 +11,13 @@ thesis, Universidad Tecnológica de Pereira, 2017, is cited as the thesis.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.gp.prior.parameters import PARENT
-from mocapbench.baselines.gp.reduction.pooled import pool_replicates
+from mocapbench.baselines.gp.reduction.one_layer import pool_replicates
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Tree
@@ -29,7 +28,6 @@ __all__ = ["MOA"]
 
 
 @document_like(GaussianProcess)
-@dataclass(kw_only=True, eq=False, repr=False)
 class MOA(GaussianProcess, Trended):
     r"""A Gaussian process over all channels; recordings are noisy copies of one function.
 

@@ -22,7 +22,7 @@ from mocapbench.baselines.common.validation import check_choice
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.parameter_docs import document_like
 from mocapbench.baselines.gp.prior.parameters import CHILD
-from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
+from mocapbench.baselines.gp.reduction.hierarchy import reduce_hierarchy
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow, is_path
@@ -159,7 +159,7 @@ class MOHGP(GaussianProcess, Trended):
 
     def reduce(self, replicates: Replicates) -> Reduction:
         """Return the likelihood of replicates in standard units as block problems."""
-        return hierarchical(replicates, self.tree_)
+        return reduce_hierarchy(replicates, self.tree_)
 
     def trend(self, times: Frames, group: Path = ()) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the posterior mean and variance of g or of a group at ``times`` (N,).

@@ -44,11 +44,14 @@ from mocapbench.baselines.gp.solvers.planner import (
 )
 from mocapbench.baselines.gp.solvers.solver import Solver
 from mocapbench.baselines.gp.solvers.threads import thread_mapper
-from mocapbench.baselines.gp.training.bounds import bounds
 from mocapbench.baselines.gp.training.coordinates import Coordinates
-from mocapbench.baselines.gp.training.maximum_likelihood import maximise
-from mocapbench.baselines.gp.training.search import Budget, Iteration, SearchSpace, Training
-from mocapbench.baselines.gp.training.start import data_driven, starts
+from mocapbench.baselines.gp.training.maximum_likelihood import (
+    Budget,
+    Iteration,
+    Search,
+    maximise,
+)
+from mocapbench.baselines.gp.training.start import start_from_data, vary_start
 from mocapbench.baselines.protocols import (
     Coregionalised,
     Imputer,
@@ -124,7 +127,7 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
     bic_ : float
         Schwarz's criterion, −2 log L + k log n for k parameters and n visible entries, by which
         numbers of components may be chosen: lower is better.
-    training_ : Training
+    training_ : tuple of Search
         The searches, with the log-likelihood after each iteration, of the recordings in standard
         units.
     converged_, n_iterations_, n_evaluations_ : bool, int, int
@@ -200,7 +203,7 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         kernel, start = KERNELS[self.kernel], self._start(reduction)
         solvers = PLANS[self.solver](kernel, reduction.blocks, start)
         self.training_ = self._search(reduction, solvers, start)
-        best = self.training_.best
+        best = max(self.training_, key=lambda search: search.log_likelihood)
         self.process_ = FittedProcess(kernel, reduction, solvers, best.parameters, self.scaling_)
         self.solver_ = solver_names(solvers)
         self.engine_ = describe_work(solvers, reduction.blocks, start)
@@ -213,15 +216,15 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
 
     def _search(
         self, reduction: Reduction, solvers: Sequence[Solver], start: Parameters
-    ) -> Training:
-        begin = starts(start, self.n_restarts, np.random.default_rng(self.random_state))
+    ) -> tuple[Search, ...]:
+        begin = vary_start(start, self.n_restarts, np.random.default_rng(self.random_state))
         draws = {layer: len(set(nodes)) for layer, nodes in self.tree_.items()}
-        coordinates = Coordinates.around(start, draws)
+        coordinates = Coordinates.around(start, draws, self._replicates.times)
         with thread_mapper(effective_n_jobs(self.n_jobs)) as mapper:
             return maximise(
                 partial(reduction.evaluate, with_mapper(solvers, mapper)),
                 begin,
-                SearchSpace(coordinates, *bounds(start, self._replicates.times)),
+                coordinates,
                 Budget(self.tol, self.max_iter, self.max_seconds),
                 partial(self._print, len(begin)) if self.verbose else _report_nothing,
             )
@@ -230,7 +233,7 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         """Return the parameters from which the first search starts."""
         sizes = components_of(self.n_components, self.layers)
         within = reduction.within_variance
-        start = data_driven(self._replicates, self.tree_, sizes, self.rank, within)
+        start = start_from_data(self._replicates, self.tree_, sizes, self.rank, within)
         if not (self.warm_start and hasattr(self, "parameters_")):
             return start
         if self.parameters_.shapes != start.shapes:

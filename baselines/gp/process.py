@@ -1,6 +1,6 @@
 """A fitted Gaussian process as a value: what it says of curves, given its recordings.
 
-A curve is a sum of independent terms (`PosteriorTerm`), each given by one block: that of a
+A curve is a sum of independent terms (`Target`), each given by one block: that of a
 recording, of the trend, or of a group in between (`Reduction`). See docs/mathematics/prediction.md,
 section 8.
 """
@@ -21,7 +21,8 @@ from mocapbench.baselines.gp.joint import TermPosterior
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.prior.sampling import draw_layer
-from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
+from mocapbench.baselines.gp.reduction.reduction import Reduction
+from mocapbench.baselines.gp.solvers.block import Target
 from mocapbench.baselines.gp.solvers.planner import PLANS, with_mapper
 from mocapbench.baselines.gp.solvers.solver import BlockPosterior, Solver
 from mocapbench.baselines.gp.solvers.threads import thread_mapper
@@ -32,7 +33,7 @@ from mocapbench.datasets import FrameByChannel, Frames
 __all__ = ["TRENDS", "Curve", "FittedProcess"]
 
 
-Curve = tuple[PosteriorTerm, ...]
+Curve = tuple[Target, ...]
 """The terms of a noise-free curve."""
 
 
@@ -73,7 +74,7 @@ class FittedProcess:
         """The matrices B_q of each layer by its name, (Q, D, D)."""
         units = np.outer(self.scaling.scale, self.scaling.scale)
         layers = self.parameters.layers.items()
-        return {name: layer.coregionalisation.matrices * units for name, layer in layers}
+        return {name: layer.matrices * units for name, layer in layers}
 
     def layer_covariance(self, layer: str, times: Frames) -> Array:
         """Return the prior covariance Σ_q B_q ⊗ k_q of a layer, (D M, D M), outputs slowest."""
@@ -155,14 +156,14 @@ class FittedProcess:
         """Return the mean and the variance (M, D) of the sum of a curve's independent terms."""
         mean, variance = np.zeros((2, len(times), len(self.scaling.scale)))
         for term in curve:
-            means, term_variance = posteriors[term.block].predict(term.target, times)
+            means, term_variance = posteriors[term.block].predict(term, times)
             mean += means[term.column].T
             variance += term_variance.T
         return self.scaling.restore(mean), variance * self.scaling.scale**2
 
-    def _joint(self, term: PosteriorTerm, times: Frames) -> TermPosterior:
+    def _joint(self, term: Target, times: Frames) -> TermPosterior:
         block, solver = self.reduction.blocks[term.block], self.solvers[term.block]
-        return TermPosterior(block, solver, self.parameters, term.target, times)
+        return TermPosterior(block, solver, self.parameters, term, times)
 
 
 Trend = Callable[[FittedProcess, Frames, np.random.Generator], FrameByChannel]

@@ -20,7 +20,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from types import MappingProxyType
-from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -30,7 +29,7 @@ from mocapbench.baselines.common.recordings import visible_moments
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Frames, Recording
 
-__all__ = ["REGISTRATIONS", "Clock", "Registered", "affine"]
+__all__ = ["REGISTRATIONS", "Clock", "keep_times", "register_affinely"]
 
 
 SHIFTS = np.linspace(-0.3, 0.3, 25)
@@ -66,19 +65,16 @@ class Clock:
         return self.origin + (times - self.start) / self.pace
 
 
-class Registered(NamedTuple):
-    """A recording as the model takes it, and the clock by which it was moved."""
-
-    recording: Recording
-    clock: Clock = Clock()
+Registered = tuple[Recording, Clock]
+"""A recording as the model takes it, and the clock by which it was moved."""
 
 
 def keep_times(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
     """Return the recordings as they are."""
-    return tuple(map(Registered, recordings))
+    return tuple((recording, Clock()) for recording in recordings)
 
 
-def affine(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
+def register_affinely(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
     """Return the recordings with those that are complete moved onto the reference's clock."""
     reference = max(recordings, key=lambda recording: int((~recording.visible).sum()))
     _, variance = visible_moments(recordings)
@@ -86,7 +82,7 @@ def affine(recordings: Sequence[Recording]) -> tuple[Registered, ...]:
     return tuple(
         _register_recording(recording, reference, scale)
         if recording is not reference and recording.visible.all() and len(recording.times) > 1
-        else Registered(recording)
+        else (recording, Clock())
         for recording in recordings
     )
 
@@ -109,10 +105,10 @@ def _register_recording(recording: Recording, reference: Recording, scale: Array
 
     start = min((np.array(warp) for warp in product(SHIFTS, LOG_PACES)), key=error)
     if np.isinf(error(start)):  # too short, or nothing of the reference is visible
-        return Registered(recording)
+        return recording, Clock()
     found = minimize(error, start, method="Nelder-Mead").x
     moved = replace(recording, times=reference.times, values=at(found))
-    return Registered(moved, clock(found))
+    return moved, clock(found)
 
 
 def _error(reference: Array, moved: Array, scale: Array) -> float:
@@ -126,6 +122,6 @@ def _error(reference: Array, moved: Array, scale: Array) -> float:
 
 
 REGISTRATIONS: Mapping[str, Callable[[Sequence[Recording]], Sequence[Registered]]] = (
-    MappingProxyType({"none": keep_times, "affine": affine})
+    MappingProxyType({"none": keep_times, "affine": register_affinely})
 )
 """The registrations by the name that `MOHGP` takes."""

@@ -4,7 +4,7 @@ The models are those of J. M. Wang, D. J. Fleet and A. Hertzmann (2008), *Gaussi
 Dynamical Models for Human Motion*, IEEE TPAMI 30(2), cited as GPDM. One idea a module:
 
 * `kernels`: covariance functions with their reverse-mode derivatives;
-* `process`: the Gaussian process behind both mappings, to poses and to the next position;
+* `regression`: the Gaussian process behind both mappings, to poses and to the next position;
 * `dynamics`: priors of latent trajectories;
 * `posterior`: the joint posterior density of latent positions and parameters;
 * `learning` and `two_stage`: the learning algorithms; `descent` and `hmc`: the optimiser and the

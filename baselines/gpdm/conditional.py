@@ -15,26 +15,14 @@ from numpy.typing import NDArray
 from mocapbench.baselines.gpdm.descent import descend
 from mocapbench.baselines.gpdm.dynamics import ConditionedDynamics
 from mocapbench.baselines.gpdm.posterior import JointPosterior, PointEstimate
-from mocapbench.baselines.gpdm.process import ConditionedProcess
+from mocapbench.baselines.gpdm.regression import ConditionedProcess, condition_process
 from mocapbench.basics.arrays import Array
 
 __all__ = ["Conditional", "Query"]
 
-
-@dataclass(frozen=True, eq=False)
-class Query:
-    """A sequence to fill, in the model's units: the mean subtracted, times the scales.
-
-    Parameters
-    ----------
-    poses : ndarray of shape (M, D)
-        Hidden frames may hold any finite values; they are not read.
-    visible : ndarray of bool, shape (M,)
-        Whether each frame is visible.
-    """
-
-    poses: Array
-    visible: NDArray[np.bool_]
+Query = tuple[Array, NDArray[np.bool_]]
+"""A sequence to fill: poses (M, D) in the model's units, the mean subtracted, times the scales, and
+which of its frames (M,) are visible. Hidden poses may hold any finite values; they are not read."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +60,7 @@ class Conditional:
             estimate.x,
             poses,
             posterior.lengths,
-            posterior.reconstruction.condition(estimate.beta, estimate.x, poses),
+            condition_process(posterior.reconstruction, estimate.beta, estimate.x, poses),
             posterior.dynamics.condition(estimate.alpha, estimate.x, posterior.lengths),
             posterior.weight,
         )
@@ -82,7 +70,7 @@ class Conditional:
 
         Hidden poses take their mean given the training and the visible frames (GPDM §5.4).
         """
-        poses, d_poses, _ = self.reconstruction.negative_log_density(x, query.poses, query.visible)
+        poses, d_poses, _ = self.reconstruction.negative_log_density(x, *query)
         prior, d_prior = self.dynamics.negative_log_density(x)
         return poses + self.weight * prior, d_poses + self.weight * d_prior
 

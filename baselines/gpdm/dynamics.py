@@ -16,10 +16,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines.gpdm.process import ConditionedProcess, Process
+from mocapbench.baselines.gpdm.kernels import LatentKernel
+from mocapbench.baselines.gpdm.regression import (
+    ConditionedProcess,
+    condition_process,
+    log_start,
+    negative_log_likelihood,
+    signal_to_noise,
+)
 from mocapbench.basics.arrays import Array, Index
 
 __all__ = ["ConditionedDynamics", "Dynamics", "Markov", "Static"]
+
+_Lags = tuple[Index, Index, Index]
+"""Rows of stacked sequences: positions (P,) with enough predecessors, these (P, order), the last
+one first, and positions without as many."""
 
 
 class ConditionedDynamics(ABC):
@@ -70,90 +81,66 @@ class Dynamics(ABC):
 
 
 @dataclass(frozen=True)
-class _Lags:
-    """Rows of stacked sequences that the dynamics relate.
-
-    Parameters
-    ----------
-    now : ndarray of int, shape (P,)
-        Positions that have ``order`` predecessors.
-    before : ndarray of int, shape (P, order)
-        Their predecessors, the last one first.
-    first : ndarray of int
-        Positions without as many predecessors.
-    """
-
-    now: Index
-    before: Index
-    first: Index
-
-    @classmethod
-    def of(cls, lengths: Sequence[int], order: int) -> _Lags:
-        frames = np.concatenate([np.arange(length) for length in lengths])
-        rows = np.arange(len(frames))
-        now = rows[frames >= order]
-        return cls(now, now[:, None] - np.arange(1, order + 1), rows[frames < order])
-
-
-@dataclass(frozen=True)
 class Markov(Dynamics):
     r"""x_t − c x_{t−1} = f(x_{t−1}, …, x_{t−order}) + noise, f a Gaussian process.
 
     Parameters
     ----------
-    process : Process
-        The prior of f, with the noise.
+    kernel : LatentKernel
+        The covariance of f; noise is added.
     order : int, default=1
         Number of previous positions on which the next one depends.
     carry : float, default=0.0
         The factor c: 0 predicts the position, 1 the step (velocity prediction, GPDM eq. 19).
     """
 
-    process: Process
+    kernel: LatentKernel
     order: int = 1
     carry: float = 0.0
 
     @property
     def start(self) -> Array:
         """The start of the process."""
-        return self.process.start
+        return log_start(self.kernel)
 
     def _pairs(self, x: Array, lags: _Lags) -> tuple[Array, Array]:
-        inputs = x[lags.before].reshape(len(lags.now), self.order * x.shape[1])
-        return inputs, x[lags.now] - self.carry * x[lags.before[:, 0]]
+        now, before, _ = lags
+        inputs = x[before].reshape(len(now), self.order * x.shape[1])
+        return inputs, x[now] - self.carry * x[before[:, 0]]
 
     def _pull(self, x: Array, lags: _Lags, d_inputs: Array, d_targets: Array) -> Array:
         """Return the gradient (N, d) in x, given those in the pairs of inputs and targets.
 
         The first positions of a sequence have a standard normal prior, whose gradient is added.
         """
-        gradient = np.zeros_like(x)
-        by_lag = d_inputs.reshape(len(lags.now), self.order, x.shape[1])
+        (now, before, first), gradient = lags, np.zeros_like(x)
+        by_lag = d_inputs.reshape(len(now), self.order, x.shape[1])
         for lag in range(self.order):
-            gradient[lags.before[:, lag]] += by_lag[:, lag]
-        gradient[lags.now] += d_targets
-        gradient[lags.before[:, 0]] -= self.carry * d_targets
-        gradient[lags.first] += x[lags.first]
+            gradient[before[:, lag]] += by_lag[:, lag]
+        gradient[now] += d_targets
+        gradient[before[:, 0]] -= self.carry * d_targets
+        gradient[first] += x[first]
         return gradient
 
     def negative_log_prior(
         self, theta: Array, x: Array, lengths: Sequence[int]
     ) -> tuple[float, Array, Array]:
         """Return GPDM eq. (29) and its gradients."""
-        lags = _Lags.of(lengths, self.order)
-        pairs = self.process.negative_log_likelihood(theta, *self._pairs(x, lags))
-        value = pairs.value + 0.5 * float((x[lags.first] ** 2).sum())
-        return value, self._pull(x, lags, pairs.inputs, pairs.targets), pairs.theta
+        lags = _relate_lags(lengths, self.order)
+        value, gradients = negative_log_likelihood(self.kernel, theta, *self._pairs(x, lags))
+        d_inputs, d_targets, d_theta = gradients
+        return value + _first_term(x, lags), self._pull(x, lags, d_inputs, d_targets), d_theta
 
     def condition(self, theta: Array, x: Array, lengths: Sequence[int]) -> ConditionedDynamics:
         """Return the dynamics of GPDM eq. (26)."""
-        pairs = self._pairs(x, _Lags.of(lengths, self.order))
-        return _ConditionedMarkov(self.order, self, self.process.condition(theta, *pairs))
+        pairs = self._pairs(x, _relate_lags(lengths, self.order))
+        process = condition_process(self.kernel, theta, *pairs)
+        return _ConditionedMarkov(self.order, self, process)
 
     def properties(self, theta: Array, n_latent: int) -> dict[str, float]:
         """Return SNR(α) and CLS(α)."""
-        scales = self.process.kernel.lengthscales(theta[:-1])
-        ratio = self.process.signal_to_noise(theta, self.order * n_latent)
+        scales = self.kernel.lengthscales(theta[:-1])
+        ratio = signal_to_noise(self.kernel, theta, self.order * n_latent)
         return {"SNR(α)": ratio, **dict(zip(("CLS(α)", "CLS(α) of lag 2"), scales, strict=False))}
 
 
@@ -164,12 +151,11 @@ class _ConditionedMarkov(ConditionedDynamics):
     process: ConditionedProcess
 
     def negative_log_density(self, x: Array) -> tuple[float, Array]:
-        lags = _Lags.of([len(x)], self.order)
+        lags = _relate_lags([len(x)], self.order)
         inputs, targets = self.dynamics._pairs(x, lags)
         visible = np.ones(len(targets), dtype=bool)
         value, d_inputs, d_targets = self.process.negative_log_density(inputs, targets, visible)
-        value += 0.5 * float((x[lags.first] ** 2).sum())
-        return value, self.dynamics._pull(x, lags, d_inputs, d_targets)
+        return value + _first_term(x, lags), self.dynamics._pull(x, lags, d_inputs, d_targets)
 
     def step(self, history: Array) -> tuple[Array, Array]:
         inputs = history.reshape(len(history), -1)
@@ -177,11 +163,10 @@ class _ConditionedMarkov(ConditionedDynamics):
         return mean + self.dynamics.carry * history[:, 0], variance
 
 
-@dataclass(frozen=True)
 class Static(Dynamics, ConditionedDynamics):
     """Independent standard normal positions: the prior of the GPLVM, which ignores time."""
 
-    order: int = 1
+    order = 1
 
     @property
     def start(self) -> Array:
@@ -212,3 +197,17 @@ class Static(Dynamics, ConditionedDynamics):
     def step(self, history: Array) -> tuple[Array, Array]:
         """Return mean 0 and variance 1, whatever the history."""
         return np.zeros_like(history[:, 0]), np.ones(len(history))
+
+
+def _relate_lags(lengths: Sequence[int], order: int) -> _Lags:
+    """Return the rows of stacked sequences that dynamics of an order relate."""
+    frames = np.concatenate([np.arange(length) for length in lengths])
+    rows = np.arange(len(frames))
+    now = rows[frames >= order]
+    return now, now[:, None] - np.arange(1, order + 1), rows[frames < order]
+
+
+def _first_term(x: Array, lags: _Lags) -> float:
+    """Return −ln of the standard normal prior of the first positions, constants left out."""
+    _, _, first = lags
+    return 0.5 * float((x[first] ** 2).sum())

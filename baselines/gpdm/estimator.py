@@ -22,12 +22,12 @@ from mocapbench.baselines.common.validation import (
     check_seed,
     check_share,
 )
-from mocapbench.baselines.gpdm.conditional import Conditional, Query
+from mocapbench.baselines.gpdm.conditional import Conditional
 from mocapbench.baselines.gpdm.dynamics import Dynamics
 from mocapbench.baselines.gpdm.kernels import RBFKernel
 from mocapbench.baselines.gpdm.learning import Learning
 from mocapbench.baselines.gpdm.posterior import KAPPA, JointPosterior, PointEstimate
-from mocapbench.baselines.gpdm.process import Process
+from mocapbench.baselines.gpdm.regression import log_start, signal_to_noise
 from mocapbench.baselines.gpdm.sequences import TrainingSequences, whitened_components
 from mocapbench.baselines.gpdm.starts import STARTS
 from mocapbench.baselines.pose_viterbi import PoseViterbi
@@ -88,14 +88,14 @@ class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedde
         y = self.sequences_.y
         x = whitened_components(y, self.n_latent)
         posterior = JointPosterior(
-            Process(RBFKernel()),
+            RBFKernel(),
             dynamics,
             y,
             self.sequences_.lengths,
             learning.weight(y.shape[1], x.shape[1]),
         )
         start = PointEstimate(
-            x, dynamics.start, posterior.reconstruction.start, np.ones(y.shape[1])
+            x, dynamics.start, log_start(posterior.reconstruction), np.ones(y.shape[1])
         )
         rng = np.random.default_rng(self.random_state)
         self.estimate_ = learning.learn(posterior, start, rng)
@@ -116,12 +116,12 @@ class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedde
 
     def _properties(self, posterior: JointPosterior) -> dict[str, float]:
         """Return SNR and CLS of both kernels, as in GPDM Table 1."""
-        estimate, process = self.estimate_, posterior.reconstruction
+        estimate, kernel = self.estimate_, posterior.reconstruction
         n_latent = estimate.x.shape[1]
         return {
             **posterior.dynamics.properties(estimate.alpha, n_latent),
-            "SNR(β)": process.signal_to_noise(estimate.beta, n_latent),
-            "CLS(β)": process.kernel.lengthscales(estimate.beta[:-1])[0],
+            "SNR(β)": signal_to_noise(kernel, estimate.beta, n_latent),
+            "CLS(β)": kernel.lengthscales(estimate.beta[:-1])[0],
         }
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -144,10 +144,10 @@ class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedde
     def _claimed(self, recording: Recording) -> Prediction:
         visible = visible_frames(recording)
         offset = self.subject_offset * self.matcher_.residual(recording)
-        query = Query(self._to_model_units(recording.values - offset), visible)
+        query = self._to_model_units(recording.values - offset), visible
         x = STARTS[self.start](self.conditional_, query)
         x = self.conditional_.optimise(x, query, self.fill_iter)
-        mean, variance = self.conditional_.reconstruction.fill_targets(x, query.poses, visible)
+        mean, variance = self.conditional_.reconstruction.fill_targets(x, *query)
         return Prediction.around(
             recording, self._restore_units(mean) + offset, np.outer(variance, self._units() ** 2)
         )

@@ -47,10 +47,22 @@ class LatentKernel(ABC):
 
 
 @dataclass(frozen=True)
-class RBFKernel(LatentKernel):
-    r"""exp(−½ Σ_l w_l ‖a_l − b_l‖²), with one inverse width w_l for each lag l."""
+class LaggedKernel(LatentKernel):
+    """A kernel with one parameter for each of the positions that are side by side in an input."""
 
     n_lags: int = 1
+
+    def _by_coordinate(self, theta: Array, a: Array) -> Array:
+        """Return the parameter of each coordinate of inputs (n, q), (q,)."""
+        return np.repeat(np.exp(theta), a.shape[1] // self.n_lags)
+
+    def _by_lag(self, gradients: Array) -> Array:
+        """Return the sums (n_lags,) of gradients by coordinate (q,)."""
+        return np.asarray(gradients.reshape(self.n_lags, -1).sum(axis=1))
+
+
+class RBFKernel(LaggedKernel):
+    r"""exp(−½ Σ_l w_l ‖a_l − b_l‖²), with one inverse width w_l for each lag l."""
 
     @property
     def start(self) -> tuple[float, ...]:  # type: ignore[override]
@@ -59,7 +71,8 @@ class RBFKernel(LatentKernel):
 
     def __call__(self, theta: Array, a: Array, b: Array) -> tuple[Array, Pullback]:
         """Return the matrix and its pullback."""
-        widths = np.repeat(np.exp(theta), a.shape[1] // self.n_lags)
+        widths = self._by_coordinate(theta, a)
+        # aᵀ W b − ½ aᵀ W a − ½ bᵀ W b, at most 0.
         left, right = a * widths, b * widths
         matrix = left @ b.T
         matrix -= 0.5 * (left * a).sum(axis=1)[:, None]
@@ -78,9 +91,6 @@ class RBFKernel(LatentKernel):
 
         return matrix, pull
 
-    def _by_lag(self, gradients: Array) -> Array:
-        return np.asarray(gradients.reshape(self.n_lags, -1).sum(axis=1))
-
     def diagonal(self, theta: Array, a: Array) -> Array:
         """Return ones."""
         del theta
@@ -91,11 +101,8 @@ class RBFKernel(LatentKernel):
         return tuple(map(float, np.exp(-0.5 * theta)))
 
 
-@dataclass(frozen=True)
-class LinearKernel(LatentKernel):
+class LinearKernel(LaggedKernel):
     r"""Σ_l v_l a_lᵀ b_l, with one variance v_l for each lag l."""
-
-    n_lags: int = 1
 
     @property
     def start(self) -> tuple[float, ...]:  # type: ignore[override]
@@ -104,19 +111,19 @@ class LinearKernel(LatentKernel):
 
     def __call__(self, theta: Array, a: Array, b: Array) -> tuple[Array, Pullback]:
         """Return the matrix and its pullback."""
-        variances = np.repeat(np.exp(theta), a.shape[1] // self.n_lags)
+        variances = self._by_coordinate(theta, a)
         weighted = a * variances
 
         def pull(gradient: Array) -> tuple[Array, Array, Array]:
             across = gradient @ b
-            by_lag = (weighted * across).sum(axis=0).reshape(self.n_lags, -1).sum(axis=1)
-            return variances * across, gradient.T @ weighted, by_lag
+            d_theta = self._by_lag((weighted * across).sum(axis=0))
+            return variances * across, gradient.T @ weighted, d_theta
 
         return weighted @ b.T, pull
 
     def diagonal(self, theta: Array, a: Array) -> Array:
         """Return Σ_l v_l ‖a_l‖²."""
-        return np.asarray(a**2 @ np.repeat(np.exp(theta), a.shape[1] // self.n_lags))
+        return np.asarray(a**2 @ self._by_coordinate(theta, a))
 
     def lengthscales(self, theta: Array) -> tuple[float, ...]:
         """Return an empty tuple: a linear function has no lengthscale."""

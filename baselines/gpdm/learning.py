@@ -12,6 +12,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -65,13 +66,12 @@ class MaximumAPosteriori(Learning):
         del rng
         estimate = start
         for _ in range(self.n_rounds):
-            estimate = self._round(posterior, with_best_scales(posterior, estimate))
+            estimate = self._run_round(posterior, with_best_scales(posterior, estimate))
         return estimate
 
-    def _round(self, posterior: JointPosterior, estimate: PointEstimate) -> PointEstimate:
+    def _run_round(self, posterior: JointPosterior, estimate: PointEstimate) -> PointEstimate:
         def objective(x: Array, alpha: Array, beta: Array) -> tuple[float, Sequence[Array]]:
-            joint = posterior.value_and_gradients(PointEstimate(x, alpha, beta, estimate.scales))
-            return joint.value, (joint.x, joint.alpha, joint.beta)
+            return posterior.value_and_gradients(PointEstimate(x, alpha, beta, estimate.scales))
 
         x, alpha, beta = descend(
             objective, (estimate.x, estimate.alpha, estimate.beta), self.n_steps
@@ -79,7 +79,6 @@ class MaximumAPosteriori(Learning):
         return PointEstimate(x, alpha, beta, estimate.scales)
 
 
-@dataclass(frozen=True)
 class Balanced(MaximumAPosteriori):
     """GPDM §4.2: the log-prior of the trajectories is multiplied by D/d, to balance the poses."""
 
@@ -88,17 +87,11 @@ class Balanced(MaximumAPosteriori):
         return n_channels / n_latent
 
 
-@dataclass(frozen=True)
 class FixedDynamics(MaximumAPosteriori):
-    """GPDM §4.3: the parameters of the dynamics are set by hand, and the rest is learnt.
+    """GPDM §4.3: the parameters of the dynamics are set by hand, and the rest is learnt."""
 
-    Parameters
-    ----------
-    alpha : tuple of float
-        The parameters of the dynamics.
-    """
-
-    alpha: tuple[float, ...]
+    alpha: ClassVar[tuple[float, ...]] = (0.009, 0.2, 0.001, 1e6)
+    """Those of the paper, of first-order dynamics with a linear and an RBF kernel."""
 
     def learn(
         self, posterior: JointPosterior, start: PointEstimate, rng: np.random.Generator
@@ -117,11 +110,11 @@ class FixedDynamics(MaximumAPosteriori):
             )
         return super().learn(posterior, replace(start, alpha=np.log(self.alpha)), rng)
 
-    def _round(self, posterior: JointPosterior, estimate: PointEstimate) -> PointEstimate:
+    def _run_round(self, posterior: JointPosterior, estimate: PointEstimate) -> PointEstimate:
         def objective(x: Array, beta: Array) -> tuple[float, Sequence[Array]]:
             point = PointEstimate(x, estimate.alpha, beta, estimate.scales)
-            joint = posterior.value_and_gradients(point)
-            return joint.value, (joint.x, joint.beta)
+            value, (d_x, _, d_beta) = posterior.value_and_gradients(point)
+            return value, (d_x, d_beta)
 
         x, beta = descend(objective, (estimate.x, estimate.beta), self.n_steps)
         return PointEstimate(x, estimate.alpha, beta, estimate.scales)

@@ -22,7 +22,6 @@ from mocapbench.baselines.gpdm.learning import (
     Learning,
     MaximumAPosteriori,
 )
-from mocapbench.baselines.gpdm.process import Process
 from mocapbench.baselines.gpdm.synthesis import DynamicalModel
 from mocapbench.baselines.gpdm.two_stage import TwoStage
 
@@ -34,7 +33,6 @@ _KERNELS: Mapping[str, Callable[[int], LatentKernel]] = {
     "linear": LinearKernel,
 }
 _CARRY = {"position": 0.0, "velocity": 1.0}
-_FIXED_ALPHA = (0.009, 0.2, 0.001, 1e6)  # GPDM §4.3
 _POSITION_STEP = 3e-3
 
 
@@ -181,8 +179,8 @@ class GPDM(DynamicalModel):
             raise ValueError(f"expected order to be 1 or 2, got {self.order!r}")
 
     def _dynamics(self) -> Dynamics:
-        process = Process(_KERNELS[self.dynamics](self.order))
-        return Markov(process, self.order, _CARRY[self.predicts])
+        kernel = _KERNELS[self.dynamics](self.order)
+        return Markov(kernel, self.order, _CARRY[self.predicts])
 
     def _learning(self) -> Learning:
         return self._learnings()[self.learning]
@@ -193,6 +191,6 @@ class GPDM(DynamicalModel):
         return {
             "map": MaximumAPosteriori(rounds, steps),
             "balanced": Balanced(rounds, steps),
-            "fixed-alpha": FixedDynamics(rounds, steps, _FIXED_ALPHA),
+            "fixed-alpha": FixedDynamics(rounds, steps),
             "two-stage": TwoStage(sampler, max(rounds // 10, 1), steps, steps, rounds * steps),
         }

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from mocapbench.baselines.gpdm.dynamics import Dynamics
-from mocapbench.baselines.gpdm.process import Process, invert
+from mocapbench.baselines.gpdm.kernels import LatentKernel
+from mocapbench.baselines.gpdm.regression import invert, negative_log_likelihood
 from mocapbench.basics.arrays import Array
 
-__all__ = ["JointPosterior", "PointEstimate", "PosteriorGradients"]
+__all__ = ["JointPosterior", "PointEstimate"]
 
 
 KAPPA = 1e3
@@ -42,23 +43,13 @@ class PointEstimate:
 
 
 @dataclass(frozen=True, eq=False)
-class PosteriorGradients:
-    """The negative log-posterior and its gradients; the scales have none, see `best_scales`."""
-
-    value: float
-    x: Array
-    alpha: Array
-    beta: Array
-
-
-@dataclass(frozen=True, eq=False)
 class JointPosterior:
     """The negative log-posterior of all unknowns, which learning minimises.
 
     Parameters
     ----------
-    reconstruction : Process
-        The mapping from latent positions to poses.
+    reconstruction : LatentKernel
+        The covariance of the mapping from latent positions to poses.
     dynamics : Dynamics
         The prior of the latent positions.
     y : ndarray of shape (N, D)
@@ -69,30 +60,31 @@ class JointPosterior:
         Factor of the dynamics' term L_X: 1, or D/d in the balanced model (GPDM §4.2).
     """
 
-    reconstruction: Process
+    reconstruction: LatentKernel
     dynamics: Dynamics
     y: Array
     lengths: tuple[int, ...]
     weight: float
 
-    def value_and_gradients(self, estimate: PointEstimate) -> PosteriorGradients:
-        """Return L_Y + weight L_X + Σ ln α + Σ ln β, without terms in the scales alone."""
-        poses = self.reconstruction.negative_log_likelihood(
-            estimate.beta, estimate.x, self.y * estimate.scales
+    def value_and_gradients(
+        self, estimate: PointEstimate
+    ) -> tuple[float, tuple[Array, Array, Array]]:
+        """Return L_Y + weight L_X + Σ ln α + Σ ln β, without terms in the scales alone.
+
+        Its gradients follow, in x, α and β; the scales have none, see `best_scales`.
+        """
+        poses, (d_poses, _, d_beta) = negative_log_likelihood(
+            self.reconstruction, estimate.beta, estimate.x, self.y * estimate.scales
         )
         prior, d_x, d_alpha = self.dynamics.negative_log_prior(
             estimate.alpha, estimate.x, self.lengths
         )
-        return PosteriorGradients(
-            poses.value + self.weight * prior + float(estimate.alpha.sum() + estimate.beta.sum()),
-            poses.inputs + self.weight * d_x,
-            self.weight * d_alpha + 1.0,
-            poses.theta + 1.0,
-        )
+        value = poses + self.weight * prior + float(estimate.alpha.sum() + estimate.beta.sum())
+        return value, (d_poses + self.weight * d_x, self.weight * d_alpha + 1.0, d_beta + 1.0)
 
     def inverse(self, x: Array, beta: Array) -> Array:
         """Return K_Y⁻¹ (N, N)."""
-        gram, _ = self.reconstruction.kernel(beta[:-1], x, x)
+        gram, _ = self.reconstruction(beta[:-1], x, x)
         return invert(gram + np.exp(-beta[-1]) * np.eye(len(x)))[0]
 
     def best_scales(self, inverse: Array) -> Array:

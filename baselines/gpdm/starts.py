@@ -9,15 +9,16 @@ Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human M
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from sklearn.metrics.pairwise import euclidean_distances
 
 from mocapbench.baselines.common.shortest_path import cheapest_path
 from mocapbench.baselines.gpdm.conditional import Conditional, Query
 from mocapbench.baselines.gpdm.rollout import roll_out
-from mocapbench.basics.arrays import Array
+from mocapbench.basics.arrays import Array, Index
 
 __all__ = ["STARTS", "linear", "mean_prediction", "viterbi", "window"]
 
@@ -32,17 +33,17 @@ def linear(model: Conditional, query: Query) -> Array:
 
     Before the first and after the last visible frame the position is held constant.
     """
-    nearest = euclidean_distances(query.poses[query.visible], model.poses).argmin(axis=1)
-    frames, known = np.arange(len(query.visible)), np.flatnonzero(query.visible)
+    poses, visible = query
+    nearest = euclidean_distances(poses[visible], model.poses).argmin(axis=1)
+    frames, known = np.arange(len(visible)), np.flatnonzero(visible)
     columns = model.x[nearest].T
     return np.stack([np.interp(frames, known, column) for column in columns], axis=1)
 
 
 def mean_prediction(model: Conditional, query: Query) -> Array:
     """Fill each gap by the dynamics' conditional mean, frame after frame (GPDM §5.1)."""
-    x = linear(model, query)
-    first = np.flatnonzero(query.visible)[0]
-    hidden = np.flatnonzero(~query.visible)
+    (_, visible), x = query, linear(model, query)
+    first, hidden = np.flatnonzero(visible)[0], np.flatnonzero(~visible)
     return roll_out(model.dynamics, x, hidden[hidden > first])
 
 
@@ -51,22 +52,13 @@ def window(model: Conditional, query: Query) -> Array:
 
     Before the window its first position is held constant; after it the dynamics continue.
     """
-    errors = euclidean_distances(query.poses, model.poses, squared=True)
-    errors[~query.visible] = 0.0
-    n_frames, starts = len(query.visible), np.cumsum((0, *model.lengths))[:-1]
-    least = min(_MIN_OVERLAP, int(query.visible.sum()))
-    best, frames, rows = np.inf, np.arange(0), np.arange(0)
-    for start, length in zip(starts, model.lengths, strict=True):
-        for shift in range(1 - n_frames, length):
-            inside = np.arange(max(0, -shift), min(n_frames, length - shift))
-            n_compared = query.visible[inside].sum()
-            if n_compared < least:
-                continue
-            error = errors[inside, start + shift + inside].sum() / n_compared
-            if error < best:
-                best, frames, rows = error, inside, start + shift + inside
+    poses, visible = query
+    errors = euclidean_distances(poses, model.poses, squared=True)
+    errors[~visible] = 0.0
+    frames, rows = _best_window(errors, visible, model.lengths)
     if not len(frames):
         return linear(model, query)
+    n_frames = len(visible)
     x = model.x[rows][np.clip(np.arange(n_frames) - frames[0], 0, len(rows) - 1)]
     return roll_out(model.dynamics, x, np.arange(frames[-1] + 1, n_frames))
 
@@ -77,15 +69,43 @@ def viterbi(model: Conditional, query: Query) -> Array:
     Emissions are the visible frames under the noise of the mapping to poses; transitions are the
     conditional densities of the dynamics.
     """
-    precision = np.exp(model.reconstruction.theta[-1])
-    emission = np.zeros((len(query.visible), len(model.x)))
-    emission[query.visible] = (
-        0.5 * precision * euclidean_distances(query.poses[query.visible], model.poses, squared=True)
-    )
+    (poses, visible), precision = query, np.exp(model.reconstruction.theta[-1])
+    emission = np.zeros((len(visible), len(model.x)))
+    distances = euclidean_distances(poses[visible], model.poses, squared=True)
+    emission[visible] = 0.5 * precision * distances
+    # −ln N(x; mean, variance I), constants left out.
     mean, variance = model.dynamics.step(model.predecessors())
     jumps = euclidean_distances(mean, model.x, squared=True) / variance[:, None]
     transition = 0.5 * (jumps + model.x.shape[1] * np.log(variance)[:, None])
     return np.asarray(model.x[cheapest_path(emission, transition)])
+
+
+def _best_window(
+    errors: Array, visible: NDArray[np.bool_], lengths: Sequence[int]
+) -> tuple[Index, Index]:
+    """Return the frames that the nearest training window covers, and its rows; empty if none does.
+
+    Parameters
+    ----------
+    errors : ndarray of shape (M, N)
+        Of each frame, against each training frame; 0 where hidden.
+    visible : ndarray of bool, shape (M,)
+    lengths : sequence of int
+        Frames of each training sequence.
+    """
+    n_frames, starts = len(visible), np.cumsum((0, *lengths))[:-1]
+    least = min(_MIN_OVERLAP, int(visible.sum()))
+    best, frames, rows = np.inf, np.arange(0), np.arange(0)
+    for start, length in zip(starts, lengths, strict=True):
+        for shift in range(1 - n_frames, length):
+            inside = np.arange(max(0, -shift), min(n_frames, length - shift))
+            n_compared = visible[inside].sum()
+            if n_compared < least:
+                continue
+            error = errors[inside, start + shift + inside].sum() / n_compared
+            if error < best:
+                best, frames, rows = error, inside, start + shift + inside
+    return frames, rows
 
 
 STARTS: Mapping[str, Start] = {

@@ -66,8 +66,8 @@ class TwoStage(Learning):
         self, posterior: JointPosterior, estimate: PointEstimate, rng: np.random.Generator
     ) -> Array:
         def potential(x: Array) -> tuple[float, Array]:
-            joint = posterior.value_and_gradients(replace(estimate, x=x))
-            return joint.value, joint.x
+            value, (d_x, _, _) = posterior.value_and_gradients(replace(estimate, x=x))
+            return value, d_x
 
         mode = optimise_latents(posterior, estimate, _TO_MODE)
         samples, _ = self.sampler.sample(potential, mode.x, rng)
@@ -80,10 +80,9 @@ class TwoStage(Learning):
 
         def objective(alpha: Array, beta: Array) -> tuple[float, Sequence[Array]]:
             points = [PointEstimate(x, alpha, beta, estimate.scales) for x in samples]
-            terms = [posterior.value_and_gradients(point) for point in points]
-            value = float(np.mean([term.value for term in terms]))
-            gradients = [[term.alpha, term.beta] for term in terms]
-            return value, [np.mean(column, axis=0) for column in zip(*gradients, strict=True)]
+            values, gradients = zip(*map(posterior.value_and_gradients, points), strict=True)
+            _, by_alpha, by_beta = zip(*gradients, strict=True)
+            return float(np.mean(values)), [np.mean(by_alpha, axis=0), np.mean(by_beta, axis=0)]
 
         for _ in range(self.n_turns):
             inverse = np.mean([posterior.inverse(x, estimate.beta) for x in samples], axis=0)
@@ -99,8 +98,8 @@ def optimise_latents(
     """Return the estimate after ``n_steps`` iterations of L-BFGS on the positions alone."""
 
     def objective(x: Array) -> tuple[float, Sequence[Array]]:
-        joint = posterior.value_and_gradients(replace(estimate, x=x))
-        return joint.value, (joint.x,)
+        value, (d_x, _, _) = posterior.value_and_gradients(replace(estimate, x=x))
+        return value, (d_x,)
 
     (x,) = descend(objective, (estimate.x,), n_steps)
     return replace(estimate, x=x)

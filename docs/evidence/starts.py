@@ -39,7 +39,7 @@ def losses(n_starts: int, n_folds: int, seed: int) -> Iterator[dict[str, float]]
         for test in TESTS:
             train, begun = recordings(test, fold, seed), process_time()
             model = MOHGP(n_components=3, kernel="rbf", n_restarts=n_starts, random_state=0)
-            searches = model.fit(train).training_.searches
+            searches = model.fit(train).training_
             reached = [search.log_likelihood for search in searches]
             seconds = process_time() - begun
             work = [search.n_evaluations for search in searches]

@@ -33,7 +33,7 @@ def test_a_prediction_rests_on_the_recording_alone():
     (inner,) = model.models_
     (prediction,) = model.impute(recordings[2:])
     layer, scaling = inner.parameters_.layers["child"], inner.scaling_
-    variance = float(layer.coregionalisation.variances[0])
+    variance = float(layer.variances[0])
     kernel = ConstantKernel(variance, "fixed") * Matern(
         float(layer.lengthscales[0]), "fixed", nu=1.5
     ) + WhiteKernel(float(inner.parameters_.noise[0]), "fixed")

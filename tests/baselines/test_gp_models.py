@@ -125,7 +125,7 @@ def test_restarts_are_seeded_and_never_worse(model, recordings):
         model(max_iter=30, n_restarts=7, n_components=3, random_state=5).fit(recordings)
         for _ in range(2)
     )
-    assert len(many.training_.searches) == 7
+    assert len(many.training_) == 7
     assert many.log_likelihood_ >= one.log_likelihood_
     assert many.log_likelihood_ == again.log_likelihood_
 
@@ -204,11 +204,11 @@ def test_spent_time_ends_the_fit(model, recordings):
 def test_a_verbose_fit_prints_a_line_for_every_iteration(recordings, capsys):
     fitted = MOHGP(max_iter=3, n_restarts=2, verbose=True).fit(recordings)
     lines = capsys.readouterr().out.splitlines()
-    assert len(lines) == sum(search.n_iterations for search in fitted.training_.searches)
+    assert len(lines) == sum(search.n_iterations for search in fitted.training_)
     assert lines[0].startswith("search 1 of 2, iteration 1: log-likelihood ")
     assert lines[-1].startswith("search 2 of 2, iteration ")
     printed = float(lines[-1].partition("log-likelihood ")[2].partition(",")[0])
-    last = fitted.training_.searches[-1].log_likelihood + fitted.scaling_.log_jacobian
+    last = fitted.training_[-1].log_likelihood + fitted.scaling_.log_jacobian
     assert printed == pytest.approx(last, abs=1e-3)
 
 

@@ -25,7 +25,7 @@ def naive(problem: Problem) -> tuple[float, np.ndarray]:
 
     covariance = np.diag(parameters.noise[output])
     for name, layer in parameters.layers.items():
-        for b, scale in zip(layer.coregionalisation.matrices, layer.lengthscales, strict=True):
+        for b, scale in zip(layer.matrices, layer.lengthscales, strict=True):
             component = _at(kernel.value(lags, scale), time)
             component *= _at(b, output)
             component *= same[name]
@@ -37,11 +37,11 @@ def naive(problem: Problem) -> tuple[float, np.ndarray]:
     for name, layer in parameters.layers.items():
         own = adjoint * same[name]
         by_b, by_scale = [], []
-        for b, scale in zip(layer.coregionalisation.matrices, layer.lengthscales, strict=True):
+        for b, scale in zip(layer.matrices, layer.lengthscales, strict=True):
             by_b.append(_fold(own, _at(kernel.value(lags, scale), time), one_hot))
             slope = _fold(own, _at(kernel.gradient(lags, scale), time), one_hot)
             by_scale.append(np.sum(b * slope))
-        pulled = layer.coregionalisation.pull_back(np.array(by_b))
+        pulled = layer.pull_back(np.array(by_b))
         leaves += [np.array(by_scale), pulled.weights.ravel(), pulled.kappa_roots.ravel()]
     noise = np.bincount(output, np.diag(adjoint)) * parameters.noise
     return value, np.concatenate([*leaves, noise])

@@ -59,8 +59,8 @@ def _write(problem: Problem, path: Path) -> None:
         for name, layer in problem.parameters.layers.items()
         for leaf, values in (
             ("lengthscales", layer.lengthscales),
-            ("weights", layer.coregionalisation.weights),
-            ("kappa", layer.coregionalisation.kappa),
+            ("weights", layer.weights),
+            ("kappa", layer.kappa),
         )
     }
     replicates = problem.replicates

@@ -6,12 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.kernels import KERNELS, StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParameters, Parameters
 from mocapbench.baselines.gp.prior.sampling import draw_layer
-from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
-from mocapbench.baselines.gp.reduction.independent import independent
+from mocapbench.baselines.gp.reduction.hierarchy import reduce_hierarchy
+from mocapbench.baselines.gp.reduction.one_layer import separate_replicates
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 
@@ -19,8 +18,8 @@ __all__ = ["SIZES", "Problem", "Size", "pose"]
 
 NOISE = 0.05
 STRUCTURES = {
-    "hierarchical": ((PARENT, CHILD), hierarchical),
-    "independent": ((CHILD,), independent),
+    "hierarchical": ((PARENT, CHILD), reduce_hierarchy),
+    "independent": ((CHILD,), separate_replicates),
 }
 
 
@@ -111,7 +110,8 @@ def _layer(size: Size, rng: np.random.Generator) -> LayerParameters:
     shape = (size.n_components, size.n_outputs)
     return LayerParameters(
         rng.uniform(-1.0, 0.0, size.n_components),
-        Coregionalisation(rng.standard_normal((*shape, size.rank)), rng.uniform(0.2, 0.5, shape)),
+        rng.standard_normal((*shape, size.rank)),
+        rng.uniform(0.2, 0.5, shape),
     )
 
 

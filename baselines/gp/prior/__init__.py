@@ -1,1 +1,1 @@
-"""The prior: kernels, coregionalisation, the parameters of both, and draws (`sampling`)."""
+"""The prior: kernels, the parameters of layers, kernels as Markov processes, and draws."""

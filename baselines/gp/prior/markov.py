@@ -25,7 +25,6 @@ Processing.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
@@ -34,7 +33,7 @@ from scipy.special import factorial, gammainc
 from mocapbench.baselines.gp.prior.kernels import Matern12, Matern32, Matern52, StationaryKernel
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Steps", "is_markov", "state_order", "steps"]
+__all__ = ["is_markov", "state_order", "steps"]
 
 
 _COUPLINGS: Mapping[type[StationaryKernel], tuple[float, ...]] = MappingProxyType(
@@ -44,26 +43,6 @@ _COUPLINGS: Mapping[type[StationaryKernel], tuple[float, ...]] = MappingProxyTyp
 
 LONGEST_LAG = 700.0
 """Scaled lags are cut here: Φ is 0 in floating-point numbers from then on."""
-
-
-@dataclass(frozen=True, eq=False)
-class Steps:
-    """Conditional distributions x' | x ~ N(Φ x, Q) over T lags, for J lengthscales.
-
-    Parameters
-    ----------
-    transition : ndarray of shape (T, J, m, m)
-        Φ.
-    noise : ndarray of shape (T, J, m, m)
-        Q.
-    transition_gradient, noise_gradient : ndarray of shape (T, J, m, m)
-        Their derivatives in log ℓ.
-    """
-
-    transition: Array
-    noise: Array
-    transition_gradient: Array
-    noise_gradient: Array
 
 
 def is_markov(kernel: StationaryKernel) -> bool:
@@ -88,8 +67,13 @@ def state_order(kernel: StationaryKernel) -> int:
     return len(_COUPLINGS[type(kernel)]) + 1
 
 
-def steps(kernel: StationaryKernel, lags: Array, lengthscales: Array) -> Steps:
-    """Return the steps of a kernel's state over lags of shape (T,) that may be infinite.
+def steps(kernel: StationaryKernel, lags: Array, lengthscales: Array) -> Array:
+    """Return Φ and Q of x' | x ~ N(Φ x, Q) over T lags that may be infinite, for J lengthscales.
+
+    Returns
+    -------
+    ndarray of shape (4, T, J, m, m)
+        Φ, Q, and their derivatives in log ℓ.
 
     Raises
     ------
@@ -99,15 +83,19 @@ def steps(kernel: StationaryKernel, lags: Array, lengthscales: Array) -> Steps:
     order, drift = state_order(kernel), _drift(kernel)
     scaled = np.sqrt(2.0 * order - 1.0) * np.divide.outer(lags, lengthscales)
     a = np.minimum(scaled, LONGEST_LAG)[..., None, None]
+    # Φ = e^(−a) Σ_k a^k (F + I)^k / k!, and v = √(2m) Φ e_m.
     powers = np.stack([np.linalg.matrix_power(drift + np.eye(order), k) for k in range(order)])
     powers /= factorial(np.arange(order))[:, None, None]
     transition = np.exp(-a) * sum(a**k * power for k, power in enumerate(powers))
     impulse = np.sqrt(2.0 * order) * transition[..., -1:]
-    return Steps(
-        transition,
-        _noise(a, np.sqrt(2.0 * order) * powers[:, :, -1]),
-        -a * (drift @ transition),
-        -a * impulse * impulse.swapaxes(-1, -2),
+    # ∂Φ / ∂ log ℓ = −a F Φ and ∂Q / ∂ log ℓ = −a v vᵀ.
+    return np.stack(
+        [
+            transition,
+            _noise(a, np.sqrt(2.0 * order) * powers[:, :, -1]),
+            -a * (drift @ transition),
+            -a * impulse * impulse.swapaxes(-1, -2),
+        ]
     )
 
 

@@ -1,11 +1,12 @@
 """The parameters of a model, by name and as one vector of free coordinates.
 
-A layer ("parent" g, "child" f − g) is a linear model of coregionalisation, Σ_q B_q ⊗ k_q (eq. 17 of
-J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
-thesis, Universidad Tecnológica de Pereira, 2017), and every output has a noise variance. The
-optimiser works on one flat vector of log ℓ, W, √κ and log β (docs/mathematics/prediction.md,
-section 10). A gradient is a `Parameters` too: its entries are the derivatives in the free
-coordinates.
+A layer ("parent" g, "child" f − g) is a linear model of coregionalisation, Σ_q B_q ⊗ k_q with
+B_q = W_q W_qᵀ + diag(κ_q) (eq. 15 and 17 of J. D. Gil López, *Hierarchical Multiple Output Gaussian
+Processes for Human Motion Data*, MSc thesis, Universidad Tecnológica de Pereira, 2017), and every
+output has a noise variance. The optimiser works on one flat vector of log ℓ, W, the *signed root*
+√κ and log β (docs/mathematics/prediction.md, section 10). With the root it can reach, and leave,
+κ = 0; with log κ it would approach that value ever more slowly. A gradient is a `Parameters` too:
+its entries are the derivatives in the free coordinates.
 """
 
 from __future__ import annotations
@@ -15,7 +16,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.basics.arrays import Array
 
@@ -36,12 +36,15 @@ class LayerParameters:
     ----------
     log_lengthscales : ndarray of shape (Q,)
         One per component.
-    coregionalisation : Coregionalisation
-        The matrices B_q.
+    weights : ndarray of shape (Q, D, rank)
+        The factors W_q; with rank 0 the matrices B_q are diagonal.
+    kappa_roots : ndarray of shape (Q, D)
+        Signed roots of κ_q.
     """
 
     log_lengthscales: Array
-    coregionalisation: Coregionalisation
+    weights: Array
+    kappa_roots: Array
 
     @property
     def lengthscales(self) -> Array:
@@ -49,22 +52,29 @@ class LayerParameters:
         return np.exp(self.log_lengthscales)
 
     @property
+    def kappa(self) -> Array:
+        """(Q, D) variances κ_q, which are not shared between outputs."""
+        return self.kappa_roots**2
+
+    @property
+    def matrices(self) -> Array:
+        """(Q, D, D) the matrices B_q."""
+        shared = self.weights @ self.weights.transpose(0, 2, 1)
+        return shared + self.kappa[:, :, None] * np.eye(self.kappa.shape[1])
+
+    @property
+    def variances(self) -> Array:
+        """(D,) marginal variance of each output, Σ_q diag B_q."""
+        return np.asarray((self.weights**2).sum(axis=(0, 2)) + self.kappa.sum(axis=0))
+
+    @property
     def leaves(self) -> tuple[Array, Array, Array]:
         """The free coordinates: log ℓ, W, √κ."""
-        b = self.coregionalisation
-        return self.log_lengthscales, b.weights, b.kappa_roots
-
-    def __add__(self, other: LayerParameters) -> LayerParameters:
-        """Return the sum, coordinate by coordinate."""
-        a, b = self.coregionalisation, other.coregionalisation
-        return LayerParameters(
-            self.log_lengthscales + other.log_lengthscales,
-            Coregionalisation(a.weights + b.weights, a.kappa_roots + b.kappa_roots),
-        )
+        return self.log_lengthscales, self.weights, self.kappa_roots
 
     def covariance(self, kernel: StationaryKernel, lags: Array) -> Array:
         """Return Σ_q B_q ⊗ k_q for ``lags`` (M, N), (D, M, D, N)."""
-        matrices = self.coregionalisation.matrices
+        matrices = self.matrices
         n_components, n_outputs, _ = matrices.shape
         kernels = kernel.value(lags, self.lengthscales[:, None, None])
         by_pair = matrices.reshape(n_components, -1).T @ kernels.reshape(n_components, -1)
@@ -72,8 +82,26 @@ class LayerParameters:
 
     def zeros(self) -> LayerParameters:
         """Return the layer of the same shapes whose free coordinates are all 0."""
-        lengthscales, weights, roots = (np.zeros_like(leaf) for leaf in self.leaves)
-        return LayerParameters(lengthscales, Coregionalisation(weights, roots))
+        return LayerParameters(*map(np.zeros_like, self.leaves))
+
+    def pull_back(self, log_lengthscales: Array, adjoint: Array) -> LayerParameters:
+        """Return the gradient of a function, given those in log ℓ and in the matrices B_q.
+
+        Parameters
+        ----------
+        log_lengthscales : ndarray of shape (Q,)
+            Derivatives in log ℓ.
+        adjoint : ndarray of shape (Q, D, D)
+            Derivatives with respect to the entries of B_q taken one by one. Its antisymmetric
+            part has no effect, since B_q is symmetric.
+        """
+        # ∂W = (B̄ + B̄ᵀ) W and ∂√κ = 2 √κ diag B̄.
+        diagonal = np.diagonal(adjoint, axis1=1, axis2=2)
+        return LayerParameters(
+            log_lengthscales,
+            (adjoint + adjoint.transpose(0, 2, 1)) @ self.weights,
+            2.0 * self.kappa_roots * diagonal,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +137,7 @@ class Parameters:
     @property
     def shapes(self) -> Mapping[str, tuple[int, int, int]]:
         """(Q, D, rank) of each layer."""
-        return {name: layer.coregionalisation.weights.shape for name, layer in self.layers.items()}
+        return {name: layer.weights.shape for name, layer in self.layers.items()}
 
     def at(self, flat: Array) -> Parameters:
         """Return the parameters of the same shapes whose `flat` is the given vector."""
@@ -119,13 +147,8 @@ class Parameters:
             piece.reshape(leaf.shape) for piece, leaf in zip(pieces, self.leaves, strict=True)
         )
         triples = zip(layers[::3], layers[1::3], layers[2::3], strict=True)
-        return Parameters(
-            {
-                name: LayerParameters(lengthscales, Coregionalisation(weights, roots))
-                for name, (lengthscales, weights, roots) in zip(self.layers, triples, strict=True)
-            },
-            log_noise,
-        )
+        by_name = zip(self.layers, triples, strict=True)
+        return Parameters({name: LayerParameters(*leaves) for name, leaves in by_name}, log_noise)
 
     def __str__(self) -> str:
         scales = ", ".join(

@@ -35,9 +35,9 @@ def draw_layer(
     the Cholesky factor is continuous in the matrix, and the roots of κ count without their sign.
     """
     grid, places = np.unique(times, return_inverse=True)
-    weights, roots = layer.coregionalisation.weights, layer.coregionalisation.kappa_roots
-    total = np.zeros((n_samples, len(grid), roots.shape[1]))
-    for lengthscale, columns, kappa_roots in zip(layer.lengthscales, weights, roots, strict=True):
+    total = np.zeros((n_samples, len(grid), layer.kappa_roots.shape[1]))
+    components = zip(layer.lengthscales, layer.weights, layer.kappa_roots, strict=True)
+    for lengthscale, columns, kappa_roots in components:
         gram = kernel.value(np.subtract.outer(grid, grid), float(lengthscale))
         root = np.linalg.cholesky(gram + JITTER * np.eye(len(grid)))
         mixing = np.hstack([columns, np.diag(np.abs(kappa_roots))])

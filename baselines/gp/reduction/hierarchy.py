@@ -17,18 +17,23 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from mocapbench.baselines.gp.prior.parameters import CHILD
-from mocapbench.baselines.gp.reduction.deviations import Deviations
-from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm, Reduction
+from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
-from mocapbench.baselines.gp.reduction.shapes import Shape, shape_above
-from mocapbench.baselines.gp.reduction.subtrees import NodeCurve, Subtree, mean_of, parent_of
+from mocapbench.baselines.gp.reduction.subtrees import (
+    Deviations,
+    Shape,
+    Subtree,
+    average_siblings,
+    join_children,
+    shape_above,
+)
 from mocapbench.baselines.gp.reduction.tree import Node, Tree, grow
 from mocapbench.baselines.gp.solvers.block import Target
 
-__all__ = ["hierarchical"]
+__all__ = ["reduce_hierarchy"]
 
 
-def hierarchical(replicates: Replicates, tree: Tree | None = None) -> Reduction:
+def reduce_hierarchy(replicates: Replicates, tree: Tree | None = None) -> Reduction:
     r"""Reduce replicates whose curves are draws around those of the nodes above them.
 
     In two layers, f_r ~ GP(g, K_f): with :math:`C = K_f + \Gamma` the mean curves of the patterns
@@ -77,7 +82,7 @@ def _leaves(replicates: Replicates, nodes: Sequence[Node]) -> Mapping[Node, Subt
         if observed.any():
             new = Shape(len(shapes), {CHILD: np.ones((1, 1))}, observed[None], np.ones(1))
             shape = shapes.setdefault(observed.tobytes(), new)
-            leaves[node] = Subtree(shape, data[None], {node: NodeCurve({CHILD: np.ones(1)}, ())})
+            leaves[node] = Subtree(shape, data[None], {node: ({CHILD: np.ones(1)}, ())})
     return leaves
 
 
@@ -94,14 +99,14 @@ def _level_above(
     above = {}
     for node, by_shape in families.items():
         siblings = [by_shape[shape] for shape in sorted(by_shape, key=lambda shape: shape.number)]
-        parts = [mean_of(alike, deviations) for alike in siblings]
+        parts = [average_siblings(alike, deviations) for alike in siblings]
         kind = tuple((alike[0].shape.number, len(alike)) for alike in siblings)
         new = shape_above(layer, [part.shape for part in parts], len(shapes))
-        above[node] = parent_of(parts, node, layer, shapes.setdefault(kind, new))
+        above[node] = join_children(parts, node, layer, shapes.setdefault(kind, new))
     return above
 
 
-def _terms(means: Subtree, layers: Sequence[str], node: Node) -> tuple[PosteriorTerm, ...]:
+def _terms(means: Subtree, layers: Sequence[str], node: Node) -> tuple[Target, ...]:
     """Return the terms of a node's curve.
 
     A node of which nothing is visible has the curve of the nearest ancestor of which something is,
@@ -109,5 +114,5 @@ def _terms(means: Subtree, layers: Sequence[str], node: Node) -> tuple[Posterior
     """
     visible = next(node[:n] for n in range(len(node), -1, -1) if node[:n] in means.curves)
     independent = dict.fromkeys(layers[len(visible) + 1 : len(node) + 1], 1.0)
-    curve = means.curves[visible]
-    return (PosteriorTerm(0, 0, Target(curve.weights, independent)), *curve.terms)
+    weights, terms = means.curves[visible]
+    return (Target(weights, independent), *terms)

@@ -2,8 +2,8 @@ r"""A likelihood as a sum over block problems (docs/mathematics/inference.md, se
 
 In each reduction the log-likelihood of the replicates is exactly the sum of the log-densities of a
 few `Block` problems and of a closed form. The posterior of a replicate's curve is a sum of
-independent terms (`PosteriorTerm`), each given by one block. `pooled`, `independent` and
-`hierarchy` make the reductions of the models.
+independent terms (`Target`), each given by one block. `one_layer` and `hierarchy` make the
+reductions of the models.
 """
 
 from __future__ import annotations
@@ -19,26 +19,7 @@ from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.solvers.solver import Solver
 from mocapbench.basics.arrays import Array
 
-__all__ = ["PosteriorTerm", "Reduction"]
-
-
-@dataclass(frozen=True, eq=False)
-class PosteriorTerm:
-    """One of the independent terms whose sum is the posterior of a curve.
-
-    Parameters
-    ----------
-    block : int
-        Index of the block that is conditioned.
-    column : int
-        Index of the data vector that it is conditioned on.
-    target : Target
-        The term as a function of the block's layers.
-    """
-
-    block: int
-    column: int
-    target: Target
+__all__ = ["Reduction"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,25 +30,25 @@ class Reduction:
     ----------
     blocks : tuple of Block
         The block problems.
-    replicates : tuple of tuple of PosteriorTerm
+    replicates : tuple of tuple of Target
         For each replicate, the terms of its noise-free curve.
-    trend : tuple of PosteriorTerm
+    trend : tuple of Target
         The terms of the curve around which new replicates lie; empty if that is zero.
     constant : float
         The part of the log-likelihood that does not depend on the parameters.
     within_dof, within_scatter : ndarray of shape (D,)
         m_d and S_d of the term −½ m_d log 2πβ_d − S_d / 2β_d, which depends on the noise only.
-    nodes : mapping of tuple of str to tuple of PosteriorTerm
+    nodes : mapping of tuple of str to tuple of Target
         The terms of the curve of each node of a tree, where there is one.
     """
 
     blocks: tuple[Block, ...]
-    replicates: tuple[tuple[PosteriorTerm, ...], ...]
-    trend: tuple[PosteriorTerm, ...]
+    replicates: tuple[tuple[Target, ...], ...]
+    trend: tuple[Target, ...]
     constant: float
     within_dof: Array
     within_scatter: Array
-    nodes: Mapping[Node, tuple[PosteriorTerm, ...]] = field(default_factory=dict)
+    nodes: Mapping[Node, tuple[Target, ...]] = field(default_factory=dict)
 
     def evaluate(self, solvers: Sequence[Solver], parameters: Parameters) -> tuple[float, Array]:
         """Return the log-likelihood and its gradient in the free coordinates (n_parameters,).

@@ -18,28 +18,7 @@ from numpy.typing import NDArray
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import Recording
 
-__all__ = ["Pattern", "Replicates"]
-
-
-@dataclass(frozen=True, eq=False)
-class Pattern:
-    """Replicates with the same visible entries.
-
-    Parameters
-    ----------
-    members : ndarray of int, shape (R_p,)
-        The indices of the replicates.
-    observed : ndarray of bool, shape (D, N)
-        Which entries of each are visible.
-    """
-
-    members: Index
-    observed: NDArray[np.bool_]
-
-    @property
-    def size(self) -> int:
-        """R_p, the number of replicates."""
-        return len(self.members)
+__all__ = ["Replicates"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,13 +71,16 @@ class Replicates:
         return replace(self, data=np.where(observed, self.data, 0.0), observed=observed)
 
     @cached_property
-    def patterns(self) -> tuple[Pattern, ...]:
-        """The patterns, in order of first appearance, of replicates with a visible entry."""
+    def patterns(self) -> tuple[tuple[Index, NDArray[np.bool_]], ...]:
+        """The patterns, in order of first appearance, of replicates with a visible entry.
+
+        Each is the indices (R_p,) of its replicates, and which of their entries (D, N) are visible.
+        """
         groups: dict[bytes, list[int]] = {}
         for r, visible in enumerate(self.observed):
             groups.setdefault(visible.tobytes(), []).append(r)
         return tuple(
-            Pattern(np.array(members), self.observed[members[0]])
+            (np.array(members), self.observed[members[0]])
             for members in groups.values()
             if self.observed[members[0]].any()
         )

@@ -1,41 +1,71 @@
 """Subtrees of replicates, reduced to their mean curves from the leaves to the root.
 
 A subtree is represented by a few mean curves, which are sums of the draws inside it; its `Shape`
-says which. Siblings of one shape are replaced by their mean, and their deviations from it are set
-aside (docs/mathematics/inference.md, section 2, "Trees of replicates").
+says which, and is all that their covariance depends on. Siblings of one shape are replaced by their
+mean, and their deviations from it are gathered into blocks. The symbols are those of
+docs/mathematics/inference.md, section 2, "Trees of replicates".
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import block_diag
 
-from mocapbench.baselines.gp.reduction.deviations import Deviations
-from mocapbench.baselines.gp.reduction.reduction import PosteriorTerm
-from mocapbench.baselines.gp.reduction.shapes import Shape
 from mocapbench.baselines.gp.reduction.tree import Node
-from mocapbench.baselines.gp.solvers.block import Target
+from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.basics.arrays import Array
 
-__all__ = ["NodeCurve", "Subtree", "mean_of", "parent_of"]
+__all__ = [
+    "Deviations",
+    "NodeCurve",
+    "Shape",
+    "Subtree",
+    "average_siblings",
+    "join_children",
+    "shape_above",
+]
+
+NodeCurve = tuple[Mapping[str, Array], tuple[Target, ...]]
+"""The curve of a node inside a subtree: for each layer the coefficients a (I,) of the subtree's
+draws, and its further terms, in deviations from means."""
 
 
 @dataclass(frozen=True, eq=False)
-class NodeCurve:
-    """The curve of a node inside a subtree.
+class Shape:
+    """The covariance structure of the P mean curves that a subtree is reduced to.
+
+    Subtrees of one shape differ only in their draws and noise.
 
     Parameters
     ----------
-    weights : mapping of str to ndarray of shape (I,)
-        a, for each layer the coefficients of the subtree's draws.
-    terms : tuple of PosteriorTerm
-        Its further terms, in deviations from means.
+    number : int
+        Its place among the shapes of its level.
+    units : mapping of str to ndarray of shape (P, I)
+        C, for each layer the loadings of the mean curves on the draws in the subtree.
+    observed : ndarray of bool, shape (P, D, N)
+        Which entries of the mean curves are visible.
+    noise : ndarray of shape (P,)
+        ν, the factors of their noise variances.
     """
 
-    weights: Mapping[str, Array]
-    terms: tuple[PosteriorTerm, ...]
+    number: int
+    units: Mapping[str, Array]
+    observed: NDArray[np.bool_]
+    noise: Array
+
+    def block(self, times: Array, data: Array, multiplicity: int) -> Block:
+        """Return the problem of data vectors (h, P, D, N)."""
+        noise = np.broadcast_to(self.noise[:, None, None], self.observed.shape)
+        return Block(times, self.units, self.observed, data, noise, multiplicity).trim()
+
+    def of_mean(self, size: int) -> Shape:
+        """Return the shape of the mean of ``size`` subtrees: R^(−1/2) C and ν / R."""
+        units = {layer: factor * size**-0.5 for layer, factor in self.units.items()}
+        return replace(self, units=units, noise=self.noise / size)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +87,61 @@ class Subtree:
     curves: Mapping[Node, NodeCurve]
 
 
-def mean_of(siblings: Sequence[Subtree], deviations: Deviations) -> Subtree:
+class Deviations:
+    """Deviations of siblings from their mean, by the shape and the number of the siblings.
+
+    Families with the same shape and number are data vectors of one block: the covariance Π between
+    the data vectors is a projection with a constant diagonal, 1 − 1 / R for families of R siblings
+    (docs/mathematics/inference.md, section 2, "Trees of replicates").
+    """
+
+    def __init__(self) -> None:
+        self.families: dict[tuple[Shape, int], list[Array]] = {}
+
+    def add(self, shape: Shape, data: Array) -> tuple[int, int]:
+        """Add the deviations (R, P, D, N) of a family.
+
+        Returns
+        -------
+        block, column : int
+            The index of the block that they are in, and that of the first sibling's data vector.
+            Blocks are counted from 1, since block 0 holds the means at the root.
+        """
+        key = (shape, len(data))
+        families = self.families.setdefault(key, [])
+        families.append(data)
+        return 1 + [*self.families].index(key), len(data) * (len(families) - 1)
+
+    def blocks(self, times: Array) -> list[Block]:
+        """Return the block of each shape and number."""
+        return [
+            shape.block(times, np.concatenate(families), len(families) * (size - 1))
+            for (shape, size), families in self.families.items()
+        ]
+
+    @property
+    def log_jacobian(self) -> float:
+        """The log-Jacobian of taking means: −½ n log R for each family of R siblings."""
+        return -0.5 * sum(
+            float(len(families) * shape.observed.sum() * np.log(size))
+            for (shape, size), families in self.families.items()
+        )
+
+
+def shape_above(layer: str, parts: Sequence[Shape], number: int) -> Shape:
+    """Return the shape of a node, with a draw of ``layer``, above parts of these shapes."""
+    # Draws below the node are those of one part each; the node's draw is in every curve.
+    below = {name: block_diag(*(part.units[name] for part in parts)) for name in parts[0].units}
+    noise = np.concatenate([part.noise for part in parts])
+    return Shape(
+        number,
+        {layer: np.ones((len(noise), 1)), **below},
+        np.concatenate([part.observed for part in parts]),
+        noise,
+    )
+
+
+def average_siblings(siblings: Sequence[Subtree], deviations: Deviations) -> Subtree:
     """Return the mean of siblings of one shape; the deviations from it go to ``deviations``."""
     shape, size = siblings[0].shape, len(siblings)
     if size == 1:
@@ -67,16 +151,16 @@ def mean_of(siblings: Sequence[Subtree], deviations: Deviations) -> Subtree:
     mean = data.mean(axis=0)
     block, first = deviations.add(shape, data - mean)
     # A node's curve with weights a: weights R^(−1/2) a in the mean, and a term a in the deviations.
-    curves = {}
+    curves: dict[Node, NodeCurve] = {}
     for column, sibling in enumerate(siblings, start=first):
-        for node, curve in sibling.curves.items():
-            scaled = {layer: weights * size**-0.5 for layer, weights in curve.weights.items()}
-            deviation = PosteriorTerm(block, column, Target(curve.weights, {}))
-            curves[node] = NodeCurve(scaled, (*curve.terms, deviation))
+        for node, (weights, terms) in sibling.curves.items():
+            scaled = {layer: a * size**-0.5 for layer, a in weights.items()}
+            deviation = Target(weights, block=block, column=column)
+            curves[node] = scaled, (*terms, deviation)
     return Subtree(shape.of_mean(size), mean, curves)
 
 
-def parent_of(parts: Sequence[Subtree], node: Node, layer: str, shape: Shape) -> Subtree:
+def join_children(parts: Sequence[Subtree], node: Node, layer: str, shape: Shape) -> Subtree:
     """Return the subtree of ``node``, whose draw of ``layer`` is part of every curve below it.
 
     Parameters
@@ -93,16 +177,15 @@ def parent_of(parts: Sequence[Subtree], node: Node, layer: str, shape: Shape) ->
     # The node's curve: weight 1 on the node's draw, 0 on the draws below.
     top = {layer: np.ones(1)}
     zeros = {name: np.zeros(factor.shape[1]) for name, factor in shape.units.items()}
-    curves = {node: NodeCurve(zeros | top, ())}
+    curves: dict[Node, NodeCurve] = {node: (zeros | top, ())}
     # A curve below: its weights at the places of its part's draws, and 1 on the node's draw.
     starts = dict.fromkeys(parts[0].shape.units, 0)
     for part in parts:
-        for below, curve in part.curves.items():
+        for below, (weights, terms) in part.curves.items():
             placed = {
-                name: _pad_weights(weights, starts[name], len(zeros[name]))
-                for name, weights in curve.weights.items()
+                name: _pad_weights(a, starts[name], len(zeros[name])) for name, a in weights.items()
             }
-            curves[below] = NodeCurve(placed | top, curve.terms)
+            curves[below] = placed | top, terms
         starts = {name: starts[name] + part.shape.units[name].shape[1] for name in starts}
     return Subtree(shape, np.concatenate([part.data for part in parts]), curves)
 

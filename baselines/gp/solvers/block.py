@@ -17,7 +17,7 @@ deviations from a mean. The data lie in the range of :math:`\Pi`, and their log-
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -102,7 +102,7 @@ class Block:
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """A function of time to be inferred from a block.
+    """A function of time to be inferred from a data vector of a block.
 
     In each layer it is Σ_i a_i times the i-th independent draw of that layer, plus a draw that is
     independent of the block's data, scaled to the variance ``independent_variance``.
@@ -111,12 +111,16 @@ class Target:
     ----------
     weights : mapping of str to ndarray of shape (I,)
         The coefficients a, for each layer of the block.
-    independent_variance : mapping of str to float
+    independent_variance : mapping of str to float, default={}
         Variance of the independent draw, relative to the layer's. Layers left out have none.
+    block, column : int, default=0
+        The indices of the block among several, and of the data vector.
     """
 
     weights: Mapping[str, Array]
-    independent_variance: Mapping[str, float]
+    independent_variance: Mapping[str, float] = field(default_factory=dict)
+    block: int = 0
+    column: int = 0
 
     def prior_scale(self, layer: str) -> float:
         """Return aᵀa + φ, the target's prior variance relative to the layer's.

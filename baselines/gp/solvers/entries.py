@@ -1,9 +1,9 @@
 """The visible entries of a block, output by output.
 
-A *site* is a unit and a time at which some output is visible. Given the latent functions the
-outputs are independent, so there is one matrix for each output, over all sites, with zeros where
-the output is hidden: formulae then need no masks (docs/mathematics/solvers.md, section 5). Only
-what is factorised is first reduced to the sites at which the output is visible.
+A *row* is a unit and a time at which some output is visible. Given the latent functions the outputs
+are independent, so there is one matrix for each output, over all rows, with zeros where the output
+is hidden: formulae then need no masks (docs/mathematics/solvers.md, section 5). Only
+what is factorised is first reduced to the rows at which the output is visible.
 """
 
 from __future__ import annotations
@@ -13,75 +13,37 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.basics.arrays import Array
+from mocapbench.basics.arrays import Array, Index
 
-__all__ = ["AllSites", "Entries", "SomeSites"]
+__all__ = ["Entries", "pick_entries", "place_entries"]
 
 
 CHUNK = 2**18
 """Largest number of entries in the matrices of one chunk of outputs: two megabytes."""
 
 
-class AllSites:
-    """The sites of an output that is visible at all of them: nothing is copied."""
-
-    positions = slice(None)
-
-    def pick(self, matrix: Array) -> Array:
-        """Return ``matrix`` (m, m) itself."""
-        return matrix
-
-    def place(self, part: Array, matrix: Array) -> None:
-        """Write ``part`` (m, m) into ``matrix`` (m, m)."""
-        matrix[...] = part
-
-
-@dataclass(frozen=True, eq=False)
-class SomeSites:
-    """The sites at which an output is visible.
-
-    Parameters
-    ----------
-    positions : ndarray of int, shape (n_d,)
-        Their indices.
-    """
-
-    positions: NDArray[np.intp]
-
-    def pick(self, matrix: Array) -> Array:
-        """Return rows and columns of ``matrix`` (m, m) at these sites, (n_d, n_d), C-ordered."""
-        return np.ascontiguousarray(matrix[self.positions][:, self.positions])
-
-    def place(self, part: Array, matrix: Array) -> None:
-        """Write ``part`` (n_d, n_d) into ``matrix`` (m, m), and zeros everywhere else."""
-        rows = np.zeros((len(part), len(matrix)))
-        rows[:, self.positions] = part
-        matrix[...] = 0.0
-        matrix[self.positions] = rows
-
-
 @dataclass(frozen=True, eq=False)
 class Entries:
-    """The m sites of a block, and at which of them each output is visible.
+    """The m rows of a block, and at which of them each output is visible.
 
     Parameters
     ----------
     unit, time : ndarray of int, shape (m,)
-        The sites, by unit and then by time.
+        The rows, by unit and then by time.
     spans : tuple of slice
-        The sites of each unit.
-    sites : tuple of AllSites or SomeSites
-        The sites at which each output is visible.
+        The rows of each unit.
+    positions : tuple of ndarray of int, each of shape (n_d,)
+        The rows at which each output is visible.
     visible : ndarray of bool, shape (D, m)
         The same as a mask.
     n_times : int
         The number N of times.
     """
 
-    unit: NDArray[np.intp]
-    time: NDArray[np.intp]
+    unit: Index
+    time: Index
     spans: tuple[slice, ...]
-    sites: tuple[AllSites | SomeSites, ...]
+    positions: tuple[Index, ...]
     visible: NDArray[np.bool_]
     n_times: int
 
@@ -92,10 +54,8 @@ class Entries:
         ends = np.cumsum(np.bincount(unit, minlength=len(observed))).tolist()
         spans = tuple(slice(start, end) for start, end in zip([0, *ends], ends, strict=False))
         visible = observed[unit, :, time].T
-        sites = tuple(
-            AllSites() if seen.all() else SomeSites(np.flatnonzero(seen)) for seen in visible
-        )
-        return cls(unit, time, spans, sites, visible, observed.shape[2])
+        positions = tuple(np.flatnonzero(seen) for seen in visible)
+        return cls(unit, time, spans, positions, visible, observed.shape[2])
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -105,12 +65,12 @@ class Entries:
     @property
     def chunks(self) -> tuple[slice, ...]:
         """Runs of consecutive outputs whose matrices together fit into a processor's cache."""
-        n_outputs, n_sites = self.visible.shape
-        size = max(1, CHUNK // max(n_sites, 1) ** 2)
+        n_outputs, n_rows = self.visible.shape
+        size = max(1, CHUNK // max(n_rows, 1) ** 2)
         return tuple(slice(d, min(d + size, n_outputs)) for d in range(0, n_outputs, size))
 
-    def at_sites(self, values: Array) -> Array:
-        """Return (D, m, h), the ``values`` (h, P, D, N) at the sites."""
+    def gather_rows(self, values: Array) -> Array:
+        """Return (D, m, h), the ``values`` (h, P, D, N) at the rows."""
         return np.ascontiguousarray(values[:, self.unit, :, self.time].transpose(2, 0, 1))
 
     def fold(self, loadings: Array, values: Array) -> Array:
@@ -121,7 +81,7 @@ class Entries:
         return folded
 
     def unfold(self, loadings: Array, curves: Array) -> Array:
-        """Return (m, …), at a site of unit p loadings[p] times ``curves`` (N, …).
+        """Return (m, …), at a row of unit p loadings[p] times ``curves`` (N, …).
 
         This is the adjoint of `fold`.
         """
@@ -135,3 +95,24 @@ class Entries:
             for q in np.flatnonzero(columns):
                 span = self.spans[q]
                 total[self.spans[p], span] += columns[q] * part[:, self.time[span]]
+
+
+def pick_entries(matrix: Array, positions: Index) -> Array:
+    """Return rows and columns of ``matrix`` (m, m) at some positions, (n_d, n_d), C-ordered.
+
+    Where all are picked it is the matrix itself: nothing is copied.
+    """
+    if len(positions) == len(matrix):
+        return matrix
+    return np.ascontiguousarray(matrix[positions][:, positions])
+
+
+def place_entries(part: Array, positions: Index, matrix: Array) -> None:
+    """Write ``part`` (n_d, n_d) into ``matrix`` (m, m), and zeros everywhere else."""
+    if len(positions) == len(matrix):
+        matrix[...] = part
+        return
+    rows = np.zeros((len(part), len(matrix)))
+    rows[:, positions] = part
+    matrix[...] = 0.0
+    matrix[positions] = rows

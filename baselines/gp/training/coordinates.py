@@ -1,4 +1,4 @@
-r"""The coordinates of a search, in which the log-likelihood is better conditioned.
+r"""The coordinates of a search, in which it is better conditioned, and their bounds.
 
 They are the free coordinates of `Parameters` with two changes (docs/mathematics/prediction.md,
 section 10). The noise enters by its root, :math:`\sqrt{\beta_d}` relative to the start's, because
@@ -13,16 +13,23 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import Bounds
 
-from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Coordinates"]
+__all__ = ["MAX_LOADING", "MAX_NOISE", "MIN_NOISE", "Coordinates", "parameter_bounds"]
+
+
+MIN_NOISE, MAX_NOISE = 1e-6, 10.0
+MAX_LOADING = 30.0
+"""Bound of |W| and √κ in standard deviations of the output: wider than any fit needs, and far from
+overflow."""
 
 
 @dataclass(frozen=True, eq=False)
 class Coordinates:
-    """A one-to-one map between the parameters of a model and vectors.
+    """A one-to-one map between the parameters of a model and vectors, within bounds.
 
     Parameters
     ----------
@@ -30,20 +37,32 @@ class Coordinates:
         Parameters of the same shapes, whose noise is the unit of noise.
     scale : ndarray of shape (n_parameters - D,)
         Factors of the layers' coordinates.
+    lower, upper : Parameters
+        Bounds of the parameters, for outputs in standard units.
     """
 
     origin: Parameters
     scale: Array
+    lower: Parameters
+    upper: Parameters
 
     @classmethod
-    def around(cls, origin: Parameters, draws: Mapping[str, int]) -> Coordinates:
-        """Return coordinates, given for each layer the number of its ``draws`` in the data."""
+    def around(cls, origin: Parameters, draws: Mapping[str, int], times: Array) -> Coordinates:
+        """Return coordinates, given for each layer the number of its ``draws`` in the data.
+
+        A lengthscale lies between half the shortest step and ten times the span of ``times`` (N,).
+        """
         most = max(draws.values())
         scales = [
             np.full(sum(leaf.size for leaf in layer.leaves), np.sqrt(draws[name] / most))
             for name, layer in origin.layers.items()
         ]
-        return cls(origin, np.concatenate(scales))
+        return cls(origin, np.concatenate(scales), *parameter_bounds(origin, times))
+
+    @property
+    def bounds(self) -> Bounds:
+        """The bounds of the coordinates."""
+        return Bounds(self.of(self.lower), self.of(self.upper))
 
     def of(self, parameters: Parameters) -> Array:
         """Return the coordinates (n_parameters,) of parameters."""
@@ -67,3 +86,31 @@ class Coordinates:
 
     def _of_layers(self, vector: Array) -> Array:
         return vector[: len(self.scale)]
+
+
+def parameter_bounds(parameters: Parameters, times: Array) -> tuple[Parameters, Parameters]:
+    """Return the lower and upper bounds of parameters with the shapes of the given ones.
+
+    A lengthscale lies between half the shortest step and ten times the span of ``times`` (N,).
+    """
+    steps = np.diff(times) if len(times) > 1 else np.ones(1)
+    shortest, longest = np.log(0.5 * steps.min()), np.log(10.0 * steps.sum())
+    return (
+        _constant(parameters, shortest, -MAX_LOADING, np.log(MIN_NOISE)),
+        _constant(parameters, longest, MAX_LOADING, np.log(MAX_NOISE)),
+    )
+
+
+def _constant(
+    parameters: Parameters, log_lengthscale: float, loading: float, log_noise: float
+) -> Parameters:
+    """Return parameters of the same shapes with one value for all coordinates of a kind."""
+    layers = {
+        name: LayerParameters(
+            np.full_like(layer.log_lengthscales, log_lengthscale),
+            np.full_like(layer.weights, loading),
+            np.full_like(layer.kappa_roots, loading),
+        )
+        for name, layer in parameters.layers.items()
+    }
+    return Parameters(layers, np.full_like(parameters.log_noise, log_noise))

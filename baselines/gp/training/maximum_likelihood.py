@@ -8,8 +8,10 @@ docs/mathematics/prediction.md, section 10, has the details.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import Bounds, minimize
@@ -17,18 +19,9 @@ from scipy.optimize import Bounds, minimize
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
 from mocapbench.baselines.gp.training.coordinates import Coordinates
-from mocapbench.baselines.gp.training.search import (
-    Budget,
-    Iteration,
-    Likelihood,
-    Report,
-    Search,
-    SearchSpace,
-    Training,
-)
 from mocapbench.basics.arrays import Array
 
-__all__ = ["maximise"]
+__all__ = ["Budget", "Iteration", "Likelihood", "Report", "Search", "maximise"]
 
 
 MEMORY = 200
@@ -39,13 +32,84 @@ MAX_LINE_SEARCH = 20
 """Largest number of evaluations of an iteration, scipy's default."""
 
 
+Likelihood = Callable[[Parameters], tuple[float, Array]]
+"""From parameters to the log-likelihood and its gradient in the free coordinates."""
+
+
+@dataclass(frozen=True)
+class Budget:
+    """When to stop.
+
+    Parameters
+    ----------
+    tol : float
+        A search has converged when an iteration gains less than this fraction of the
+        log-likelihood's absolute value (or of 1, if that is larger).
+    max_iter : int
+        Largest number of iterations of one search. Most take one evaluation, none above 20.
+    max_seconds : float or None
+        Time for all searches together in seconds; None sets no limit. It is checked before every
+        evaluation but the first.
+    """
+
+    tol: float
+    max_iter: int
+    max_seconds: float | None
+
+
+class Iteration(NamedTuple):
+    """The state of a search after an iteration, with evaluations and seconds since it began."""
+
+    iteration: int
+    log_likelihood: float
+    n_evaluations: int
+    seconds: float
+
+
+Report = Callable[[int, Iteration], None]
+"""Called after every iteration with the index of the search."""
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """The result of one search.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        The best parameters evaluated.
+    log_likelihood : float
+        The log-likelihood there.
+    n_evaluations : int
+        The number of evaluations.
+    trace : tuple of Iteration
+        Every iteration, with the best log-likelihood so far.
+    converged : bool
+        Whether the search ended because its tolerance was met.
+    message : str
+        Why it ended.
+    """
+
+    parameters: Parameters
+    log_likelihood: float
+    n_evaluations: int
+    trace: tuple[Iteration, ...]
+    converged: bool
+    message: str
+
+    @property
+    def n_iterations(self) -> int:
+        """The number of iterations."""
+        return len(self.trace)
+
+
 def maximise(
     likelihood: Likelihood,
     starts: Sequence[Parameters],
-    space: SearchSpace,
+    coordinates: Coordinates,
     budget: Budget,
     report: Report,
-) -> Training:
+) -> tuple[Search, ...]:
     """Search for the maximum from every start, until the time is spent.
 
     Parameters
@@ -54,12 +118,17 @@ def maximise(
         The function to maximise.
     starts : sequence of Parameters
         Where to begin; moved inside the bounds.
-    space : SearchSpace
-        Where to search.
+    coordinates : Coordinates
+        In which to search, within their bounds.
     budget : Budget
         When to stop.
     report : callable
         Called after every iteration with the index of the start and the `Iteration`.
+
+    Returns
+    -------
+    tuple of Search
+        One for each start, except those that there was no time left for.
 
     Raises
     ------
@@ -71,9 +140,9 @@ def maximise(
     for index, start in enumerate(starts):
         if index and perf_counter() > deadline:
             break
-        objective = _Objective(likelihood, space.coordinates, deadline, partial(report, index))
-        searches.append(_search(objective, space.coordinates.of(start), space.bounds, budget))
-    return Training(tuple(searches))
+        objective = _Objective(likelihood, coordinates, deadline, partial(report, index))
+        searches.append(_search(objective, coordinates.of(start), coordinates.bounds, budget))
+    return tuple(searches)
 
 
 class _OutOfTime(Exception):  # noqa: N818

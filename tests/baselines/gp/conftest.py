@@ -10,13 +10,11 @@ import pytest
 from hypothesis import strategies as st
 
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.kernels import KERNELS, StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import CHILD, PARENT, LayerParameters, Parameters
 from mocapbench.baselines.gp.process import FittedProcess
-from mocapbench.baselines.gp.reduction.hierarchy import hierarchical
-from mocapbench.baselines.gp.reduction.independent import independent
-from mocapbench.baselines.gp.reduction.pooled import pool_replicates
+from mocapbench.baselines.gp.reduction.hierarchy import reduce_hierarchy
+from mocapbench.baselines.gp.reduction.one_layer import pool_replicates, separate_replicates
 from mocapbench.baselines.gp.reduction.reduction import Reduction
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.reduction.tree import Path, Tree, grow
@@ -34,11 +32,11 @@ class Structure:
 
 
 STRUCTURES = {
-    "hierarchical": Structure(hierarchical, (PARENT, CHILD)),
+    "hierarchical": Structure(reduce_hierarchy, (PARENT, CHILD)),
     "pooled": Structure(lambda replicates, tree: pool_replicates(replicates), (PARENT,)),
-    "independent": Structure(lambda replicates, tree: independent(replicates), (CHILD,)),
-    "grouped": Structure(hierarchical, (PARENT, "group-1", CHILD), 1),
-    "nested": Structure(hierarchical, (PARENT, "group-1", "group-2", CHILD), 2),
+    "independent": Structure(lambda replicates, tree: separate_replicates(replicates), (CHILD,)),
+    "grouped": Structure(reduce_hierarchy, (PARENT, "group-1", CHILD), 1),
+    "nested": Structure(reduce_hierarchy, (PARENT, "group-1", "group-2", CHILD), 2),
 }
 
 
@@ -135,7 +133,7 @@ class BruteForce:
             layer = parameters.layers[name]
             draws = self._draws(name)
             shared = np.equal.outer(draws[r1], draws[r2])
-            for b, scale in zip(layer.coregionalisation.matrices, layer.lengthscales, strict=True):
+            for b, scale in zip(layer.matrices, layer.lengthscales, strict=True):
                 kernel = self.case.kernel.value(np.subtract.outer(t1, t2), scale)
                 total += shared * b[np.ix_(d1, d2)] * kernel
         return total
@@ -163,10 +161,8 @@ def draw_case(
     layers = {
         name: LayerParameters(
             rng.uniform(-1.0, 0.5, n_components),
-            Coregionalisation(
-                rng.standard_normal((n_components, n_outputs, rank)),
-                rng.uniform(-1.0, 1.0, (n_components, n_outputs)),
-            ),
+            rng.standard_normal((n_components, n_outputs, rank)),
+            rng.uniform(-1.0, 1.0, (n_components, n_outputs)),
         )
         for name in STRUCTURES[structure].layers
     }
@@ -267,10 +263,8 @@ def _with_outputs(parameters: Parameters, index: np.ndarray) -> Parameters:
     layers = {
         name: LayerParameters(
             layer.log_lengthscales,
-            Coregionalisation(
-                layer.coregionalisation.weights[:, index],
-                layer.coregionalisation.kappa_roots[:, index],
-            ),
+            layer.weights[:, index],
+            layer.kappa_roots[:, index],
         )
         for name, layer in parameters.layers.items()
     }

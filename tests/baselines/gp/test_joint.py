@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.kronecker import Kronecker
-from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
-from mocapbench.baselines.gp.solvers.state_space.solver import StateSpace
+from mocapbench.baselines.gp.solvers.latent_split.split_solver import LatentSplit
+from mocapbench.baselines.gp.solvers.state_space.state_solver import StateSpace
 
 SOLVERS = (Dense, LatentSplit, StateSpace, Kronecker)
 AT = np.array([1.3, -0.4, 0.7, 5.0, 0.7])

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.registration import Clock, affine
+from mocapbench.baselines.gp.registration import Clock, register_affinely
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.datasets import Recording
 
@@ -31,9 +31,9 @@ def test_a_shifted_and_slower_copy_is_moved_back(shift, log_pace, offset):
     times = np.linspace(-1.5, 4.5, 181)
     copy = _recording("copy", offset + _movement((times - shift) / np.exp(log_pace)), times)
     reference = _incomplete()
-    kept, (moved, clock) = affine([reference, copy])
-    assert kept.recording is reference
-    assert kept.clock == Clock()
+    (kept, unmoved), (moved, clock) = register_affinely([reference, copy])
+    assert kept is reference
+    assert unmoved == Clock()
     np.testing.assert_array_equal(moved.times, reference.times)
     np.testing.assert_allclose(moved.values, offset + _movement(TIMES), atol=0.02)
     np.testing.assert_allclose(
@@ -47,19 +47,21 @@ def test_hidden_entries_do_not_take_part():
     wild = reference.with_values(np.where(reference.visible, reference.values, 1e6))
     again = wild.hide(~reference.visible)
     copy = _recording("copy", _movement(TIMES + 0.1))
-    for one, two in zip(affine([reference, copy]), affine([again, copy]), strict=True):
-        np.testing.assert_array_equal(one.recording.values, two.recording.values)
+    both = (register_affinely([shown, copy]) for shown in (reference, again))
+    for (one, _), (two, _) in zip(*both, strict=True):
+        np.testing.assert_array_equal(one.values, two.values)
 
 
 def test_incomplete_recordings_and_those_too_short_to_compare_are_left_alone():
     short = _recording("short", _movement(TIMES[:20]), TIMES[:20])
     recordings = [_incomplete(), _recording("other", _movement(TIMES)).hide(TIMES[:, None] < 0.1)]
-    assert affine([*recordings, short]) == tuple((each, Clock()) for each in (*recordings, short))
+    given = (*recordings, short)
+    assert register_affinely(given) == tuple((each, Clock()) for each in given)
 
 
 def test_complete_recordings_are_moved_onto_the_first():
     first, copy = _recording("first", _movement(TIMES)), _recording("copy", _movement(TIMES + 0.2))
-    (kept, _), (moved, _) = affine([first, copy])
+    (kept, _), (moved, _) = register_affinely([first, copy])
     assert kept is first
     visible = moved.visible
     np.testing.assert_allclose(moved.values[visible], first.values[visible], atol=0.02)

@@ -5,7 +5,6 @@ import pytest
 
 from mocapbench.baselines.gpdm.dynamics import Markov, Static
 from mocapbench.baselines.gpdm.kernels import LinearKernel
-from mocapbench.baselines.gpdm.process import Process
 
 from .conftest import DYNAMICS, LENGTHS, numerical_gradient, relative_error
 
@@ -71,7 +70,8 @@ def test_without_dynamics_positions_are_standard_normal(positions):
 
 
 def test_without_information_a_position_returns_to_zero_and_a_velocity_continues():
-    process, history = Process(LinearKernel()), np.full((1, 1, 1), 3.0)
+    kernel, history = LinearKernel(), np.full((1, 1, 1), 3.0)
     for carry, expected in ((0.0, 0.0), (1.0, 3.0)):
-        conditioned = Markov(process, carry=carry).condition(process.start, np.zeros((6, 1)), (6,))
+        dynamics = Markov(kernel, carry=carry)
+        conditioned = dynamics.condition(dynamics.start, np.zeros((6, 1)), (6,))
         assert conditioned.step(history)[0].item() == pytest.approx(expected)

@@ -18,7 +18,7 @@ ALPHA = (0.009, 0.2, 0.001, 1e6)
 ALGORITHMS = {
     "map": MaximumAPosteriori(5, 5),
     "balanced": Balanced(5, 5),
-    "fixed dynamics": FixedDynamics(5, 5, ALPHA),
+    "fixed dynamics": FixedDynamics(5, 5),
 }
 
 

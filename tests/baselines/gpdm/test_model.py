@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from samples import gap
 
-from mocapbench.baselines.gpdm.conditional import Query
 from mocapbench.baselines.gpdm.model import GPDM
 from mocapbench.baselines.gpdm.starts import STARTS
 from mocapbench.baselines.gplvm import GPLVM
@@ -94,20 +93,20 @@ def test_kernel_properties_are_those_of_table_1(fitted):
 @pytest.mark.parametrize("start", ["window", "linear"])
 def test_a_training_sequence_starts_where_it_is(fitted, start):
     model, lengths = fitted.conditional_, fitted.sequences_.lengths
-    query = Query(model.poses[: lengths[0]], np.ones(lengths[0], dtype=bool))
+    query = (model.poses[: lengths[0]], np.ones(lengths[0], dtype=bool))
     np.testing.assert_allclose(STARTS[start](model, query), model.x[: lengths[0]], atol=1e-12)
 
 
 def test_mean_prediction_follows_the_dynamics(fitted):
     model = fitted.conditional_
-    query = Query(model.poses[:12], (np.arange(12) < 5) | (np.arange(12) > 8))
+    query = (model.poses[:12], (np.arange(12) < 5) | (np.arange(12) > 8))
     x = STARTS["mean-prediction"](model, query)
     for frame in (5, 6, 7, 8):
         np.testing.assert_allclose(x[frame], model.dynamics.step(x[[frame - 1]][None])[0][0])
 
 
 def test_a_window_longer_than_training_is_followed_by_the_dynamics(fitted):
-    query = Query(np.zeros((40, 4)), np.arange(40) < 10)
+    query = (np.zeros((40, 4)), np.arange(40) < 10)
     assert np.isfinite(STARTS["window"](fitted.conditional_, query)).all()
 
 

@@ -169,8 +169,8 @@ FIT_PATH = [
     ("baselines.rehearsal.widening", "missing-frames", "lds"),
     ("baselines.common.validation", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.prior.kernels", "toy-interpolation-1", "mohgp"),
-    ("baselines.gp.solvers.latent_split.gradient", "toy-interpolation-1", "mohgp"),
-    ("baselines.gpdm.process", "missing-frames", "gpdm"),
+    ("baselines.gp.solvers.latent_split.split_gradient", "toy-interpolation-1", "mohgp"),
+    ("baselines.gpdm.regression", "missing-frames", "gpdm"),
     ("baselines.alignment.aligner", "missing-frames", "cyclic-alignment"),
     ("baselines.functional.components", "missing-frames", "fam"),
 ]

@@ -1,6 +1,6 @@
 """The factorisations of the latent split, which likelihood and prediction share.
 
-The symbols are those of docs/mathematics/solvers.md, section 5, "Value". m is the number of sites,
+The symbols are those of docs/mathematics/solvers.md, section 5, "Value". m is the number of rows,
 K that of white coordinates.
 """
 
@@ -48,9 +48,9 @@ class Factorisation:
         u, the posterior mean of the white coordinates.
     shared : ndarray of shape (n, m, h)
         Σ_i c_i ⊗ Λ_i u_i, the sum of the posterior means of each column's functions, at the
-        sites.
+        rows.
     residual, alpha : ndarray of shape (D, m, h)
-        r = z − A Λ u and α = K⁻¹ z = F r at the sites.
+        r = z − A Λ u and α = K⁻¹ z = F r at the rows.
     """
 
     block: Block
@@ -84,7 +84,7 @@ class Factorisation:
         with refuse_singular(parameters):
             log_system = invert(inverse)
         # u = S⁻¹ Λᵀ Aᵀ F z, A Λ u, the residual r and α = F r.
-        data = entries.at_sites(block.data)
+        data = entries.gather_rows(block.data)
         white = inverse @ whiten(latents, entries, independent.precision @ data)
         shared = _sum_shared(latents, entries, white)
         residual = data - np.tensordot(latents.weights.T, shared, axes=1)
@@ -128,10 +128,10 @@ def project(latents: Latents, entries: Entries, values: Array) -> list[Array]:
 def _rooted_gram(latents: Latents, entries: Entries, precision: Array) -> tuple[Array, ...]:
     """Return G Λ, (N, K) for each latent function."""
     # Σ_d w_ad w_bd F_d for each pair of columns a ≤ b: section 5, "Value".
-    n_times, n_sites = entries.n_times, len(entries.unit)
+    n_times, n_rows = entries.n_times, len(entries.unit)
     rooted = tuple(np.empty((n_times, latents.n_white)) for _ in latents.functions)
     weighted = latents.products @ precision.reshape(len(precision), -1)
-    by_pair = weighted.reshape(-1, n_sites, n_sites)
+    by_pair = weighted.reshape(-1, n_rows, n_rows)
     # Block (i, j) of G is that of its columns, folded by the loadings of the units on i and on j.
     for (a, b), matrix in zip(latents.pairs, by_pair, strict=True):
         for i in latents.by_column[a]:

@@ -3,7 +3,7 @@ r"""The independent part of each output.
 :math:`E_d = \sum_\tau \kappa_{\tau d}\, U_\tau \otimes k_\tau + \nu_d`, where :math:`\tau` runs
 over the components of all layers, :math:`U_\tau` is the layer's Gram matrix over units and
 :math:`\nu_d` the noise (docs/mathematics/solvers.md, section 5). There is one matrix for each
-output, over the m sites of the block.
+output, over the m rows of the block.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from mocapbench.baselines.common.cholesky import invert
-from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.block import Block
+from mocapbench.baselines.gp.solvers.entries import pick_entries, place_entries
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
 from mocapbench.baselines.gp.solvers.threads import Mapper
 from mocapbench.basics.arrays import Array
@@ -69,12 +69,12 @@ class IndependentParts:
             matrices = (kappa[:, outputs].T @ kernels).reshape(-1, *entries.shape[1:])
             total = 0.0
             for d, matrix in zip(range(*outputs.indices(len(noise))), matrices, strict=True):
-                # E_d at the visible sites, its inverse F_d, and F_d over all sites.
-                sites = entries.sites[d]
-                covariance = sites.pick(matrix)
-                covariance.reshape(-1)[:: len(covariance) + 1] += noise[d, sites.positions]
+                # E_d at the visible rows, its inverse F_d, and F_d over all rows.
+                positions = entries.positions[d]
+                covariance = pick_entries(matrix, positions)
+                covariance.reshape(-1)[:: len(covariance) + 1] += noise[d, positions]
                 total += invert(covariance)
-                sites.place(covariance, precision[d])
+                place_entries(covariance, positions, precision[d])
             return total
 
         with refuse_singular(parameters):
@@ -114,30 +114,30 @@ class IndependentParts:
             if name in self.block.units:
                 components = slice(start, start + len(layer.lengthscales))
                 start = components.stop
-                b = layer.coregionalisation
-                by_root = 2.0 * b.kappa_roots * by_kappa[components]
+                # ∂ log ℓ_τ = Σ_d κ_τd ⟨Ē_d, U_τ ⊗ ∂k_τ⟩ and ∂√κ = 2 √κ ⟨Ē_d, U_τ ⊗ k_τ⟩.
                 layers[name] = LayerParameters(
-                    (b.kappa * by_scale[components]).sum(axis=1),
-                    Coregionalisation(np.zeros_like(b.weights), by_root),
+                    (layer.kappa * by_scale[components]).sum(axis=1),
+                    np.zeros_like(layer.weights),
+                    2.0 * layer.kappa_roots * by_kappa[components],
                 )
         return Parameters(layers, by_noise)
 
 
 def _noise_scale(block: Block) -> Array:
-    """Return the factors of the noise at the sites, (D, m)."""
+    """Return the factors of the noise at the rows, (D, m)."""
     return np.asarray(block.noise_scale[block.entries.unit, :, block.entries.time].T)
 
 
 def _kappa(block: Block, parameters: Parameters) -> Array:
     """Return κ of the components of all layers of the block, (n_components, D)."""
     layers = [layer for name, layer in parameters.layers.items() if name in block.units]
-    return np.concatenate([layer.coregionalisation.kappa for layer in layers])
+    return np.concatenate([layer.kappa for layer in layers])
 
 
 def _kernels(
     function: Callable[[Array, Array], Array], block: Block, parameters: Parameters
 ) -> Array:
-    """Return U_τ ⊗ k_τ, or with ∂k_τ, between all sites: (n_components, m²)."""
+    """Return U_τ ⊗ k_τ, or with ∂k_τ, between all rows: (n_components, m²)."""
     unit, time = block.entries.unit, block.entries.time
     kernels = []
     for name, layer in parameters.layers.items():

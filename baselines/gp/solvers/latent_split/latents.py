@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,15 +19,10 @@ from mocapbench.baselines.gp.prior.pivoted import PivotedRoot
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.basics.arrays import Array
 
-__all__ = ["Column", "Latent", "Latents"]
+__all__ = ["Latent", "Latents"]
 
-
-class Column(NamedTuple):
-    """A column of a coregionalisation factor: layer, component q, index within W_q."""
-
-    layer: str
-    component: int
-    number: int
+Column = tuple[str, int, int]
+"""A column of a coregionalisation factor: layer, component q, index within W_q."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +80,7 @@ class Latents:
         columns = tuple(_columns(block, parameters))
         weights = np.zeros((len(columns), block.observed.shape[1]))
         for row, (name, q, number) in zip(weights, columns, strict=True):
-            row[:] = parameters.layers[name].coregionalisation.weights[q, :, number]
+            row[:] = parameters.layers[name].weights[q, :, number]
         return cls(columns, weights, tuple(_functions(kernel, block, parameters, columns)))
 
     @property
@@ -123,16 +117,17 @@ class Latents:
         """Return the loadings of the target's outputs on each coordinate's function, (K, D)."""
         loadings = np.empty((self.n_white, self.weights.shape[1]))
         for latent in self.functions:
-            of_draw = target.weights[self.columns[latent.column].layer][latent.draw]
+            name, _, _ = self.columns[latent.column]
+            of_draw = target.weights[name][latent.draw]
             loadings[latent.white] = of_draw * self.weights[latent.column]
         return loadings
 
 
 def _columns(block: Block, parameters: Parameters) -> Iterator[Column]:
     for name in block.units:
-        n_components, _, rank = parameters.layers[name].coregionalisation.weights.shape
+        n_components, _, rank = parameters.layers[name].weights.shape
         for q, number in np.ndindex(n_components, rank):
-            yield Column(name, q, number)
+            yield name, q, number
 
 
 def _functions(

@@ -20,45 +20,16 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
-from mocapbench.baselines.gp.prior.markov import Steps
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
-from mocapbench.baselines.gp.solvers.state_space.model import StateModel
+from mocapbench.baselines.gp.solvers.state_space.state_model import StateModel
 from mocapbench.basics.arrays import Array
 
-__all__ = ["FilterPass", "FilteredState", "Innovation"]
+__all__ = ["FilterPass", "Innovation", "StateMoments", "predict_state"]
 
-
-@dataclass(frozen=True, eq=False)
-class FilteredState:
-    """The distribution of the state given the data so far.
-
-    Parameters
-    ----------
-    mean : ndarray of shape (s, h)
-        x, a column for each data vector.
-    covariance : ndarray of shape (s, s)
-        P.
-    """
-
-    mean: Array
-    covariance: Array
-
-    def predict(self, model: StateModel, transition: Array, noise: Array) -> FilteredState:
-        """Return the prediction Φ x, Φ P Φᵀ + Q ⊗ B; both arrays are (J, m, m)."""
-        return FilteredState(
-            model.propagate(transition, self.mean),
-            model.predict_covariance(transition, noise, self.covariance),
-        )
-
-    def update(self, innovation: Innovation) -> FilteredState:
-        """Return the update x + Aᵀ L⁻¹ e, P − Aᵀ A."""
-        explained = innovation.explained
-        return FilteredState(
-            self.mean + explained.T @ innovation.white,
-            self.covariance - explained.T @ explained,
-        )
+StateMoments = tuple[Array, Array]
+"""The mean x (s, h) of the state, a column for each data vector, and its covariance P (s, s)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,9 +66,10 @@ class FilterPass:
         The problem, without frames in which nothing is visible.
     parameters : Parameters
         The parameters at which it is evaluated.
-    steps : Steps
-        The steps into each of the N frames; the first starts from the stationary distribution.
-    states : list of FilteredState
+    steps : ndarray of shape (4, N, J, m, m)
+        Φ, Q and their derivatives for the step into each of the N frames; the first starts from the
+        stationary distribution.
+    states : list of tuple of ndarray
         N + 1 of them: before the first frame, after the first, …, after the last.
     innovations : list of Innovation
         Those of the N frames.
@@ -106,8 +78,8 @@ class FilterPass:
     model: StateModel
     block: Block
     parameters: Parameters
-    steps: Steps
-    states: list[FilteredState]
+    steps: Array
+    states: list[StateMoments]
     innovations: list[Innovation]
 
     @classmethod
@@ -123,12 +95,12 @@ class FilterPass:
         model = StateModel.of(kernel, block, parameters)
         steps = model.steps(np.diff(block.times, prepend=-np.inf))
         size, n_vectors = model.size, len(block.data)
-        states = [FilteredState(np.zeros((size, n_vectors)), np.zeros((size, size)))]
+        states: list[StateMoments] = [(np.zeros((size, n_vectors)), np.zeros((size, size)))]
         innovations: list[Innovation] = []
-        for t, (transition, noise) in enumerate(zip(steps.transition, steps.noise, strict=True)):
-            predicted = states[-1].predict(model, transition, noise)
-            innovations.append(_innovation(model, block, parameters, predicted, t))
-            states.append(predicted.update(innovations[-1]))
+        for t, (transition, noise) in enumerate(zip(*steps[:2], strict=True)):
+            predicted = predict_state(model, transition, noise, states[-1])
+            innovations.append(_innovate(model, block, parameters, predicted, t))
+            states.append(_update_state(predicted, innovations[-1]))
         return cls(model, block, parameters, steps, states, innovations)
 
     @property
@@ -140,13 +112,31 @@ class FilterPass:
         return float(-0.5 * (self.block.multiplicity * log_scale + squares))
 
 
-def _innovation(
-    model: StateModel, block: Block, parameters: Parameters, predicted: FilteredState, t: int
+def predict_state(
+    model: StateModel, transition: Array, noise: Array, state: StateMoments
+) -> StateMoments:
+    """Return the prediction Φ x, Φ P Φᵀ + Q ⊗ B; ``transition`` and ``noise`` are (J, m, m)."""
+    mean, covariance = state
+    return (
+        model.propagate(transition, mean),
+        model.predict_covariance(transition, noise, covariance),
+    )
+
+
+def _update_state(predicted: StateMoments, innovation: Innovation) -> StateMoments:
+    """Return the update x + Aᵀ L⁻¹ e, P − Aᵀ A."""
+    (mean, covariance), explained = predicted, innovation.explained
+    return mean + explained.T @ innovation.white, covariance - explained.T @ explained
+
+
+def _innovate(
+    model: StateModel, block: Block, parameters: Parameters, predicted: StateMoments, t: int
 ) -> Innovation:
     """Return the innovation of frame t, given the predicted state x⁻, P⁻."""
+    mean, prior = predicted
     # H P⁻ and S = H P⁻ Hᵀ + R of the visible entries.
     entries = np.flatnonzero(block.observed[..., t])
-    cross = model.observe(model.units, predicted.covariance)[entries]
+    cross = model.observe(model.units, prior)[entries]
     covariance = model.observe(model.units, cross.T)[entries]
     noise = parameters.noise * block.noise_scale[..., t]
     covariance.flat[:: len(entries) + 1] += noise.flat[entries]
@@ -154,5 +144,5 @@ def _innovation(
         whitening, _ = lapack.dtrtri(np.linalg.cholesky(covariance), lower=1)
     # e = z − H x⁻
     data = block.data[..., t].reshape(len(block.data), -1).T[entries]
-    residual = data - model.observe(model.units, predicted.mean)[entries]
+    residual = data - model.observe(model.units, mean)[entries]
     return Innovation(entries, whitening, whitening @ residual, whitening @ cross)

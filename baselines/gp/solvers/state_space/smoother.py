@@ -22,91 +22,62 @@ American Statistical Association 84.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from mocapbench.baselines.gp.solvers.state_space.filter import FilterPass, Innovation
-from mocapbench.baselines.gp.solvers.state_space.model import StateModel
+from mocapbench.baselines.gp.solvers.state_space.state_model import StateModel
 from mocapbench.basics.arrays import Array
 
-__all__ = ["BackwardMessage", "SmoothingStep", "backward_pass"]
+__all__ = ["Message", "backward_pass", "carry_back", "no_message"]
+
+Message = tuple[Array, Array]
+"""The log-density of later data as a function of the state, to second order.
+
+The score r (s, h) is its derivative in the state's mean x, a column for each data vector; the
+information N (s, s) is minus its second derivative."""
 
 
-@dataclass(frozen=True, eq=False)
-class BackwardMessage:
-    """The log-density of later data as a function of the state, to second order.
-
-    Parameters
-    ----------
-    score : ndarray of shape (s, h)
-        r, its derivative in the state's mean x, a column for each data vector.
-    information : ndarray of shape (s, s)
-        N, minus its second derivative.
-    """
-
-    score: Array
-    information: Array
-
-    @classmethod
-    def none(cls, model: StateModel, n_vectors: int) -> BackwardMessage:
-        """Return the message where there are no later data: zeros."""
-        return cls(np.zeros((model.size, n_vectors)), np.zeros((model.size, model.size)))
-
-    def across(self, model: StateModel, transition: Array) -> BackwardMessage:
-        """Return Φᵀ r, Φᵀ N Φ; ``transition`` is (J, m, m)."""
-        back = transition.swapaxes(1, 2)
-        half = model.propagate(back, self.information)
-        return BackwardMessage(model.propagate(back, self.score), model.propagate(back, half.T))
+def no_message(model: StateModel, n_vectors: int) -> Message:
+    """Return the message where there are no later data: zeros."""
+    return np.zeros((model.size, n_vectors)), np.zeros((model.size, model.size))
 
 
-@dataclass(frozen=True, eq=False)
-class SmoothingStep:
-    """A frame's part of K⁻¹ z and of K⁻¹, and the message to the time just before the frame.
-
-    Parameters
-    ----------
-    alpha : ndarray of shape (V, h)
-        u.
-    precision : ndarray of shape (V, V)
-        D.
-    before : BackwardMessage
-        r⁻ and N⁻.
-    """
-
-    alpha: Array
-    precision: Array
-    before: BackwardMessage
+def carry_back(model: StateModel, transition: Array, message: Message) -> Message:
+    """Return Φᵀ r, Φᵀ N Φ; ``transition`` is (J, m, m)."""
+    (score, information), back = message, transition.swapaxes(1, 2)
+    half = model.propagate(back, information)
+    return model.propagate(back, score), model.propagate(back, half.T)
 
 
-def backward_pass(filtered: FilterPass) -> Iterator[SmoothingStep]:
-    """Yield the smoothing step of every frame, from the last to the first."""
+def backward_pass(filtered: FilterPass) -> Iterator[tuple[Array, Array, Message]]:
+    """Yield u (V, h), D (V, V) and the message r⁻, N⁻ of every frame, from last to first."""
     model = filtered.model
-    after = BackwardMessage.none(model, len(filtered.block.data))
-    steps_into = zip(filtered.innovations, filtered.steps.transition, strict=True)
+    after = no_message(model, len(filtered.block.data))
+    steps_into = zip(filtered.innovations, filtered.steps[0], strict=True)
     for innovation, transition in reversed(list(steps_into)):
-        step = _smooth(model, innovation, after)
-        yield step
-        after = step.before.across(model, transition)
+        alpha, precision, before = _smooth_frame(model, innovation, after)
+        yield alpha, precision, before
+        after = carry_back(model, transition, before)
 
 
-def _smooth(model: StateModel, innovation: Innovation, after: BackwardMessage) -> SmoothingStep:
-    whitening = innovation.whitening
+def _smooth_frame(
+    model: StateModel, innovation: Innovation, after: Message
+) -> tuple[Array, Array, Message]:
+    """Return a frame's parts of K⁻¹ z and of K⁻¹, and the message to the time just before it."""
+    whitening, (score, information) = innovation.whitening, after
     # The gain K = Aᵀ L⁻¹, and Kᵀ N.
     gain = innovation.explained.T @ whitening
-    informed = gain.T @ after.information
+    informed = gain.T @ information
     # u = S⁻¹ e − Kᵀ r and D = S⁻¹ + Kᵀ N K.
-    alpha = whitening.T @ innovation.white - gain.T @ after.score
+    alpha = whitening.T @ innovation.white - gain.T @ score
     precision = whitening.T @ whitening + informed @ gain
-    # N⁻ = N − half − halfᵀ with half = Hᵀ Kᵀ N − ½ Hᵀ D H.
+    # N⁻ = N − half − halfᵀ with half = Hᵀ Kᵀ N − ½ Hᵀ D H, and r⁻ = r + Hᵀ u.
     half = _observe_adjoint(
         model, innovation, informed - 0.5 * _observe_adjoint(model, innovation, precision).T
     )
-    before = BackwardMessage(
-        after.score + _observe_adjoint(model, innovation, alpha),
-        after.information - half - half.T,
-    )
-    return SmoothingStep(alpha, precision, before)
+    before = score + _observe_adjoint(model, innovation, alpha), information - half - half.T
+    return alpha, precision, before
 
 
 def _observe_adjoint(model: StateModel, innovation: Innovation, visible: Array) -> Array:

@@ -1,15 +1,18 @@
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
+from mocapbench.baselines.gp.prior.parameters import LayerParameters
 
 
 @st.composite
 def coregionalisations(draw):
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     q, d, rank = draw(st.integers(1, 3)), draw(st.integers(1, 4)), draw(st.integers(0, 3))
-    return Coregionalisation(rng.standard_normal((q, d, rank)), rng.standard_normal((q, d)))
+    shapes = ((q,), (q, d, rank), (q, d))
+    return LayerParameters(*(rng.standard_normal(shape) for shape in shapes))
 
 
 @given(coregionalisations())
@@ -26,7 +29,7 @@ def test_variances_are_the_diagonals(b):
 
 @given(coregionalisations())
 def test_signs_of_the_free_parameters_do_not_matter(b):
-    flipped = Coregionalisation(-b.weights, -b.kappa_roots)
+    flipped = replace(b, weights=-b.weights, kappa_roots=-b.kappa_roots)
     np.testing.assert_array_equal(b.matrices, flipped.matrices)
 
 
@@ -34,18 +37,14 @@ def test_signs_of_the_free_parameters_do_not_matter(b):
 def test_pull_back_is_the_transpose_of_the_derivative(b, seed):
     rng = np.random.default_rng(seed)
     adjoint = rng.standard_normal(b.matrices.shape)
-    direction = Coregionalisation(
-        rng.standard_normal(b.weights.shape), rng.standard_normal(b.kappa_roots.shape)
-    )
-    gradient, step = b.pull_back(adjoint), 1e-6
+    weights, roots = rng.standard_normal(b.weights.shape), rng.standard_normal(b.kappa_roots.shape)
+    by_scale = rng.standard_normal(len(b.weights))
+    gradient, step = b.pull_back(by_scale, adjoint), 1e-6
     up, down = (
-        Coregionalisation(
-            b.weights + s * direction.weights, b.kappa_roots + s * direction.kappa_roots
-        ).matrices
+        replace(b, weights=b.weights + s * weights, kappa_roots=b.kappa_roots + s * roots).matrices
         for s in (step, -step)
     )
     forward = np.vdot(adjoint, (up - down) / (2 * step))
-    backward = np.vdot(gradient.weights, direction.weights) + np.vdot(
-        gradient.kappa_roots, direction.kappa_roots
-    )
+    backward = np.vdot(gradient.weights, weights) + np.vdot(gradient.kappa_roots, roots)
     np.testing.assert_allclose(forward, backward, rtol=1e-6, atol=1e-6)
+    np.testing.assert_array_equal(gradient.log_lengthscales, by_scale)

@@ -16,7 +16,7 @@ def test_draws_have_the_covariance_of_the_layer(name, rank, case):
     draws = draw_layer(KERNELS[name], layer, times, n_samples, np.random.default_rng(1))
     lags = np.subtract.outer(times, times)
     kernels = KERNELS[name].value(lags, layer.lengthscales[:, None, None])
-    expected = np.einsum("qde,qst->sdte", layer.coregionalisation.matrices, kernels).reshape(6, 6)
+    expected = np.einsum("qde,qst->sdte", layer.matrices, kernels).reshape(6, 6)
     flat = draws.reshape(n_samples, 6)
     scale = np.sqrt(np.outer(expected.diagonal(), expected.diagonal()))
     # Five standard errors of a sample covariance, which are at most √(2 / n) of the scale.
@@ -46,11 +46,10 @@ def test_draws_depend_only_on_the_seed_and_are_functions_of_time(case):
 def test_rounding_changes_draws_by_little(name, case):
     parameters = case(np.random.default_rng(0), n_components=2, rank=1).parameters
     layer, times = parameters.layers["child"], np.linspace(0.0, 2 * np.pi, 30)
-    b = layer.coregionalisation
     rounded = replace(
         layer,
         log_lengthscales=layer.log_lengthscales + 1e-15 * np.array([1.0, -1.0]),
-        coregionalisation=replace(b, kappa_roots=-b.kappa_roots),
+        kappa_roots=-layer.kappa_roots,
     )
     first, again = (
         draw_layer(KERNELS[name], one, times, 5, np.random.default_rng(3))

@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.solvers.dense import Dense
 
@@ -169,11 +168,4 @@ def test_without_variance_of_groups_there_are_two_layers(masks, case, example):
 
 def _sum(one, two):
     """Return the layer whose components are those of both."""
-    a, b = one.coregionalisation, two.coregionalisation
-    return LayerParameters(
-        np.concatenate([one.log_lengthscales, two.log_lengthscales]),
-        Coregionalisation(
-            np.concatenate([a.weights, b.weights]),
-            np.concatenate([a.kappa_roots, b.kappa_roots]),
-        ),
-    )
+    return LayerParameters(*map(np.concatenate, zip(one.leaves, two.leaves, strict=True)))

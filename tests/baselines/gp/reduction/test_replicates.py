@@ -24,4 +24,5 @@ def test_replicates_with_the_same_visible_entries_form_a_pattern():
     observed = np.array([[[1, 1]], [[1, 0]], [[1, 1]], [[0, 0]]], dtype=bool)
     data = np.where(observed, [[[1.0, 3.0]], [[5.0, 5.0]], [[3.0, 9.0]], [[7.0, 7.0]]], 0.0)
     replicates = Replicates(np.arange(2.0), data, observed)
-    assert [pattern.members.tolist() for pattern in replicates.patterns] == [[0, 2], [1]]
+    assert [members.tolist() for members, _ in replicates.patterns] == [[0, 2], [1]]
+    assert [seen.tolist() for _, seen in replicates.patterns] == [[[True, True]], [[True, False]]]

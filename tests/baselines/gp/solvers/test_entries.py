@@ -3,17 +3,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from mocapbench.baselines.gp.solvers.entries import Entries
+from mocapbench.baselines.gp.solvers.entries import Entries, pick_entries, place_entries
 
 OBSERVED = arrays(bool, array_shapes(min_dims=3, max_dims=3, max_side=4), elements=st.booleans())
 
 
 @given(OBSERVED)
-def test_the_sites_are_the_visible_entries(observed):
+def test_the_rows_are_the_visible_entries(observed):
     entries = Entries.of(observed)
-    sites = np.zeros_like(observed)
-    sites[entries.unit, :, entries.time] = entries.visible.T
-    np.testing.assert_array_equal(sites, observed)
+    rows = np.zeros_like(observed)
+    rows[entries.unit, :, entries.time] = entries.visible.T
+    np.testing.assert_array_equal(rows, observed)
     assert entries.visible.any(axis=0).all()
     for p, span in enumerate(entries.spans):
         assert (entries.unit[span] == p).all()
@@ -25,7 +25,8 @@ def test_place_after_pick_keeps_visible_pairs_and_sets_all_others_to_zero(observ
     matrices = np.random.default_rng(seed).standard_normal(entries.shape)
     for d, (matrix, seen) in enumerate(zip(matrices, entries.visible, strict=True)):
         placed = np.full_like(matrix, np.nan)
-        entries.sites[d].place(entries.sites[d].pick(matrix), placed)
+        positions = entries.positions[d]
+        place_entries(pick_entries(matrix, positions), positions, placed)
         np.testing.assert_array_equal(placed, np.where(np.outer(seen, seen), matrix, 0.0))
 
 

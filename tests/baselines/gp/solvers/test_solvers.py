@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from mocapbench.baselines.gp.prior.kernels import KERNELS
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.kronecker import Kronecker
-from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
+from mocapbench.baselines.gp.solvers.latent_split.split_solver import LatentSplit
 from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
-from mocapbench.baselines.gp.solvers.state_space.solver import StateSpace
-from mocapbench.baselines.gp.training.bounds import MIN_NOISE
+from mocapbench.baselines.gp.solvers.state_space.state_solver import StateSpace
+from mocapbench.baselines.gp.training.coordinates import MIN_NOISE
 
 SOLVERS = (Dense, LatentSplit, StateSpace, Kronecker)
 AT = np.array([-0.4, 0.7, 1.3, 5.0])
@@ -97,8 +97,8 @@ def test_solvers_agree_at_the_least_noise(solver, name, by, case):
     parameters.log_noise[:] = np.log(MIN_NOISE)
     for layer in parameters.layers.values():
         layer.log_lengthscales[:] = 0.4
-        layer.coregionalisation.weights[:] *= 3.0
-        layer.coregionalisation.kappa_roots[:] *= 0.01
+        layer.weights[:] *= 3.0
+        layer.kappa_roots[:] *= 0.01
     times = example.replicates.times[-1] + np.array([-0.7, 0.2, 0.5, 1.5, 4.0])
     curves = [reduction.trend, reduction.replicates[0]]
     (expected, found), (exact, value) = zip(

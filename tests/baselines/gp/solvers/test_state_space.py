@@ -5,14 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gp.prior.coregionalisation import Coregionalisation
 from mocapbench.baselines.gp.prior.parameters import LayerParameters, Parameters
 from mocapbench.baselines.gp.reduction.replicates import Replicates
 from mocapbench.baselines.gp.solvers.block import Target
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
-from mocapbench.baselines.gp.solvers.state_space.model import StateModel
-from mocapbench.baselines.gp.solvers.state_space.solver import StateSpace
+from mocapbench.baselines.gp.solvers.state_space.state_model import StateModel
+from mocapbench.baselines.gp.solvers.state_space.state_solver import StateSpace
 
 MATERN = ("matern12", "matern32", "matern52")
 
@@ -61,7 +60,7 @@ def test_predictions_are_continuous_across_frames(kernel, case):
     example = case(np.random.default_rng(4), kernel=kernel)
     block = example.reduction.blocks[0]
     posterior = StateSpace(example.kernel).condition(block, example.parameters)
-    target = Target({name: np.ones(factor.shape[1]) for name, factor in block.units.items()}, {})
+    target = Target({name: np.ones(factor.shape[1]) for name, factor in block.units.items()})
     at = posterior.predict(target, block.times)
     for side in (-1e-10, 1e-10):
         for value, beside in zip(at, posterior.predict(target, block.times + side), strict=True):
@@ -73,10 +72,10 @@ def test_far_from_the_data_the_posterior_is_the_prior(kernel, case):
     example = case(np.random.default_rng(5), kernel=kernel, n_components=2)
     block = example.reduction.blocks[0]
     posterior = StateSpace(example.kernel).condition(block, example.parameters)
-    target = Target({name: np.ones(factor.shape[1]) for name, factor in block.units.items()}, {})
+    target = Target({name: np.ones(factor.shape[1]) for name, factor in block.units.items()})
     mean, variance = posterior.predict(target, np.array([-1e6, 1e6]))
     prior = sum(
-        target.prior_scale(name) * layer.coregionalisation.variances
+        target.prior_scale(name) * layer.variances
         for name, layer in example.parameters.layers.items()
     )
     np.testing.assert_allclose(mean, 0.0, atol=1e-12)
@@ -97,7 +96,7 @@ def test_observe_adjoint_is_the_adjoint_of_observe(case):
 
 def test_copies_without_noise_are_singular(by, case):
     example = case(np.random.default_rng(8), structure="independent", masks="complete")
-    copies = LayerParameters(np.zeros(1), Coregionalisation(np.ones((1, 2, 1)), np.zeros((1, 2))))
+    copies = LayerParameters(np.zeros(1), np.ones((1, 2, 1)), np.zeros((1, 2)))
     hopeless = Parameters({"child": copies}, np.full(2, -80.0))
     with pytest.raises(SingularCovarianceError, match=r"raise the noise.*"):
         example.reduction.evaluate(by(StateSpace, example), hopeless)

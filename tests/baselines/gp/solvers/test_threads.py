@@ -2,7 +2,7 @@ import joblib
 import numpy as np
 import pytest
 
-from mocapbench.baselines.gp.solvers.latent_split.solver import LatentSplit
+from mocapbench.baselines.gp.solvers.latent_split.split_solver import LatentSplit
 from mocapbench.baselines.gp.solvers.threads import thread_mapper
 from mocapbench.baselines.mohgp import MOHGP
 from mocapbench.datasets import Recording

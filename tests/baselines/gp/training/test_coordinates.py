@@ -7,7 +7,7 @@ from mocapbench.baselines.gp.training.coordinates import Coordinates
 
 def _around(case):
     draws = {name: 1 + 4 * (name == "child") for name in case.structure.layers}
-    return Coordinates.around(case.parameters, draws)
+    return Coordinates.around(case.parameters, draws, case.replicates.times)
 
 
 def test_of_and_at_are_inverse(cases):

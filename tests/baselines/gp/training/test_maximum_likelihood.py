@@ -6,11 +6,9 @@ import pytest
 from mocapbench.baselines.gp.solvers.dense import Dense
 from mocapbench.baselines.gp.solvers.solver import SingularCovarianceError
 from mocapbench.baselines.gp.training import maximum_likelihood as module
-from mocapbench.baselines.gp.training.bounds import bounds
-from mocapbench.baselines.gp.training.coordinates import Coordinates
-from mocapbench.baselines.gp.training.maximum_likelihood import maximise
-from mocapbench.baselines.gp.training.search import Budget, SearchSpace
-from mocapbench.baselines.gp.training.start import data_driven, perturb_start
+from mocapbench.baselines.gp.training.coordinates import Coordinates, parameter_bounds
+from mocapbench.baselines.gp.training.maximum_likelihood import Budget, maximise
+from mocapbench.baselines.gp.training.start import perturb_start, start_from_data
 
 
 @pytest.fixture
@@ -19,7 +17,7 @@ def example(case):
 
 
 def _start(example):
-    return data_driven(
+    return start_from_data(
         example.replicates,
         example.tree,
         dict.fromkeys(example.structure.layers, 2),
@@ -33,34 +31,36 @@ def _likelihood(example):
     return lambda parameters: reduction.evaluate([solver] * len(reduction.blocks), parameters)
 
 
+def _best(searches):
+    return max(searches, key=lambda search: search.log_likelihood)
+
+
 def _train(example, likelihood, starts, *, report=None, **budget):
     draws = {name: 1 + (name == "child") for name in example.structure.layers}
-    space = SearchSpace(
-        Coordinates.around(starts[0], draws), *bounds(starts[0], example.replicates.times)
-    )
+    coordinates = Coordinates.around(starts[0], draws, example.replicates.times)
     spent = Budget(**({"tol": 1e-7, "max_iter": 200, "max_seconds": None} | budget))
-    return maximise(likelihood, starts, space, spent, report or (lambda index, step: None))
+    return maximise(likelihood, starts, coordinates, spent, report or (lambda index, step: None))
 
 
 def test_training_improves_on_every_start_and_keeps_the_best(example):
     start = _start(example)
     starts = [start, perturb_start(start, np.random.default_rng(1))]
     likelihood = _likelihood(example)
-    lower, upper = bounds(start, example.replicates.times)
+    lower, upper = parameter_bounds(start, example.replicates.times)
     training = _train(example, likelihood, starts)
-    for search, begun in zip(training.searches, starts, strict=True):
+    for search, begun in zip(training, starts, strict=True):
         assert search.log_likelihood > likelihood(begun)[0]
         assert likelihood(search.parameters)[0] == pytest.approx(search.log_likelihood, rel=1e-12)
         assert (search.parameters.flat >= lower.flat - 1e-12).all()
         assert (search.parameters.flat <= upper.flat + 1e-12).all()
-    assert training.best.log_likelihood == max(s.log_likelihood for s in training.searches)
+    assert _best(training).log_likelihood == max(s.log_likelihood for s in training)
 
 
 def test_the_trace_rises_to_the_result_and_equals_the_reports(example):
     start, reported = _start(example), []
     (search,) = _train(
         example, _likelihood(example), [start], report=lambda *line: reported.append(line)
-    ).searches
+    )
     assert reported == [(0, step) for step in search.trace]
     assert [step.iteration for step in search.trace] == list(range(1, search.n_iterations + 1))
     assert search.trace[-1].log_likelihood == search.log_likelihood
@@ -72,14 +72,14 @@ def test_the_trace_rises_to_the_result_and_equals_the_reports(example):
 
 
 def test_a_search_that_runs_out_of_iterations_has_not_converged(example):
-    (search,) = _train(example, _likelihood(example), [_start(example)], max_iter=2).searches
+    (search,) = _train(example, _likelihood(example), [_start(example)], max_iter=2)
     assert not search.converged
     assert search.n_iterations == 2
 
 
 def test_a_looser_tolerance_ends_sooner_and_lower(example):
     likelihood, start = _likelihood(example), _start(example)
-    loose, tight = (_train(example, likelihood, [start], tol=tol).best for tol in (1e-3, 1e-9))
+    loose, tight = (_best(_train(example, likelihood, [start], tol=tol)) for tol in (1e-3, 1e-9))
     assert loose.converged
     assert tight.converged
     assert loose.n_evaluations < tight.n_evaluations
@@ -91,7 +91,7 @@ def test_a_spent_time_limit_ends_all_searches_at_the_best_point(example, monkeyp
     monkeypatch.setattr(module, "perf_counter", lambda: float(next(clock)))
     likelihood, start = _likelihood(example), _start(example)
     training = _train(example, likelihood, [start, start], max_seconds=20.0)
-    (search,) = training.searches
+    (search,) = training
     assert "max_seconds" in search.message
     assert not search.converged
     assert 1 < search.n_evaluations <= 20
@@ -103,7 +103,7 @@ def test_with_no_time_there_is_one_evaluation(example, monkeypatch):
     clock = count()
     monkeypatch.setattr(module, "perf_counter", lambda: float(next(clock)))
     likelihood, start = _likelihood(example), _start(example)
-    (search,) = _train(example, likelihood, [start, start], max_seconds=0.5).searches
+    (search,) = _train(example, likelihood, [start, start], max_seconds=0.5)
     assert search.n_evaluations == 1
     np.testing.assert_allclose(search.parameters.flat, start.flat, rtol=1e-12)
 
@@ -111,7 +111,7 @@ def test_with_no_time_there_is_one_evaluation(example, monkeypatch):
 def _walled(example, start):
     """Return a likelihood that is singular from half way to its maximum on."""
     likelihood = _likelihood(example)
-    free = _train(example, likelihood, [start]).best
+    free = _best(_train(example, likelihood, [start]))
     halfway = 0.5 * (start.log_noise + free.parameters.log_noise)
     crossed = np.sign(free.parameters.log_noise - start.log_noise)
 
@@ -126,7 +126,7 @@ def _walled(example, start):
 def test_a_search_survives_singular_covariances(example):
     start = _start(example)
     walled, free = _walled(example, start)
-    (search,) = _train(example, walled, [start]).searches
+    (search,) = _train(example, walled, [start])
     assert walled(start)[0] < search.log_likelihood < free.log_likelihood
     assert not search.converged
     assert "lengthscales" in search.message
@@ -141,9 +141,9 @@ def test_a_restart_after_a_singular_covariance_stays_within_the_budget(example):
             raise SingularCovarianceError(parameters)
         return likelihood(parameters)
 
-    search = _train(
+    (search,) = _train(
         example, fails_once, [start], max_iter=10, report=lambda *line: reported.append(line)
-    ).best
+    )
     assert search.n_evaluations > 12
     assert search.n_iterations == len(reported) == 10
     assert [step.iteration for _, step in reported] == list(range(1, 11))

@@ -31,7 +31,7 @@ import numpy as np
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.solvers.latent_split.factorisation import Factorisation
-from mocapbench.baselines.gp.solvers.latent_split.gradient import split_gradient
+from mocapbench.baselines.gp.solvers.latent_split.split_gradient import split_gradient
 from mocapbench.baselines.gp.solvers.solver import BlockPosterior, Solver
 from mocapbench.basics.arrays import Array
 
@@ -67,7 +67,7 @@ class LatentSplit(Solver):
         shared = 0.0
         for name, factor in block.units.items():
             seen = (factor != 0.0).T @ block.observed.any(axis=1) > 0
-            n_columns = parameters.layers[name].coregionalisation.weights[:, 0].size
+            n_columns = parameters.layers[name].weights[:, 0].size
             shared += float(n_columns * seen.sum())
         overhead = OVERHEAD + OUTPUT_OVERHEAD * len(visible)
         return 3.0 * float((visible**3).sum()) + 1.5 * shared**3 + overhead
@@ -113,8 +113,7 @@ class _SplitPosterior(BlockPosterior):
         layers = self.split.parameters.layers
         return np.asarray(
             sum(
-                target.prior_scale(name) * layers[name].coregionalisation.variances
-                for name in self.split.block.units
+                target.prior_scale(name) * layers[name].variances for name in self.split.block.units
             )
         )
 
@@ -127,13 +126,13 @@ class _SplitPosterior(BlockPosterior):
         return loadings
 
     def _independent_cross(self, target: Target, times: Array) -> Array:
-        """Return c, (D, M, m), the covariance of the target's independent parts with the sites."""
+        """Return c, (D, M, m), the covariance of the target's independent parts with the rows."""
         split, entries = self.split, self.split.block.entries
         cross = np.zeros((split.independent.precision.shape[0], len(times), len(entries.unit)))
         lags = np.subtract.outer(times, split.block.times[entries.time])
         for name, factor in split.block.units.items():
             layer = split.parameters.layers[name]
             kernels = split.independent.kernel.value(lags, layer.lengthscales[:, None, None])
-            curves = np.tensordot(layer.coregionalisation.kappa.T, kernels, axes=1)
+            curves = np.tensordot(layer.kappa.T, kernels, axes=1)
             cross += (factor @ target.weights[name])[entries.unit] * curves
         return cross

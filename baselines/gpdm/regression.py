@@ -3,7 +3,7 @@
 The mapping from positions to poses and that to the next position have one form: with
 K = k(inputs, inputs) + I / precision, each of the p columns of the targets T is N(0, K), as in
 GPDM eq. (6) and (10). Given one set of inputs and targets, a further set has the density of
-eq. (24) and (26).
+eq. (24) and (26). Log-parameters are those of the kernel, and last the log-precision of the noise.
 
 Wang, Fleet and Hertzmann (2008), *Gaussian Process Dynamical Models for Human Motion*, IEEE TPAMI
 30(2), is cited as GPDM.
@@ -22,11 +22,19 @@ from mocapbench.baselines.common.lapack import potrf, potri
 from mocapbench.baselines.gpdm.kernels import LatentKernel
 from mocapbench.basics.arrays import Array
 
-__all__ = ["ConditionedProcess", "Process", "ProcessGradients", "invert"]
+__all__ = [
+    "ConditionedProcess",
+    "condition_process",
+    "invert",
+    "log_start",
+    "negative_log_likelihood",
+    "signal_to_noise",
+]
 
 Moments = tuple[Array, Array, Callable[[Array, Array], Array]]
 
 _NOISE_PRECISION = float(np.e)
+"""From which learning starts: its logarithm is 1."""
 _JITTERS = (0.0, *(10.0**power for power in range(-12, -3)))
 
 
@@ -57,58 +65,47 @@ def invert(matrix: Array) -> tuple[Array, float]:
     )
 
 
-@dataclass(frozen=True, eq=False)
-class ProcessGradients:
-    """A negative log-density and its gradients with respect to inputs, targets and parameters."""
-
-    value: float
-    inputs: Array
-    targets: Array
-    theta: Array
+def log_start(kernel: LatentKernel) -> Array:
+    """Return the logarithms of the parameters from which learning starts, the precision last."""
+    return np.log([*kernel.start, _NOISE_PRECISION])
 
 
-@dataclass(frozen=True)
-class Process:
-    """A Gaussian process with white noise; its parameters are the kernel's and the precision."""
+def negative_log_likelihood(
+    kernel: LatentKernel, theta: Array, inputs: Array, targets: Array
+) -> tuple[float, tuple[Array, Array, Array]]:
+    """Return p/2 ln|K| + ½ tr(K⁻¹ T Tᵀ), constants left out.
 
-    kernel: LatentKernel
-
-    @property
-    def start(self) -> Array:
-        """The logarithms of the parameters from which learning starts."""
-        return np.log([*self.kernel.start, _NOISE_PRECISION])
-
-    def negative_log_likelihood(
-        self, theta: Array, inputs: Array, targets: Array
-    ) -> ProcessGradients:
-        """Return p/2 ln|K| + ½ tr(K⁻¹ T Tᵀ), constants left out, and its gradients."""
-        gram, pull = self.kernel(theta[:-1], inputs, inputs)
-        inverse, log_determinant = invert(_noisy(gram, theta))
-        dual = inverse @ targets
-        gradient = dual @ (-0.5 * dual.T)
-        gradient += 0.5 * targets.shape[1] * inverse
-        left, right, d_theta = pull(gradient)
-        return ProcessGradients(
-            0.5 * (targets.shape[1] * log_determinant + float((targets * dual).sum())),
-            left + right,
-            dual,
-            np.append(d_theta, -np.trace(gradient) * np.exp(-theta[-1])),
-        )
-
-    def condition(self, theta: Array, inputs: Array, targets: Array) -> ConditionedProcess:
-        """Return the process given ``targets`` (n, p) at ``inputs`` (n, q)."""
-        gram, _ = self.kernel(theta[:-1], inputs, inputs)
-        inverse, _ = invert(_noisy(gram, theta))
-        return ConditionedProcess(self.kernel, theta, inputs, inverse, inverse @ targets)
-
-    def signal_to_noise(self, theta: Array, n_inputs: int) -> float:
-        """Return GPDM's SNR: the standard deviation at a unit vector over that of the noise."""
-        unit = np.eye(1, n_inputs)
-        variance = self.kernel.diagonal(theta[:-1], unit)[0]
-        return float(np.sqrt(variance * np.exp(theta[-1])))
+    Its gradients follow, with respect to inputs, targets and log-parameters.
+    """
+    gram, pull = kernel(theta[:-1], inputs, inputs)
+    inverse, log_determinant = invert(_add_noise(gram, theta))
+    dual = inverse @ targets
+    # ∂/∂K = ½ (p K⁻¹ − K⁻¹ T Tᵀ K⁻¹)
+    gradient = dual @ (-0.5 * dual.T)
+    gradient += 0.5 * targets.shape[1] * inverse
+    left, right, d_kernel = pull(gradient)
+    value = 0.5 * (targets.shape[1] * log_determinant + float((targets * dual).sum()))
+    d_theta = np.append(d_kernel, -np.trace(gradient) * np.exp(-theta[-1]))
+    return value, (left + right, dual, d_theta)
 
 
-def _noisy(gram: Array, theta: Array) -> Array:
+def condition_process(
+    kernel: LatentKernel, theta: Array, inputs: Array, targets: Array
+) -> ConditionedProcess:
+    """Return the process given ``targets`` (n, p) at ``inputs`` (n, q)."""
+    gram, _ = kernel(theta[:-1], inputs, inputs)
+    inverse, _ = invert(_add_noise(gram, theta))
+    return ConditionedProcess(kernel, theta, inputs, inverse, inverse @ targets)
+
+
+def signal_to_noise(kernel: LatentKernel, theta: Array, n_inputs: int) -> float:
+    """Return GPDM's SNR: the standard deviation at a unit vector over that of the noise."""
+    unit = np.eye(1, n_inputs)
+    variance = kernel.diagonal(theta[:-1], unit)[0]
+    return float(np.sqrt(variance * np.exp(theta[-1])))
+
+
+def _add_noise(gram: Array, theta: Array) -> Array:
     gram = gram.copy()
     gram[np.diag_indices_from(gram)] += np.exp(-theta[-1])
     return gram
@@ -121,7 +118,7 @@ class ConditionedProcess:
     Parameters
     ----------
     kernel : LatentKernel
-        The kernel of the `Process`.
+        The kernel of the process.
     theta : ndarray
         Log-parameters of the kernel, and last the log-precision of the noise.
     inputs : ndarray of shape (n, q)
@@ -165,7 +162,7 @@ class ConditionedProcess:
             left, right, _ = pull_prior(d_covariance)
             return left + right + pull_cross(d_cross)[1]
 
-        return cross.T @ self.dual, _noisy(prior, self.theta) - cross.T @ gain, pull
+        return cross.T @ self.dual, _add_noise(prior, self.theta) - cross.T @ gain, pull
 
     def negative_log_density(
         self, inputs: Array, targets: Array, visible: NDArray[np.bool_]

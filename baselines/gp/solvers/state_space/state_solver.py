@@ -2,10 +2,10 @@ r"""Inference by one pass forward and one pass backward through time.
 
 A Matérn kernel of half-integer order is the covariance of a Markov process
 (`mocapbench.baselines.gp.prior.markov`), so a block is a linear Gaussian state-space model
-(`chains`, `model`). A Kalman filter (`filter`) gives the log-density, a backward pass (`smoother`)
-the posterior, and both together the gradient (`gradient`): docs/mathematics/solvers.md, section 6.
-The cost is linear in the number of frames. Irregular times and hidden entries cost nothing extra,
-and further data vectors little, because all data vectors have the same covariances.
+(`state_model`). A Kalman filter (`filter`) gives the log-density, a backward pass (`smoother`) the
+posterior, and both together the gradient (`state_gradient`): docs/mathematics/solvers.md, section
+6. The cost is linear in the number of frames. Irregular times and hidden entries cost nothing
+extra, and further data vectors little, because all data vectors have the same covariances.
 """
 
 from __future__ import annotations
@@ -18,10 +18,14 @@ from mocapbench.baselines.gp.prior.markov import is_markov
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block, Target
 from mocapbench.baselines.gp.solvers.solver import BlockPosterior, Solver
-from mocapbench.baselines.gp.solvers.state_space.filter import FilterPass
-from mocapbench.baselines.gp.solvers.state_space.gradient import state_gradient
-from mocapbench.baselines.gp.solvers.state_space.model import StateModel
-from mocapbench.baselines.gp.solvers.state_space.smoother import BackwardMessage, backward_pass
+from mocapbench.baselines.gp.solvers.state_space.filter import FilterPass, predict_state
+from mocapbench.baselines.gp.solvers.state_space.smoother import (
+    backward_pass,
+    carry_back,
+    no_message,
+)
+from mocapbench.baselines.gp.solvers.state_space.state_gradient import state_gradient
+from mocapbench.baselines.gp.solvers.state_space.state_model import StateModel
 from mocapbench.basics.arrays import Array
 
 __all__ = ["StateSpace"]
@@ -67,27 +71,28 @@ class _StateSpacePosterior(BlockPosterior):
 
     def __init__(self, filtered: FilterPass) -> None:
         self.filtered = filtered
-        none = BackwardMessage.none(filtered.model, len(filtered.block.data))
-        latest_first = [step.before for step in backward_pass(filtered)]
-        self.messages = [*latest_first[::-1], none]
+        latest_first = [before for _, _, before in backward_pass(filtered)]
+        last = no_message(filtered.model, len(filtered.block.data))
+        self.messages = [*latest_first[::-1], last]
 
     def predict(self, target: Target, times: Array) -> tuple[Array, Array]:
         block, model = self.filtered.block, self.filtered.model
         knots = np.concatenate([[-np.inf], block.times, [np.inf]])
         # The frames before and after each time, and the steps from and to them.
         last = np.searchsorted(block.times, times, side="right")
-        since, until = model.steps(times - knots[last]), model.steps(knots[last + 1] - times)
-        loadings = model.chains.coefficients(target)[None]
+        since, noise, *_ = model.steps(times - knots[last])
+        until, *_ = model.steps(knots[last + 1] - times)
+        loadings = model.coefficients(target)[None]
         shape = (len(times), model.shape[2])
         means, variances = np.empty((*shape, len(block.data))), np.empty(shape)
         for m, i in enumerate(last):
-            state = self.filtered.states[i].predict(model, since.transition[m], since.noise[m])
-            message = self.messages[i].across(model, until.transition[m])
+            mean, covariance = predict_state(model, since[m], noise[m], self.filtered.states[i])
+            score, information = carry_back(model, until[m], self.messages[i])
             # H P, the mean H (x + P r) and the variance diag(H P Hᵀ − H P N P Hᵀ).
-            cross = model.observe(loadings, state.covariance)
-            means[m] = model.observe(loadings, state.mean) + cross @ message.score
+            cross = model.observe(loadings, covariance)
+            means[m] = model.observe(loadings, mean) + cross @ score
             variances[m] = np.diagonal(model.observe(loadings, cross.T))
-            variances[m] -= np.einsum("ds,ds->d", cross @ message.information, cross)
+            variances[m] -= np.einsum("ds,ds->d", cross @ information, cross)
         variance = np.maximum(variances.T, 0.0) + self._independent_variance(target)[:, None]
         return means.transpose(2, 1, 0), block.variance_scale * variance
 
@@ -95,7 +100,7 @@ class _StateSpacePosterior(BlockPosterior):
         """Return the variance of the target's independent draw, (D,)."""
         return np.asarray(
             sum(
-                target.independent_variance.get(name, 0.0) * layer.coregionalisation.variances
-                for name, layer in self.filtered.model.chains.layers.items()
+                target.independent_variance.get(name, 0.0) * layer.variances
+                for name, layer in self.filtered.model.layers.items()
             )
         )

@@ -29,6 +29,7 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
+from mocapbench.baselines.gp.solvers.entries import pick_entries, place_entries
 from mocapbench.baselines.gp.solvers.latent_split.factorisation import Factorisation, project
 from mocapbench.baselines.gp.solvers.threads import Mapper
 from mocapbench.basics.arrays import Array
@@ -46,7 +47,7 @@ def split_gradient(split: Factorisation, mapper: Mapper) -> Parameters:
         lambda outputs: _independent_adjoint(split, covariance, outputs), mapper
     )
     for (name, q, number), by_weight in zip(split.latents.columns, weights, strict=True):
-        gradient.layers[name].coregionalisation.weights[q, :, number] += by_weight
+        gradient.layers[name].weights[q, :, number] += by_weight
     _add_scale_gradient(split, gradient)
     return gradient
 
@@ -54,10 +55,10 @@ def split_gradient(split: Factorisation, mapper: Mapper) -> Parameters:
 def _by_pairs(split: Factorisation) -> Array:
     """Return Z_aa and Z_ab + Z_abᵀ for the pairs a ≤ b of columns, (n_pairs, m²)."""
     latents, entries = split.latents, split.block.entries
-    n_sites = len(entries.unit)
+    n_rows = len(entries.unit)
     # The rows of M = Λ S⁻¹ Λᵀ, but for the last factor.
     rows = [latent.values @ split.inverse[latent.white] for latent in latents.functions]
-    total = np.zeros((len(latents.pairs), n_sites, n_sites))
+    total = np.zeros((len(latents.pairs), n_rows, n_rows))
     for (a, b), matrix in zip(latents.pairs, total, strict=True):
         for i in latents.by_column[a]:
             for j in latents.by_column[b]:
@@ -67,7 +68,7 @@ def _by_pairs(split: Factorisation) -> Array:
                 entries.add_unfolded(latents.functions[i].units, other.units, block, matrix)
         if a != b:
             matrix[...] = matrix + matrix.T
-    return total.reshape(len(total), n_sites**2)
+    return total.reshape(len(total), n_rows**2)
 
 
 def _weight_gradient(split: Factorisation, covariance: Array) -> Array:
@@ -90,18 +91,16 @@ def _independent_adjoint(split: Factorisation, covariance: Array, outputs: slice
     images = split.latents.products[:, outputs].T @ covariance
     adjoint = images.reshape(-1, *entries.shape[1:])
     for d, matrix in zip(range(*outputs.indices(entries.shape[0])), adjoint, strict=True):
-        sites = entries.sites[d]
-        precision, alpha = (
-            sites.pick(split.independent.precision[d]),
-            split.alpha[d, sites.positions],
-        )
+        positions = entries.positions[d]
+        precision = pick_entries(split.independent.precision[d], positions)
+        alpha = split.alpha[d, positions]
         # ½ (Σ_r α_d α_dᵀ − ρ (F_d − F_d X_d F_d))
-        visible = precision @ sites.pick(matrix) @ precision
+        visible = precision @ pick_entries(matrix, positions) @ precision
         visible -= precision
         visible *= rho
         visible += alpha @ alpha.T
         visible *= 0.5
-        sites.place(visible, matrix)
+        place_entries(visible, positions, matrix)
     return adjoint
 
 

@@ -25,9 +25,9 @@ from __future__ import annotations
 import numpy as np
 
 from mocapbench.baselines.gp.prior.parameters import Parameters
-from mocapbench.baselines.gp.solvers.state_space.filter import FilteredState, FilterPass
-from mocapbench.baselines.gp.solvers.state_space.model import StateModel
-from mocapbench.baselines.gp.solvers.state_space.smoother import BackwardMessage, backward_pass
+from mocapbench.baselines.gp.solvers.state_space.filter import FilterPass, StateMoments
+from mocapbench.baselines.gp.solvers.state_space.smoother import Message, backward_pass
+from mocapbench.baselines.gp.solvers.state_space.state_model import StateModel
 from mocapbench.basics.arrays import Array
 
 __all__ = ["state_gradient"]
@@ -38,58 +38,57 @@ def state_gradient(filtered: FilterPass) -> Parameters:
     model, block, parameters = filtered.model, filtered.block, filtered.parameters
     scales, matrices = np.zeros(len(model.matrices)), np.zeros_like(model.matrices)
     noise = np.zeros(block.observed.shape)
-    for t, smoothed in zip(reversed(range(len(block.times))), backward_pass(filtered), strict=True):
+    frames = zip(reversed(range(len(block.times))), backward_pass(filtered), strict=True)
+    for t, (alpha, precision, before) in frames:
         # The step into frame t: its terms of ∂ log ℓ_j and B̄_j.
-        by_scale, by_matrix = _step_gradient(filtered, t, smoothed.before)
+        by_scale, by_matrix = _step_gradient(filtered, t, before)
         scales += by_scale
         matrices += by_matrix
         # The diagonal of K̄ at the frame's visible entries: ½ (Σ_r u² − ρ D).
         noise[..., t].flat[filtered.innovations[t].entries] = 0.5 * (
-            np.square(smoothed.alpha).sum(axis=1)
-            - block.multiplicity * np.diagonal(smoothed.precision)
+            np.square(alpha).sum(axis=1) - block.multiplicity * np.diagonal(precision)
         )
     # From chains to layers, and from K̄ to ∂ log β_d.
     layers = {name: layer.zeros() for name, layer in parameters.layers.items()}
-    layers |= model.chains.pull_back(scales, matrices)
+    layers |= model.pull_back(scales, matrices)
     by_output = (noise * block.noise_scale).sum(axis=(0, 2))
     return Parameters(layers, parameters.noise * by_output)
 
 
-def _step_gradient(filtered: FilterPass, t: int, before: BackwardMessage) -> tuple[Array, Array]:
+def _step_gradient(filtered: FilterPass, t: int, before: Message) -> tuple[Array, Array]:
     """Return the terms of the gradients in log ℓ_j, (J,), and B_j, (J, D, D), of one step."""
-    steps, rho = filtered.steps, filtered.block.multiplicity
+    rho = filtered.block.multiplicity
+    transition, noise, transition_gradient, noise_gradient = filtered.steps[:, t]
     # Ē of each chain, and the adjoints of Q (summed against B) and of Φ.
     adjoint = _noise_adjoint(filtered.model, before, rho)
     by_noise = np.einsum("jcdef,jdf->jce", adjoint, filtered.model.matrices)
-    by_transition = _transition_adjoint(
-        filtered.model, filtered.states[t], steps.transition[t], before, rho
-    )
+    by_transition = _transition_adjoint(filtered.model, filtered.states[t], transition, before, rho)
     # ⟨Q̄, ∂Q⟩ + ⟨Φ̄, ∂Φ⟩, entry by entry, and B̄_j = ⟨Ē, Q⟩.
-    by_scale = by_noise * steps.noise_gradient[t] + by_transition * steps.transition_gradient[t]
-    by_matrix = np.einsum("jcdef,jce->jdf", adjoint, steps.noise[t])
+    by_scale = by_noise * noise_gradient + by_transition * transition_gradient
+    by_matrix = np.einsum("jcdef,jce->jdf", adjoint, noise)
     return by_scale.sum(axis=(1, 2)), by_matrix
 
 
-def _noise_adjoint(model: StateModel, before: BackwardMessage, rho: int) -> Array:
+def _noise_adjoint(model: StateModel, before: Message, rho: int) -> Array:
     """Return the blocks of Ē that belong to single chains, (J, m, D, m, D)."""
-    n_chains, order, n_outputs = model.shape
+    (score, information), (n_chains, order, n_outputs) = before, model.shape
     chain = np.arange(n_chains)
-    information = before.information.reshape(*model.shape, *model.shape)[chain, :, :, chain]
-    score = before.score.reshape(n_chains, order * n_outputs, -1)
+    information = information.reshape(*model.shape, *model.shape)[chain, :, :, chain]
+    score = score.reshape(n_chains, order * n_outputs, -1)
     outer = (score @ score.transpose(0, 2, 1)).reshape(information.shape)
     return np.asarray(0.5 * (outer - rho * information))
 
 
 def _transition_adjoint(
-    model: StateModel, state: FilteredState, transition: Array, before: BackwardMessage, rho: int
+    model: StateModel, state: StateMoments, transition: Array, before: Message, rho: int
 ) -> Array:
     """Return Φ̄ = Σ_r r⁻ (x + P Φᵀ r⁻)ᵀ − ρ N⁻ Φ P of each chain, (J, m, m)."""
+    (mean, covariance), by_chain = state, (*model.shape[:2], -1)
     # P Φᵀ, and with it the smoothed mean of the state before the step.
-    cross = model.propagate(transition, state.covariance).T
-    by_chain = (*model.shape[:2], -1)
-    score, information = (x.reshape(by_chain) for x in (before.score, before.information))
-    smoothed = (state.mean + cross @ before.score).reshape(by_chain)
+    cross = model.propagate(transition, covariance).T
+    smoothed = (mean + cross @ before[0]).reshape(by_chain)
     back = cross.reshape(by_chain)
+    score, information = (each.reshape(by_chain) for each in before)
     return np.asarray(
         score @ smoothed.transpose(0, 2, 1) - rho * information @ back.transpose(0, 2, 1)
     )
