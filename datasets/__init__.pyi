@@ -13,6 +13,7 @@ from .formats.base import Extra, Format
 from .formats.errors import FormatError, FormatWarning, MissingExtraError, TextColumnsWarning
 from .formats.joints.acclaim_motion import AcclaimFormat
 from .formats.joints.bvh import BVHFormat
+from .formats.joints.pose_arrays import NPZFormat
 from .formats.markers.c3d import C3DFormat
 from .formats.markers.trc import TRCFormat
 from .formats.sets import check_alike, frame_rate
@@ -67,6 +68,7 @@ __all__ = [
     "Mask",
     "MissingExtraError",
     "Motion",
+    "NPZFormat",
     "ParquetFormat",
     "Recording",
     "RecordingStatus",

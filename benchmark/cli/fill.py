@@ -58,6 +58,12 @@ def fill(
     rate: Annotated[
         float | None, typer.Option(help="Frames per second, in place of what the files say.")
     ] = None,
+    min_likelihood: Annotated[
+        float | None, typer.Option(help="Fill what a file itself finds less likely than this, too.")
+    ] = None,
+    insert_missing: Annotated[
+        bool, typer.Option("--insert-missing", help="Add the rows that a table lacks, and fill them.")
+    ] = False,
     plugin: Plugins = None,
 ) -> None:
     """Fill the gaps of your own recordings.
@@ -68,7 +74,8 @@ def fill(
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
     entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap)
-    inputs, left_out = filling.read_input_files(files, train or (), rate, entries)
+    reading = filling.Reading(rate, min_likelihood, insert_missing)
+    inputs, left_out = filling.read_input_files(files, train or (), reading, entries)
     for source in inputs:
         if model == filling.BEST:
             filling.require_room(source.problem)

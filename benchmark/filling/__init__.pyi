@@ -5,6 +5,7 @@ from .input_files import InputFile, read_input_files
 from .messages import describe_choice, describe_fill, list_remarks
 from .output_files import OutputPaths, name_output_files, write
 from .page import compose_page
+from .reading import Reading
 from .requests.request import NamedEntries
 from .workers import Workers
 
@@ -14,6 +15,7 @@ __all__ = [
     "InputFile",
     "NamedEntries",
     "OutputPaths",
+    "Reading",
     "Workers",
     "compose_page",
     "describe_choice",

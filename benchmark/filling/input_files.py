@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from mocapbench.benchmark.filling.problem import GapProblem, select_channels
+from mocapbench.benchmark.filling.reading import Reading
 from mocapbench.benchmark.filling.requests.channels import match_channels
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
-from mocapbench.benchmark.formats import format_for
 from mocapbench.datasets import Format, Recording, check_alike
 from mocapbench.datasets.formats.strays import is_unlabelled
 
@@ -53,7 +53,7 @@ class InputFile:
 
 
 def read_input_files(
-    files: Sequence[Path], train: Sequence[Path], rate: float | None, entries: NamedEntries
+    files: Sequence[Path], train: Sequence[Path], reading: Reading, entries: NamedEntries
 ) -> tuple[list[InputFile], list[str]]:
     """Return the files to fill, and why others are left out: there is nothing to fill in them.
 
@@ -63,8 +63,8 @@ def read_input_files(
     ----------
     files, train : sequence of Path
         Files to fill, and files to learn from; each file to fill is left out of the latter.
-    rate : float or None
-        Frames per second, in place of what the files say.
+    reading : Reading
+        How all of them are read.
     entries : NamedEntries
         What to fill in each file.
 
@@ -76,12 +76,12 @@ def read_input_files(
     UsageError
         If there is nothing to fill in any file, or nothing to fill it from.
     """
-    others = {path.resolve(): _read(path, rate) for path in train}
+    others = {path.resolve(): reading.read(path) for path in train}
     inputs: list[InputFile] = []
     left_out: list[NothingToFillError] = []
     for path in files:
         try:
-            inputs.append(_read_input_file(path, others, rate, entries))
+            inputs.append(_read_input_file(path, others, reading, entries))
         except NothingToFillError as error:
             left_out.append(error)
     if not inputs:
@@ -90,9 +90,9 @@ def read_input_files(
 
 
 def _read_input_file(
-    path: Path, others: dict[Path, Recording], rate: float | None, entries: NamedEntries
+    path: Path, others: dict[Path, Recording], reading: Reading, entries: NamedEntries
 ) -> InputFile:
-    file, recording = format_for(path), _read(path, rate)
+    file, recording = reading.format_of(path), reading.read(path)
     results = file.results(path, recording.channels)
     train = tuple(
         _match_channels(other, recording, results)
@@ -101,11 +101,6 @@ def _read_input_file(
     )
     check_alike([recording, *train])
     return InputFile(path, file, select(recording, entries, train, results), train)
-
-
-def _read(path: Path, rate: float | None) -> Recording:
-    """Return the recording of a file under its path, since models want distinct names."""
-    return replace(format_for(path).read(path, rate), name=str(path))
 
 
 def _match_channels(other: Recording, recording: Recording, results: Sequence[str]) -> Recording:

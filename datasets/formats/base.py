@@ -142,6 +142,25 @@ class Format(ABC):
         del path
         return model_outputs(channels)
 
+    def likelihoods(self, path: Path) -> FrameByChannel | None:
+        """Return how likely a file says each entry to be.
+
+        Returns
+        -------
+        ndarray of shape (N, D) or None
+            Of the entries that `load` returns, NaN where the file does not say it; None if the file
+            says it nowhere, as in most formats.
+        """
+        del path
+        return None
+
+    def with_missing_rows(self) -> Format:
+        """Return the format that reads frames of which a file has no row as hidden, and adds rows.
+
+        By default it is the format itself, as most formats have all frames.
+        """
+        return self
+
     def read(self, path: str | Path, rate: float | None = None) -> Recording:
         """Return the recording of a file, under the file's name.
 

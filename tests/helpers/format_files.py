@@ -110,6 +110,30 @@ def write_bvh(path, recording):
     path.write_text("\n".join(lines) + "\n")
 
 
+def poses(n_frames=60):
+    """Return rotation vectors of 22 joints and the path of the root, as AMASS has them."""
+    angles = np.radians(walk(n_frames).values[:, 6:])
+    values = np.hstack([np.resize(angles.T, (66, n_frames)).T, walk(n_frames).values[:, :3] / 100])
+    names = [f"joint{k}.r{axis}" for k in range(22) for axis in "xyz"]
+    channels = [*names, "trans.x", "trans.y", "trans.z"]
+    return Recording("poses", walk(n_frames).times, values, channels, ["rad"] * 66 + ["m"] * 3)
+
+
+def write_npz(path, recording):
+    """Write poses and translations, and what else AMASS has: shape, sex, and the poses in parts."""
+    values = recording.values
+    np.savez_compressed(
+        path,
+        trans=values[:, 66:],
+        gender=np.array("neutral"),
+        mocap_framerate=np.array(120.0),
+        betas=np.zeros(16),
+        poses=values[:, :66],
+        root_orient=values[:, :3],
+        pose_body=values[:, 3:66],
+    )
+
+
 def write_c3d(path, recording):
     """Write markers by ezc3d; points with hidden coordinates have the residual −1."""
     import ezc3d  # noqa: PLC0415
@@ -139,6 +163,7 @@ def sample(name, folder, n_frames=60):
         "bvh": ("walk.bvh", write_bvh, with_gap(walk(n_frames))),
         "c3d": ("markers.c3d", write_c3d, with_gap(markers(n_frames))),
         "csv": ("walk.csv", write_csv, with_gap(walk(n_frames))),
+        "npz": ("walk.npz", write_npz, with_gap(poses(n_frames))),
         "parquet": ("walk.parquet", write_parquet, with_gap(walk(n_frames))),
         "trc": ("markers.trc", write_trc, with_gap(markers(n_frames))),
     }

@@ -19,8 +19,9 @@ _NAMES = {"m": "milliseconds", "μ": "microseconds", "n": "nanoseconds"}
 _LARGEST_STEPS = {"s": 2.0, "m": 1e3, "μ": 1e6}
 """Below these, times without a unit are in that one: of 0.5 to 1000 frames a second."""
 _REGULAR, _JUMP = 0.3, 1.7
-"""Of the usual step: how far others are from it, and from which on a row is missing."""
+"""Of the usual step: how far others are from multiples, and from which on a row is missing."""
 _MOSTLY = 0.9
+"""Of steps that are near a multiple: below, times are uneven, and tell of no missing row."""
 _AGREEING = 0.01
 _HUGE = 1e15  # counts beyond are no whole numbers of a double
 
@@ -105,7 +106,7 @@ class Clock(NamedTuple):
 def lacking_rows(frames: Frames | None, times: Frames | None) -> NDArray[np.intp]:
     """Return how many rows are missing behind each of N rows but the last, (N − 1,).
 
-    A count of frames says it, or else times, if most of their steps are alike.
+    A count of frames says it, or else times, if their steps are about multiples of the usual one.
     """
     if frames is not None and _counts(frames):
         return _count_lacking(np.diff(frames))
@@ -113,7 +114,8 @@ def lacking_rows(frames: Frames | None, times: Frames | None) -> NDArray[np.intp
     usual = np.median(steps) if len(steps) else 0.0
     if times is None or not np.isfinite(steps).all() or not usual > 0:
         return np.zeros(0 if times is None else len(steps), dtype=np.intp)
-    regular = np.abs(steps / usual - 1.0) <= _REGULAR
+    whole = np.maximum(np.round(steps / usual), 1.0)
+    regular = np.abs(steps / usual - whole) <= _REGULAR
     if regular.mean() < _MOSTLY:
         return np.zeros(len(steps), dtype=np.intp)
     return _count_lacking(np.where(steps / usual >= _JUMP, steps, usual))

@@ -72,8 +72,8 @@ class CSVFormat(Format):
         sheet = self._completed(read_sheet(path))
         return sheet.likelihoods() if sheet.columns.likelihoods else None
 
-    def inserting(self) -> CSVFormat:
-        """Return the format that reads rows that are missing as hidden frames, and writes them."""
+    def with_missing_rows(self) -> CSVFormat:
+        """Return the format that reads rows that are missing as hidden frames, and adds them."""
         return replace(self, inserts=True)
 
     def _completed(self, sheet: Sheet) -> Sheet:

@@ -67,6 +67,8 @@ class Dialect:
         Titles of the blocks of which the first one that the file has is read; a blank line ends it.
     zeros : bool
         Whether a marker or body at exactly 0, 0, 0 is one that is missing.
+    suffixes : tuple of str
+        Of files that no other program writes.
     """
 
     program: str
@@ -90,6 +92,7 @@ class Dialect:
     angle_by: str = _NONE
     blocks: tuple[str, ...] = ()
     zeros: bool = False
+    suffixes: tuple[str, ...] = ()
 
 
 _MOTIVE_TYPES = "Rigid Body|Marker|Bone|Skeleton|Markerset|Trained Markerset|Device|Camera"
@@ -181,6 +184,7 @@ _STORAGE = Dialect(
     length="m",
     angle="",
     angle_by=r"inDegrees\s*=\s*(\w+)",
+    suffixes=(".mot", ".sto"),
 )
 
 _AXES_BELOW = rf'(?:[^\n,;\t]*{_S}){{1,3}}"?[Xx]{_S}"?[Yy]\b'

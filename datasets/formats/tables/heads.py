@@ -66,7 +66,9 @@ def read_head(file: str, lines: Sequence[str]) -> Head:
     """
     check_lines(file, lines)
     text = "".join(lines[:_LONGEST])
-    dialect = next((one for one in DIALECTS if re.match(one.sign, text)), PLAIN)
+    suffix = file.lower()
+    fitting = (one for one in DIALECTS if re.match(one.sign, text) or suffix.endswith(one.suffixes))
+    dialect = next(fitting, PLAIN)
     if dialect is not PLAIN:
         return _HeadLines(file, lines, dialect).head()
     notation = notation_of(lines)

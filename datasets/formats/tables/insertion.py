@@ -15,12 +15,24 @@ __all__ = ["lines_with"]
 
 
 def lines_with(sheet: Sheet, values: FrameByChannel, new: Mask) -> list[str]:
-    """Return the lines of a table's file with the ``new`` entries (N, D) of some values."""
+    """Return the lines of a table's file with the ``new`` entries (N, D) of some values.
+
+    A marker or body that the file has at 0, 0, 0, as missing, is filled as a whole or not at all.
+    """
+    new = _whole_bodies(sheet, new)
     lines = _change_rows(sheet, values, new)
     inserted = _insert_rows(sheet, values, new)
     for row, index in enumerate(sheet.table.rows):
         lines[index] = _join_lines(lines[index], inserted.get(row, ()), like=lines[0])
     return [*lines, *sheet.below]
+
+
+def _whole_bodies(sheet: Sheet, new: Mask) -> Mask:
+    """Return the new entries but those of bodies at 0, 0, 0 of which something would stay 0."""
+    whole = new.copy()
+    for lost in sheet.lost_bodies():
+        whole[lost] = new[lost].all(axis=1, keepdims=True)
+    return whole
 
 
 def _change_rows(sheet: Sheet, values: FrameByChannel, new: Mask) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -73,14 +73,32 @@ class Sheet:
             self.head.rate,
             self.table.names,
         )
-        labels = [self._label(column) for column in self.columns.channels]
-        prefixes = [self._prefix(group) for group in self.plan.groups]
-        channels = [f"{prefix}{name}" for prefix in prefixes for name, _ in labels]
-        units = [unit for _ in prefixes for _, unit in labels]
         values = self._spread(self.columns.channels)
-        if self.head.dialect.zeros:
-            values = _hide_zeros(values, channels)
-        return recording_of(file, clock.seconds(n_frames, rate), values, channels, units)
+        for lost in self.lost_bodies():
+            values[lost] = np.nan
+        units = [self._label(column)[1] for column in self.columns.channels]
+        units *= len(self.plan.groups)
+        times = clock.seconds(n_frames, rate)
+        return recording_of(file, times, values, self._channels(), units)
+
+    def lost_bodies(self) -> Iterator[tuple[NDArray[np.intp], ...]]:
+        """Yield where a marker or body is at 0, 0, 0, if that means that it is missing.
+
+        These are frames and channels as an index of (N, D), all channels of the body.
+        """
+        values = self._spread(self.columns.channels)
+        bodies: dict[str, dict[str, int]] = {}
+        for column, name in enumerate(self._channels() if self.head.dialect.zeros else ()):
+            body, _, axis = name.rpartition(".")
+            bodies.setdefault(body, {})[axis] = column
+        for axes in bodies.values():
+            if {"x", "y", "z"} <= axes.keys():
+                position = values[:, [axes["x"], axes["y"], axes["z"]]]
+                yield np.ix_((position == 0.0).all(axis=1), [*axes.values()])
+
+    def _channels(self) -> list[str]:
+        names = [self._label(column)[0] for column in self.columns.channels]
+        return [f"{self._prefix(group)}{name}" for group in self.plan.groups for name in names]
 
     def likelihoods(self) -> FrameByChannel:
         """Return how likely the table says each entry is (N, D), NaN where it does not say it."""
@@ -192,6 +210,10 @@ def _read_rows(file: str, lines: Sequence[str], head: Head) -> Sheet:
     is_number = are_numbers(table) if head.dialect is PLAIN else _are_labelled(table, head)
     left_alone = frozenset(k for k, label in enumerate(head.labels) if label.left_alone)
     columns = sort_columns(names, is_number, left_alone)
+    if head.dialect is not PLAIN and not (columns.channels and table.rows):
+        got = f"{len(table.rows)} rows of {len(columns.channels)} positions or angles"
+        advice = "export the recording again, with positions or angles"
+        raise FormatError(file, "rows of numbers below the head", got, advice)
     wanted = sorted({*columns.channels, *columns.likelihoods.values(), *_index_columns(columns)})
     values = table.numbers(wanted)
     numbers = {column: values[:, place] for place, column in enumerate(wanted)}
@@ -276,17 +298,3 @@ def _compare_counts(file: str, head: Head, n_rows: int) -> None:
             "be cut short; all that are there are read",
             stacklevel=2,
         )
-
-
-def _hide_zeros(values: FrameByChannel, channels: Sequence[str]) -> FrameByChannel:
-    """Return values of which those of a marker or body are hidden where it is at 0, 0, 0."""
-    values = values.copy()
-    bodies: dict[str, dict[str, int]] = {}
-    for column, name in enumerate(channels):
-        body, _, axis = name.rpartition(".")
-        bodies.setdefault(body, {})[axis] = column
-    for axes in bodies.values():
-        if {"x", "y", "z"} <= axes.keys():
-            lost = (values[:, [axes["x"], axes["y"], axes["z"]]] == 0.0).all(axis=1)
-            values[np.ix_(lost, [*axes.values()])] = np.nan
-    return values

@@ -1,0 +1,50 @@
+"""How files are read: at which rate, which of their entries count, and which rows are added."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import NamedTuple
+
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.formats import format_for
+from mocapbench.datasets import Format, Recording
+
+__all__ = ["Reading"]
+
+
+class Reading(NamedTuple):
+    """How files are read.
+
+    Parameters
+    ----------
+    rate : float or None
+        Frames per second, in place of what the files say.
+    min_likelihood : float or None
+        Entries that a file finds less likely are hidden.
+    insert_missing : bool
+        Whether frames of which a file has no row are read as hidden, and rows are added.
+    """
+
+    rate: float | None = None
+    min_likelihood: float | None = None
+    insert_missing: bool = False
+
+    def format_of(self, path: Path) -> Format:
+        """Return the format in which a file is read and written."""
+        kind = format_for(path)
+        return kind.with_missing_rows() if self.insert_missing else kind
+
+    def read(self, path: Path) -> Recording:
+        """Return the recording of a file under its path, since models want distinct names."""
+        kind = self.format_of(path)
+        recording = replace(kind.read(path, self.rate), name=str(path))
+        if self.min_likelihood is None:
+            return recording
+        likelihoods = kind.likelihoods(path)
+        if likelihoods is None:
+            raise UsageError(
+                f"{path}: expected a column of likelihoods for --min-likelihood, such as "
+                "'nose.likelihood' beside 'nose.x', got none; leave the option out"
+            )
+        return recording.hide(likelihoods < self.min_likelihood)

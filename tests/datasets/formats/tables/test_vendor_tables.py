@@ -1,0 +1,111 @@
+"""Tables as programs export them: read with names, units and rate, and written as they were."""
+
+import numpy as np
+import pytest
+from vendor_tables import GAP, RATE, TABLES, TIMES
+
+from mocapbench.benchmark.testing import check_format
+from mocapbench.datasets import CSVFormat, FormatError
+from mocapbench.datasets.formats.tables.sheet import read_sheet
+
+CSV = CSVFormat()
+NEW = 123456.5
+
+
+def written(table, folder):
+    path = folder / table.name
+    path.write_text(table.text, encoding="utf-8", newline="")
+    return path
+
+
+@pytest.fixture(params=TABLES)
+def table(request):
+    return TABLES[request.param]
+
+
+def test_names_units_rate_and_gaps_are_read(table, tmp_path):
+    path = written(table, tmp_path)
+    recording = CSV.load(path, None if table.rate else RATE)
+    assert recording.channels == table.channels
+    assert recording.units == table.units
+    np.testing.assert_allclose(recording.values, table.values)
+    np.testing.assert_allclose(recording.times, TIMES)
+    assert not recording.visible[GAP].all()
+    if table.rate is None:
+        with pytest.raises(FormatError, match=r"a column 'time' in seconds, or a rate.*--rate 100"):
+            CSV.load(path, None)
+
+
+def test_nothing_but_cells_that_are_new_is_written(table, tmp_path):
+    path, out = written(table, tmp_path), tmp_path / f"out-{table.name}"
+    recording = CSV.load(path, RATE)
+    rng = np.random.default_rng(0)
+    new = rng.random(recording.values.shape) < 0.3
+    CSV.save(out, np.full(new.shape, NEW), np.zeros_like(new), path)
+    assert out.read_bytes() == path.read_bytes()
+    new[GAP] = ~recording.visible[GAP]  # what is missing as 0, 0, 0 is filled as a whole
+    CSV.save(out, np.full(new.shape, NEW), new, path)
+    again = CSV.load(out, RATE)
+    np.testing.assert_array_equal(again.values[~new], recording.values[~new])
+    assert (again.values[new] == NEW).all()
+    before, after = (_pieces(one.read_text(encoding="utf-8")) for one in (path, out))
+    if len(before) == len(after):  # else rows were added
+        changed = [two for one, two in zip(before, after, strict=True) if one != two]
+        assert set(changed) == {str(NEW)}
+        assert len(changed) == new.sum()
+
+
+def _pieces(text):
+    """Return the cells of a text, with what separates lines."""
+    for separator in "\t, ":
+        text = text.replace(separator, "\0")
+    return text.replace("\n", "\0\n\0").split("\0")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_each_program_s_table_keeps_the_promises_of_a_format(table, tmp_path):
+    if table.rate is None:
+        pytest.skip("its rate is not in the file")
+    check_format(CSVFormat, written(table, tmp_path))
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_cell_too_many_too_few_and_a_word_in_a_number_are_named(table, tmp_path):
+    path = written(table, tmp_path)
+    sheet = read_sheet(path)
+    place, split = sheet.table.rows[-1], sheet.table.cells
+    lines = table.text.splitlines(keepends=True)
+    cells = split.split(lines[place])
+    separator = sheet.head.notation.separator or " "
+    word = split.replace_cells(lines[place], {sheet.columns.channels[-1]: "1.2x"})
+    many = lines[place].rstrip("\r\n") + separator.join(["", "7.5", "7.5", "7.5"]) + "\n"
+    few = lines[place][: lines[place].rindex(cells[2]) - 1] + "\n"
+    for wrong, complaint in (
+        (many, r"expected \d+ cells.* got \d+ cells"),
+        (few, r"expected \d+ cells.* got \d+ cells"),
+        (word, r"expected a number.* got '1\.2x' in column"),
+    ):
+        path.write_text("".join([*lines[:place], wrong, *lines[place + 1 :]]), newline="")
+        with pytest.raises(FormatError, match=rf"line {place + 1}: {complaint}.*; \w+"):
+            CSV.load(path, RATE)
+
+
+PROGRAMS = {
+    "motive": "OptiTrack Motive",
+    "nexus": "Vicon Nexus",
+    "qualisys": "Qualisys Track Manager",
+    "deeplabcut": "DeepLabCut",
+    "opensim": "OpenSim",
+}
+HEADED = {name: PROGRAMS.get(name.split()[0].strip(",")) for name in TABLES}
+HEADED = {name: program for name, program in HEADED.items() if program and "blocks" not in name}
+
+
+@pytest.mark.parametrize("name", [*HEADED])
+def test_a_head_that_is_cut_short_is_told_from_a_table_of_nobody(name, tmp_path):
+    path = written(TABLES[name], tmp_path)
+    lines = TABLES[name].text.splitlines(keepends=True)
+    for n_lines in range(1, read_sheet(path).head.start):
+        path.write_text("".join(lines[:n_lines]), newline="")
+        with pytest.raises(FormatError, match=rf"expected .* {HEADED[name]}.*, got .*; \w+ "):
+            CSV.load(path, RATE)
