@@ -22,7 +22,7 @@ from .figures.motions.sampled import draw_sampled_motion
 from .figures.solved import Solved
 from .figures.trend import draw_trends
 from .formats import format_for
-from .gate.checking import check
+from .gate.regression_check import check
 from .inspection.explanation import explain
 from .inspection.forecast_output import lacking, lacking_line
 from .inspection.left_out import left_out_lines

@@ -108,7 +108,7 @@ def hlm_features(recording: Recording) -> Recording:
     """Return the 62 channels of HLM at every 4th frame, the root's translation as differences.
 
     Joint angles are mapped to [−180, 180) degrees, because HLM §4 has them "parameterized so as to
-    avoid discontinuities": in the files, the right thumb of 08_01 makes three whole turns in a
+    avoid discontinuities": in the files, the right thumb of 08_01 turns by three times 360° in a
     tenth of a second.
 
     Parameters
@@ -136,10 +136,10 @@ def hlm_features(recording: Recording) -> Recording:
     >>> hlm_features(open_archive().recording("gait:01_01")).channels[:3]
     ('root.dtx', 'root.dty', 'root.dtz')
     """
-    return root_differences(_within_half_a_turn(_every_fourth(recording)))
+    return root_differences(_wrap_joint_angles(_every_fourth(recording)))
 
 
-def _within_half_a_turn(recording: Recording) -> Recording:
+def _wrap_joint_angles(recording: Recording) -> Recording:
     """Return the recording with all joint angles but the root's in [−180, 180) degrees."""
     joint = np.array(
         [

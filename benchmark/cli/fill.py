@@ -62,7 +62,8 @@ def fill(
         float | None, typer.Option(help="Fill what a file itself finds less likely than this, too.")
     ] = None,
     insert_missing: Annotated[
-        bool, typer.Option("--insert-missing", help="Add the rows that a table lacks, and fill them.")
+        bool,
+        typer.Option("--insert-missing", help="Add the rows that a table lacks, and fill them."),
     ] = False,
     plugin: Plugins = None,
 ) -> None:

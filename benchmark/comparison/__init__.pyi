@@ -1,6 +1,6 @@
-from .changes import run_changes
+from .changed_facts import run_changes
 from .contrasts import compare
-from .output import markdown, notes, outcome, terminal
+from .printing import markdown, notes, outcome, terminal
 from .sides import between_models, between_runs, planned_side, side_names
 from .tidy_table import tidy
 

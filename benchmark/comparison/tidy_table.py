@@ -7,7 +7,7 @@ from dataclasses import asdict
 
 import pandas as pd
 
-from mocapbench.benchmark.comparison.output import outcome
+from mocapbench.benchmark.comparison.printing import outcome
 from mocapbench.benchmark.comparison.rows import Row
 
 __all__ = ["tidy"]

@@ -46,8 +46,8 @@ def draw_trends(solved: Solved[Any, Any], /, channels: tuple[str, ...]) -> Seque
         for label, trend in trends.items()
     )
     caption = (
-        "the true parent, and the posterior mean and central 95 % band of the trend given the "
-        "children. The band is that of the curve, without noise."
+        "the true parent, and the posterior mean and central 95 % interval of the trend given "
+        "the children. The interval is that of the curve, without noise."
     )
     return (Illustration(solved.task, "Underlying trend", caption, panels),)
 

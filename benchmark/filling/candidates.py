@@ -8,7 +8,7 @@ import numpy as np
 
 from mocapbench.baselines.declarations.needs import describe_needs, find_met_needs
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.filling.problem import GapProblem, drop_unseen, pose_imputing
+from mocapbench.benchmark.filling.gap_problem import GapProblem, drop_unseen, pose_imputing
 from mocapbench.benchmark.registry import MODELS, build_unfitted
 
 __all__ = ["find_candidates", "require_candidate"]

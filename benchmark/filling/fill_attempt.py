@@ -19,7 +19,7 @@ import numpy as np
 
 from mocapbench.baselines import FrameImputer, Prediction
 from mocapbench.basics.arrays import Array
-from mocapbench.benchmark.filling.problem import (
+from mocapbench.benchmark.filling.gap_problem import (
     GapProblem,
     PredictedEntries,
     cut_windows,

@@ -12,8 +12,8 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.candidates import find_candidates, require_candidate
 from mocapbench.benchmark.filling.choosing.choice import Choice, NoneInTimeError, choose
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt
+from mocapbench.benchmark.filling.gap_problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.filling.input_files import InputFile
-from mocapbench.benchmark.filling.problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.benchmark.registry import build_unfitted
 from mocapbench.datasets import Recording

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mocapbench.benchmark.filling.problem import GapProblem, select_channels
+from mocapbench.benchmark.filling.gap_problem import GapProblem, select_channels
 from mocapbench.benchmark.filling.reading import Reading
 from mocapbench.benchmark.filling.requests.channels import match_channels
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError

@@ -17,7 +17,7 @@ from typing import Self
 from pebble import ProcessExpired
 
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
-from mocapbench.benchmark.filling.problem import GapProblem
+from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.benchmark.runs.execution.child import (
     ProcessDiedError,

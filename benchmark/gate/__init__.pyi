@@ -1,9 +1,9 @@
-from .checking import check, differences, updated
+from .documents import junit, markdown, plain, summary, terminal
 from .findings import Check, Finding
 from .negative_control import check_controls
-from .output import junit, markdown, plain, summary, terminal
 from .reference import Reference, of_records
 from .reference_files import read_reference, write_reference
+from .regression_check import check, differences, updated
 from .rule import Judgement, Tolerance, Verdict, judge
 from .tolerances import read_tolerances
 from .updating import require_updatable

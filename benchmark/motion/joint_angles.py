@@ -68,7 +68,7 @@ def _values(recording: Recording, names: list[str]) -> FrameByChannel:
 
 
 def _euler(segment: Segment, recording: Recording) -> Vectors:
-    """Return the angles about z, y and x in degrees (N, 3), without jumps of whole turns."""
+    """Return the angles about z, y and x in degrees (N, 3), without jumps of 360°."""
     names = [f"{segment.name}.r{axis.lower()}" for axis in segment.order]
     moved = Rotation.from_euler(segment.order.lower(), _values(recording, names), degrees=True)
     axis = Rotation.from_euler("xyz", segment.axis, degrees=True)

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.runs.sources import source_digest
+from mocapbench.benchmark.runs.source_code.digest import source_digest
 
 __all__ = ["describe_value"]
 

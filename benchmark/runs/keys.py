@@ -18,7 +18,7 @@ from typing import Any
 
 from mocapbench.benchmark.runs.descriptions import describe_value
 from mocapbench.benchmark.runs.fitting import solve
-from mocapbench.benchmark.runs.sources import source_digest
+from mocapbench.benchmark.runs.source_code.digest import source_digest
 from mocapbench.benchmark.tasks.base import Case
 from mocapbench.benchmark.tasks.seeds import Seeds
 from mocapbench.metrics import Metric

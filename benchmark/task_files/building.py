@@ -15,7 +15,7 @@ from mocapbench.benchmark.registry import MODELS, TASKS, build_unfitted
 from mocapbench.benchmark.task_files.document import Document
 from mocapbench.benchmark.task_files.hidden_settings import Hidden, read_hidden
 from mocapbench.benchmark.task_files.library import address_of
-from mocapbench.benchmark.task_files.problem import own_problem
+from mocapbench.benchmark.task_files.own_problem import own_problem
 from mocapbench.benchmark.task_files.settings import Settings, read_settings
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Profile, Task

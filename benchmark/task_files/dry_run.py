@@ -18,7 +18,7 @@ from mocapbench.benchmark.task_files.grouping import check_alike_in_any_order
 from mocapbench.benchmark.task_files.hidden_settings import Hidden
 from mocapbench.benchmark.task_files.hiding import HidingError, HidingPlace, gap_length
 from mocapbench.benchmark.task_files.library import address_of
-from mocapbench.benchmark.task_files.problem import defined_metrics, own_body
+from mocapbench.benchmark.task_files.own_problem import defined_metrics, own_body
 from mocapbench.benchmark.task_files.settings import Settings
 from mocapbench.datasets import (
     Archive,
@@ -53,7 +53,7 @@ class DryRun:
     def run(
         self, tests: tuple[str, ...], training: tuple[str, ...]
     ) -> tuple[bool, tuple[str, ...]]:
-        """Return whether no entry of the recordings is missing, and what they meet of models' needs.
+        """Return whether no entry of the recordings is missing, and what needs they meet.
 
         Parameters
         ----------

@@ -80,7 +80,7 @@ upper_body_missing = Task(
             budget={"max_iter": 3, "n_restarts": 1, "n_styles": 2},
             opt_in=("best-of", "channel-kriging"),
         ),
-        # The rehearsals of best-of take as long as all others together.
+        # The held-out gaps of best-of take as long as all others together.
         "quick": Profile(tuple(case.name for case in _CASES), folds=3, opt_in=("best-of",)),
         "paper": Profile(on_recordings(_CASES), folds=N_WALKS),
     },

@@ -106,7 +106,10 @@ def _check_written(again: Recording, filled: FrameByChannel, mask: Mask) -> None
         error = again.values[rows, channel] - filled[rows, channel]
         error -= _TURN[unit] * np.round(error / _TURN[unit]) if unit in _TURN else 0.0
         tolerance = 1e-3 * (1.0 + np.abs(filled[rows, channel]))
-        expected, advice = "what was filled, up to whole turns", "write the values that are new"
+        expected, advice = (
+            "what was filled, up to multiples of 360°",
+            "write the values that are new",
+        )
         require((np.abs(error) <= tolerance).all(), expected, f"errors {error}", advice)
 
 

@@ -1,11 +1,12 @@
-"""Whole turns of angles: unwrapped where a file is read, wrapped again where it is written.
+"""Angle wrapping: angles are unwrapped where a file is read, and wrapped where it is written.
 
-A file that keeps angles within [−180°, 180°) has a jump of a turn wherever a joint passes 180°. No
+A file that keeps angles within [−180°, 180°) has a jump of 360° wherever a joint passes 180°. No
 model should see that jump, and no file should be given angles outside the range that it keeps.
 
-Angles of several recordings that differ by whole turns are the same: one may have turned before it
-began, and another program counts from 0° where the database counts from −180°. Such turns are told
-from the mean direction of an angle in training, which whole turns of a recording do not change.
+Angles of several recordings that differ by multiples of 360° are the same: one person may have
+turned round before the recording began, and another program counts from 0° where the database
+counts from −180°. Such offsets are found from the mean direction of an angle in training, which
+multiples of 360° do not change.
 """
 
 from __future__ import annotations
@@ -19,14 +20,15 @@ from mocapbench.datasets.recording import FrameByChannel, Frames, Mask, Recordin
 
 __all__ = ["mean_directions", "unwrap_angles", "wrap_angles", "wrapping_offsets"]
 
-_TURN = {"deg": 360.0, "rad": 2.0 * np.pi}
-"""One turn in each unit of angle."""
+_PERIODS = {"deg": 360.0, "rad": 2.0 * np.pi}
+"""360° in each unit of angle."""
 
 
 def unwrap_angles(recording: Recording) -> Recording:
-    """Return the recording with no jump of more than half a turn between visible angles.
+    """Return the recording with no jump of more than 180° between visible angles.
 
-    Channels whose unit is ``"deg"`` or ``"rad"`` are changed by whole turns, the others not at all.
+    Channels whose unit is ``"deg"`` or ``"rad"`` are changed by multiples of 360°, the others not
+    at all.
     Across a gap, the visible entries on its two sides are neighbours. Hiding entries can leave such
     a jump, so unwrap again after `Recording.hide`.
 
@@ -45,17 +47,17 @@ def unwrap_angles(recording: Recording) -> Recording:
     """
     values = recording.values.copy()
     for channel, unit in enumerate(recording.units):
-        if unit in _TURN:
-            values[:, channel] = _continuous(values[:, channel], _TURN[unit])
+        if unit in _PERIODS:
+            values[:, channel] = _unwrap(values[:, channel], _PERIODS[unit])
     return recording.with_values(values)
 
 
 def wrap_angles(values: FrameByChannel, original: Recording, new: Mask) -> FrameByChannel:
     """Return unwrapped values in the ranges that the angles of a file keep.
 
-    That is [−½, ½) of a turn if all its visible angles of the channel lie there, else [0, 1] of a
-    turn if they lie there. A channel that keeps neither counts its turns itself, and the new values
-    continue the count of the visible entry before.
+    That is [−180°, 180°) if all its visible angles of the channel lie there, else [0°, 360°] if
+    they lie there. A channel that keeps neither is unwrapped in the file, and the new values
+    continue from the visible entry before.
 
     Parameters
     ----------
@@ -69,9 +71,9 @@ def wrap_angles(values: FrameByChannel, original: Recording, new: Mask) -> Frame
     result = values.copy()
     for channel, unit in enumerate(original.units):
         rows = new[:, channel]
-        if unit in _TURN and rows.any():
+        if unit in _PERIODS and rows.any():
             kept = original.values[:, channel]
-            result[rows, channel] = _in_range(values[:, channel], kept, _TURN[unit])[rows]
+            result[rows, channel] = _wrap_as_kept(values[:, channel], kept, _PERIODS[unit])[rows]
     return result
 
 
@@ -81,15 +83,15 @@ def mean_directions(recordings: Sequence[Recording]) -> Array:
     It is 0 for channels that are no angles, or have no visible entry.
     """
     values = np.concatenate([recording.values for recording in recordings])
-    turns, angles = _turns(recordings[0]), np.zeros(values.shape[1])
-    known = ~np.isnan(turns)
-    around = 2j * np.pi * values[:, known] / turns[known]
-    angles[known] = np.angle(np.nansum(np.exp(around), axis=0)) * turns[known] / (2.0 * np.pi)
+    periods, angles = _list_periods(recordings[0]), np.zeros(values.shape[1])
+    known = ~np.isnan(periods)
+    around = 2j * np.pi * values[:, known] / periods[known]
+    angles[known] = np.angle(np.nansum(np.exp(around), axis=0)) * periods[known] / (2.0 * np.pi)
     return angles
 
 
 def wrapping_offsets(recording: Recording, directions: Array) -> Array:
-    """Return the whole turns (D,), in each channel's unit, by which its mean is away.
+    """Return the multiple of 360° (D,), in each channel's unit, by which its mean is away.
 
     Parameters
     ----------
@@ -101,35 +103,35 @@ def wrapping_offsets(recording: Recording, directions: Array) -> Array:
     Returns
     -------
     ndarray of shape (D,)
-        What to subtract, so that the mean of each angle is within half a turn of ``directions``;
+        What to subtract, so that the mean of each angle is within 180° of ``directions``;
         0 for channels that are no angles, or have no visible entry.
     """
-    turns, seen = _turns(recording), recording.visible
+    periods, seen = _list_periods(recording), recording.visible
     means = np.where(seen, recording.values, 0.0).sum(axis=0) / np.maximum(seen.sum(axis=0), 1)
-    away = turns * np.round((means - directions) / turns)
+    away = periods * np.round((means - directions) / periods)
     return np.where(seen.any(axis=0), np.nan_to_num(away), 0.0)
 
 
-def _continuous(angles: Frames, turn: float) -> Frames:
-    """Return the angles, less the turns by which neighbours among the visible ones jump."""
+def _unwrap(angles: Frames, period: float) -> Frames:
+    """Return the angles, less the multiples of 360° by which visible neighbours jump."""
     result, seen = angles.copy(), ~np.isnan(angles)
-    jumps = np.round(np.diff(angles[seen]) / turn)
-    result[seen] -= turn * np.concatenate([[0.0], np.cumsum(jumps)])[: seen.sum()]
+    jumps = np.round(np.diff(angles[seen]) / period)
+    result[seen] -= period * np.concatenate([[0.0], np.cumsum(jumps)])[: seen.sum()]
     return result
 
 
-def _in_range(angles: Frames, kept: Frames, turn: float) -> Frames:
+def _wrap_as_kept(angles: Frames, kept: Frames, period: float) -> Frames:
     """Return the angles in the range of those that a file keeps (N,), NaN where it has none."""
     visible = kept[~np.isnan(kept)]
-    if (np.abs(visible) <= turn / 2).all():
-        return _from(-turn / 2, angles, turn)
-    if ((visible >= 0.0) & (visible <= turn)).all():
-        return _from(0.0, angles, turn)
-    return angles - _hold_last_value(_continuous(kept, turn) - kept)
+    if (np.abs(visible) <= period / 2).all():
+        return _wrap_from(-period / 2, angles, period)
+    if ((visible >= 0.0) & (visible <= period)).all():
+        return _wrap_from(0.0, angles, period)
+    return angles - _hold_last_value(_unwrap(kept, period) - kept)
 
 
-def _from(low: float, angles: Frames, turn: float) -> Frames:
-    return angles - turn * np.floor((angles - low) / turn)
+def _wrap_from(low: float, angles: Frames, period: float) -> Frames:
+    return angles - period * np.floor((angles - low) / period)
 
 
 def _hold_last_value(offsets: Frames) -> Frames:
@@ -139,6 +141,6 @@ def _hold_last_value(offsets: Frames) -> Frames:
     return offsets[seen[np.maximum(before, 0)]]
 
 
-def _turns(recording: Recording) -> Array:
-    """Return one turn in the unit of each channel (D,); NaN for what is no angle."""
-    return np.array([_TURN.get(unit, np.nan) for unit in recording.units])
+def _list_periods(recording: Recording) -> Array:
+    """Return 360° in the unit of each channel (D,); NaN for what is no angle."""
+    return np.array([_PERIODS.get(unit, np.nan) for unit in recording.units])

@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 
 from mocapbench.benchmark.filling.candidates import find_candidates
 from mocapbench.benchmark.filling.choosing.choice import Choice, choose
+from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.filling.gaps import find_gaps
-from mocapbench.benchmark.filling.problem import GapProblem
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.datasets import AcclaimFormat, Mask, Recording, unwrap_angles
 
@@ -153,7 +153,7 @@ def evaluate(recording: Recording, hidden: Mask, workers: Workers, budget: float
 def by_gap(recording: Recording, hidden: Mask, mean: Array) -> Array:
     """Return the sums of squared errors of angles and position in each gap (n, 2).
 
-    Whole turns are no error.
+    Multiples of 360° are no error.
     """
     angles = np.array(recording.units) == "deg"
     off = np.zeros(hidden.shape)
@@ -170,7 +170,7 @@ def by_gap(recording: Recording, hidden: Mask, mean: Array) -> Array:
 
 
 def by_halves(result: Result, rng: np.random.Generator) -> list[float]:
-    """Return the ratios to hindsight of choices that know the truth, but of the other gaps only.
+    """Return the ratios to the best of choices that know the truth, but of the other gaps only.
 
     In each, the model with the least error in a random half of the gaps fills the other half.
     """
@@ -182,15 +182,15 @@ def by_halves(result: Result, rng: np.random.Generator) -> list[float]:
     return ratios
 
 
-def row(what: Sequence[str], result: Result, best: str, hindsight: str) -> str:
-    """Return a row of the table: the errors of the choice, of hindsight's, and of `linear`."""
+def row(what: Sequence[str], result: Result, choice: str, best: str) -> str:
+    """Return a row of the table: the errors of the choice, of the best model, and of `linear`."""
     errors = result.errors()
     pairs = {
         model: " | ".join("" if np.isnan(error) else f"{error:.2f}" for error in errors[model])
-        for model in (best, hindsight, "linear")
+        for model in (choice, best, "linear")
     }
     n = str(result.choice.ranking.n_gaps)
-    cells = (*what, n, best, pairs[best], hindsight, pairs[hindsight], pairs["linear"])
+    cells = (*what, n, choice, pairs[choice], best, pairs[best], pairs["linear"])
     return f"| {' | '.join(cells)} |"
 
 
@@ -207,25 +207,25 @@ def main() -> None:
     """Print a row per recording and kind of gaps, and how often the bars are missed."""
     rows, halves = [], []
     folder = Path(os.environ["MOCAPBENCH_DATA"].split(os.pathsep)[0])
-    print("| recording | gaps | n | best | ° | cm | hindsight | ° | cm | linear, ° | cm |")
+    print("| recording | gaps | n | choice | ° | cm | best | ° | cm | linear, ° | cm |")
     print(f"|{'---|' * 11}")
     with Workers(os.cpu_count() or 1) as workers:
         for name, kind, recording, hidden in problems(folder):
             result = evaluate(recording, hidden, workers, BUDGET)
             scores, errors = result.scores(), result.errors()
             halves.append(by_halves(result, np.random.default_rng(0)))
-            best, hindsight = result.choice.ranking.order[0], min(scores, key=scores.__getitem__)
-            print(row((f"{name} {RECORDINGS[name]}", kind), result, best, hindsight), flush=True)
-            relative = [scores[best] / scores[other] for other in (hindsight, "linear")]
-            rows.append([*relative, *(errors[best] / errors["linear"])])
-    to_hindsight, to_linear, angles, position = np.array(rows).T
-    report("Scores", "hindsight", to_hindsight, 1.10)
+            choice, best = result.choice.ranking.order[0], min(scores, key=scores.__getitem__)
+            print(row((f"{name} {RECORDINGS[name]}", kind), result, choice, best), flush=True)
+            relative = [scores[choice] / scores[other] for other in (best, "linear")]
+            rows.append([*relative, *(errors[choice] / errors["linear"])])
+    to_best, to_linear, angles, position = np.array(rows).T
+    report("Scores", "the best", to_best, 1.10)
     report("Scores", "linear", to_linear, 1.05)
     report("Angles", "linear", angles, 1.05)
     report("Position", "linear", position, 1.05)
     ratio = np.concatenate(halves)
     print(
-        f"\nA model chosen by the truth in half of the gaps, relative to hindsight in the others: "
+        f"\nA model chosen by the truth in half of the gaps, relative to the best in the others: "
         f"mean {ratio.mean():.3f}, above 1.1 in {(ratio > 1.1).mean():.0%}."
     )
 

@@ -35,7 +35,7 @@ from mocapbench.baselines import (
     RigidBody,
 )
 from mocapbench.benchmark.filling.choosing.choice import choose
-from mocapbench.benchmark.filling.problem import GapProblem
+from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.datasets import (

@@ -7,12 +7,11 @@ import pytest
 
 from mocapbench.benchmark import TASKS, Seeds, archive_at
 from mocapbench.benchmark.cli.main import main
-from mocapbench.benchmark.runs import sources
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.plan_document import PlannedJob, plan_document
 from mocapbench.benchmark.runs.record import Record, Status
-from mocapbench.benchmark.runs.source_code import own_code, reading
+from mocapbench.benchmark.runs.source_code import digest, own_code, reading
 from mocapbench.benchmark.tasks.address import Address
 
 
@@ -86,7 +85,7 @@ def forget():
     """Return a function after which digests are computed anew, as in a fresh process."""
 
     def forget():
-        for module in (sources, reading, own_code):
+        for module in (digest, reading, own_code):
             for value in vars(module).values():
                 if hasattr(value, "cache_clear"):
                     value.cache_clear()

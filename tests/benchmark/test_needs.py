@@ -12,7 +12,7 @@ from mocapbench.baselines.declarations.needs import find_met_needs
 from mocapbench.benchmark.catalogue import model_entry
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.candidates import find_candidates, require_candidate
-from mocapbench.benchmark.filling.problem import GapProblem, pose_imputing
+from mocapbench.benchmark.filling.gap_problem import GapProblem, pose_imputing
 from mocapbench.benchmark.problems.internals import internals_of
 from mocapbench.benchmark.registry import MODELS, TASKS, build_unfitted
 from mocapbench.benchmark.results.interpolations import interpolates

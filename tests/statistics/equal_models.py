@@ -18,8 +18,8 @@ import numpy as np
 from mocapbench.benchmark.filling.choosing.hold_outs import HoldOut, make_hold_outs
 from mocapbench.benchmark.filling.choosing.ranking import Ranking, number_positions, rank
 from mocapbench.benchmark.filling.choosing.scores import score_gaps, score_holding, weigh_gaps
+from mocapbench.benchmark.filling.gap_problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.filling.gaps import find_gaps
-from mocapbench.benchmark.filling.problem import GapProblem, PredictedEntries
 from mocapbench.datasets import Mask, Recording
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "speed"))

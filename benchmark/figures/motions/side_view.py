@@ -29,11 +29,11 @@ def side_view(
         The y axis points up.
     joints : sequence of J str
     """
-    ground, turn = truth[..., 1].min() * _UP, _turn(truth, joints)
-    return (truth - ground) @ turn.T, (made - ground) @ turn.T
+    ground, rotation = truth[..., 1].min() * _UP, _face_x_axis(truth, joints)
+    return (truth - ground) @ rotation.T, (made - ground) @ rotation.T
 
 
-def _turn(truth: FrameByJointBy3, joints: Sequence[str]) -> NDArray[np.float64]:
+def _face_x_axis(truth: FrameByJointBy3, joints: Sequence[str]) -> NDArray[np.float64]:
     """Return the rotation (3, 3) about the y axis that takes the front to the x axis."""
     pairs = [
         (joints.index(name), joints.index(f"r{name[1:]}"))

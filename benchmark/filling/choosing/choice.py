@@ -19,7 +19,7 @@ from mocapbench.benchmark.filling.choosing.scores import (
     score_units,
     weigh_gaps,
 )
-from mocapbench.benchmark.filling.problem import GapProblem
+from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.datasets import Mask
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.benchmark.filling.choosing.layout import EpisodeLayout, EpisodeQueue
+from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.filling.gaps import Episode, Gap, find_gaps, group_gaps
-from mocapbench.benchmark.filling.problem import GapProblem
 from mocapbench.datasets import Mask
 
 __all__ = ["HoldOut", "has_room", "make_hold_outs"]

@@ -21,7 +21,7 @@ from pathlib import Path
 
 from mocapbench.benchmark.filling.choosing.hold_outs import HoldOut
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt
-from mocapbench.benchmark.filling.problem import PredictedEntries
+from mocapbench.benchmark.filling.gap_problem import PredictedEntries
 from mocapbench.benchmark.filling.workers import Workers
 
 __all__ = ["Contender", "run_rounds"]

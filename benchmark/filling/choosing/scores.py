@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.filling.choosing.hold_outs import HoldOut
-from mocapbench.benchmark.filling.problem import PredictedEntries
+from mocapbench.benchmark.filling.gap_problem import PredictedEntries
 
 __all__ = ["score_gaps", "score_holding", "score_units", "weigh_gaps"]
 

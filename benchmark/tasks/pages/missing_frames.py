@@ -68,10 +68,10 @@ PAGE = TaskPage(
         "left out in turn. It alone uses that left and right take turns: it also learns from "
         "mirror images of walkers, by the names of channels.",
         NOTHING_OVER_TIME,
-        "The GPDM family knows no difference between persons, so that by itself it claims too "
-        "little variance for a new one. Its variances, and those of lds, fam, low-rank and "
-        "cyclic-alignment, are widened by trials on visible frames.",
-        "Trials are shorter than the gap: trials of half their length tell how errors grow.",
+        "The GPDM family knows no difference between persons, so its variances are too small "
+        "for a new one. They, and those of lds, fam, low-rank and cyclic-alignment, are calibrated "
+        "by held-out gaps in visible frames.",
+        "Held-out gaps are shorter than the gap: gaps of half their length tell how errors grow.",
         "Four of the fifty channels are constant in training. The GPDM family leaves them out, "
         "which hardly changes errors and lowers SNR(β).",
     ),

@@ -31,8 +31,8 @@ PAGE = TaskPage(
     remarks=(
         "A fold is a walk. Each is trained on the ten others of the subject, so folds are not "
         "wholly independent and intervals a little too narrow.",
-        "Joint angles are taken within half a turn of zero: in 08_01 the right thumb makes three "
-        "whole turns in a tenth of a second. The paper’s angles have no discontinuities either.",
+        "Joint angles are wrapped to [−180°, 180°): in 08_01 the right thumb turns by three times "
+        "360° in a tenth of a second. The paper’s angles have no discontinuities either.",
         "The paper gives the functional analysis of motion an error “greater than 200”, without a "
         "number. Here it is fam, with three components; with five, the worst walk exceeds 200.",
     ),

@@ -6,8 +6,8 @@ import pytest
 from mocapbench.benchmark.filling.choosing.choice import Choice
 from mocapbench.benchmark.filling.choosing.ranking import rank
 from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.benchmark.filling.gap_problem import PredictedEntries
 from mocapbench.benchmark.filling.input_files import InputFile
-from mocapbench.benchmark.filling.problem import PredictedEntries
 from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.datasets import CSVFormat, Recording
 

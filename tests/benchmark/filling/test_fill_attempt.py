@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mocapbench.benchmark.filling.fill_attempt import attempt_fill, keep_constants
-from mocapbench.benchmark.filling.problem import GapProblem, PredictedEntries
+from mocapbench.benchmark.filling.gap_problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.registry import MODELS
 from mocapbench.datasets import Recording
 

@@ -9,9 +9,9 @@ import pytest
 
 from mocapbench.benchmark.filling.choosing.schedule import Contender
 from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.benchmark.filling.gap_problem import PredictedEntries
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.benchmark.filling.page import compose_page
-from mocapbench.benchmark.filling.problem import PredictedEntries
 from mocapbench.benchmark.filling.requests.request import FillRequest
 from mocapbench.datasets import AcclaimFormat, CSVFormat, Recording
 

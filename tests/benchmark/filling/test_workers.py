@@ -1,6 +1,6 @@
 import pytest
 
-from mocapbench.benchmark.filling.problem import GapProblem
+from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.filling.workers import Workers
 from mocapbench.benchmark.plugins import load_plugin
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.benchmark.filling.choosing.hold_outs import make_hold_outs
-from mocapbench.benchmark.filling.problem import GapProblem
+from mocapbench.benchmark.filling.gap_problem import GapProblem
 
 
 @pytest.fixture

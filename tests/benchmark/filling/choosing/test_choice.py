@@ -9,7 +9,7 @@ from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.choosing import choice
 from mocapbench.benchmark.filling.choosing.choice import choose
 from mocapbench.benchmark.filling.choosing.schedule import Contender
-from mocapbench.benchmark.filling.problem import GapProblem, PredictedEntries
+from mocapbench.benchmark.filling.gap_problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.registry import MODELS
 
 

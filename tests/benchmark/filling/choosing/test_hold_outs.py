@@ -4,8 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.filling.choosing.hold_outs import make_hold_outs
+from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.benchmark.filling.gaps import find_gaps
-from mocapbench.benchmark.filling.problem import GapProblem
 from mocapbench.datasets import Recording
 
 N_FRAMES = 200

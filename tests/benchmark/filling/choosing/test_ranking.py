@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from mocapbench.benchmark.filling.choosing.hold_outs import make_hold_outs
 from mocapbench.benchmark.filling.choosing.ranking import number_positions, rank
-from mocapbench.benchmark.filling.problem import GapProblem
+from mocapbench.benchmark.filling.gap_problem import GapProblem
 from mocapbench.datasets import Recording
 
 ERRORS = {

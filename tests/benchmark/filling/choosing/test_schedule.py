@@ -8,7 +8,7 @@ from fill_workers import Here
 from mocapbench.benchmark.filling.choosing import choice
 from mocapbench.benchmark.filling.choosing.schedule import run_rounds
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt
-from mocapbench.benchmark.filling.problem import GapProblem, PredictedEntries
+from mocapbench.benchmark.filling.gap_problem import GapProblem, PredictedEntries
 
 
 def test_nothing_starts_after_the_budget(waves, hidden):

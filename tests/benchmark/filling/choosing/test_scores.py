@@ -9,7 +9,7 @@ from mocapbench.benchmark.filling.choosing.scores import (
     weigh_gaps,
 )
 from mocapbench.benchmark.filling.fill_attempt import attempt_fill
-from mocapbench.benchmark.filling.problem import GapProblem, PredictedEntries
+from mocapbench.benchmark.filling.gap_problem import GapProblem, PredictedEntries
 from mocapbench.benchmark.registry import MODELS
 
 

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.filling.problem import GapProblem, cut_windows
+from mocapbench.benchmark.filling.gap_problem import GapProblem, cut_windows
 from mocapbench.datasets import Recording
 
 N_FRAMES = 300

@@ -8,7 +8,7 @@ import pytest
 
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import MODELS
-from mocapbench.benchmark.runs.sources import source_digest
+from mocapbench.benchmark.runs.source_code.digest import source_digest
 
 LAZY = (
     "import lazy_loader\n"

@@ -16,7 +16,7 @@ __all__ = ["check", "differences", "updated"]
 
 _GRAVITY = tuple(Verdict)
 _REASONS = {Verdict.MOVED: "some fold is worse"}
-Troubles = Mapping[Address, Record]
+Failures = Mapping[Address, Record]
 
 
 def differences(reference: Reference, run: Reference) -> tuple[str, ...]:
@@ -50,17 +50,17 @@ def check(
                 f"--reference: expected a run of the {name} {reference.about.get(name)}, got "
                 f"{run.about.get(name)}; their values cannot be paired"
             )
-    troubles = {record.address: record for record in records if record.status is not Status.OK}
-    unforeseen = _unforeseen(reference, run, troubles)
-    return (*_pair_values(reference, run, troubles, tolerances), *unforeseen)
+    failures = {record.address: record for record in records if record.status is not Status.OK}
+    unforeseen = _unforeseen(reference, run, failures)
+    return (*_pair_values(reference, run, failures, tolerances), *unforeseen)
 
 
 def _pair_values(
-    reference: Reference, run: Reference, troubles: Troubles, tolerances: Mapping[str, Tolerance]
+    reference: Reference, run: Reference, failures: Failures, tolerances: Mapping[str, Tolerance]
 ) -> Iterator[Finding]:
     for series in sorted({*reference.values, *run.values}):
         expected, got = (side.values.get(series, {}) for side in (reference, run))
-        absent = {fold: _absence(series, fold, troubles) for fold in expected.keys() - got}
+        absent = {fold: _absence(series, fold, failures) for fold in expected.keys() - got}
         verdicts = {verdict for verdict, _ in absent.values()}
         if got.keys() - expected.keys():
             verdicts.add(Verdict.NEW)
@@ -81,9 +81,9 @@ def _judgement(
     return judge(before, after, METRICS.get(metric).loss, tolerances[metric])
 
 
-def _absence(series: Series, fold: int, troubles: Troubles) -> tuple[Verdict, str]:
+def _absence(series: Series, fold: int, failures: Failures) -> tuple[Verdict, str]:
     """Return what to call a value that the reference has and the run has not, and why."""
-    record = troubles.get(series.address._replace(fold=fold))
+    record = failures.get(series.address._replace(fold=fold))
     if record is None:
         version = series.address.version
         return Verdict.LOST, f"no finite value of task version {version} in this run"
@@ -100,7 +100,7 @@ def _reasons(absent: Mapping[int, tuple[Verdict, str]]) -> str:
     return "; ".join(texts)
 
 
-def _unforeseen(reference: Reference, run: Reference, troubles: Troubles) -> Iterator[Finding]:
+def _unforeseen(reference: Reference, run: Reference, failures: Failures) -> Iterator[Finding]:
     """Yield the failed jobs that lack no value of the reference, one an entrant."""
     known = {
         series.address._replace(fold=fold)
@@ -109,7 +109,7 @@ def _unforeseen(reference: Reference, run: Reference, troubles: Troubles) -> Ite
     }
     failed = {
         address.all_folds: record
-        for address, record in troubles.items()
+        for address, record in failures.items()
         if record.status.broken and address not in known
     }
     for address, record in sorted(failed.items(), key=lambda item: item[0]):
