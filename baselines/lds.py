@@ -142,7 +142,7 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
         self.objective_, self.n_iterations_ = np.array(run.objectives), run.n_iterations
         self.n_states_ = self.parameters_.n_states
         self._data = data
-        vars(self).pop("_with_noise_shown", None)  # that of an earlier fit
+        self.__dict__.pop("_with_noise_shown", None)  # that of an earlier fit
         return self
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:

@@ -25,8 +25,8 @@ def even_times(n_frames: int, rate: float) -> Frames:
 def warn_of_missing_rows(file: str, times: Frames) -> None:
     """Warn where times (N,) jump by as much as two frames or more, for rows were left out there."""
     steps = np.diff(times)
-    usual = np.median(steps) if len(steps) else np.nan
-    jumps = np.flatnonzero(steps > _JUMP * usual) if usual > 0 else ()
+    usual = np.median(steps) if len(steps) else np.inf
+    jumps = np.flatnonzero((steps > _JUMP * usual) & (usual > 0))
     if len(jumps):
         n_missing = int(np.sum(np.round(steps[jumps] / usual) - 1))
         warnings.warn(

@@ -42,4 +42,4 @@ def wins(results: TaskResults, metric: str) -> Mapping[str, tuple[str, str]]:
 def _describe_test(contrast: PairContrast, unit: str) -> str:
     if not contrast.tested:
         return too_few_units(contrast.n, unit)
-    return (Place.BEHIND if contrast.separable else Place.INSEPARABLE).value
+    return str((Place.BEHIND if contrast.separable else Place.INSEPARABLE).value)
