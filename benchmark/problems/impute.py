@@ -79,7 +79,7 @@ class ImputeProblem(Problem[FilledRecordings]):
     scales : ndarray of shape (D,) or None
         See `mocapbench.metrics.Imputation`.
     process : ToyProcess or None
-        The process that generated them, for informed models.
+        The process that generated them, for models that need it.
     parent : Recording or None
         The curves of the parent that a known process drew, which no model sees.
     """
@@ -114,7 +114,7 @@ class ImputeProblem(Problem[FilledRecordings]):
             What models learn from besides.
         seen_in_fit : bool
             Whether models learn from the recording's visible entries too; if not, the task must
-            require `Inductive` models.
+            require "fills new recordings".
         body : Body or None
             Places the joints in space.
         """
