@@ -1,6 +1,7 @@
 """What models need and provide is data, which all that choose models read alike."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import ClassVar
 
 import numpy as np
@@ -16,7 +17,9 @@ from mocapbench.benchmark.filling.gap_problem import GapProblem, pose_imputing
 from mocapbench.benchmark.problems.internals import internals_of
 from mocapbench.benchmark.registry import MODELS, TASKS, build_unfitted
 from mocapbench.benchmark.results.interpolations import interpolates
+from mocapbench.benchmark.results.model_infos import model_infos
 from mocapbench.benchmark.runs.request import entrants
+from mocapbench.benchmark.tasks.base import Entrant
 from mocapbench.benchmark.testing import ConformanceError, check_model, check_task, model_checks
 from mocapbench.benchmark.testing.subject import GAP, Subject, problem
 from mocapbench.datasets import Recording
@@ -48,6 +51,10 @@ class Wrapped(Model):
     @property
     def needs(self):
         return self.estimator.needs
+
+    @property
+    def family(self):
+        return self.estimator.family
 
     @property
     def max_frames(self):
@@ -228,7 +235,7 @@ def test_a_wrapper_is_taken_for_what_it_wraps(registered, name):
         assert ("wrapped" in models) == task.accepts(build_unfitted(name))
     for channels in (ANGLES, MARKERS):
         assert len({"wrapped", name} & {*find_candidates(ask(channels))}) != 1
-    for key in ("abilities", "needs"):
+    for key in ("abilities", "needs", "family"):
         assert model_entry("wrapped")[key] == model_entry(name)[key]
     assert interpolates("wrapped") == interpolates(name)
     names = [check.__name__ for check in model_checks(wrap(name))]
@@ -243,8 +250,29 @@ def test_a_wrapper_conforms_and_leaves_the_internals_of_what_it_wraps(name):
     assert {*arrays[0]} == {*arrays[1]}
 
 
-def test_an_entrant_is_asked_with_its_own_parameters():
+def test_a_report_names_the_family_of_what_a_wrapper_wraps(registered):
+    registered("wrapped", wrap("pchip"))
+    record = SimpleNamespace(address=SimpleNamespace(label="w"), model="wrapped")
+    assert model_infos(TASKS.get("marker-gaps"), [record])["w"].family == "Interpolation"
+
+
+def test_abilities_without_those_that_they_imply_are_refused():
+    class Halved(MODELS.get("linear")):
+        """Fills entries, but no frames."""
+
+        provides = frozenset({"fills entries"})
+
+    with pytest.raises(ConformanceError, match=r"that they imply, got \['fills frames'\]"):
+        check_model(Halved)
+
+
+def test_an_entrant_is_asked_with_its_own_parameters(registered):
     assert build_unfitted("knn", {"n_neighbors": 5, "unknown": 1}).n_neighbors == 5
+    registered("wrapped", wrap("linear"))
+    clusterer = Entrant("wrapped k-means", "wrapped", {"estimator": build_unfitted("k-means")})
+    task = replace(TASKS.get("style-clustering"), entrants=(clusterer,))
+    assert clusterer in entrants(task)
+    assert clusterer not in entrants(replace(task, requires={"interpolates"}))
 
 
 def test_a_model_that_cannot_be_built_is_refused_by_its_name(registered):

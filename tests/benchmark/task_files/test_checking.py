@@ -156,6 +156,10 @@ WRONG = [
         r"models that can fill .* 'gpdm'; c",
     ),
     (
+        'files = "*.csv"\nmodels = ["oracle"]\n[hide]\nfraction = 0.2',
+        r"got 'oracle', which needs the process that generated the recordings; choose from",
+    ),
+    (
         'files = "*.csv"\nmodels = "knn"\n[hide]\nfraction = 0.2',
         r"line 2, key models: expected a list",
     ),
