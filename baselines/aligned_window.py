@@ -8,7 +8,6 @@ frames beside the gap, and the best-matching windows fill it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import ClassVar, Self
 
 import numpy as np
@@ -28,39 +27,12 @@ __all__ = ["AlignedWindow"]
 
 
 _SCALES = np.arange(75, 136, 5) / 100
+"""Training frames per frame at which windows are read."""
 _N_CONTEXT = 3
+"""Frames on each side of a gap that are compared."""
 
-
-@dataclass(frozen=True, eq=False)
-class _Tempo:
-    """The windows of one training stretch at one speed.
-
-    Parameters
-    ----------
-    run : ndarray of shape (n, D)
-        The stretch of complete frames.
-    offsets : ndarray of shape (L,)
-        Where a window's frames lie, in training frames after its first one.
-    """
-
-    run: FrameByChannel
-    offsets: Array
-
-    @property
-    def starts(self) -> Index:
-        """(A,) the first frames of all windows within the stretch; there may be none."""
-        return np.arange(len(self.run) - int(np.ceil(self.offsets[-1])))
-
-    def at(self, starts: Index, rows: Index) -> Array:
-        """Return ``rows`` (k,) of the windows from ``starts`` (A,), interpolated: (A, k, D)."""
-        places = starts[:, None] + self.offsets[rows]
-        before, after = np.floor(places).astype(np.intp), np.ceil(places).astype(np.intp)
-        weight = (places - before)[:, :, None]
-        return np.asarray((1 - weight) * self.run[before] + weight * self.run[after])
-
-    def errors(self, rows: Index, values: FrameByChannel) -> Array:
-        """Return the squared errors (A,) of the windows' ``rows`` against ``values`` (k, D)."""
-        return np.asarray(np.sum((self.at(self.starts, rows) - values) ** 2, axis=(1, 2)))
+_Tempo = tuple[FrameByChannel, Array]
+"""A stretch of complete frames (n, D), and where a window's frames (L,) lie after its first one."""
 
 
 class AlignedWindow(FrameImputer, Inductive):
@@ -176,20 +148,23 @@ class AlignedWindow(FrameImputer, Inductive):
         """Return the mean (L, D) of the windows nearest to ``values`` at frames ``beside`` (L,)."""
         tempi = self._tempi(len(beside))
         context = np.flatnonzero(beside)
-        errors = np.concatenate([tempo.errors(context, values) for tempo in tempi])
-        starts = np.concatenate([tempo.starts for tempo in tempi])
-        owners = np.repeat(np.arange(len(tempi)), [len(tempo.starts) for tempo in tempi])
-        best = np.argsort(errors, kind="stable")[: self.n_windows]
-        rows = np.arange(len(beside))
-        windows = [tempi[owners[i]].at(starts[[i]], rows)[0] for i in best]
+        starts = [_window_starts(tempo) for tempo in tempi]
+        errors = [
+            ((_read_windows(tempo, first, context) - values) ** 2).sum(axis=(1, 2))
+            for tempo, first in zip(tempi, starts, strict=True)
+        ]
+        owners = np.repeat(np.arange(len(tempi)), [len(first) for first in starts])
+        best = np.argsort(np.concatenate(errors), kind="stable")[: self.n_windows]
+        rows, firsts = np.arange(len(beside)), np.concatenate(starts)
+        windows = [_read_windows(tempi[owners[i]], firsts[[i]], rows)[0] for i in best]
         return np.asarray(np.mean(windows, axis=0))
 
     def _tempi(self, length: int) -> list[_Tempo]:
         """Return each stretch at each speed at which it contains a window of ``length`` frames."""
         # Rounded so that 0.8 · 5 is exactly frame 4.
         offsets = np.round(np.outer(_SCALES, np.arange(length)), 9)
-        tempi = [_Tempo(run, row) for row in offsets for run in self.runs_]
-        long_enough = [tempo for tempo in tempi if len(tempo.starts)]
+        tempi = [(run, row) for row in offsets for run in self.runs_]
+        long_enough = [tempo for tempo in tempi if len(_window_starts(tempo))]
         if not long_enough:
             longest = max((len(run) for run in self.runs_), default=0)
             raise ValueError(
@@ -197,3 +172,18 @@ class AlignedWindow(FrameImputer, Inductive):
                 f"frames for a window of {length}, got {longest} at most; train on longer ones"
             )
         return long_enough
+
+
+def _window_starts(tempo: _Tempo) -> Index:
+    """Return the first frames (A,) of all windows within a stretch; there may be none."""
+    run, offsets = tempo
+    return np.arange(len(run) - int(np.ceil(offsets[-1])))
+
+
+def _read_windows(tempo: _Tempo, starts: Index, rows: Index) -> Array:
+    """Return ``rows`` (k,) of the windows from ``starts`` (A,), interpolated: (A, k, D)."""
+    run, offsets = tempo
+    places = starts[:, None] + offsets[rows]
+    before, after = np.floor(places).astype(np.intp), np.ceil(places).astype(np.intp)
+    weight = (places - before)[:, :, None]
+    return np.asarray((1 - weight) * run[before] + weight * run[after])

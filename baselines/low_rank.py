@@ -140,8 +140,8 @@ class LowRank(OneByOne, Relearning, Imputer, Inductive):
     def _learn(self, frames: _Frames, loadings: Array, noise: float) -> None:
         run = ascend(
             _Fit.of(frames, loadings, noise),
-            lambda now: _Fit.of(frames, *_maximise_parameters(frames, now.posterior)),
-            lambda now: now.posterior.log_likelihood + _log_prior(now.noise),
+            lambda now: _Fit.of(frames, *_maximise_parameters(frames, now)),
+            lambda now: now.log_likelihood + _log_prior(now.noise),
             max_iter=self.max_iter,
             threshold=self.tol * max(float(frames.seen.sum()), 1.0),
         )
@@ -167,7 +167,7 @@ class LowRank(OneByOne, Relearning, Imputer, Inductive):
 
     def _claimed(self, recording: Recording) -> Prediction:
         frames = _Frames.of(self.own_means_.apply(recording))
-        posterior = _Posterior.of(frames, self.loadings_, self.noise_variance_)
+        posterior = _Fit.of(frames, self.loadings_, self.noise_variance_)
         mean = self.own_means_.restore(recording, posterior.latents @ self.loadings_.T)
         spread = np.einsum("di,nij,dj->nd", self.loadings_, posterior.covariances, self.loadings_)
         variance = (spread[frames.pattern] + self.noise_variance_) * self.own_means_.scale**2
@@ -192,16 +192,18 @@ class _Frames:
 
 
 @dataclass(frozen=True, eq=False)
-class _Posterior:
-    """The distribution of the latents given the visible entries: Tipping and Bishop §3.2."""
+class _Fit:
+    """Loadings and noise, and the latents given the visible entries: Tipping and Bishop §3.2."""
 
+    loadings: Array
+    noise: float
     latents: Array  # (N, q), the means
     covariances: Array  # (P, q, q), by set of visible entries
     log_likelihood: float
 
     @classmethod
-    def of(cls, frames: _Frames, loadings: Array, noise: float) -> _Posterior:
-        """Return it, with M = WᵀW + σ²I over the visible channels of a frame."""
+    def of(cls, frames: _Frames, loadings: Array, noise: float) -> _Fit:
+        """Infer the latents, with M = WᵀW + σ²I over the visible channels of a frame."""
         q = loadings.shape[1]
         outer = np.einsum("di,dj->dij", loadings, loadings)
         precisions = np.tensordot(frames.patterns, outer, 1) + noise * np.eye(q)
@@ -214,28 +216,17 @@ class _Posterior:
         log_determinants += (counts - q) * np.log(noise)
         distances = ((frames.values**2).sum(axis=1) - (projected * latents).sum(axis=1)) / noise
         losses = counts * np.log(2 * np.pi) + log_determinants + distances
-        return cls(latents, noise * inverses, -0.5 * float(losses.sum()))
+        return cls(loadings, noise, latents, noise * inverses, -0.5 * float(losses.sum()))
 
 
-@dataclass(frozen=True, eq=False)
-class _Fit:
-    """Loadings and noise, and what they make of the frames."""
-
-    loadings: Array
-    noise: float
-    posterior: _Posterior
-
-    @classmethod
-    def of(cls, frames: _Frames, loadings: Array, noise: float) -> _Fit:
-        return cls(loadings, noise, _Posterior.of(frames, loadings, noise))
-
-
-def _maximise_parameters(frames: _Frames, posterior: _Posterior) -> tuple[Array, float]:
+def _maximise_parameters(frames: _Frames, posterior: _Fit) -> tuple[Array, float]:
     """Return the loadings and noise of the M-step: Ilin and Raiko 2010, §3.3."""
     latents, q = posterior.latents, posterior.latents.shape[1]
+    # ⟨x xᵀ⟩ of each frame, summed over the frames in which a channel is visible.
     moments = np.einsum("ni,nj->nij", latents, latents) + posterior.covariances[frames.pattern]
     second = np.tensordot(frames.seen.T, moments, 1)
     second[frames.seen.sum(axis=0) == 0.0] = np.eye(q)  # a channel never visible has no loadings
+    # w_d = (Σ ⟨x xᵀ⟩)⁻¹ Σ y_d ⟨x⟩ minimises Σ ⟨(y_d − w_d x)²⟩, whose least value is the residual.
     cross = frames.values.T @ latents
     loadings = np.asarray(np.linalg.solve(second, cross[..., None])[..., 0], dtype=np.float64)
     residual = (frames.values**2).sum() - (loadings * cross).sum()

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import ClassVar, Self
 
 import numpy as np
@@ -32,32 +31,6 @@ from mocapbench.datasets import FrameByChannel, Frames, Mask, Recording, ToyProc
 from mocapbench.datasets.process import draw_gaussian
 
 __all__ = ["Oracle"]
-
-
-@dataclass(frozen=True, eq=False)
-class _Pattern:
-    """Children whose visible entries are the same.
-
-    Parameters
-    ----------
-    entries : ndarray of int, shape (n,)
-        Where the visible entries stand in a curve (D N,), outputs slowest.
-    values : ndarray of shape (R_p, n)
-        Their values, one row for each child.
-    """
-
-    entries: Index
-    values: Array
-
-    @property
-    def size(self) -> int:
-        """Number R_p of children."""
-        return len(self.values)
-
-    @property
-    def mean(self) -> Array:
-        """(n,) their mean."""
-        return np.asarray(self.values.mean(axis=0))
 
 
 class Oracle(Imputer, Synthesiser, Trended):
@@ -149,6 +122,7 @@ class Oracle(Imputer, Synthesiser, Trended):
         groups: dict[bytes, list[Recording]] = defaultdict(list)
         for recording in recordings:
             groups[self._entries(recording, recording.visible).tobytes()].append(recording)
+        # Where the visible entries (n,) of a pattern stand in a curve, and its values (R_p, n).
         self._patterns = [self._pattern(group) for group in groups.values()]
         self._places = {
             recording.name: (p, row)
@@ -156,10 +130,10 @@ class Oracle(Imputer, Synthesiser, Trended):
             for row, recording in enumerate(group)
         }
 
-    def _pattern(self, group: Sequence[Recording]) -> _Pattern:
+    def _pattern(self, group: Sequence[Recording]) -> tuple[Index, Array]:
         entries = self._entries(group[0], group[0].visible)
         values = [recording.values.T[recording.visible.T] for recording in group]
-        return _Pattern(entries, np.stack(values))
+        return entries, np.stack(values)
 
     def _entries(self, recording: Recording, mask: Mask) -> Index:
         """Return where the entries under ``mask`` (N, D) stand in a curve."""
@@ -169,15 +143,16 @@ class Oracle(Imputer, Synthesiser, Trended):
 
     def _condition(self) -> None:
         """Factorise the covariance of the patterns' means."""
-        sizes = [len(pattern.entries) for pattern in self._patterns]
+        sizes = [len(entries) for entries, _ in self._patterns]
         if not sum(sizes):
             raise ValueError("expected visible entries to condition on, got none")
         self._owner = np.repeat(np.arange(len(sizes)), sizes)
-        self._seen = np.concatenate([pattern.entries for pattern in self._patterns])
-        means = np.concatenate([pattern.mean for pattern in self._patterns])
-        replicates = np.array([pattern.size for pattern in self._patterns])[self._owner]
+        self._seen = np.concatenate([entries for entries, _ in self._patterns])
+        means = np.concatenate([values.mean(axis=0) for _, values in self._patterns])
+        replicates = np.array([len(values) for _, values in self._patterns])[self._owner]
         block = np.ix_(self._seen, self._seen)
         same = self._owner[:, None] == self._owner
+        # K_g + δ_pq (K_f + σ² I) / R_p
         covariance = self._parent[block] + np.where(same, self._within[block], 0.0) / replicates
         self._factor = cho_factor(covariance, lower=True)
         self._weights = cho_solve(self._factor, means)
@@ -247,16 +222,17 @@ class Oracle(Imputer, Synthesiser, Trended):
 
     def _conditional(self, p: int, row: int, hidden: Index) -> tuple[Array, Array]:
         """Return mean and variance of the ``hidden`` entries of child ``row`` of pattern ``p``."""
-        pattern = self._patterns[p]
+        entries, values = self._patterns[p]
+        size = len(values)
         within = self._within[np.ix_(hidden, self._seen)] * (self._owner == p)
-        cross = self._parent[np.ix_(hidden, self._seen)] + within / pattern.size
+        cross = self._parent[np.ix_(hidden, self._seen)] + within / size
         mean = cross @ self._weights
         variance = np.diag(self._parent)[hidden] + np.diag(self._within)[hidden]
         variance -= np.sum(cross * cho_solve(self._factor, cross.T).T, axis=1)
 
         # The contribution of the child's deviation from its pattern's mean; zero if R_p = 1.
-        child = self._within[np.ix_(hidden, pattern.entries)]
-        gain = np.linalg.solve(self._within[np.ix_(pattern.entries, pattern.entries)], child.T).T
-        mean += gain @ (pattern.values[row] - pattern.mean)
-        variance -= (1 - 1 / pattern.size) * np.sum(gain * child, axis=1)
+        child = self._within[np.ix_(hidden, entries)]
+        gain = np.linalg.solve(self._within[np.ix_(entries, entries)], child.T).T
+        mean += gain @ (values[row] - values.mean(axis=0))
+        variance -= (1 - 1 / size) * np.sum(gain * child, axis=1)
         return mean, variance

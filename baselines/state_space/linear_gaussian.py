@@ -34,23 +34,15 @@ Sums = tuple[Array, Array, Array, Array]
 """S_yy (…, p, p), S_yx (…, p, m), S_xx (…, m, m) and the number n of frames (…, 1, 1)."""
 
 
-@dataclass(frozen=True)
-class Prior:
-    """The prior of a regression, as frames that nobody saw.
+Prior = tuple[float, float, float]
+"""Frames that nobody saw: their number ν, which weighs the prior of the noise, their residual
+variance s², and the weight λ of coefficients of zero."""
+Priors = tuple[Prior, Prior, Prior]
+"""Of the first state, a regression on 1; of the next state on the state; of each channel on the
+state and 1."""
 
-    Parameters
-    ----------
-    frames : float
-        Their number ν, which weighs the prior of the noise.
-    variance : float
-        Their residual variance s².
-    ridge : float
-        The weight λ of coefficients of zero.
-    """
-
-    frames: float
-    variance: float
-    ridge: float
+PRIORS: Priors = ((10.0, 1.0, 1.0), (1.0, 1e-2, 1e-2), (10.0, 1.0, 1.0))
+"""A recording is one frame of the start, so that a few recordings leave it nearly N(0, I)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,36 +55,25 @@ class Regression:
     @classmethod
     def of(cls, sums: Sums, prior: Prior) -> Regression:
         """Return the regression with the highest posterior density."""
-        yy, yx, xx, count = sums
+        (yy, yx, xx, count), (frames, variance, ridge) = sums, prior
         # B = S_yx (S_xx + λ I)⁻¹
-        ridge = xx + prior.ridge * np.eye(xx.shape[-1])
-        coefficients = transpose_each(np.linalg.solve(ridge, transpose_each(yx)))
+        gram = xx + ridge * np.eye(xx.shape[-1])
+        coefficients = transpose_each(np.linalg.solve(gram, transpose_each(yx)))
         # The residuals, λ B Bᵀ included: S_yy − B S_xy where B minimises.
         residual = yy - coefficients @ transpose_each(yx)
         residual = 0.5 * (residual + transpose_each(residual))
         # V = (residuals + ν s² I) / (n + ν)
-        scale = prior.frames * prior.variance * np.eye(residual.shape[-1])
-        return cls(coefficients, (residual + scale) / (count + prior.frames))
+        scale = frames * variance * np.eye(residual.shape[-1])
+        return cls(coefficients, (residual + scale) / (count + frames))
 
     def log_prior(self, prior: Prior) -> float:
         """Return −½ (ν log |V| + tr V⁻¹(ν s² I + λ B Bᵀ)), summed over the leading axes."""
+        frames, variance, ridge = prior
         _, log_determinant = np.linalg.slogdet(self.covariance)
         squares = self.coefficients @ transpose_each(self.coefficients)
-        scale = prior.frames * prior.variance * np.eye(squares.shape[-1]) + prior.ridge * squares
+        scale = frames * variance * np.eye(squares.shape[-1]) + ridge * squares
         trace = np.trace(np.linalg.solve(self.covariance, scale), axis1=-2, axis2=-1)
-        return -0.5 * float(np.sum(prior.frames * log_determinant + trace))
-
-
-Priors = tuple[Prior, Prior, Prior]
-"""Of the first state, a regression on 1; of the next state on the state; of each channel on the
-state and 1."""
-
-PRIORS: Priors = (
-    Prior(frames=10.0, variance=1.0, ridge=1.0),
-    Prior(frames=1.0, variance=1e-2, ridge=1e-2),
-    Prior(frames=10.0, variance=1.0, ridge=1.0),
-)
-"""A recording is one frame of the start, so that a few recordings leave it nearly N(0, I)."""
+        return -0.5 * float(np.sum(frames * log_determinant + trace))
 
 
 @dataclass(frozen=True, eq=False)

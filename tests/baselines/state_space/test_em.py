@@ -10,10 +10,10 @@ from mocapbench.baselines.state_space.expectation_maximisation import (
     maximise_parameters,
 )
 from mocapbench.baselines.state_space.kalman import filter_states, smooth_states
-from mocapbench.baselines.state_space.linear_gaussian import PRIORS, Prior
+from mocapbench.baselines.state_space.linear_gaussian import PRIORS
 
-VAGUE = Prior(frames=0.1, variance=0.01, ridge=1e-3)
-STRONG = Prior(frames=20.0, variance=2.0, ridge=5.0)
+VAGUE = (0.1, 0.01, 1e-3)
+STRONG = (20.0, 2.0, 5.0)
 
 SIZES = st.fixed_dictionaries(
     {

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from mocapbench.baselines.state_space.linear_gaussian import Prior, Regression
+from mocapbench.baselines.state_space.linear_gaussian import Regression
 
-PRIOR = Prior(frames=3.0, variance=0.5, ridge=0.7)
+PRIOR = FRAMES, VARIANCE, RIDGE = (3.0, 0.5, 0.7)
 
 
 def sums_of(y, x):
@@ -45,11 +45,11 @@ def test_the_prior_counts_as_frames():
     """Frames of the prior added to the data give the fit of the data with the prior."""
     rng = np.random.default_rng(0)
     y, x = rng.normal(size=(6, 1)), rng.normal(size=(6, 2))
-    added_x = np.vstack([x, np.sqrt(PRIOR.ridge) * np.eye(2)])
+    added_x = np.vstack([x, np.sqrt(RIDGE) * np.eye(2)])
     added_y = np.vstack([y, np.zeros((2, 1))])
     coefficients, *_ = np.linalg.lstsq(added_x, added_y, rcond=None)
     residuals = added_y - added_x @ coefficients
-    variance = (np.sum(residuals**2) + 3.0 * 0.5) / (6 + 3)
+    variance = (np.sum(residuals**2) + FRAMES * VARIANCE) / (6 + FRAMES)
     regression = Regression.of(sums_of(y, x), PRIOR)
     np.testing.assert_allclose(regression.coefficients, coefficients.T)
     np.testing.assert_allclose(regression.covariance, [[variance]])

@@ -15,7 +15,7 @@ from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.entries import Entries
-from mocapbench.baselines.gp.solvers.latent_split.independent_parts import IndependentParts
+from mocapbench.baselines.gp.solvers.latent_split.independent_parts import invert_parts
 from mocapbench.baselines.gp.solvers.latent_split.latents import Latents
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
 from mocapbench.baselines.gp.solvers.threads import Mapper
@@ -30,14 +30,18 @@ class Factorisation:
 
     Parameters
     ----------
+    kernel : StationaryKernel
+        The kernel of every component.
     block : Block
         The problem.
     parameters : Parameters
         The parameters at which it is evaluated.
     latents : Latents
         The latent functions.
-    independent : IndependentParts
-        E and F.
+    kernels : ndarray of shape (n_components, m²)
+        U_τ ⊗ k_τ, for the components of all layers of the block.
+    precision : ndarray of shape (D, m, m)
+        F_d = E_d⁻¹, 0 where hidden.
     rooted_gram : tuple of ndarray of shape (N, K)
         G Λ, the rows of each latent function.
     inverse : ndarray of shape (K, K)
@@ -53,10 +57,12 @@ class Factorisation:
         r = z − A Λ u and α = K⁻¹ z = F r at the rows.
     """
 
+    kernel: StationaryKernel
     block: Block
     parameters: Parameters
     latents: Latents
-    independent: IndependentParts
+    kernels: Array
+    precision: Array
     rooted_gram: tuple[Array, ...]
     inverse: Array
     log_determinant: float
@@ -78,28 +84,30 @@ class Factorisation:
         """
         latents, entries = Latents.of(kernel, block, parameters), block.entries
         # F_d, G Λ, S and S⁻¹.
-        independent = IndependentParts.of(kernel, block, parameters, mapper)
-        rooted = _rooted_gram(latents, entries, independent.precision)
+        kernels, precision, log_parts = invert_parts(kernel, block, parameters, mapper)
+        rooted = _rooted_gram(latents, entries, precision)
         inverse = _system(latents, rooted)
         with refuse_singular(parameters):
             log_system = invert(inverse)
         # u = S⁻¹ Λᵀ Aᵀ F z, A Λ u, the residual r and α = F r.
         data = entries.gather_rows(block.data)
-        white = inverse @ whiten(latents, entries, independent.precision @ data)
+        white = inverse @ whiten(latents, entries, precision @ data)
         shared = _sum_shared(latents, entries, white)
         residual = data - np.tensordot(latents.weights.T, shared, axes=1)
         return cls(
+            kernel,
             block,
             parameters,
             latents,
-            independent,
+            kernels,
+            precision,
             rooted,
             inverse,
-            independent.log_determinant + log_system,
+            log_parts + log_system,
             white,
             shared,
             residual,
-            independent.precision @ residual,
+            precision @ residual,
         )
 
     @property

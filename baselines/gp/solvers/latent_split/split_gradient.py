@@ -31,6 +31,11 @@ import numpy as np
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.entries import pick_entries, place_entries
 from mocapbench.baselines.gp.solvers.latent_split.factorisation import Factorisation, project
+from mocapbench.baselines.gp.solvers.latent_split.independent_parts import (
+    collect_gradient,
+    pull_back_parts,
+    stack_slopes,
+)
 from mocapbench.baselines.gp.solvers.threads import Mapper
 from mocapbench.basics.arrays import Array
 
@@ -43,8 +48,16 @@ def split_gradient(split: Factorisation, mapper: Mapper) -> Parameters:
     covariance = _by_pairs(split)
     weights = _weight_gradient(split, covariance)
     # Ē_d of each output, and with it ∂κ, ∂β and the independent parts' term of ∂ log ℓ.
-    gradient = split.independent.gradient(
-        lambda outputs: _independent_adjoint(split, covariance, outputs), mapper
+    gradient = collect_gradient(
+        split.block,
+        split.parameters,
+        *pull_back_parts(
+            split.kernels,
+            stack_slopes(split.kernel, split.block, split.parameters),
+            split.block,
+            lambda outputs: _independent_adjoint(split, covariance, outputs),
+            mapper,
+        ),
     )
     for (name, q, number), by_weight in zip(split.latents.columns, weights, strict=True):
         gradient.layers[name].weights[q, :, number] += by_weight
@@ -76,7 +89,7 @@ def _weight_gradient(split: Factorisation, covariance: Array) -> Array:
     weights = split.latents.weights
     # α_dᵀ Σ_i c_i ⊗ Λ_i u_i, then ⟨F_d, Z_ab + Z_ba⟩ of each pair and output.
     gradient = np.tensordot(split.shared, split.alpha, axes=((1, 2), (1, 2)))
-    overlaps = covariance @ split.independent.precision.reshape(weights.shape[1], -1).T
+    overlaps = covariance @ split.precision.reshape(weights.shape[1], -1).T
     for (a, b), overlap in zip(split.latents.pairs, overlaps, strict=True):
         # Each pair stands for Z_ab and Z_ba, whose inner products with F_d are equal.
         gradient[a] -= 0.5 * split.block.multiplicity * weights[b] * overlap
@@ -92,7 +105,7 @@ def _independent_adjoint(split: Factorisation, covariance: Array, outputs: slice
     adjoint = images.reshape(-1, *entries.shape[1:])
     for d, matrix in zip(range(*outputs.indices(entries.shape[0])), adjoint, strict=True):
         positions = entries.positions[d]
-        precision = pick_entries(split.independent.precision[d], positions)
+        precision = pick_entries(split.precision[d], positions)
         alpha = split.alpha[d, positions]
         # ½ (Σ_r α_d α_dᵀ − ρ (F_d − F_d X_d F_d))
         visible = precision @ pick_entries(matrix, positions) @ precision

@@ -99,7 +99,7 @@ class _SplitPosterior(BlockPosterior):
         for d, cross in enumerate(self._independent_cross(target, times)):
             # T_d, c_d F_d, and the mean T_d u + c_d α_d.
             regression = shared * coefficients[:, d]
-            weighted = cross @ split.independent.precision[d]
+            weighted = cross @ split.precision[d]
             variance[d] -= np.square(regression).sum(axis=1)
             mean[:, d] = (regression @ split.white + cross @ split.alpha[d]).T
             # J_d = T_d − c_d F_d A_d Λ, and the variance.
@@ -128,11 +128,11 @@ class _SplitPosterior(BlockPosterior):
     def _independent_cross(self, target: Target, times: Array) -> Array:
         """Return c, (D, M, m), the covariance of the target's independent parts with the rows."""
         split, entries = self.split, self.split.block.entries
-        cross = np.zeros((split.independent.precision.shape[0], len(times), len(entries.unit)))
+        cross = np.zeros((split.precision.shape[0], len(times), len(entries.unit)))
         lags = np.subtract.outer(times, split.block.times[entries.time])
         for name, factor in split.block.units.items():
             layer = split.parameters.layers[name]
-            kernels = split.independent.kernel.value(lags, layer.lengthscales[:, None, None])
+            kernels = split.kernel.value(lags, layer.lengthscales[:, None, None])
             curves = np.tensordot(layer.kappa.T, kernels, axes=1)
             cross += (factor @ target.weights[name])[entries.unit] * curves
         return cross

@@ -16,7 +16,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
@@ -24,34 +23,12 @@ from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.solvers.block import Block
 from mocapbench.baselines.gp.solvers.solver import refuse_singular
 from mocapbench.baselines.gp.solvers.state_space.state_model import StateModel
-from mocapbench.basics.arrays import Array
+from mocapbench.basics.arrays import Array, Index
 
-__all__ = ["FilterPass", "Innovation", "StateMoments", "predict_state"]
+__all__ = ["FilterPass", "StateMoments", "predict_state"]
 
 StateMoments = tuple[Array, Array]
 """The mean x (s, h) of the state, a column for each data vector, and its covariance P (s, s)."""
-
-
-@dataclass(frozen=True, eq=False)
-class Innovation:
-    """The innovation of the V visible entries of a frame.
-
-    Parameters
-    ----------
-    entries : ndarray of shape (V,)
-        Their indices among the frame's P D entries.
-    whitening : ndarray of shape (V, V)
-        L⁻¹.
-    white : ndarray of shape (V, h)
-        L⁻¹ e.
-    explained : ndarray of shape (V, s)
-        A.
-    """
-
-    entries: NDArray[np.intp]
-    whitening: Array
-    white: Array
-    explained: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,8 +48,14 @@ class FilterPass:
         stationary distribution.
     states : list of tuple of ndarray
         N + 1 of them: before the first frame, after the first, …, after the last.
-    innovations : list of Innovation
-        Those of the N frames.
+    entries : list of ndarray, each of shape (V,)
+        The indices of each frame's visible entries among its P D entries.
+    whitening : list of ndarray, each of shape (V, V)
+        L⁻¹ of each frame.
+    white : list of ndarray, each of shape (V, h)
+        L⁻¹ e of each frame.
+    explained : list of ndarray, each of shape (V, s)
+        A of each frame.
     """
 
     model: StateModel
@@ -80,7 +63,10 @@ class FilterPass:
     parameters: Parameters
     steps: Array
     states: list[StateMoments]
-    innovations: list[Innovation]
+    entries: list[Index]
+    whitening: list[Array]
+    white: list[Array]
+    explained: list[Array]
 
     @classmethod
     def of(cls, kernel: StationaryKernel, block: Block, parameters: Parameters) -> FilterPass:
@@ -96,18 +82,20 @@ class FilterPass:
         steps = model.steps(np.diff(block.times, prepend=-np.inf))
         size, n_vectors = model.size, len(block.data)
         states: list[StateMoments] = [(np.zeros((size, n_vectors)), np.zeros((size, size)))]
-        innovations: list[Innovation] = []
+        innovations = []
         for t, (transition, noise) in enumerate(zip(*steps[:2], strict=True)):
             predicted = predict_state(model, transition, noise, states[-1])
             innovations.append(_innovate(model, block, parameters, predicted, t))
-            states.append(_update_state(predicted, innovations[-1]))
-        return cls(model, block, parameters, steps, states, innovations)
+            _, _, white, explained = innovations[-1]
+            states.append(_update_state(predicted, white, explained))
+        columns = [list(column) for column in zip(*innovations, strict=True)]
+        return cls(model, block, parameters, steps, states, *columns)
 
     @property
     def log_density(self) -> float:
         """The log-density of the block's data."""
-        log_roots = sum(np.log(np.diagonal(frame.whitening)).sum() for frame in self.innovations)
-        squares = sum(np.vdot(frame.white, frame.white) for frame in self.innovations)
+        log_roots = sum(np.log(np.diagonal(whitening)).sum() for whitening in self.whitening)
+        squares = sum(np.vdot(white, white) for white in self.white)
         log_scale = self.block.n_visible * np.log(2.0 * np.pi) - 2.0 * log_roots
         return float(-0.5 * (self.block.multiplicity * log_scale + squares))
 
@@ -123,16 +111,16 @@ def predict_state(
     )
 
 
-def _update_state(predicted: StateMoments, innovation: Innovation) -> StateMoments:
+def _update_state(predicted: StateMoments, white: Array, explained: Array) -> StateMoments:
     """Return the update x + Aᵀ L⁻¹ e, P − Aᵀ A."""
-    (mean, covariance), explained = predicted, innovation.explained
-    return mean + explained.T @ innovation.white, covariance - explained.T @ explained
+    mean, covariance = predicted
+    return mean + explained.T @ white, covariance - explained.T @ explained
 
 
 def _innovate(
     model: StateModel, block: Block, parameters: Parameters, predicted: StateMoments, t: int
-) -> Innovation:
-    """Return the innovation of frame t, given the predicted state x⁻, P⁻."""
+) -> tuple[Index, Array, Array, Array]:
+    """Return the visible entries of frame t, L⁻¹, L⁻¹ e and A, given the predicted x⁻, P⁻."""
     mean, prior = predicted
     # H P⁻ and S = H P⁻ Hᵀ + R of the visible entries.
     entries = np.flatnonzero(block.observed[..., t])
@@ -145,4 +133,4 @@ def _innovate(
     # e = z − H x⁻
     data = block.data[..., t].reshape(len(block.data), -1).T[entries]
     residual = data - model.observe(model.units, mean)[entries]
-    return Innovation(entries, whitening, whitening @ residual, whitening @ cross)
+    return entries, whitening, whitening @ residual, whitening @ cross

@@ -25,9 +25,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mocapbench.baselines.gp.solvers.state_space.filter import FilterPass, Innovation
+from mocapbench.baselines.gp.solvers.state_space.filter import FilterPass
 from mocapbench.baselines.gp.solvers.state_space.state_model import StateModel
-from mocapbench.basics.arrays import Array
+from mocapbench.basics.arrays import Array, Index
 
 __all__ = ["Message", "backward_pass", "carry_back", "no_message"]
 
@@ -54,34 +54,32 @@ def backward_pass(filtered: FilterPass) -> Iterator[tuple[Array, Array, Message]
     """Yield u (V, h), D (V, V) and the message r⁻, N⁻ of every frame, from last to first."""
     model = filtered.model
     after = no_message(model, len(filtered.block.data))
-    steps_into = zip(filtered.innovations, filtered.steps[0], strict=True)
-    for innovation, transition in reversed(list(steps_into)):
-        alpha, precision, before = _smooth_frame(model, innovation, after)
+    for t in reversed(range(len(filtered.white))):
+        alpha, precision, before = _smooth_frame(filtered, t, after)
         yield alpha, precision, before
-        after = carry_back(model, transition, before)
+        after = carry_back(model, filtered.steps[0, t], before)
 
 
-def _smooth_frame(
-    model: StateModel, innovation: Innovation, after: Message
-) -> tuple[Array, Array, Message]:
+def _smooth_frame(filtered: FilterPass, t: int, after: Message) -> tuple[Array, Array, Message]:
     """Return a frame's parts of K⁻¹ z and of K⁻¹, and the message to the time just before it."""
-    whitening, (score, information) = innovation.whitening, after
+    model, entries, whitening = filtered.model, filtered.entries[t], filtered.whitening[t]
+    score, information = after
     # The gain K = Aᵀ L⁻¹, and Kᵀ N.
-    gain = innovation.explained.T @ whitening
+    gain = filtered.explained[t].T @ whitening
     informed = gain.T @ information
     # u = S⁻¹ e − Kᵀ r and D = S⁻¹ + Kᵀ N K.
-    alpha = whitening.T @ innovation.white - gain.T @ score
+    alpha = whitening.T @ filtered.white[t] - gain.T @ score
     precision = whitening.T @ whitening + informed @ gain
     # N⁻ = N − half − halfᵀ with half = Hᵀ Kᵀ N − ½ Hᵀ D H, and r⁻ = r + Hᵀ u.
     half = _observe_adjoint(
-        model, innovation, informed - 0.5 * _observe_adjoint(model, innovation, precision).T
+        model, entries, informed - 0.5 * _observe_adjoint(model, entries, precision).T
     )
-    before = score + _observe_adjoint(model, innovation, alpha), information - half - half.T
+    before = score + _observe_adjoint(model, entries, alpha), information - half - half.T
     return alpha, precision, before
 
 
-def _observe_adjoint(model: StateModel, innovation: Innovation, visible: Array) -> Array:
-    """Return Hᵀ y, (s, k), for the visible entries y (V, k)."""
-    entries = np.zeros((len(model.units) * model.shape[2], visible.shape[1]))
-    entries[innovation.entries] = visible
-    return model.observe_adjoint(model.units, entries)
+def _observe_adjoint(model: StateModel, entries: Index, visible: Array) -> Array:
+    """Return Hᵀ y, (s, k), for the visible entries y (V, k) at their indices (V,)."""
+    frame = np.zeros((len(model.units) * model.shape[2], visible.shape[1]))
+    frame[entries] = visible
+    return model.observe_adjoint(model.units, frame)

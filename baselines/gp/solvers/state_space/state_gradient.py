@@ -45,7 +45,7 @@ def state_gradient(filtered: FilterPass) -> Parameters:
         scales += by_scale
         matrices += by_matrix
         # The diagonal of K̄ at the frame's visible entries: ½ (Σ_r u² − ρ D).
-        noise[..., t].flat[filtered.innovations[t].entries] = 0.5 * (
+        noise[..., t].flat[filtered.entries[t]] = 0.5 * (
             np.square(alpha).sum(axis=1) - block.multiplicity * np.diagonal(precision)
         )
     # From chains to layers, and from K̄ to ∂ log β_d.
