@@ -16,13 +16,17 @@ from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.kriging.channel_process import learn_channel_process, predict_channels
 from mocapbench.baselines.kriging.left_out_gaps import DescribedFrames
-from mocapbench.baselines.kriging.stacked import StackedFrames
+from mocapbench.baselines.kriging.stacked import (
+    describe_by_channels,
+    stack_frames,
+    weigh_channels,
+)
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
 from mocapbench.baselines.rehearsal.checkable import OneByOne
 from mocapbench.baselines.rehearsal.rehearsing import rehearsed
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.basics.gaps import hidden_together, runs
-from mocapbench.datasets import Recording
+from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["ChannelKriging"]
 
@@ -70,7 +74,7 @@ class ChannelKriging(OneByOne, Imputer, Inductive):
     --------
     >>> import numpy as np
     >>> from mocapbench.baselines import ChannelKriging
-    >>> from mocapbench.datasets import Recording
+    >>> from mocapbench.datasets import FrameByChannel, Recording
     >>> times = np.arange(60) / 30
     >>> angle = 2 * np.pi * np.arange(60) / 20
     >>> values = np.column_stack([np.sin(angle), np.cos(angle)])
@@ -116,23 +120,23 @@ class ChannelKriging(OneByOne, Imputer, Inductive):
     def _claimed(self, recording: Recording) -> Prediction:
         pooled = pool(self.recordings_, [recording])
         scaling = Standardisation.of(pooled)
-        frames = StackedFrames.of([scaling.apply(each) for each in pooled])
+        stacked = stack_frames([scaling.apply(each) for each in pooled])
         own = [each.name for each in pooled].index(recording.name)
         mean, variance = np.zeros_like(recording.values), np.ones_like(recording.values)
         for channels in hidden_together(~recording.visible):
             hidden = ~recording.visible[:, channels[0]]
             place = np.ix_(np.flatnonzero(hidden), channels)
             duration = float(np.median([len(gap) + 1 for gap in runs(hidden)]))
-            mean[place], variance[place] = _moments(frames, own, channels, duration)
+            mean[place], variance[place] = _moments(*stacked, own, channels, duration)
         mean, variance = scaling.mean + scaling.scale * mean, scaling.scale**2 * variance
         return Prediction.around(recording, mean, variance)
 
 
 def _moments(
-    frames: StackedFrames, own: int, channels: Index, duration: float
+    values: FrameByChannel, frames: DescribedFrames, own: int, channels: Index, duration: float
 ) -> tuple[Array, Array]:
     """Return the mean and variance of ``channels`` where a recording hides them."""
-    hidden = np.isnan(frames.values[:, channels])
+    hidden = np.isnan(values[:, channels])
     known = np.flatnonzero(~hidden.any(axis=1))
     if not len(known):
         raise ValueError(
@@ -142,17 +146,12 @@ def _moments(
             f"channel alone, such as pchip"
         )
     wanted = np.flatnonzero(hidden[:, 0] & (frames.recording == own))
-    others = np.setdiff1d(np.arange(frames.values.shape[1]), channels)
-    weights = frames.relevance(known, channels, others)
-    rows = np.concatenate([known, wanted])
-    described = DescribedFrames(
-        frames.describe_windows(rows, others, weights), frames.place[rows], frames.recording[rows]
+    others = np.setdiff1d(np.arange(values.shape[1]), channels)
+    weights = weigh_channels(values[known], frames.description[known], channels, others)
+    given, sought = (
+        describe_by_channels(frames.at(some), others, weights) for some in (known, wanted)
     )
-    given, wanted_frames = (
-        described.at(np.arange(len(known))),
-        described.at(np.arange(len(known), len(rows))),
-    )
-    values = frames.values[np.ix_(known, channels)]
-    spread = np.nanmean(frames.values[:, channels] ** 2, axis=0)
-    process = learn_channel_process(given, values, spread, own, duration)
-    return predict_channels(given, values, wanted_frames, *process)
+    shown = values[np.ix_(known, channels)]
+    spread = np.nanmean(values[:, channels] ** 2, axis=0)
+    process = learn_channel_process(given, shown, spread, own, duration)
+    return predict_channels(given, shown, sought, *process)

@@ -1,8 +1,21 @@
-"""A fitted Gaussian process as a value: what it says of curves, given its recordings.
+r"""A fitted Gaussian process as a value: what it says of curves, given its recordings.
 
 A curve is a sum of independent terms (`Target`), each given by one block: that of a
 recording, of the trend, or of a group in between (`Reduction`). See docs/mathematics/prediction.md,
 section 8.
+
+Conditioning is linear in the data, so posterior means of suitable data vectors are all that is
+needed of a solver for joint posteriors (docs/mathematics/prediction.md, sections 8 and 9). A target
+of a block, with values :math:`f_*` at the requested times and cross covariance :math:`K_*` with the
+visible entries, has
+
+* the posterior covariance :math:`\tfrac{\rho}{h}(K_{**} - K_* K^{-1} K_*^\top)`, where
+  :math:`K_* K^{-1} K_*^\top` is the posterior mean given the columns of :math:`K_*^\top` as data;
+* the posterior draw :math:`\sqrt{\rho/h}\, \tilde f_* + K_* K^{-1}(z - \sqrt{\rho/h}\, \tilde z)`,
+  where :math:`(\tilde z, \tilde f_*)` is a draw of the data and the target from the prior.
+
+The second is Matheron's rule (Wilson et al. 2021, *Pathwise Conditioning of Gaussian Processes*,
+JMLR 22, Theorem 1). It needs draws of the layers at the times, but no joint covariance.
 """
 
 from __future__ import annotations
@@ -17,7 +30,6 @@ import numpy as np
 from joblib import effective_n_jobs
 
 from mocapbench.baselines.common.scaling import Standardisation
-from mocapbench.baselines.gp.joint import TermPosterior
 from mocapbench.baselines.gp.prior.kernels import StationaryKernel
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.prior.sampling import draw_layer
@@ -119,7 +131,7 @@ class FittedProcess:
         scale = np.repeat(self.scaling.scale, len(times))
         total = np.zeros((len(scale), len(scale)))
         for term in curve:
-            total += self._joint(term, times).covariance()
+            total += self._term_covariance(term, times)
         return 0.5 * (total + total.T) * np.outer(scale, scale)
 
     def draw(
@@ -132,7 +144,7 @@ class FittedProcess:
         """
         total = np.zeros((n_samples, len(times), len(self.scaling.scale)))
         for term in curve:
-            total += self._joint(term, times).draw(term.column, n_samples, rng)
+            total += self._draw_term(term, times, n_samples, rng)
         return self.scaling.restore(total)
 
     def draw_recordings(
@@ -161,9 +173,76 @@ class FittedProcess:
             variance += term_variance.T
         return self.scaling.restore(mean), variance * self.scaling.scale**2
 
-    def _joint(self, term: Target, times: Frames) -> TermPosterior:
+    def _term_covariance(self, term: Target, times: Frames) -> Array:
+        """Return the posterior covariance of a term, (D M, D M), outputs slowest."""
+        block, size = self.reduction.blocks[term.block], len(self.scaling.scale) * len(times)
+        # K_**, and (ρ / h) (K_** − K_* K⁻¹ K_*ᵀ)
+        prior = np.zeros((size, size))
+        for name in block.units:
+            covariance = self._layer_between(name, times, times).reshape(size, size)
+            prior += term.prior_scale(name) * covariance
+        explained = self._mean_given(self._cross(term, times), term, times).reshape(size, size)
+        return np.asarray(block.variance_scale * (prior - explained))
+
+    def _draw_term(
+        self, term: Target, times: Frames, n_samples: int, rng: np.random.Generator
+    ) -> Array:
+        """Return posterior draws of a term, (n, M, D)."""
+        block = self.reduction.blocks[term.block]
+        # √(ρ/h) f̃_* + K_* K⁻¹ (z − √(ρ/h) z̃)
+        data, curves = self._simulate(term, times, n_samples, rng)
+        scale = np.sqrt(block.variance_scale)
+        correction = self._mean_given(block.data[term.column] - scale * data, term, times)
+        return np.asarray(scale * curves + correction.transpose(0, 2, 1))
+
+    def _mean_given(self, data: Array, term: Target, times: Frames) -> Array:
+        """Return K_* K⁻¹ z for data vectors (k, P, D, N), (k, D, M)."""
         block, solver = self.reduction.blocks[term.block], self.solvers[term.block]
-        return TermPosterior(block, solver, self.parameters, term, times)
+        posterior = solver.condition(replace(block, data=data), self.parameters)
+        mean, _ = posterior.predict(term, times)
+        return mean
+
+    def _cross(self, term: Target, times: Frames) -> Array:
+        """Return the rows of K_* as data vectors, (D M, P, D, N), 0 where hidden."""
+        block = self.reduction.blocks[term.block]
+        cross = np.zeros((block.observed.shape[1] * len(times), *block.observed.shape))
+        for name, factor in block.units.items():
+            covariance = self._layer_between(name, times, block.times)
+            by_row = covariance.reshape(len(cross), 1, *block.observed.shape[1:])
+            cross += (factor @ term.weights[name])[:, None, None] * by_row
+        return np.where(block.observed, cross, 0.0)
+
+    def _simulate(
+        self, term: Target, times: Frames, n_samples: int, rng: np.random.Generator
+    ) -> tuple[Array, Array]:
+        """Return joint prior draws of data vectors (n, P, D, N) and of the target (n, M, D)."""
+        block = self.reduction.blocks[term.block]
+        # Drawn together, so that equal times get equal values.
+        at, n_entries = np.concatenate([block.times, times]), len(block.times)
+        # The noise of the data, then the layers' draws in data and target.
+        noise = np.sqrt(self.parameters.noise[:, None] * block.noise_scale)
+        data = noise * rng.standard_normal((n_samples, *noise.shape))
+        curves = np.zeros((n_samples, len(times), noise.shape[1]))
+        for name, factor in block.units.items():
+            draws = self._draw_layer(name, at, n_samples * factor.shape[1], rng)
+            draws = draws.reshape(n_samples, factor.shape[1], *draws.shape[1:])
+            data += np.einsum("pi,nitd->npdt", factor, draws[:, :, :n_entries])
+            curves += np.einsum("i,nitd->ntd", term.weights[name], draws[:, :, n_entries:])
+        for name, variance in term.independent_variance.items():
+            draws = self._draw_layer(name, at, n_samples, rng)
+            curves += np.sqrt(variance) * draws[:, n_entries:]
+        return np.where(block.observed, data, 0.0), curves
+
+    def _draw_layer(
+        self, name: str, times: Frames, n_samples: int, rng: np.random.Generator
+    ) -> Array:
+        """Return (n, M, D) draws of a layer."""
+        return draw_layer(self.kernel, self.parameters.layers[name], times, n_samples, rng)
+
+    def _layer_between(self, name: str, times: Frames, others: Frames) -> Array:
+        """Return Σ_q B_q ⊗ k_q of a layer between times (M,) and others (N,), (D, M, D, N)."""
+        lags = np.subtract.outer(times, others)
+        return self.parameters.layers[name].covariance(self.kernel, lags)
 
 
 Trend = Callable[[FittedProcess, Frames, np.random.Generator], FrameByChannel]

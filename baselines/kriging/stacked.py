@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Self
+from dataclasses import replace
 
 import numpy as np
 from sklearn.linear_model import Ridge
 
 from mocapbench.baselines.common.recordings import interpolate_channels, stack
+from mocapbench.baselines.kriging.left_out_gaps import DescribedFrames
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.datasets import FrameByChannel, Recording
 
-__all__ = ["StackedFrames"]
+__all__ = ["describe_by_channels", "stack_frames", "weigh_channels"]
 
 
 _BESIDE = np.array([-8, -4, 0, 4, 8])
@@ -23,64 +23,63 @@ _RIDGE = 0.01
 _LEAST_RELEVANCE = 1e-3
 
 
-@dataclass(frozen=True, eq=False)
-class StackedFrames:
-    """The M frames of several recordings, one recording below the other.
+def stack_frames(recordings: Sequence[Recording]) -> tuple[FrameByChannel, DescribedFrames]:
+    """Return the M frames of several recordings with zero mean, one recording below the other.
+
+    Returns
+    -------
+    values : ndarray of shape (M, D)
+        NaN where hidden.
+    frames : DescribedFrames
+        By windows (M, W, D): each frame with W − 1 others before and after it, hidden entries
+        interpolated over time. Zero stands for a channel never visible in a recording. Their times
+        are their numbers in it.
+    """
+    lengths = [len(recording.times) for recording in recordings]
+    frames = DescribedFrames(
+        np.concatenate([_windows(recording) for recording in recordings]),
+        np.concatenate([np.arange(length) for length in lengths]),
+        np.repeat(np.arange(len(recordings)), lengths),
+    )
+    return stack(recordings), frames
+
+
+def describe_by_channels(
+    frames: DescribedFrames, channels: Index, weights: Array
+) -> DescribedFrames:
+    """Return n frames by their windows (n, W C) in some channels, times weights (C,).
+
+    They are divided by the root of W C: squared distances are means. One zero stands for no
+    channels.
+    """
+    n_frames = len(frames.times)
+    if not len(channels):
+        return replace(frames, description=np.zeros((n_frames, 1)))
+    windows = frames.description[:, :, channels] * weights
+    description = windows.reshape(n_frames, -1) / np.sqrt(windows[0].size)
+    return replace(frames, description=description)
+
+
+def weigh_channels(values: FrameByChannel, windows: Array, channels: Index, others: Index) -> Array:
+    """Return how much each of the others says of channels, in frames that show these: (C,).
+
+    It is the root of the mean squared coefficients of ridge regression, such that its mean
+    square is 1.
 
     Parameters
     ----------
-    values : ndarray of shape (M, D)
-        NaN where hidden.
-    windows : ndarray of shape (M, W, D)
-        Each frame with W − 1 others before and after it, hidden entries interpolated over time.
-    recording : ndarray of int, shape (M,)
-        The number of each frame's recording.
-    place : ndarray of int, shape (M,)
-        The number of each frame in its recording.
+    values : ndarray of shape (n, D)
+    windows : ndarray of shape (n, W, D)
+        As in `stack_frames`.
+    channels, others : ndarray of int
     """
-
-    values: FrameByChannel
-    windows: Array
-    recording: Index
-    place: Index
-
-    @classmethod
-    def of(cls, recordings: Sequence[Recording]) -> Self:
-        """Stack recordings with zero mean; it stands for a channel never visible in one."""
-        lengths = [len(recording.times) for recording in recordings]
-        return cls(
-            stack(recordings),
-            np.concatenate([_windows(recording) for recording in recordings]),
-            np.repeat(np.arange(len(recordings)), lengths),
-            np.concatenate([np.arange(length) for length in lengths]),
-        )
-
-    def describe_windows(self, frames: Index, channels: Index, weights: Array) -> Array:
-        """Return the windows (n, W C) of frames in some channels, times weights (C,).
-
-        They are divided by the root of W C: squared distances are means. One zero stands for no
-        channels.
-        """
-        if not len(channels):
-            return np.zeros((len(frames), 1))
-        weighted = self.windows[np.ix_(frames, np.arange(len(_BESIDE)), channels)] * weights
-        return np.asarray(weighted.reshape(len(frames), -1) / np.sqrt(weighted[0].size))
-
-    def relevance(self, known: Index, channels: Index, others: Index) -> Array:
-        """Return how much each of the others says of channels, in the frames known: (C,).
-
-        It is the root of the mean squared coefficients of ridge regression, such that its mean
-        square is 1.
-        """
-        if not len(others):
-            return np.ones(0)
-        middle = self.windows[known, len(_BESIDE) // 2]
-        ridge = Ridge(alpha=_RIDGE * len(known)).fit(
-            middle[:, others], self.values[known][:, channels]
-        )
-        coefficients = ridge.coef_.reshape(len(channels), -1)
-        relevance = np.sqrt((coefficients**2).mean(axis=0)) + _LEAST_RELEVANCE
-        return np.asarray(relevance / np.sqrt((relevance**2).mean()))
+    if not len(others):
+        return np.ones(0)
+    middle = windows[:, len(_BESIDE) // 2]
+    ridge = Ridge(alpha=_RIDGE * len(values)).fit(middle[:, others], values[:, channels])
+    coefficients = ridge.coef_.reshape(len(channels), -1)
+    relevance = np.sqrt((coefficients**2).mean(axis=0)) + _LEAST_RELEVANCE
+    return np.asarray(relevance / np.sqrt((relevance**2).mean()))
 
 
 def _windows(recording: Recording) -> Array:

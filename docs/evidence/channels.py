@@ -22,7 +22,13 @@ from unittest.mock import patch
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines import ChannelKriging, CubicSplineImputer, MakimaImputer, Prediction
+from mocapbench.baselines import (
+    ChannelKriging,
+    CubicSplineImputer,
+    MakimaImputer,
+    Prediction,
+    channel_kriging,
+)
 from mocapbench.baselines.kriging import channel_process, left_out_gaps, stacked
 from mocapbench.baselines.kriging.channel_process import TYPICAL
 from mocapbench.benchmark.tasks.marker_gaps import LIMBS
@@ -65,21 +71,22 @@ def without(place: int) -> Array:
     return np.where(np.arange(len(TYPICAL)) == place, -12.0, TYPICAL)
 
 
-def alike(frames: stacked.StackedFrames, known: Array, channels: Array, others: Array) -> Array:
+def alike(values: Array, windows: Array, channels: Array, others: Array) -> Array:
     """Return the same relevance for all channels."""
-    del frames, known, channels
+    del values, windows, channels
     return np.ones(len(others))
 
 
-PROCESS, LEARNING, STACKED = (m.__name__ for m in (channel_process, left_out_gaps, stacked))
+MODULES = (channel_process, left_out_gaps, stacked, channel_kriging)
+PROCESS, LEARNING, STACKED, MODEL = (m.__name__ for m in MODULES)
 CHANGES: Mapping[str, Change] = {
     "as it is": {},
     "parameters fixed at the medians": {f"{LEARNING}._STEPS": 0},
     "… and all channels count alike": {
         f"{LEARNING}._STEPS": 0,
-        f"{STACKED}.StackedFrames.relevance": alike,
+        f"{MODEL}.weigh_channels": alike,
     },
-    "all channels count alike": {f"{STACKED}.StackedFrames.relevance": alike},
+    "all channels count alike": {f"{MODEL}.weigh_channels": alike},
     "no linear part": {f"{PROCESS}.TYPICAL": without(1)},
     "no part of a recording's own": {f"{PROCESS}.TYPICAL": without(2)},
     "no drift": {f"{PROCESS}.TYPICAL": without(3)},
