@@ -1,5 +1,6 @@
 from .aligned_window import AlignedWindow
 from .best_of import BestOf
+from .calibrated import Calibrated
 from .channel_kriging import ChannelKriging
 from .control import Control
 from .cpm import CPM
@@ -79,6 +80,7 @@ __all__ = [
     "Aligner",
     "BestOf",
     "Blender",
+    "Calibrated",
     "ChannelKriging",
     "Clusterer",
     "Control",

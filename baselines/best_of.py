@@ -1,4 +1,4 @@
-"""Several models, averaged with the weights that erred least in rehearsals of the gaps at hand."""
+"""Several models, averaged with the weights that err least in copies of the gaps at hand."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.choosing.candidates import LAST_RESORT, FittedCandidates
+from mocapbench.baselines.choosing.held_out_errors import HeldOutErrors, Products
 from mocapbench.baselines.choosing.parts import parts_of
-from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
 from mocapbench.baselines.common.checks import check_channels, check_recordings, check_spread
 from mocapbench.baselines.common.recordings import by_name
@@ -55,20 +55,20 @@ class BestOf(Imputer, Inductive):
     from the recordings, are left out (``left_out_`` has why). ``mohgp`` takes
     part where a recording given to `fit` has hidden entries, as where those to fill are among them,
     and all are few and small: three walks of 90 frames and 39 channels, which take a minute. It
-    keeps its parameters in rehearsals. The seed of ``fam`` is fixed, so that nothing is random.
+    keeps its parameters where gaps are held out. The seed of ``fam`` is fixed: nothing is random.
 
     Parameters
     ----------
     shrinkage : float, default=0.5
-        How far the correlations between candidates' errors are moved from those in rehearsals, at
-        0, towards one, at 1, where the best candidate has all the weight.
+        How far the correlations between candidates' errors are moved from those held out, at 0,
+        towards one, at 1, where the best candidate has all the weight.
 
     Attributes
     ----------
     channels_, units_ : tuple of D str
         The channels of the recordings given to `fit`, and their units.
     recordings_ : tuple of Recording
-        The recordings given to `fit`, by which candidates are rehearsed.
+        The recordings given to `fit`, of which some are held out.
     candidates_ : FittedCandidates
         The candidates, fitted to them.
     left_out_ : mapping of str to str
@@ -138,18 +138,18 @@ class BestOf(Imputer, Inductive):
         """
         return [
             self._weights(
-                self._sources(self._rehearsals(recording), self.candidates_.means(recording))
+                self._sources(self._hold_out(recording), self.candidates_.means(recording))
             )
             for recording in self._check_recordings(recordings)
         ]
 
     def _sources(
-        self, rehearsals: Rehearsals, names: Container[str]
+        self, errors: HeldOutErrors, names: Container[str]
     ) -> Mapping[str, Sequence[Products]]:
         """Return the sources of evidence on each part of the gaps."""
         return {
-            name: among(evidence(rehearsals, part) or evidence(rehearsals, part.widely), names)
-            for name, part in parts_of(rehearsals.given).items()
+            name: among(evidence(errors, part) or evidence(errors, part.widely), names)
+            for name, part in parts_of(errors.given).items()
         }
 
     def _weights(self, sources: Mapping[str, Sequence[Products]]) -> pd.DataFrame:
@@ -172,15 +172,15 @@ class BestOf(Imputer, Inductive):
         check_channels(recordings, self.channels_, self.units_)
         return recordings
 
-    def _rehearsals(self, recording: Recording) -> Rehearsals:
-        return Rehearsals(self.recordings_, self.candidates_, recording)
+    def _hold_out(self, recording: Recording) -> HeldOutErrors:
+        return HeldOutErrors(self.recordings_, self.candidates_, recording)
 
     def _mixture(self, recording: Recording) -> Prediction:
         filled = self.candidates_.means(recording)
         if LAST_RESORT not in filled:  # it says what nothing can fill
             return self.candidates_.models[LAST_RESORT].impute([recording])[0]
-        rehearsals = self._rehearsals(recording)
-        sources = self._sources(rehearsals, filled)
+        held_out = self._hold_out(recording)
+        sources = self._sources(held_out, filled)
         weights = self._weights(sources)
         weights = weights[(weights > 0.0).any(axis=1)]
         errors = pd.DataFrame({part: expected_errors(each) for part, each in sources.items()})
@@ -189,7 +189,7 @@ class BestOf(Imputer, Inductive):
         predictions = [filled_by[name] for name in weights.index]
         shares, expected = (_spread_over_entries(table, recording) for table in (weights, errors))
         means = np.stack([prediction.mean for prediction in predictions])
-        expected = expected * rehearsals.scale**2
+        expected = expected * held_out.scale**2
         variances = np.stack(list(map(_variance_or_expected, predictions, expected)))
         mean = (shares * means).sum(axis=0)
         variance = (shares * (variances + (means - mean) ** 2)).sum(axis=0)

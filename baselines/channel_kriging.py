@@ -11,7 +11,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from mocapbench.baselines.common.checks import check_recordings, pool
+from mocapbench.baselines.common.checks import check_given, check_recordings, pool
 from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.kriging.channel_process import learn_channel_process, predict_channels
@@ -22,8 +22,6 @@ from mocapbench.baselines.kriging.stacked import (
     weigh_channels,
 )
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.checkable import OneByOne
-from mocapbench.baselines.rehearsal.rehearsing import rehearsed
 from mocapbench.basics.arrays import Array, Index
 from mocapbench.basics.gaps import hidden_together, runs
 from mocapbench.datasets import FrameByChannel, Recording
@@ -31,7 +29,7 @@ from mocapbench.datasets import FrameByChannel, Recording
 __all__ = ["ChannelKriging"]
 
 
-class ChannelKriging(OneByOne, Imputer, Inductive):
+class ChannelKriging(Imputer, Inductive):
     r"""Predict hidden channels from the visible ones around a frame, by a Gaussian process.
 
     A frame x of recording r at time t is described by the visible channels in it and in the frames
@@ -52,8 +50,7 @@ class ChannelKriging(OneByOne, Imputer, Inductive):
     Channels hidden in the same frames are filled together, with parameters of their own; where
     others are hidden besides, these are interpolated over time for the comparison.
 
-    Variances are multiplied by what trials in the recording, and training recordings in its place,
-    show (``docs/calibration.md``). Time is counted in frames. The model has no parameters to
+    Time is counted in frames. The model has no parameters to
     choose: the medians of their priors, the ridge and the window are those with which limbs were
     filled best in recordings that are in no test (``docs/results/filling.md``).
 
@@ -89,6 +86,7 @@ class ChannelKriging(OneByOne, Imputer, Inductive):
     family: ClassVar[str] = "Across channels"
 
     max_frames = 3000
+    learns_in_fit = False
 
     def fit(self, recordings: Sequence[Recording]) -> Self:
         """Keep the recordings.
@@ -105,19 +103,16 @@ class ChannelKriging(OneByOne, Imputer, Inductive):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return each recording filled, independently of the others given here.
 
-        Variances are those claimed, times the mean of two ratios of squared errors to them: in
-        trials on the recording's visible entries, and in training recordings that have its gaps.
-
         Raises
         ------
         ValueError
             If channels differ, a channel is visible neither in a recording nor in those given to
             `fit`, or channels that are hidden together are visible together nowhere.
         """
-        self._check_given(recordings)
-        return rehearsed(self, recordings, learnt_from=self.recordings_)
+        check_given(self, recordings)
+        return [self._fill_recording(recording) for recording in recordings]
 
-    def _claimed(self, recording: Recording) -> Prediction:
+    def _fill_recording(self, recording: Recording) -> Prediction:
         pooled = pool(self.recordings_, [recording])
         scaling = Standardisation.of(pooled)
         stacked = stack_frames([scaling.apply(each) for each in pooled])

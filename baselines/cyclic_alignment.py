@@ -19,6 +19,7 @@ from mocapbench.baselines.alignment.new_motion import blend_cycles, draw_sequenc
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.alignment.restarts import restart_em
 from mocapbench.baselines.common.ascent import Ascent
+from mocapbench.baselines.common.checks import check_given
 from mocapbench.baselines.common.validation import (
     check_sampling,
 )
@@ -30,8 +31,6 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
-from mocapbench.baselines.rehearsal.checkable import Widened
-from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.basics.arrays import Array
 from mocapbench.basics.numbers import real_numbers
 from mocapbench.datasets import FrameByChannel, Frames, Recording
@@ -39,7 +38,7 @@ from mocapbench.datasets import FrameByChannel, Frames, Recording
 __all__ = ["CyclicAlignment"]
 
 
-class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthesiser):
+class CyclicAlignment(CycleAligner, Imputer, Inductive, Blender, Synthesiser):
     r"""A cycle for each style around a common cycle, warped in time to fit each recording.
 
     Each recording has one style. Its frames follow that style's cycle of M states through a cyclic
@@ -201,28 +200,21 @@ class CyclicAlignment(CycleAligner, Widened, Imputer, Inductive, Blender, Synthe
         empty, also from a new style for this recording alone; the run with the higher bound is
         kept. The errors of a frame's visible entries then correct its hidden ones, by the
         covariance of the errors of all recordings. The result is the mixture over all runs of
-        `fit`, with equal weights: the bound does not rank their errors. Its variances are widened
-        by trials on the recording's visible entries (``docs/calibration.md``), which the run with
-        the highest bound fills alone.
+        `fit`, with equal weights: the bound does not rank their errors.
 
         Raises
         ------
         ValueError
             If channels differ.
         """
-        self._check_fitted(recordings)
-        return widened(self, recordings)
-
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictions of `impute`, with the variances that the model itself claims."""
-        self._check_fitted(recordings)
+        check_given(self, recordings)
         states = [run.state for run in self.runs_]
         return [self._mixture(recording, states) for recording in recordings]
 
-    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
-        """Return what the run with the highest bound claims, at a share of the cost of all."""
-        self._check_fitted(trials)
-        return [self._mixture(trial, [self.state_]) for trial in trials]
+    def impute_held_out(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return what the run with the highest bound predicts, at a share of the cost of all."""
+        check_given(self, recordings)
+        return [self._mixture(recording, [self.state_]) for recording in recordings]
 
     def sample(
         self, times: Frames, n_samples: int, random_state: int | np.random.Generator

@@ -9,7 +9,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.baselines.common.checks import check_recordings
+from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import check_count, check_positive, check_seed
@@ -31,8 +31,6 @@ from mocapbench.baselines.functional.phases import (
     shift_together,
 )
 from mocapbench.baselines.protocols import Aligner, Imputer, Inductive, Prediction, StatePath
-from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning
-from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Recording
 
@@ -43,7 +41,7 @@ _SAME = 1.0 + 1e-9
 """Objectives whose ratio is below it are the same but for rounding."""
 
 
-class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
+class FAM(Imputer, Inductive, Aligner):
     r"""A smooth mean cycle, and a few components by which single cycles differ from it.
 
     A recording is folded at the length of cycle with the highest signal-to-noise ratio, and shifted
@@ -192,17 +190,14 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
 
         A recording takes the length of cycle and the shift at which its visible entries are closest
         to the reference curve. The length is at most a quarter beyond those of the fitted ones.
-        Variances are checked by trials on the recording's visible entries, and those of channels
-        that are hidden throughout by training recordings in its place, too
-        (``docs/calibration.md``).
 
         Raises
         ------
         ValueError
             If channels differ, or a recording has no frame.
         """
-        self._check_given(recordings)
-        return widened(self, recordings, learnt_from=self.recordings_)
+        check_given(self, recordings)
+        return [self._fill_recording(recording) for recording in recordings]
 
     def align(self, recordings: Sequence[Recording]) -> list[StatePath]:
         """Return the state of each frame of recordings, which are placed as by `impute`.
@@ -212,7 +207,7 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
         ValueError
             If channels differ, or a recording has no frame.
         """
-        self._check_given(recordings)
+        check_given(self, recordings)
         return [self._states(self._place_recording(recording)) for recording in recordings]
 
     def _shift_together(
@@ -267,7 +262,7 @@ class FAM(OneByOne, Relearning, Imputer, Inductive, Aligner):
     def _place_recording(self, recording: Recording) -> Array:
         return place_recording(self.scaling_.apply(recording), self.reference_, self.periods_)
 
-    def _claimed(self, recording: Recording) -> Prediction:
+    def _fill_recording(self, recording: Recording) -> Prediction:
         scaled = self.scaling_.apply(recording)
         curves, _ = cut_cycles([scaled], [self._place_recording(recording)])
         statistics = CurveStatistics.of(curves, self.n_harmonics)

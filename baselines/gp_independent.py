@@ -1,8 +1,7 @@
 r"""One Gaussian process for each channel, with nothing shared between channels or recordings.
 
 The parameters of a channel are learnt from all recordings, as independent draws. The prediction of
-a recording uses that recording alone. Only by how much `impute` widens variances do channels tell
-of each other. A model that does not outperform it gains nothing from other
+a recording uses that recording alone. A model that does not outperform it gains nothing from other
 channels or recordings.
 """
 

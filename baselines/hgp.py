@@ -2,9 +2,8 @@ r"""The hierarchical Gaussian process of Hensman et al., one for each channel (t
 
 Every recording is a child of one parent: :math:`g \sim \mathcal{GP}(0, k_g)`,
 :math:`f_r \sim \mathcal{GP}(g, k_f)`, :math:`y_r = f_r + \varepsilon_r` (thesis eq. 5), or of a
-group that is a child of the parent (eq. 8). Channels share nothing but by how much `impute` widens
-variances; unlike `MOHGP` it has no
-coregionalisation.
+group that is a child of the parent (eq. 8). Channels share nothing; unlike `MOHGP` it
+has no coregionalisation.
 
 J. D. Gil López, *Hierarchical Multiple Output Gaussian Processes for Human Motion Data*, MSc
 thesis, Universidad Tecnológica de Pereira, 2017, is cited as the thesis.

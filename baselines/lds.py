@@ -9,7 +9,7 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.checks import check_recordings
+from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.baselines.common.recordings import by_name
 from mocapbench.baselines.common.scaling import Standardisation
@@ -21,8 +21,6 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
-from mocapbench.baselines.rehearsal.checkable import Relearning
-from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.baselines.state_space.expectation_maximisation import (
     expectation_maximisation,
     initial_states,
@@ -36,12 +34,13 @@ from mocapbench.baselines.state_space.linear_gaussian import (
     draw_sequences,
     entry_moments,
 )
+from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Frames, Recording
 
 __all__ = ["LDS"]
 
 
-class LDS(Relearning, Imputer, Inductive, Synthesiser):
+class LDS(Imputer, Inductive, Synthesiser):
     r"""A few hidden states that move linearly over time, and channels linear in them.
 
     .. math:: x_{t+1} = A x_t + w_t, \qquad y_t = C x_t + d + v_t,
@@ -148,31 +147,25 @@ class LDS(Relearning, Imputer, Inductive, Synthesiser):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return mean and variance of the hidden entries given the visible ones of each recording.
 
-        Variances are those of the smoother, checked by trials on the recording's visible entries,
-        and those of channels that are hidden throughout by training recordings in its place, too
-        (``docs/calibration.md``).
+        They are those of the smoother.
 
         Raises
         ------
         ValueError
             If channels differ.
         """
-        self._check_given(recordings)
-        return widened(self, recordings, learnt_from=self.recordings_)
-
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictions of `impute`, with the variances that the model itself claims."""
-        self._check_given(recordings)
+        check_given(self, recordings)
         return self._smooth_recordings(recordings, self.parameters_)
 
-    def least_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return what it claims with as much noise as the entries that it has learnt from show.
+    def least_variances(self, recordings: Sequence[Recording]) -> list[Array]:
+        """Return the variances (N, D) with as much noise as the entries learnt from show.
 
         The prior adds ten frames that are all noise. Where there is little of it, most of the
-        claim is that prior.
+        predicted variance is that prior.
         """
-        self._check_given(recordings)
-        return self._smooth_recordings(recordings, self._with_noise_shown) if recordings else []
+        check_given(self, recordings)
+        predictions = self._smooth_recordings(recordings, self._with_noise_shown)
+        return [np.asarray(prediction.variance) for prediction in predictions]
 
     @cached_property
     def _with_noise_shown(self) -> StateSpaceParameters:

@@ -27,8 +27,7 @@ __all__ = ["LMCIndependent"]
 class LMCIndependent(GaussianProcess):
     r"""A Gaussian process over all channels, of which recordings are independent draws.
 
-    `impute` conditions each recording on its own visible entries, with variances that they bear
-    out (`as_claimed` has the posterior itself). `sample` draws from the prior.
+    `impute` conditions each recording on its own visible entries. `sample` draws from the prior.
 
     Notes
     -----

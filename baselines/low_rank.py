@@ -11,12 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines.common.ascent import ascend
-from mocapbench.baselines.common.checks import check_recordings, check_spread
+from mocapbench.baselines.common.checks import check_given, check_recordings, check_spread
 from mocapbench.baselines.common.own_means import OwnMeans
 from mocapbench.baselines.common.validation import check_count, check_positive, check_share
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning
-from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
@@ -34,7 +32,7 @@ Where few entries are visible together, loadings may fit them exactly, and the l
 without bound as the noise vanishes (a Heywood case)."""
 
 
-class LowRank(OneByOne, Relearning, Imputer, Inductive):
+class LowRank(Imputer, Inductive):
     r"""Fill hidden channels of a frame along the main directions in which poses vary (PPCA).
 
     A frame is :math:`y = m + S (W x + \varepsilon)` with latent :math:`x \sim N(0, I_q)` and noise
@@ -152,20 +150,16 @@ class LowRank(OneByOne, Relearning, Imputer, Inductive):
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the mean and variance of hidden entries given the visible ones of their frame.
 
-        Variances are checked by trials on the recording's visible entries, and those of channels
-        that are hidden throughout by training recordings in its place, too
-        (``docs/calibration.md``).
-
         Raises
         ------
         ValueError
             If channels differ, or a channel is visible neither in a recording nor in those given to
             `fit`.
         """
-        self._check_given(recordings)
-        return widened(self, recordings, learnt_from=self.recordings_)
+        check_given(self, recordings)
+        return [self._fill_recording(recording) for recording in recordings]
 
-    def _claimed(self, recording: Recording) -> Prediction:
+    def _fill_recording(self, recording: Recording) -> Prediction:
         frames = _Frames.of(self.own_means_.apply(recording))
         posterior = _Fit.of(frames, self.loadings_, self.noise_variance_)
         mean = self.own_means_.restore(recording, posterior.latents @ self.loadings_.T)

@@ -31,11 +31,10 @@ __all__ = ["MOA"]
 class MOA(GaussianProcess, Trended):
     r"""A Gaussian process over all channels; recordings are noisy copies of one function.
 
-    `trend` gives the posterior of that function, and so does `impute`, with variances that the
-    visible entries of a recording bear out (`as_claimed` has the posterior itself). `sample` takes
-    its posterior mean as the trend and draws with the prior covariance around it, as the thesis
-    does (§5.2): samples differ by as much as the function varies, where recordings, by the model
-    that is fitted, differ by noise alone.
+    `trend` and `impute` give the posterior of that function. `sample` takes its posterior mean as
+    the trend and draws with the prior covariance around it, as the thesis does (§5.2): samples
+    differ by as much as the function varies, where recordings, by the model that is fitted, differ
+    by noise alone.
 
     Notes
     -----

@@ -38,9 +38,8 @@ __all__ = ["MOHGP"]
 class MOHGP(GaussianProcess, Trended):
     r"""A Gaussian process over all channels, in which recordings vary around a common trend.
 
-    `impute` gives the posterior of each child, with variances that its visible entries bear out
-    (`as_claimed` has the posterior itself). `sample` follows the thesis: new children are
-    drawn from K_f around the trend's posterior mean, or around a draw of the trend with
+    `impute` gives the posterior of each child. `sample` follows the thesis: new children are drawn
+    from K_f around the trend's posterior mean, or around a draw of the trend with
     ``sampled_trend="posterior"``; in a tree, they are children of new groups.
 
     Parameters

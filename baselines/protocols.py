@@ -254,6 +254,9 @@ class FrameImputer(Model):
     max_frames: ClassVar[int | None] = None
     """The most frames, all recordings together, that the model fills in some seconds; None is no
     limit. ``mocapbench fill`` gives it windows of longer recordings, around their gaps."""
+    learns_in_fit: ClassVar[bool] = True
+    """Whether `fit` learns anything. A model that only keeps the recordings, and learns when it
+    fills one of them, is `Calibrated` by recordings held out besides: that costs nothing."""
 
     @abstractmethod
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
@@ -275,10 +278,11 @@ class FrameImputer(Model):
             If a recording cannot be filled.
         """
 
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictions of `impute`, with the variances that the model itself claims.
+    def impute_uncalibrated(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the predictions of `impute` before their variances are calibrated.
 
-        Means are the same. It is quicker where `impute` tries the model to check its variances.
+        Means are the same. Only `Calibrated`, and models built of calibrated ones, have another
+        answer, which takes longer.
         """
         return self.impute(recordings)
 

@@ -3,13 +3,14 @@
 Ours and third parties' are found in the same way: by entry points of the groups
 ``mocapbench.models``, ``mocapbench.tasks``, ``mocapbench.metrics``, ``mocapbench.libraries`` and
 ``mocapbench.formats``. A file of the user's own adds to any of them for one run
-(`mocapbench.benchmark.plugins`).
+(`mocapbench.benchmark.plugins`). Entry points of ``mocapbench.calibrations`` say which models take
+part in a wrapper that calibrates them.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Generic, TypeVar, cast
 
@@ -21,6 +22,7 @@ from mocapbench.datasets import Format, Library
 from mocapbench.metrics import Metric
 
 __all__ = [
+    "CALIBRATIONS",
     "FORMATS",
     "LIBRARIES",
     "METRICS",
@@ -28,8 +30,11 @@ __all__ = [
     "NAME",
     "REGISTRIES",
     "TASKS",
+    "UNCALIBRATED",
+    "Calibration",
     "Registry",
     "build_unfitted",
+    "find_calibration",
 ]
 
 T = TypeVar("T")
@@ -103,7 +108,36 @@ class Registry(Generic[T]):
             ) from error
 
 
-MODELS: Registry[type[Model]] = Registry("model", "mocapbench.models")
+Calibration = Callable[[Any], Model]
+"""From a model to one with calibrated variances, such as `mocapbench.baselines.Calibrated`."""
+
+CALIBRATIONS: Registry[Calibration] = Registry("calibration", "mocapbench.calibrations")
+"""What calibrates a model when it takes part, by the name of the model."""
+
+UNCALIBRATED = "-uncalibrated"
+"""The end of the name under which a model takes part without its calibration."""
+
+
+class _Models(Registry[type[Model]]):
+    """Models by name; one with a calibration has a second name, which is not listed."""
+
+    def get(self, name: str) -> type[Model]:
+        """Return the class of the model called ``name``; see `Registry.get`."""
+        return super().get(_without_end(name))
+
+
+def _without_end(name: str) -> str:
+    """Return the listed name of the model that ``name`` stands for."""
+    listed = name.removesuffix(UNCALIBRATED)
+    return listed if listed in CALIBRATIONS.names() else name
+
+
+def find_calibration(name: str) -> Calibration | None:
+    """Return what calibrates the model called ``name``; None if it takes part as it is."""
+    return CALIBRATIONS.get(name) if name in CALIBRATIONS.names() else None
+
+
+MODELS: Registry[type[Model]] = _Models("model", "mocapbench.models")
 """The classes of models that are registered, by name."""
 TASKS: Registry[Task] = Registry("task", "mocapbench.tasks")
 """The tasks that are registered, by name."""

@@ -10,7 +10,19 @@ import pytest
 from format_files import sample
 from sklearn.exceptions import NotFittedError
 
-from mocapbench.baselines import FrameImputer, Synthesiser
+from mocapbench.baselines import (
+    FAM,
+    GPLVM,
+    HGP,
+    LDS,
+    MOHGP,
+    Calibrated,
+    ChannelKriging,
+    FrameImputer,
+    LinearImputer,
+    LowRank,
+    Synthesiser,
+)
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.benchmark.registry import FORMATS, METRICS, MODELS, TASKS
 from mocapbench.benchmark.testing import check_format, check_metric, check_task, model_checks
@@ -37,6 +49,46 @@ CHECKS = [
 @pytest.mark.parametrize(("name", "check"), CHECKS)
 def test_a_model_conforms(name, check):
     check(MODELS.get(name))
+
+
+def calibrated(inner):
+    """Return a class of models that wraps one with these parameters."""
+
+    class Wrapped(Calibrated):
+        """A model and its calibration."""
+
+        def __init__(self, model=inner):
+            super().__init__(model)
+
+    return Wrapped
+
+
+WRAPPED = {
+    "mohgp": MOHGP(max_iter=5, n_restarts=1, random_state=0),
+    "hgp": HGP(max_iter=5, random_state=0),
+    "lds": LDS(n_states=3),
+    "fam": FAM(n_restarts=1, random_state=0),
+    "low-rank": LowRank(),
+    "gplvm": GPLVM(n_latent=1, max_iter=2, fill_iter=5),
+    "channel-kriging": ChannelKriging(),
+    "linear": LinearImputer(),
+}
+CALIBRATED = [
+    pytest.param(name, check, id=f"{name}-{check.__name__}")
+    for name, model in WRAPPED.items()
+    for check in model_checks(calibrated(model))
+]
+
+
+@pytest.mark.parametrize(("name", "check"), CALIBRATED)
+def test_a_calibrated_model_conforms_as_the_model_in_it(name, check):
+    check(calibrated(WRAPPED[name]))
+
+
+@pytest.mark.parametrize("name", WRAPPED)
+def test_a_calibrated_model_is_checked_as_the_model_in_it(name):
+    own, wrapped = (model_checks(kind) for kind in (type(WRAPPED[name]), calibrated(WRAPPED[name])))
+    assert [check.__name__ for check in wrapped] == [check.__name__ for check in own]
 
 
 PARAMETERS = [
@@ -68,7 +120,7 @@ FILLERS = [name for name in MODELS.names() if issubclass(MODELS.get(name), Frame
 ANSWERS = [
     (name, answer)
     for name in FILLERS
-    for answer in ("impute", "as_claimed", "as_tried")
+    for answer in ("impute", "impute_uncalibrated", "impute_held_out", "leave_one_out")
     if hasattr(MODELS.get(name), answer)
 ]
 OTHERS = {

@@ -9,14 +9,13 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.alignment.cycle_model import Hyperparameters, State
 from mocapbench.baselines.alignment.cycle_start import GROUPINGS, best_paths, default_states
 from mocapbench.baselines.alignment.inference import infer_path
 from mocapbench.baselines.alignment.priors import PRIORS
 from mocapbench.baselines.common.ascent import Ascent
-from mocapbench.baselines.common.checks import check_channels, check_recordings
+from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.padded_sequences import Sequences
 from mocapbench.baselines.common.recordings import by_name, places_by_name
 from mocapbench.baselines.common.scaling import Standardisation
@@ -85,7 +84,7 @@ class CycleAligner(Aligner):
         ValueError
             If channels differ.
         """
-        self._check_fitted(recordings)
+        check_given(self, recordings)
         return [self._align_recording(recording) for recording in recordings]
 
     @abstractmethod
@@ -103,10 +102,6 @@ class CycleAligner(Aligner):
         Values are in the channels' units, and in the order in which recordings were given, whose
         ``places`` (K,) are those in the run.
         """
-
-    def _check_fitted(self, recordings: Sequence[Recording]) -> None:
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_, self.units_)
 
     def _align_recording(self, recording: Recording) -> StatePath:
         if recording.name in self.fitted_:

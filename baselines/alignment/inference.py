@@ -91,7 +91,7 @@ def correct_means(mean: Array, sequences: Sequences) -> Array:
     """Return the means (N, F) of the last sequence, corrected by the visible errors of its frames.
 
     Variances are left as they are: errors of style and state are not Gaussian, and variances that
-    shrink with the correction would claim too much.
+    shrink with the correction would be too small.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
-"""The choice among models by rehearsals, without knowing what is hidden.
+"""The choice among models by held-out gaps, without knowing what is hidden.
 
 * `jointly`: Gaussian processes over a recording and those that were learnt from;
 * `candidates`: the models to choose from, fitted to the same recordings;
 * `parts`: entries that are weighed together;
-* `rehearsals`: gaps where the truth is visible, in the recording itself and in training;
-* `weights`: from errors in rehearsals to the weights of models.
+* `held_out_errors`: their errors where the truth is known, in the recording itself and others;
+* `weights`: from these errors to the weights of models.
 """

@@ -10,6 +10,7 @@ from functools import partial
 from typing import Self, TypeVar
 
 from mocapbench.baselines.aligned_window import AlignedWindow
+from mocapbench.baselines.calibrated import Calibrated
 from mocapbench.baselines.channel_kriging import ChannelKriging
 from mocapbench.baselines.choosing.jointly import Jointly
 from mocapbench.baselines.common.markers import markers_of
@@ -37,7 +38,7 @@ Tried = TypeVar("Tried")
 Result = TypeVar("Result")
 
 LAST_RESORT = "pchip"
-"""What fills where no rehearsal has room: it never overshoots."""
+"""What fills where nothing can be held out: it never overshoots."""
 
 
 def _mohgp(n_components: int | Mapping[str, int], registration: str = "none") -> Jointly:
@@ -55,14 +56,14 @@ CANDIDATES: Mapping[str, Callable[[], FrameImputer]] = {
     LAST_RESORT: PchipImputer,
     "makima": MakimaImputer,
     "cubic-spline": CubicSplineImputer,
-    "lds": LDS,
-    "fam": partial(FAM, n_restarts=1, max_iter=10, random_state=0),
-    "low-rank": LowRank,
+    "lds": lambda: Calibrated(LDS()),
+    "fam": lambda: Calibrated(FAM(n_restarts=1, max_iter=10, random_state=0)),
+    "low-rank": lambda: Calibrated(LowRank()),
     "pca-regression": PCARegression,
     "nn": NN,
     "aligned-window": AlignedWindow,
     "pose-kriging": PoseKriging,
-    "channel-kriging": ChannelKriging,
+    "channel-kriging": lambda: Calibrated(ChannelKriging()),
     "mohgp": partial(_mohgp, 3),
     "mohgp-registered": partial(_mohgp, {"parent": 1, "child": 5}, "affine"),
 }
@@ -107,8 +108,9 @@ class FittedCandidates:
         return _try_each(chosen, lambda model: model.impute([recording])[0])[0]
 
     def means(self, recording: Recording) -> dict[str, FrameByChannel]:
-        """Return the means of `impute`, without the trials that variances need."""
-        return _try_each(self.models, lambda model: model.as_claimed([recording])[0].mean)[0]
+        """Return the means of `impute`, without the held-out gaps that variances need."""
+        nominal, _ = _try_each(self.models, lambda model: model.impute_uncalibrated([recording])[0])
+        return {name: prediction.mean for name, prediction in nominal.items()}
 
 
 def _try_each(

@@ -8,10 +8,10 @@ from typing import Self
 
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.checks import pool
+from mocapbench.baselines.calibration.ways import calibrate
+from mocapbench.baselines.common.checks import check_given, pool
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.protocols import Imputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.datasets import Recording
 
 __all__ = ["Jointly"]
@@ -22,13 +22,13 @@ _MOST_FRAMES = 3e6
 """Σ N³: four walks of 90 frames, or one recording of 114. One of 200 takes half a minute."""
 
 
-class Jointly(Widened, Imputer, Inductive):
+class Jointly(Imputer, Inductive):
     """A Gaussian process that fills recordings together with those that it has learnt from.
 
     It is worth its time where the recordings to fill are among them, so that what is visible there
     counts. Its parameters are those of `fit`. Whatever it is given afterwards, it goes on from them
-    by one iteration of its search: rehearsals cost little, and parameters, of which there are few
-    beside entries, tell little of what a rehearsal hides (as in leave-one-out cross-validation with
+    by one iteration of its search: that costs little, and parameters, of which there are few
+    beside entries, tell little of what is held out (as in leave-one-out cross-validation with
     the parameters kept; C. E. Rasmussen and C. K. I. Williams (2006), Gaussian Processes for
     Machine Learning, §5.4.2).
 
@@ -80,20 +80,23 @@ class Jointly(Widened, Imputer, Inductive):
         self.channels_, self.units_ = largest.channels, largest.units
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return what the process predicts of each recording beside its own.
+        """Return what the process predicts of each recording beside its own, calibrated.
 
         Raises
         ------
         ValueError
             If a recording is too large beside those, or its channels differ.
         """
-        self._check_given(recordings)
-        return [self._learn_with(recording).impute([recording])[0] for recording in recordings]
+        check_given(self, recordings)
+        return [
+            calibrate(self._learn_with(recording), self.recordings_, [recording])[0]
+            for recording in recordings
+        ]
 
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
+    def impute_uncalibrated(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the predictions of `impute` with the variances of the exact posterior."""
-        self._check_given(recordings)
-        return [self._learn_with(recording).as_claimed([recording])[0] for recording in recordings]
+        check_given(self, recordings)
+        return [self._learn_with(recording).impute([recording])[0] for recording in recordings]
 
     def _learn_with(self, recording: Recording) -> GaussianProcess:
         # It comes first: of several with as many hidden entries, others are registered to it.

@@ -2,8 +2,8 @@
 
 A model that fills a channel from the others of its frame may be the best where a few channels are
 hidden, and has nothing to go by where all are; one that interpolates has nothing to go by in a
-channel that is hidden throughout. Where a recording has gaps of several kinds, they are rehearsed,
-and weighed, apart.
+channel that is hidden throughout. Where a recording has gaps of several kinds, copies of them are
+held out, and weighed, apart.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class Part:
 
     @property
     def widely(self) -> Part:
-        """Gaps of all kinds in its channels, for a part that no trial has room for."""
+        """Gaps of all kinds in its channels, for a part of which nothing can be held out."""
         return replace(self, kind=_ANY)
 
     def entries(self, hidden: Mask) -> Mask:
@@ -95,7 +95,7 @@ def parts_of(recording: Recording) -> Mapping[str, Part]:
     """Return the parts of a recording by name; an entry belongs to the last one that has it.
 
     Each unit is a part. Where a recording has gaps in all channels and others, those in all
-    channels are parts of their own, since they are harder. What is rehearsed of them counts for the
+    channels are parts of their own, since they are harder. What is held out for them counts for the
     other gaps, too, but not the other way round. Channels that are hidden throughout are parts of
     their own where there are other gaps.
     """

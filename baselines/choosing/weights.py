@@ -1,4 +1,4 @@
-"""From errors in rehearsals to the weights of models."""
+"""From errors in held-out gaps to the weights of models."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from scipy.linalg import solve_triangular
 from scipy.optimize import nnls
 
 from mocapbench.baselines.choosing.candidates import LAST_RESORT
+from mocapbench.baselines.choosing.held_out_errors import HeldOutErrors, Products
 from mocapbench.baselines.choosing.parts import EVERYTHING, Part
-from mocapbench.baselines.choosing.rehearsals import Products, Rehearsals
 
 __all__ = ["among", "evidence", "expected_errors", "weights_of"]
 
@@ -24,7 +24,7 @@ _RIDGE = 1e-9
 """Added to correlations, so that models that agree share their weight."""
 
 
-def evidence(rehearsals: Rehearsals, part: Part = EVERYTHING) -> Sequence[Products]:
+def evidence(errors: HeldOutErrors, part: Part = EVERYTHING) -> Sequence[Products]:
     """Return the products of errors to expect in a part of the gaps, by each source there is.
 
     The sources are copies of the gaps in the recording itself, which knows the person, and training
@@ -34,19 +34,19 @@ def evidence(rehearsals: Rehearsals, part: Part = EVERYTHING) -> Sequence[Produc
     Where copies hide a few entries only, what they say is moved towards what training says. Without
     a gap there is no source.
     """
-    if rehearsals.given.visible.all():
+    if errors.given.visible.all():
         return []
-    own, in_training = _mean(rehearsals.own(part)), rehearsals.in_training(part)
-    gaps = _mean(with_gaps for with_gaps, _ in in_training)
-    short = rehearsals.are_short(part)
-    copies = _mean(with_copies for _, with_copies in in_training) if short else gaps
+    own, elsewhere = _mean(errors.in_recording(part)), errors.elsewhere(part)
+    gaps = _mean(with_gaps for with_gaps, _ in elsewhere)
+    short = errors.are_short(part)
+    copies = _mean(with_copies for _, with_copies in elsewhere) if short else gaps
     both = [name for name in own if name in gaps and name in copies]
     if not both:
         return [alone for alone in [own if gaps.empty else gaps] if not alone.empty]
     own, gaps, copies = (each.loc[both, both] for each in (own, gaps, copies))
     growth = np.sqrt(np.diag(gaps) / np.diag(copies))
     grown = own * np.outer(growth, growth)
-    return [_steady_products(grown, gaps, rehearsals.n_entries(part)), gaps]
+    return [_steady_products(grown, gaps, errors.n_entries(part)), gaps]
 
 
 def _steady_products(own: Products, gaps: Products, n_entries: float) -> Products:
@@ -60,9 +60,9 @@ def _steady_products(own: Products, gaps: Products, n_entries: float) -> Product
     return steadied / (n_entries + _PRIOR_ENTRIES)
 
 
-def _mean(rehearsed: Iterable[Products]) -> Products:
-    """Return the mean products of the models that have errors in every rehearsal."""
-    every = [products for products in rehearsed if not products.empty]
+def _mean(held_out: Iterable[Products]) -> Products:
+    """Return the mean products of the models that have errors in everything held out."""
+    every = [products for products in held_out if not products.empty]
     if not every:
         return pd.DataFrame()
     names = [name for name in every[0] if all(name in products for products in every)]
@@ -86,11 +86,11 @@ def expected_errors(sources: Sequence[Products]) -> Mapping[str, float]:
 
 
 def weights_of(sources: Sequence[Products], shrinkage: float) -> Mapping[str, float]:
-    """Return the weights of models, which sum to one: the mean that errs least in rehearsals.
+    """Return the weights of models, which sum to one: the mean that errs least in what is held out.
 
     Each source counts in units of the least squared error in it. Correlations between errors are
-    moved towards one by the ``shrinkage``, since in few rehearsals models seem to make up for each
-    other's errors more than they will. Without any source the last resort has all the weight.
+    moved towards one by the ``shrinkage``, since in few held-out gaps models seem to make up for
+    each other's errors more than they will. Without any source the last resort has all the weight.
     """
     if not sources:
         return {LAST_RESORT: 1.0}

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from sklearn.utils.validation import check_is_fitted
 
 from mocapbench.baselines.common.recordings import stack
 from mocapbench.datasets import Recording, ToyProcess, frame_rate
@@ -13,6 +15,7 @@ from mocapbench.datasets.formats.sets import same_rate
 
 __all__ = [
     "check_channels",
+    "check_given",
     "check_known",
     "check_outputs",
     "check_rates",
@@ -67,6 +70,27 @@ def check_channels(
             )
         _check_units(recording, units)
         _check_values(recording)
+
+
+def check_given(model: Any, recordings: Sequence[Recording]) -> None:
+    """Check that a model is fitted, and to recordings of the channels and units of these.
+
+    Parameters
+    ----------
+    model : Model
+        With the attributes ``channels_`` and ``units_`` once it is fitted.
+    recordings : sequence of Recording
+        Of which it is asked something.
+
+    Raises
+    ------
+    sklearn.exceptions.NotFittedError
+        If it is not fitted.
+    ValueError
+        See `check_channels`.
+    """
+    check_is_fitted(model)
+    check_channels(recordings, model.channels_, model.units_)
 
 
 def _list_recordings(recordings: object) -> tuple[Recording, ...]:

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.linalg import block_diag
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.checks import check_channels, check_recordings
+from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.validation import (
     check_count,
     check_positive,
@@ -26,8 +26,6 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
-from mocapbench.baselines.rehearsal.calibrated_posteriors import calibrate_posterior
-from mocapbench.baselines.rehearsal.left_out import LeftOut, side_by_side
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import Frames, Recording
 
@@ -142,36 +140,25 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         }
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictive distributions of recordings given to `fit`, as `MOHGP.impute` does.
+        """Return the posterior of recordings given to `fit`, as `MOHGP.impute` does."""
+        by_channel = [model.impute(alone) for model, alone in self._by_channel(recordings)]
+        return [_stack_channels(channels) for channels in zip(*by_channel, strict=True)]
 
-        Channels tell of each other only by how much variances are widened.
-        """
-        return [
-            calibrate_posterior(recording, errors, self.as_tried)
-            for recording, errors in zip(recordings, self.left_out(recordings), strict=True)
-        ]
+    def leave_one_out(self, recordings: Sequence[Recording]) -> list[Array]:
+        """Return the squared errors over variances of visible entries, each left out: (N, D)."""
+        by_channel = [model.leave_one_out(alone) for model, alone in self._by_channel(recordings)]
+        return [np.hstack(channels) for channels in zip(*by_channel, strict=True)]
 
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictions of `impute` with the variances of the exact posteriors."""
-        by_channel = [model.as_claimed(alone) for model, alone in self._by_channel(recordings)]
-        return [side_by_side(channels) for channels in zip(*by_channel, strict=True)]
-
-    def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
-        """Return the posteriors of recordings, and the errors of their visible entries."""
-        by_channel = [model.left_out(alone) for model, alone in self._by_channel(recordings)]
-        return [LeftOut.side_by_side(channels) for channels in zip(*by_channel, strict=True)]
-
-    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
-        """Return what the models claim of recordings of which more is hidden."""
-        by_channel = [model.as_tried(alone) for model, alone in self._by_channel(trials)]
-        return [side_by_side(channels) for channels in zip(*by_channel, strict=True)]
+    def impute_held_out(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the posterior of recordings given to `fit` of which more is hidden."""
+        by_channel = [model.impute_held_out(alone) for model, alone in self._by_channel(recordings)]
+        return [_stack_channels(channels) for channels in zip(*by_channel, strict=True)]
 
     def _by_channel(
         self, recordings: Sequence[Recording]
     ) -> Iterator[tuple[Single, list[Recording]]]:
         """Yield the model of each channel, and that channel of each recording."""
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_, self.units_)
+        check_given(self, recordings)
         for channel, model in zip(self.channels_, self.models_, strict=True):
             yield model, [recording.select([channel]) for recording in recordings]
 
@@ -261,3 +248,11 @@ class Channelwise(Imputer, Synthesiser, Generic[Single]):
         return np.dstack(
             [model.posterior_draws(one, n_samples, rng, times) for model, (one,) in alone]
         )
+
+
+def _stack_channels(channels: Sequence[Prediction]) -> Prediction:
+    """Return the predictions of the channels of a recording, with variances, as one."""
+    return Prediction(
+        np.hstack([channel.mean for channel in channels]),
+        np.hstack([np.asarray(channel.variance) for channel in channels]),
+    )

@@ -17,7 +17,7 @@ import numpy as np
 from joblib import effective_n_jobs
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.checks import check_channels, check_recordings
+from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.scaling import Standardisation
 from mocapbench.baselines.common.validation import (
     check_choice,
@@ -30,6 +30,7 @@ from mocapbench.baselines.common.validation import (
     check_times,
     components_of,
 )
+from mocapbench.baselines.gp.leave_one_out import leave_one_out_ratios
 from mocapbench.baselines.gp.prior.kernels import KERNELS
 from mocapbench.baselines.gp.prior.parameters import Parameters
 from mocapbench.baselines.gp.process import TRENDS, Curve, FittedProcess
@@ -59,8 +60,6 @@ from mocapbench.baselines.protocols import (
     SampleByFrameByChannel,
     Synthesiser,
 )
-from mocapbench.baselines.rehearsal.calibrated_posteriors import calibrate_posterior
-from mocapbench.baselines.rehearsal.left_out import LeftOut
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
@@ -314,11 +313,9 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         return self.process_.layer_covariance(layer, check_times(times))
 
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictive distributions of recordings given to `fit`.
+        """Return the posterior of recordings given to `fit`.
 
-        Each is conditioned on the visible entries of *all* recordings given to `fit`. Variances are
-        those of the posterior (`as_claimed`), multiplied in each channel by what the errors of
-        visible entries bear out (``docs/calibration.md``).
+        Each is conditioned on the visible entries of *all* recordings given to `fit`.
 
         Parameters
         ----------
@@ -340,35 +337,28 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
             If a recording was not given to `fit`, or not with these times and values.
         """
         return [
-            calibrate_posterior(recording, errors, self.as_tried)
-            for recording, errors in zip(recordings, self.left_out(recordings), strict=True)
-        ]
-
-    def as_claimed(self, recordings: Sequence[Recording]) -> list[Prediction]:
-        """Return the predictions of `impute` with the variances of the exact posterior."""
-        return [
             Prediction.around(recording, mean, variance + self.noise_)
             for recording, mean, variance in self._infer_recordings(recordings)
         ]
 
-    def left_out(self, recordings: Sequence[Recording]) -> list[LeftOut]:
-        """Return the posteriors of recordings, and the errors of their visible entries.
+    def leave_one_out(self, recordings: Sequence[Recording]) -> list[Array]:
+        """Return the squared errors over variances of visible entries, each left out: (N, D).
 
-        It raises what `impute` raises. Errors of a recording that registration has moved mean
-        nothing; it is complete, and nothing of it is widened.
+        An entry is predicted from all others, with the parameters kept; NaN marks hidden ones. It
+        raises what `impute` raises. Errors of a recording that registration has moved mean nothing.
         """
         return [
-            LeftOut.of(recording, mean, variance, self.noise_, self.scaling_.scale)
+            leave_one_out_ratios(recording, mean, variance, self.noise_, self.scaling_.scale)
             for recording, mean, variance in self._infer_recordings(recordings)
         ]
 
-    def as_tried(self, trials: Sequence[Recording]) -> list[Prediction]:
-        """Return what the process claims of recordings given to `fit` of which more is hidden.
+    def impute_held_out(self, recordings: Sequence[Recording]) -> list[Prediction]:
+        """Return the posterior of recordings given to `fit` of which more is hidden.
 
-        Its parameters are kept. Trials of a recording that registration has moved mean nothing.
+        The parameters are kept. That of a recording that registration has moved means nothing.
         """
-        self._check_given(trials)
-        return [self._infer_trial(trial) for trial in trials]
+        check_given(self, recordings)
+        return [self._condition_on(recording) for recording in recordings]
 
     def _infer_recordings(
         self, recordings: Sequence[Recording]
@@ -377,22 +367,23 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
 
         All of them together take one inference.
         """
-        self._check_given(recordings)
+        check_given(self, recordings)
         curves = [self._curve(recording) for recording in recordings]
         with self.process_.threaded(self.n_jobs) as process:
             inferred = process.infer(curves, [recording.times for recording in recordings])
         for recording, (mean, variance) in zip(recordings, inferred, strict=True):
             yield recording, mean, variance
 
-    def _infer_trial(self, trial: Recording) -> Prediction:
-        if trial.visible.all():
-            return Prediction.around(trial, trial.values, np.zeros_like(trial.values))
-        number = self._number(trial)
-        shown = self.process_.condition(self.reduce(self._replicates.showing(number, trial)))
-        with shown.threaded(self.n_jobs) as process:
+    def _condition_on(self, shown: Recording) -> Prediction:
+        """Return the posterior where ``shown`` takes the place of the recording of its name."""
+        if shown.visible.all():
+            return Prediction.around(shown, shown.values, np.zeros_like(shown.values))
+        number = self._number(shown)
+        conditioned = self.process_.condition(self.reduce(self._replicates.showing(number, shown)))
+        with conditioned.threaded(self.n_jobs) as process:
             curve = process.reduction.replicates[number]
-            ((mean, variance),) = process.infer([curve], [trial.times])
-        return Prediction.around(trial, mean, variance + self.noise_)
+            ((mean, variance),) = process.infer([curve], [shown.times])
+        return Prediction.around(shown, mean, variance + self.noise_)
 
     def _infer_curve(self, curve: Curve, times: Frames) -> tuple[FrameByChannel, FrameByChannel]:
         """Return the posterior mean and variance of a curve, such as the trend: (M, D) each."""
@@ -426,7 +417,7 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
         ValueError
             If the recording was not given to `fit`, or not with these times and values.
         """
-        self._check_given([recording])
+        check_given(self, [recording])
         curve, times = self._curve(recording), self._process_times(recording, times)
         with self.process_.threaded(self.n_jobs) as process:
             return process.covariance(curve, times)
@@ -466,7 +457,7 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
             If the recording was not given to `fit`, or not with these times and values, or the
             number of draws or the seed is invalid.
         """
-        self._check_given([recording])
+        check_given(self, [recording])
         check_count("n_samples", n_samples, 1)
         check_seed("random_state", random_state)
         curve, times = self._curve(recording), self._process_times(recording, times)
@@ -536,11 +527,6 @@ class GaussianProcess(Imputer, Synthesiser, Coregionalised):
                 f"{recording.name!r}: give it to fit together with the others"
             )
         return list(self.recordings_).index(recording.name)
-
-    def _check_given(self, recordings: Sequence[Recording]) -> None:
-        """Check that the model is fitted, and to recordings of these channels and units."""
-        check_is_fitted(self)
-        check_channels(recordings, self.channels_, self.units_)
 
 
 def _report_nothing(search: int, step: Iteration) -> None:

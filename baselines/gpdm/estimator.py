@@ -13,7 +13,7 @@ from typing import ClassVar, Self
 import numpy as np
 from sklearn.utils.validation import check_is_fitted
 
-from mocapbench.baselines.common.checks import check_recordings
+from mocapbench.baselines.common.checks import check_given, check_recordings
 from mocapbench.baselines.common.pose_units import in_pose_units, pose_factors
 from mocapbench.baselines.common.recordings import visible_frames
 from mocapbench.baselines.common.validation import (
@@ -32,15 +32,13 @@ from mocapbench.baselines.gpdm.sequences import TrainingSequences, whitened_comp
 from mocapbench.baselines.gpdm.starts import STARTS
 from mocapbench.baselines.pose_viterbi import PoseViterbi
 from mocapbench.baselines.protocols import Embedded, FrameImputer, Inductive, Prediction
-from mocapbench.baselines.rehearsal.checkable import OneByOne, Relearning
-from mocapbench.baselines.rehearsal.widening import widened
 from mocapbench.basics.arrays import Array
 from mocapbench.datasets import FrameByChannel, Recording
 
 __all__ = ["LatentVariableModel"]
 
 
-class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedded):
+class LatentVariableModel(FrameImputer, Inductive, Embedded):
     """Poses as smooth functions of latent positions, which have a prior.
 
     A subclass provides the prior and the learning algorithm. Its constructor stores ``n_latent``,
@@ -127,21 +125,17 @@ class LatentVariableModel(OneByOne, Relearning, FrameImputer, Inductive, Embedde
     def impute(self, recordings: Sequence[Recording]) -> list[Prediction]:
         """Return the mean and variance of hidden frames given the training and visible frames.
 
-        Variances are those given the most probable latent positions, checked by trials on the
-        recording's visible frames (``docs/calibration.md``), for which the model learns anew if
-        the recording was given to `fit`.
+        Variances are those given the most probable latent positions.
 
         Raises
         ------
         ValueError
             If channels differ, a frame is hidden in part, or no frame is visible.
         """
-        self._check_given(recordings)
-        for recording in recordings:
-            visible_frames(recording)  # before it learns anew for any of them
-        return widened(self, recordings)
+        check_given(self, recordings)
+        return [self._fill_recording(recording) for recording in recordings]
 
-    def _claimed(self, recording: Recording) -> Prediction:
+    def _fill_recording(self, recording: Recording) -> Prediction:
         visible = visible_frames(recording)
         offset = self.subject_offset * self.matcher_.residual(recording)
         query = self._to_model_units(recording.values - offset), visible

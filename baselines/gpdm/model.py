@@ -48,9 +48,9 @@ class GPDM(DynamicalModel):
     Channels that are constant in training are left out with a warning. They are filled with their
     constant value and the variance σ_Y²(x)/(κ² N), where σ_Y²(x) is that of a scaled channel at the
     latent position x, and 1/(κ² N) the bound that the prior of the scales implies on its unit,
-    squared. As for other channels, trials may change it. Where channels have several units, degrees
-    and radians count as degrees, and mm, cm and m as the CMU database's unit of length, 5.64 cm; if
-    all have the same one, that prior is in it. Time is counted in frames, so that all recordings
+    squared. Where channels have several units, degrees and radians count as degrees, and mm, cm and
+    m as the CMU database's unit of length, 5.64 cm; if all have the same one, that prior is in it.
+    Time is counted in frames, so that all recordings
     need the same frame rate: `fit` refuses rates that differ by more than 1 %.
 
     Parameters

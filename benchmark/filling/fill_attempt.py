@@ -10,14 +10,16 @@ from __future__ import annotations
 import resource
 import sys
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from traceback import extract_tb
 from typing import Any
 
 import numpy as np
 
-from mocapbench.baselines import FrameImputer, Prediction
+from mocapbench.baselines import FrameImputer, Model, Prediction
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.filling.gap_problem import (
     GapProblem,
@@ -63,7 +65,11 @@ class FillAttempt:
 
 
 def attempt_fill(
-    model: type[FrameImputer], problem: GapProblem, memory: int, method: str = "impute"
+    model: type[FrameImputer],
+    problem: GapProblem,
+    memory: int,
+    method: str = "impute",
+    calibration: Callable[[Any], Model] | None = None,
 ) -> FillAttempt:
     """Return what a model predicts; whatever it raises becomes the failure of the attempt.
 
@@ -75,15 +81,18 @@ def attempt_fill(
     memory : int
         Bytes of address space to which this process is limited from now on.
     method : str, default="impute"
-        What the model is asked for: ``"as_claimed"`` are the same means, without the time that
-        calibrating variances takes.
+        What the model is asked for: ``"impute_uncalibrated"`` has the same means, without the time
+        that calibrating variances takes.
+    calibration : callable, optional
+        What calibrates the model.
     """
     resource.setrlimit(resource.RLIMIT_AS, (memory, resource.RLIM_INFINITY))
     try:
         with warnings.catch_warnings(action="ignore"):
-            unfitted: Any = build_model(model, {}, _SEED)
+            build = partial(build_model, model, {}, _SEED, calibration)
+            unfitted: Any = build()
             windows = cut_windows(problem, unfitted.max_frames)
-            parts = [(frames, part, _predict(model, part, method)) for frames, part in windows]
+            parts = [(frames, part, _predict(build, part, method)) for frames, part in windows]
             prediction = keep_constants(problem, _merge_windows(problem, parts))
     except MemoryError:
         return FillAttempt(None, f"needed more than {memory / 2**30:.1f} GiB of memory")
@@ -102,11 +111,11 @@ def _locate_error(error: BaseException, model: type[FrameImputer]) -> str:
     return f" ({path.name}, line {lines[-1]})" if lines else ""
 
 
-def _predict(model: type[FrameImputer], problem: GapProblem, method: str) -> Prediction:
+def _predict(build: Callable[[], Model], problem: GapProblem, method: str) -> Prediction:
     """Return what the model predicts of all channels (N, D), NaN of those that nobody has seen."""
     seen = drop_unseen(problem)
     imputing = pose_imputing(seen)
-    fitted = build_model(model, {}, _SEED)
+    fitted = build()
     imputing.fit(fitted)
     (prediction,) = imputing.check_predictions(
         getattr(fitted, method)(imputing.given), method

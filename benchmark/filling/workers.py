@@ -18,7 +18,7 @@ from pebble import ProcessExpired
 
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
 from mocapbench.benchmark.filling.gap_problem import GapProblem
-from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.registry import MODELS, find_calibration
 from mocapbench.benchmark.runs.execution.child import (
     ProcessDiedError,
     call_in_child,
@@ -101,10 +101,10 @@ def _attempt_in_child(
     """Return one attempt, made in a child of this process."""
     started, (seconds, memory) = time.perf_counter(), limits
     load_plugins_once(plugins)
-    model, given = MODELS.get(name), _read_problem(problem)
+    model, calibration, given = MODELS.get(name), find_calibration(name), _read_problem(problem)
     try:
         made: FillAttempt = call_in_child(
-            attempt_fill, model, given, memory, method, timeout=seconds
+            attempt_fill, model, given, memory, method, calibration, timeout=seconds
         )
     except TimeoutError:
         made = FillAttempt(

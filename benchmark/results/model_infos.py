@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from mocapbench.benchmark.docstrings import source, summary
+from mocapbench.benchmark.errors import UnregisteredNameError
 from mocapbench.benchmark.registry import MODELS, build_unfitted
 from mocapbench.benchmark.runs.record import Record
 from mocapbench.benchmark.tasks.base import Task
@@ -25,7 +26,8 @@ def model_infos(task: Task, records: Iterable[Record]) -> dict[str, ModelInfo]:
 
 def _info(name: str, parameters: Mapping[str, object]) -> ModelInfo:
     text = ", ".join(f"{parameter}={value}" for parameter, value in parameters.items())
-    if name not in MODELS.names():
+    try:
+        model = MODELS.get(name)
+    except UnregisteredNameError:
         return ModelInfo(name, parameters=text)
-    model = MODELS.get(name)
     return ModelInfo(name, summary(model), source(model), build_unfitted(name).family, text)

@@ -16,7 +16,7 @@ from joblib import parallel_config
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.messages import reason, traceback_of
 from mocapbench.benchmark.problems.base import Problem
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.registry import METRICS, MODELS, TASKS, find_calibration
 from mocapbench.benchmark.runs.fitting.fit import Fit
 from mocapbench.benchmark.runs.fitting.solve import Fitted, solve, train
 from mocapbench.benchmark.runs.fitting.trained import Trained
@@ -99,7 +99,8 @@ def _fit_model(work: Work, problem: Problem[Any]) -> tuple[Fitted, Trained | Non
     if trained is not None and trained.suits(problem):
         return trained.load(), None
     random_state = job.training_seeds.random_state("init")
-    fitted = train(problem, MODELS.get(job.model), job.parameters, random_state)
+    model, calibration = MODELS.get(job.model), find_calibration(job.model)
+    fitted = train(problem, model, job.parameters, random_state, calibration)
     new = Trained.of(job.training_key, fitted, problem) if job.training_key else None
     # Loaded here too: what went through pickle may differ in memory layout, and so in rounding.
     return (new.load() if new else fitted), new

@@ -35,7 +35,7 @@ def key_parts(fitted: Mapping[str, Any], scored: Mapping[str, Any]) -> dict[str,
     """
     _, version, problem, _, _, seed, digests = fitted["problem"]
     model, parameters = fitted["entrant"]
-    model_code, fitting_code = fitted["source"]
+    model_code, fitting_code, calibration_code = fitted["source"]
     _, references = scored["scored against"]
     parts = {
         "task version": version,
@@ -46,6 +46,7 @@ def key_parts(fitted: Mapping[str, Any], scored: Mapping[str, Any]) -> dict[str,
         "model": model,
         "model code": model_code,
         "fitting code": fitting_code,
+        "calibration code": calibration_code,
         **_each("parameter", parameters),
         **_each("recording", digests),
         **_each("reference recording", references),

@@ -12,7 +12,7 @@ from __future__ import annotations
 import hashlib
 import importlib.metadata
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache, partial
 from typing import Any
 
@@ -42,6 +42,7 @@ def fit_contents(
     model: type,
     parameters: Mapping[str, Any],
     digests: Mapping[str, str],
+    calibration: Callable[[Any], Any] | None = None,
 ) -> Mapping[str, Any]:
     """Return what the fit key of one entrant's predictions on one problem covers.
 
@@ -55,6 +56,8 @@ def fit_contents(
         The class and its full parameters.
     digests : mapping of str to str
         Digest of each recording that models see.
+    calibration : callable, optional
+        What calibrates the model.
     """
     return {
         "problem": [*seeds.address, seeds.root, dict(digests)],
@@ -64,6 +67,7 @@ def fit_contents(
         "source": [
             source_digest(model.__module__, _FITTING),
             source_digest(solve.__name__, _FITTING),
+            source_digest(calibration.__module__, _FITTING) if calibration else "",
         ],
         "libraries": {name: _installed_version(name) for name in _LIBRARIES},
     }

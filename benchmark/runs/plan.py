@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.registry import METRICS, MODELS
+from mocapbench.benchmark.registry import METRICS, MODELS, UNCALIBRATED, find_calibration
 from mocapbench.benchmark.runs.job import Job
 from mocapbench.benchmark.runs.key_parts import key_parts
 from mocapbench.benchmark.runs.keys import (
@@ -82,7 +82,10 @@ def _plan_case(request: Request, task: Task, case: Case, archive: Archive) -> It
     ):
         for fold in range(chosen_folds(request, task)):
             address = Address(task.name, task.version, case.name, fold, entrant.label)
-            seeds = Seeds(request.seed, address._replace(case=case.problem_name))
+            # With the seeds of the calibrated one an uncalibrated entrant has the same means.
+            label = entrant.label.removesuffix(UNCALIBRATED)
+            posed = address._replace(case=case.problem_name, label=label)
+            seeds = Seeds(request.seed, posed)
             yield Job(
                 address=address,
                 seeds=seeds,
@@ -105,8 +108,14 @@ def _name_results(
 ) -> dict[str, Any]:
     """Return the keys of a job, and what they cover."""
     seen, compared = ({uri: digests[uri] for uri in of} for of in (case.sources, case.references))
-    model, parameters = MODELS.get(entrant.model), entrant.parameters
-    fitted = fit_contents(case, seeds, model=model, parameters=parameters, digests=seen)
+    fitted = fit_contents(
+        case,
+        seeds,
+        model=MODELS.get(entrant.model),
+        parameters=entrant.parameters,
+        digests=seen,
+        calibration=find_calibration(entrant.model),
+    )
     fit = key_of(fitted)
     scored = score_contents(fit, scored_by, case.name, compared)
     training = training_contents(fitted, seeds.of_training(case.training))

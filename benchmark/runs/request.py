@@ -9,7 +9,14 @@ from fnmatch import fnmatchcase
 from mocapbench.baselines import Model
 from mocapbench.benchmark.consistency import require_consistent
 from mocapbench.benchmark.errors import UnknownNameError, UnregisteredNameError, UsageError
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS, build_unfitted
+from mocapbench.benchmark.registry import (
+    METRICS,
+    MODELS,
+    TASKS,
+    UNCALIBRATED,
+    build_unfitted,
+    find_calibration,
+)
 from mocapbench.benchmark.tasks.base import PROFILES, Case, Entrant, Task
 
 __all__ = [
@@ -21,6 +28,7 @@ __all__ = [
     "entrants",
     "list_unmet_needs",
     "matching_cases",
+    "nameable_entrants",
     "split_cases",
 ]
 
@@ -68,6 +76,17 @@ def list_unmet_needs(request: Request) -> list[str]:
     return list(dict.fromkeys(texts))
 
 
+def nameable_entrants(task: Task) -> tuple[Entrant, ...]:
+    """Return the entrants, and those without their calibration, which only take part by name."""
+    calibrated = [entrant for entrant in entrants(task) if find_calibration(entrant.model)]
+    others = [
+        Entrant(entrant.label + UNCALIBRATED, entrant.model + UNCALIBRATED, entrant.parameters)
+        for entrant in calibrated
+    ]
+    taken = {entrant.label for entrant in task.entrants}
+    return (*entrants(task), *(entrant for entrant in others if entrant.label not in taken))
+
+
 def consistent_tasks(request: Request) -> list[Task]:
     """Return the tasks of a request, once its names and they themselves are known to be right.
 
@@ -96,9 +115,10 @@ def chosen_cases(request: Request, task: Task) -> Iterator[Case]:
 def chosen_entrants(request: Request, task: Task) -> list[Entrant]:
     """Return the entrants asked for, or those that the profile does not leave out."""
     if request.models:
-        labels = {entrant.label for entrant in entrants(task)} & set(request.models)
+        nameable = nameable_entrants(task)
+        labels = {entrant.label for entrant in nameable} & set(request.models)
         models = set(request.models) - labels
-        return [e for e in entrants(task) if e.label in labels or e.model in models]
+        return [e for e in nameable if e.label in labels or e.model in models]
     left_out = task.profile(request.profile).opt_in
     return [e for e in entrants(task) if e.label not in left_out]
 
@@ -139,10 +159,13 @@ def _check_names(request: Request) -> None:
         METRICS.get(name)
     tasks = _tasks(request)
     labels = {entrant.label for task in tasks for entrant in task.entrants}
-    known = {*MODELS.names(), *labels}
+    listed = {*MODELS.names(), *labels}
+    nameable = {
+        e for task in tasks for each in nameable_entrants(task) for e in (each.label, each.model)
+    }
     for name in request.models:
-        if name not in known:
-            raise UnregisteredNameError(MODELS.kind, name, sorted(known))
+        if name not in listed | nameable:
+            raise UnregisteredNameError(MODELS.kind, name, sorted(listed))
     for wanted in request.cases:
         if not matching_cases(wanted, _case_names(request)):
             raise UnknownNameError("case", wanted, _case_names(request))

@@ -18,7 +18,7 @@ from mocapbench.benchmark.task_files.library import address_of
 from mocapbench.benchmark.task_files.own_problem import own_problem
 from mocapbench.benchmark.task_files.settings import Settings, read_settings
 from mocapbench.benchmark.task_files.task_file import TaskFile
-from mocapbench.benchmark.tasks.base import PROFILES, Case, Profile, Task
+from mocapbench.benchmark.tasks.base import PROFILES, Case, Entrant, Profile, Task
 from mocapbench.datasets import subject_of
 from mocapbench.reports import TaskPage
 
@@ -57,6 +57,8 @@ def build_task(file: TaskFile) -> Task:
         requires={"fills frames" if whole_frames else "fills entries"},
         cases=cases,
         profiles=dict.fromkeys(PROFILES, profile),
+        # Models without their calibration are no entrants unless they are named.
+        entrants=tuple(Entrant(n, n) for n in settings.models if n not in MODELS.names()),
         meets=frozenset(file.meets),
         max_folds=1 if hidden.repeats else None,
         independent_folds=not (hidden.repeats or hidden.pattern),
@@ -121,7 +123,7 @@ def _check_folds(document: Document, settings: Settings, hidden: Hidden) -> None
 def _check_models(document: Document, settings: Settings, task: Task) -> None:
     able = [name for name in MODELS.names() if task.accepts(build_unfitted(name))]
     for name in settings.models:
-        if name not in able:
+        if not task.accepts(build_unfitted(name)):
             raise document.error(
                 "models",
                 "models that can fill what is hidden here",

@@ -154,7 +154,7 @@ _OF_ABILITY: Mapping[str, tuple[ModelCheck, ...]] = {
     "fills frames": (
         imputers.fills_whole_frames,
         imputers.repeats_itself,
-        imputers.claims_the_same_means,
+        imputers.keeps_means_in_calibration,
         imputers.ignores_the_order_of_recordings,
     ),
     "fills entries": (imputers.fills_any_mask,),

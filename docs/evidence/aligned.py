@@ -90,7 +90,7 @@ def _error(test: Recording, others: Sequence[Recording], seed: int) -> list[floa
     began = time.process_time()
     model = CyclicAlignment(random_state=seed).fit(others)
     fitted = time.process_time()
-    (prediction,) = model.as_claimed([test.hide(mask)])
+    (prediction,) = model.impute([test.hide(mask)])
     error = float(((prediction.mean - test.values)[mask] ** 2).mean())
     return [error, fitted - began, time.process_time() - fitted]
 

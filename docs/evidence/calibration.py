@@ -35,6 +35,7 @@ from mocapbench.baselines import (
     MOA,
     MOHGP,
     BestOf,
+    Calibrated,
     CyclicAlignment,
     FrameImputer,
     GPIndependent,
@@ -43,7 +44,6 @@ from mocapbench.baselines import (
     PchipImputer,
     PoseKriging,
 )
-from mocapbench.baselines.rehearsal.checkable import Widened
 from mocapbench.benchmark import ImputeProblem
 from mocapbench.benchmark.problems.impute import FilledRecordings
 from mocapbench.benchmark.tasks.missing_frames import (
@@ -59,17 +59,24 @@ from mocapbench.metrics import coverage_95, crps, msll, rms_per_frame
 
 MODELS: Mapping[str, Callable[[], FrameImputer]] = {
     "pose-kriging": PoseKriging,
-    "lds": LDS,
-    "fam": lambda: FAM(random_state=0),
-    "gpdm balanced": lambda: GPDM(max_iter=10, fill_iter=20, random_state=0),
-    "gpdm map": lambda: GPDM("map", max_iter=10, fill_iter=20, random_state=0),
-    "gpdm balanced, six dimensions": lambda: GPDM(
-        n_latent=6, start="viterbi", subject_offset=1.0, max_iter=10, fill_iter=20, random_state=0
+    "lds": lambda: Calibrated(LDS()),
+    "fam": lambda: Calibrated(FAM(random_state=0)),
+    "gpdm balanced": lambda: Calibrated(GPDM(max_iter=10, fill_iter=20, random_state=0)),
+    "gpdm map": lambda: Calibrated(GPDM("map", max_iter=10, fill_iter=20, random_state=0)),
+    "gpdm balanced, six dimensions": lambda: Calibrated(
+        GPDM(
+            n_latent=6,
+            start="viterbi",
+            subject_offset=1.0,
+            max_iter=10,
+            fill_iter=20,
+            random_state=0,
+        )
     ),
-    "gplvm": lambda: GPLVM(start="window", max_iter=10, fill_iter=20, random_state=0),
-    "cyclic-alignment": lambda: CyclicAlignment(random_state=0),
+    "gplvm": lambda: Calibrated(GPLVM(start="window", max_iter=10, fill_iter=20, random_state=0)),
+    "cyclic-alignment": lambda: Calibrated(CyclicAlignment(random_state=0)),
 }
-PROCESSES: Mapping[str, Callable[[], Widened]] = {
+PROCESSES: Mapping[str, Callable[[], FrameImputer]] = {
     "mohgp-3": lambda: MOHGP(n_components=3, n_restarts=1, max_iter=60),
     "moa-3": lambda: MOA(n_components=3, max_iter=60),
     "lmc-independent-3": lambda: LMCIndependent(n_components=3, max_iter=60),
@@ -88,7 +95,7 @@ LEFT_OUT: Mapping[str, tuple[str, int]] = {
 """By task, what its cases are named, and folds."""
 GAPS: Mapping[str, tuple[str, int]] = {"marker-gaps": ("a limb", 4)}
 """By task, what its cases are named, and folds: trained on others and on the recording alone."""
-GAP_FILLING: Mapping[str, Callable[[], Widened]] = {
+GAP_FILLING: Mapping[str, Callable[[], FrameImputer]] = {
     "mohgp-1": lambda: MOHGP(n_restarts=1, max_iter=10),
     "moa-1": lambda: MOA(max_iter=10),
     "lmc-independent-1": lambda: LMCIndependent(max_iter=10),
@@ -162,7 +169,7 @@ def best_of() -> None:
             report(f"{type(model).__name__} {test.name}", fitted, problems)
 
 
-def tried(task: str, named: str, n_folds: int) -> Iterator[ImputeProblem]:
+def pose_problems(task: str, named: str, n_folds: int) -> Iterator[ImputeProblem]:
     """Yield problems of a task with another root seed than the benchmark."""
     archive = bench.archive_at(None)
     for case in bench.TASKS.get(task).cases:
@@ -174,22 +181,22 @@ def tried(task: str, named: str, n_folds: int) -> Iterator[ImputeProblem]:
                 yield problem
 
 
-def widening(
-    tasks: Mapping[str, tuple[str, int]], models: Mapping[str, Callable[[], Widened]]
+def compare_models(
+    tasks: Mapping[str, tuple[str, int]], models: Mapping[str, Callable[[], FrameImputer]]
 ) -> None:
-    """Print coverage, MSLL and CRPS of variances as claimed and widened, and how many problems."""
+    """Print coverage, MSLL and CRPS before and after calibration, and how many problems."""
     for (task, (named, n_folds)), (name, make) in product(tasks.items(), models.items()):
         rows: list[list[float]] = []
-        for problem in tried(task, named, n_folds):
+        for problem in pose_problems(task, named, n_folds):
             with suppress(ValueError):
-                rows.append(calibration(make().fit(problem.train), problem))
+                rows.append(compare_variances(Calibrated(make()).fit(problem.train), problem))
         means = np.mean(rows, axis=0).round(3)
         print(f"{task:22} {name:16}", *means, f"{len(rows)} problems", flush=True)
 
 
-def calibration(model: Widened, problem: ImputeProblem) -> list[float]:
-    """Return the coverage, MSLL and CRPS of the variances as claimed, and as widened."""
-    answers = (model.as_claimed(problem.given), model.impute(problem.given))
+def compare_variances(model: Calibrated, problem: ImputeProblem) -> list[float]:
+    """Return the coverage, MSLL and CRPS of the uncalibrated and of the calibrated variances."""
+    answers = (model.model_.impute(problem.given), model.impute(problem.given))
     outcomes = [problem.outcome(FilledRecordings(tuple(answer))) for answer in answers]
     return [m(outcome).value for m in (coverage_95, msll, crps) for outcome in outcomes]
 
@@ -198,8 +205,8 @@ COMMANDS: Mapping[str, Callable[[], None]] = {
     "walkers": walkers,
     "strangers": strangers,
     "best-of": best_of,
-    "left-out": partial(widening, LEFT_OUT, PROCESSES),
-    "gaps": partial(widening, GAPS, GAP_FILLING),
+    "left-out": partial(compare_models, LEFT_OUT, PROCESSES),
+    "gaps": partial(compare_models, GAPS, GAP_FILLING),
 }
 
 if __name__ == "__main__":

@@ -164,7 +164,7 @@ def row(groups: Mapping[str, Sequence[str]], kind: str, change: Change) -> str:
             for recording, hidden, training in gaps(groups, kind, seconds):
                 given = recording.hide(hidden)
                 model = ChannelKriging().fit(training or [given])
-                (filled,) = model.as_claimed([given])
+                (filled,) = model.impute([given])
                 found.append((error(recording, hidden, filled), held(recording, hidden, filled)))
             errors, shares = np.array(found).T
             cells.append(f"{np.exp(np.log(errors).mean()):.3g} ({shares.mean():.2f})")

@@ -4,12 +4,11 @@
 
     python docs/evidence/lost_channels.py [checked]
 
-prints, for each model, coverage of 95 %, MSLL and CRPS of the variances that it
-claims, and of those that trials and training bear out; then the error of `best-of` beside the best
-of its candidates and beside the mean of a channel. Joint angles are hidden throughout in three
-recordings of each group, filled after training on the others. With `checked` the groups are those
-on which nothing was chosen. Recordings are read from the folders in the environment variable
-MOCAPBENCH_DATA.
+prints, for each model, coverage of 95 %, MSLL and CRPS before and after calibration; then the error
+of `best-of` beside the best of its candidates and beside the mean of a channel. Joint angles are
+hidden throughout in three recordings of each group, filled after training on the others. With
+`checked` the groups are those on which nothing was chosen. Recordings are read from the folders in
+the environment variable MOCAPBENCH_DATA.
 """
 
 from __future__ import annotations
@@ -22,14 +21,13 @@ from itertools import product
 import numpy as np
 
 from mocapbench import benchmark as bench
-from mocapbench.baselines import FAM, LDS, BestOf, ChannelKriging, LowRank
-from mocapbench.baselines.rehearsal.checkable import Widened
+from mocapbench.baselines import FAM, LDS, BestOf, Calibrated, ChannelKriging, FrameImputer, LowRank
 from mocapbench.benchmark import ImputeProblem
 from mocapbench.benchmark.problems.impute import FilledRecordings
 from mocapbench.datasets import FrameByChannel, Recording
 from mocapbench.metrics import coverage_95, crps, msll
 
-MODELS: Mapping[str, Callable[[], Widened]] = {
+MODELS: Mapping[str, Callable[[], FrameImputer]] = {
     "lds": LDS,
     "fam": lambda: FAM(n_restarts=1, max_iter=10, random_state=0),
     "low-rank": LowRank,
@@ -78,9 +76,9 @@ def problems(groups: Sequence[str]) -> Iterator[ImputeProblem]:
             yield ImputeProblem.of_one(truth, mask, train, seen_in_fit=False)
 
 
-def calibration(model: Widened, problem: ImputeProblem) -> list[float]:
-    """Return coverage, MSLL and CRPS as claimed, and then as now."""
-    answers = (model.as_claimed(problem.given), model.impute(problem.given))
+def compare_variances(model: Calibrated, problem: ImputeProblem) -> list[float]:
+    """Return coverage, MSLL and CRPS of the uncalibrated and of the calibrated variances."""
+    answers = (model.model_.impute(problem.given), model.impute(problem.given))
     outcomes = [problem.outcome(FilledRecordings(tuple(answer))) for answer in answers]
     return [m(outcome).value for m in (coverage_95, msll, crps) for outcome in outcomes]
 
@@ -94,7 +92,7 @@ def ratios(problem: ImputeProblem) -> tuple[float, float]:
         return float(np.sqrt(np.mean(off**2)))
 
     (chosen,) = model.impute(problem.given)
-    errors = {name: error(mean) for name, mean in model.panel_.means(problem.given[0]).items()}
+    errors = {name: error(mean) for name, mean in model.candidates_.means(problem.given[0]).items()}
     return error(chosen.mean) / min(errors.values()), error(chosen.mean) / errors["linear"]
 
 
@@ -102,7 +100,9 @@ def main(which: str = "chosen") -> None:
     """Print a line for each model, and one for `best-of`."""
     every = list(problems({"chosen": CHOSEN_ON, "checked": CHECKED_ON}[which]))
     for name, make in MODELS.items():
-        rows = [calibration(make().fit(problem.train), problem) for problem in every]
+        rows = [
+            compare_variances(Calibrated(make()).fit(problem.train), problem) for problem in every
+        ]
         means: list[float] = np.mean(rows, axis=0).round(3).tolist()
         print(f"{name:16}", *means, f"{len(rows)} problems", flush=True)
     beside = np.array([ratios(problem) for problem in every])

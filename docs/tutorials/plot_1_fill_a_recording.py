@@ -68,6 +68,7 @@ given = [with_gap(recording, rng) for recording in truth]
 #   It has no interval.
 # - ``gp-independent`` is one Gaussian process for each joint. It knows
 #   how fast a joint moves, and nothing of other joints or other people.
+#   ``Calibrated`` checks its intervals where the truth is visible.
 # - ``pose-kriging`` looks for similar poses in the walks of other
 #   people, and corrects them.
 #
@@ -75,6 +76,7 @@ given = [with_gap(recording, rng) for recording in truth]
 # truth, for the scores.
 
 from mocapbench.baselines import (
+    Calibrated,
     GPIndependent,
     MakimaImputer,
     PoseKriging,
@@ -83,7 +85,7 @@ from mocapbench.benchmark import ImputeProblem, Unit
 
 MODELS = {
     "makima": MakimaImputer(),
-    "gp-independent": GPIndependent(),
+    "gp-independent": Calibrated(GPIndependent()),
     "pose-kriging": PoseKriging(),
 }
 

@@ -59,12 +59,12 @@ def test_whole_frames_are_bridged_smoothly():
     assert np.abs(filled.mean - truth.values).max() < 0.1
 
 
-def test_a_single_frame_that_shows_hidden_channels_together_gives_bands_as_wide_as_they_spread():
+def test_one_frame_that_shows_hidden_channels_together_gives_intervals_as_wide_as_they_spread():
     hidden, without_hip = np.zeros((2, 60, 3), dtype=bool)
     hidden[:59, :2] = without_hip[:, 0] = True
     given, other = walk("new", 0).hide(hidden), walk("other", 7)
     others = [other.hide(without_hip), knee_hidden(walk("third", 3), 0)]
-    (filled,) = ChannelKriging().fit([given, *others]).as_claimed([given])
+    (filled,) = ChannelKriging().fit([given, *others]).impute([given])
     assert (np.sqrt(filled.variance[:50, :2]) > 0.1).all()
     assert (np.sqrt(filled.variance[:50, :2]) < 10.0).all()
 

@@ -18,10 +18,10 @@ def _recordings(seed=0, n_outputs=2):
 def test_a_channel_is_predicted_as_if_it_were_alone():
     """Only by how much variances are widened do channels tell of each other."""
     recordings = _recordings()
-    together = GPIndependent(max_iter=30).fit(recordings).as_claimed(recordings)[2]
+    together = GPIndependent(max_iter=30).fit(recordings).impute(recordings)[2]
     for d, channel in enumerate(recordings[0].channels):
         alone = [recording.select([channel]) for recording in recordings]
-        (prediction,) = LMCIndependent(rank=0, max_iter=30).fit(alone).as_claimed(alone[2:])
+        (prediction,) = LMCIndependent(rank=0, max_iter=30).fit(alone).impute(alone[2:])
         np.testing.assert_array_equal(together.mean[:, [d]], prediction.mean)
         np.testing.assert_array_equal(together.variance[:, [d]], prediction.variance)
 

@@ -23,9 +23,7 @@ def test_a_channel_is_a_hierarchy_of_its_own():
     for d, channel in enumerate(recordings[0].channels):
         alone = [recording.select([channel]) for recording in recordings]
         model = MOHGP(rank=0, max_iter=30, n_restarts=1).fit(alone)
-        for one, other in zip(
-            together.as_claimed(recordings), model.as_claimed(alone), strict=True
-        ):
+        for one, other in zip(together.impute(recordings), model.impute(alone), strict=True):
             np.testing.assert_array_equal(one.mean[:, [d]], other.mean)
             np.testing.assert_array_equal(one.variance[:, [d]], other.variance)
         trend = model.trend(TIMES)

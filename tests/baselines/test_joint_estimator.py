@@ -36,9 +36,9 @@ def noises(model):
     return np.concatenate([one.noise_ for one in models])
 
 
-def test_the_diagonal_is_the_claimed_variance_of_the_imputation(fitted, recordings):
+def test_the_diagonal_is_the_variance_of_the_imputation(fitted, recordings):
     for recording in recordings[2:]:
-        (prediction,) = fitted.as_claimed([recording])
+        (prediction,) = fitted.impute([recording])
         diagonal = np.diagonal(fitted.posterior_covariance(recording)).reshape(2, 8).T
         hidden = ~recording.visible
         variance = (diagonal + noises(fitted))[hidden]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mocapbench.baselines import lds
+from mocapbench.baselines.calibrated import Calibrated
 from mocapbench.baselines.lds import LDS
 from mocapbench.datasets import Recording
 
@@ -51,10 +52,10 @@ def test_a_new_walk_is_filled_whatever_is_hidden(frames, channels):
 def test_the_variance_grows_towards_the_middle_of_a_gap_and_contains_the_noise():
     model = LDS(2).fit(WALKS)
     given = hidden(walk("new"), slice(10, 22))
-    (claimed,), (prediction,) = model.as_claimed([given]), model.impute([given])
-    for gap in (claimed.variance[10:22], prediction.variance[10:22]):
-        assert (gap[5:7] > gap[[0, 11]]).all()
-    assert (claimed.variance[10:22] > model.parameters_.noise * model.scaling_.scale**2).all()
+    (prediction,) = model.impute([given])
+    gap = prediction.variance[10:22]
+    assert (gap[5:7] > gap[[0, 11]]).all()
+    assert (gap > model.parameters_.noise * model.scaling_.scale**2).all()
 
 
 def test_units_do_not_matter():
@@ -153,7 +154,7 @@ def test_other_channels_are_refused():
 
 
 @pytest.mark.parametrize("noise", [0.3, 1.0])
-def test_bands_are_hardly_wider_than_the_noise_of_a_recording_that_repeats_itself(noise):
+def test_intervals_are_hardly_wider_than_the_noise_of_a_recording_that_repeats_itself(noise):
     rng, angle = np.random.default_rng(20), 2 * np.pi * np.arange(600) / 60
     phases = rng.uniform(0.0, 6.0, 6)
     waves = 20 * np.sin(angle[:, None] + phases) + 6 * np.sin(2 * angle[:, None] + 2 * phases)
@@ -162,11 +163,11 @@ def test_bands_are_hardly_wider_than_the_noise_of_a_recording_that_repeats_itsel
         mask[first : first + 30, channel] = True
     whole = Recording("r", np.arange(600) / 60, values, tuple("abcdef"), ("deg",) * 6)
     given = whole.hide(mask)
-    model = LDS().fit([given])
-    (claimed,), (prediction,) = model.as_claimed([given]), model.impute([given])
+    model = Calibrated(LDS()).fit([given])
+    (nominal,), (prediction,) = model.model_.impute([given]), model.impute([given])
     squares = (prediction.mean - values)[mask] ** 2 / prediction.variance[mask]
     assert 0.6 < squares.mean() < 1.5
-    assert prediction.variance[mask].mean() < 0.5 * claimed.variance[mask].mean()
+    assert prediction.variance[mask].mean() < 0.5 * nominal.variance[mask].mean()
 
 
 @pytest.mark.parametrize("max_iter", [1, 3, 50])
@@ -177,10 +178,10 @@ def test_the_objective_is_that_of_the_start_and_of_each_iteration(max_iter):
     assert model.converged_ or model.n_iterations_ == max_iter
 
 
-def test_what_noise_is_shown_is_learnt_once_and_only_where_trials_can_narrow(monkeypatch):
+def test_what_noise_is_shown_is_learnt_once_and_only_where_held_out_gaps_can_narrow(monkeypatch):
     calls, learn = [], lds.show_noise
     monkeypatch.setattr(lds, "show_noise", lambda *given: calls.append(1) or learn(*given))
-    model = LDS(2).fit(WALKS)
+    model = Calibrated(LDS(2)).fit(WALKS)
     model.impute([walk("complete")])
     assert not calls
     for _ in range(2):

@@ -79,7 +79,7 @@ def test_channels_that_are_seldom_visible_together_do_not_make_it_certain(seed):
     rng = np.random.default_rng(seed)
     truth = recording("r", rng.standard_normal((150, 3)).cumsum(axis=0))
     given = truth.hide(rng.random((150, 3)) >= 0.15)
-    (prediction,) = fitted(given).as_claimed([given])
+    (prediction,) = fitted(given).impute([given])
     hidden = ~given.visible
     squares = (prediction.mean - truth.values)[hidden] ** 2 / prediction.variance[hidden]
     assert squares.max() < 1000.0
@@ -88,7 +88,7 @@ def test_channels_that_are_seldom_visible_together_do_not_make_it_certain(seed):
 def test_predictions_are_conditional_gaussians():
     given = scattered("r", 1)
     model = fitted(given, motion("other", 2))
-    (prediction,) = model.as_claimed([given])
+    (prediction,) = model.impute([given])
     own_mean, scale = np.nanmean(given.values, axis=0), model.own_means_.scale
     for n in np.flatnonzero(~given.visible.all(axis=1)):
         seen = given.visible[n]
@@ -118,7 +118,7 @@ def test_frames_hidden_as_a_whole_take_the_recordings_own_mean_and_all_the_varia
     gap = np.repeat((np.arange(N_FRAMES) // 10 == 2)[:, None], N_CHANNELS, axis=1)
     given = motion("r", 3).hide(gap)
     model = fitted(given, motion("other", 2, offset=30.0))
-    (prediction,) = model.as_claimed([given])
+    (prediction,) = model.impute([given])
     own_mean = np.nanmean(given.values, axis=0)
     np.testing.assert_allclose(prediction.mean[20:30], np.tile(own_mean, (10, 1)), atol=1e-12)
     variance = np.diag(covariance(model)) * model.own_means_.scale**2

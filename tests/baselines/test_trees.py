@@ -92,7 +92,7 @@ def test_trends_of_groups_condition_the_joint_gaussian(group, fitted, recordings
 
 
 def test_imputations_condition_the_joint_gaussian(fitted, recordings):
-    for recording, prediction in zip(recordings, fitted.as_claimed(recordings), strict=True):
+    for recording, prediction in zip(recordings, fitted.impute(recordings), strict=True):
         leaf = (*TREE[recording.name], recording.name)
         data, covariance, cross, prior = joint(fitted, recordings, leaf, recording.times)
         gain = np.linalg.solve(covariance, cross.T).T

@@ -258,7 +258,7 @@ class Unseeded(_Mean):
 class Pretends(_Mean):
     """Does something else in trials than what it fills."""
 
-    def as_claimed(self, recordings):
+    def impute_uncalibrated(self, recordings):
         return [Prediction.around(recording, -99.0) for recording in recordings]
 
 
@@ -399,7 +399,7 @@ NONCONFORMING = {
     Restless: "expected the parameters {'size': 3}, got {'size': 4}",
     Global: "expected NumPy's global random state untouched",
     Unseeded: "the same answer from the same seed",
-    Pretends: "expected as_claimed to have the means of impute, got a difference of",
+    Pretends: "expected impute_uncalibrated to have the means of impute, got a difference of",
     FirstOnly: "recordings in another order, got a difference of",
     Overwrites: "visible entries copied into the mean",
     VariesVisible: "expected no variance at visible entries",

@@ -3,7 +3,7 @@
 from concurrent.futures import Future
 
 from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
-from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.registry import MODELS, find_calibration
 
 
 class Here:
@@ -25,7 +25,9 @@ class Here:
         if model in self.slow:
             ended.set_result(FillAttempt(None, "took longer", timed_out=True))
         else:
-            ended.set_result(attempt_fill(MODELS.get(model), self.kept[problem], 2**45, method))
+            given, calibration = self.kept[problem], find_calibration(model)
+            made = attempt_fill(MODELS.get(model), given, 2**45, method, calibration)
+            ended.set_result(made)
         return ended
 
     def wait_for_any(self, futures):

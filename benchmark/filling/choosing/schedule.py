@@ -129,7 +129,7 @@ class Round:
                 continue
             number, seconds = self._left[contender].popleft(), min(self._limit, left)
             problem = self._problems[number]
-            future = self._workers.submit(contender.model, problem, seconds, "as_claimed")
+            future = self._workers.submit(contender.model, problem, seconds, "impute_uncalibrated")
             self._running[future] = contender, number
             self._follow_start(contender)
 

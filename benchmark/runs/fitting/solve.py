@@ -5,7 +5,7 @@ from __future__ import annotations
 import resource
 import time
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, NamedTuple, Self
 
@@ -46,16 +46,25 @@ class Fitted(NamedTuple):
         return self._replace(costs=costs, internals=internals)
 
 
-def build_model(model: type[Model], parameters: Mapping[str, Any], random_state: int) -> Model:
-    """Return an unfitted model, seeded if it takes a seed."""
+def build_model(
+    model: type[Model],
+    parameters: Mapping[str, Any],
+    random_state: int,
+    calibration: Callable[[Any], Model] | None,
+) -> Model:
+    """Return an unfitted model, seeded if it takes a seed, in its calibration if it has one."""
     built = model(**parameters)
     if "random_state" in built.get_params():
         built.set_params(random_state=random_state)
-    return built
+    return built if calibration is None else calibration(built)
 
 
 def train(
-    problem: Problem[Any], entrant: type[Model], parameters: Mapping[str, Any], random_state: int
+    problem: Problem[Any],
+    entrant: type[Model],
+    parameters: Mapping[str, Any],
+    random_state: int,
+    calibration: Callable[[Any], Model] | None = None,
 ) -> Fitted:
     """Return the entrant, fitted to what ``problem`` lets it see.
 
@@ -66,8 +75,10 @@ def train(
         The class of the model, and its parameters.
     random_state : int
         The seed of the fit.
+    calibration : callable, optional
+        From the model to one with calibrated variances.
     """
-    model = build_model(entrant, parameters, random_state)
+    model = build_model(entrant, parameters, random_state, calibration)
     with _warnings() as caught:
         started = time.perf_counter()
         problem.fit(model)

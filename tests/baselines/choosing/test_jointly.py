@@ -114,7 +114,7 @@ def test_a_candidate_fitted_anew_leaves_the_first_as_it_is(name, monkeypatch):
 def test_channels_are_those_of_fit(model):
     given = gap(walk("new"), 8, 16)
     with pytest.raises(NotFittedError):
-        Jointly(MOHGP()).as_claimed([given])
-    for answer in (model.as_claimed, model.impute):
+        Jointly(MOHGP()).impute_uncalibrated([given])
+    for answer in (model.impute_uncalibrated, model.impute):
         with pytest.raises(ValueError, match="expected channels"):
             answer([given.select(given.channels[::-1])])

@@ -1,4 +1,4 @@
-"""Gaps in all channels, and others, are rehearsed and weighed apart."""
+"""Gaps in all channels, and others, are held out and weighed apart."""
 
 import numpy as np
 from hypothesis import given, settings

@@ -5,7 +5,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from mocapbench.baselines.choosing.candidates import LAST_RESORT, FittedCandidates
-from mocapbench.baselines.choosing.rehearsals import Rehearsals
+from mocapbench.baselines.choosing.held_out_errors import HeldOutErrors
 from mocapbench.baselines.choosing.weights import among, evidence, expected_errors, weights_of
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -34,7 +34,7 @@ def expected(weights, table):
 
 @settings(max_examples=60, deadline=None)
 @given(SEEDS, SEEDS)
-def test_no_other_weights_err_less_in_rehearsals(seed, other):
+def test_no_other_weights_err_less_in_what_is_held_out(seed, other):
     table = drawn(seed)
     weights = weights_of([table], 0.0)
     assert [*weights] == [*table]
@@ -108,20 +108,17 @@ def test_without_an_error_the_last_resort_fills():
     assert weights_of([], 0.5) == {LAST_RESORT: 1.0}
 
 
-class Staged(Rehearsals):
-    """Rehearsals with given errors, those in the recording itself of so many entries."""
+class Staged(HeldOutErrors):
+    """Given errors, those in the recording itself of so many entries."""
 
-    def __init__(self, own, in_training, *, short, n_entries=10**9):
-        recording = FittedCandidates({})  # not looked at
-        object.__setattr__(self, "given", _Gap())
-        object.__setattr__(self, "candidates", recording)
-        object.__setattr__(self, "errors", (own, in_training, short))
-        object.__setattr__(self, "hides", n_entries)
+    def __init__(self, own, elsewhere, *, short, n_entries=10**9):
+        super().__init__((), FittedCandidates({}), _Gap())
+        self.errors, self.hides = (own, elsewhere, short), n_entries
 
-    def own(self, part):
+    def in_recording(self, part):
         return self.errors[0]
 
-    def in_training(self, part):
+    def elsewhere(self, part):
         return self.errors[1]
 
     def n_entries(self, part):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mocapbench import baselines
-from mocapbench.baselines import HGP, MOA, MOHGP, LMCIndependent, protocols
+from mocapbench.baselines import MOA, MOHGP, LMCIndependent, protocols
 from mocapbench.baselines.gp.estimator import GaussianProcess
 from mocapbench.baselines.gp.process import FittedProcess
 from mocapbench.datasets import ToyProcess
@@ -59,7 +59,7 @@ def test_fit_and_impute_are_followed_in_five_files():
     """Beside what they stand on, each a folder of its own.
 
     These are the mathematics of the prior, the reduction, the solvers and the training, and what
-    other models share: checks and units (`common`), calibration (`rehearsal`).
+    other models share: checks and units (`common`).
     """
     recordings, model = problem(), MOHGP(max_iter=2, registration="affine")
     files = files_executed(lambda: model.fit(recordings).impute(recordings))
@@ -77,28 +77,12 @@ def test_what_a_model_says_is_said_by_its_fitted_process():
         [process.reduction.replicates[-1], process.reduction.trend], [given.times, times]
     )
     hidden = ~given.visible
-    (claimed,) = model.as_claimed([given])
-    np.testing.assert_array_equal(claimed.mean[hidden], mean[hidden])
-    np.testing.assert_array_equal(claimed.variance[hidden], (variance + process.noise)[hidden])
+    (posterior,) = model.impute([given])
+    np.testing.assert_array_equal(posterior.mean[hidden], mean[hidden])
+    np.testing.assert_array_equal(posterior.variance[hidden], (variance + process.noise)[hidden])
     np.testing.assert_array_equal(model.trend(times)[0], trend)
     np.testing.assert_array_equal(
         model.covariance("child", times), process.layer_covariance("child", times)
     )
     drawn = process.draw_recordings("mean", times, 2, np.random.default_rng(1))
     np.testing.assert_array_equal(model.sample(times, 2, 1), drawn)
-
-
-@pytest.mark.parametrize("model", [MOHGP(max_iter=3), MOA(max_iter=3), HGP(max_iter=3)])
-def test_calibration_changes_variances_only(model):
-    """The posterior as published is `as_claimed`; each channel has one factor of its variances."""
-    recordings = problem()
-    model.fit(recordings)
-    for posterior, calibrated in zip(
-        model.as_claimed(recordings), model.impute(recordings), strict=True
-    ):
-        np.testing.assert_array_equal(calibrated.mean, posterior.mean)
-        known = posterior.variance == 0.0
-        np.testing.assert_array_equal(calibrated.variance == 0.0, known)
-        for claimed, variance in zip(posterior.variance.T, calibrated.variance.T, strict=True):
-            factors = variance[claimed > 0.0] / claimed[claimed > 0.0]
-            np.testing.assert_allclose(factors, factors[:1].repeat(len(factors)), rtol=1e-12)

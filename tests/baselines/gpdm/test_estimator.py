@@ -68,8 +68,8 @@ def test_confidence_falls_away_from_training(fitted):
 
 def test_a_constant_channel_has_the_variance_of_a_scaled_one_and_the_unit_of_the_bound(fitted):
     new, gap = walk("new", 12, 0.4), (np.arange(12) // 3 == 2)[:, None]
-    (claimed,) = fitted.as_claimed([new.hide(gap)])
-    scaled = claimed.variance[:, :3] * fitted.estimate_.scales**2
+    (prediction,) = fitted.impute([new.hide(gap)])
+    scaled = prediction.variance[:, :3] * fitted.estimate_.scales**2
     bound = 1.0 / (KAPPA**2 * sum(len(recording.times) for recording in WALKS))
-    np.testing.assert_allclose(claimed.variance[:, 3], scaled[:, 0] * bound)
+    np.testing.assert_allclose(prediction.variance[:, 3], scaled[:, 0] * bound)
     np.testing.assert_allclose(scaled.T, scaled[:, [0]].T.repeat(3, axis=0))

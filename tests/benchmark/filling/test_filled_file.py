@@ -11,7 +11,7 @@ from mocapbench.benchmark.filling.fill_attempt import FillAttempt, attempt_fill
 from mocapbench.benchmark.filling.filled_file import BEST, fill
 from mocapbench.benchmark.filling.input_files import InputFile
 from mocapbench.benchmark.filling.requests.request import NamedEntries, select
-from mocapbench.benchmark.registry import MODELS
+from mocapbench.benchmark.registry import MODELS, find_calibration
 from mocapbench.datasets import CSVFormat
 
 
@@ -26,7 +26,7 @@ class Slow:
     def submit(self, model, problem, seconds, method="impute"):
         if seconds < 60.0:
             return FillAttempt(None, "was stopped", timed_out=True)
-        return attempt_fill(MODELS.get(model), problem, 2**40, method)
+        return attempt_fill(MODELS.get(model), problem, 2**40, method, find_calibration(model))
 
     def wait_for_any(self, futures):
         return [*futures]

@@ -30,7 +30,7 @@ FITTED = st.fixed_dictionaries(
         "posed by": st.lists(LONG, max_size=2),
         "training": TEXT,
         "entrant": st.tuples(TEXT, st.dictionaries(TEXT, st.integers(0, 2) | TEXT, max_size=2)),
-        "source": st.tuples(LONG, LONG),
+        "source": st.tuples(LONG, LONG, LONG),
         "libraries": st.dictionaries(st.sampled_from(["numpy", "scipy"]), TEXT),
     }
 )
@@ -56,7 +56,7 @@ def test_parts_are_equal_just_where_keys_are(fitted, other_fitted, scored, other
 def test_one_change_is_one_part(fitted, scored, data):
     name, value = data.draw(
         st.sampled_from(
-            [("posed by", ["new"]), ("source", ("new", fitted["source"][1])), ("libraries", None)]
+            [("posed by", ["new"]), ("source", ("new", *fitted["source"][1:])), ("libraries", None)]
         )
     )
     changed = value or {**fitted["libraries"], "numpy": "of tomorrow"}

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 
 from mocapbench import baselines, benchmark, datasets
-from mocapbench.baselines import common, rehearsal
+from mocapbench.baselines import Calibrated, calibration, common
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.plugins import load_plugin
-from mocapbench.benchmark.registry import METRICS, MODELS, TASKS
+from mocapbench.benchmark.registry import METRICS, MODELS, TASKS, find_calibration
 from mocapbench.benchmark.runs import keys
 from mocapbench.benchmark.runs.keys import fit_contents, key_of, metric_contents, score_contents
 from mocapbench.benchmark.runs.plan import plan
@@ -38,7 +38,8 @@ def _key(case=TASK.cases[0], seeds=SEEDS, **changes):
 
 def _key_of(task, model):
     """Return the fit key of a model on the first case of a task."""
-    return _key(TASKS.get(task).cases[0], model=MODELS.get(model))
+    entrant = {"model": MODELS.get(model), "calibration": find_calibration(model)}
+    return _key(TASKS.get(task).cases[0], **entrant)
 
 
 @pytest.mark.parametrize(
@@ -54,6 +55,7 @@ def _key_of(task, model):
         {"model": MODELS.get("cubic-spline")},
         {"parameters": {"a": 1}},
         {"digests": {"cmu:02_01": "abc"}},
+        {"calibration": Calibrated},
     ],
     ids=lambda changes: str(next(iter(changes.values())))[:60],
 )
@@ -148,25 +150,21 @@ FIT_PATH = [
     ("baselines.common.own_means", "walking-interpolation", "low-rank"),
     ("baselines.common.pose_units", "missing-frames", "pose-viterbi"),
     ("baselines.common.prototypes", "style-clustering", "k-fam"),
-    ("baselines.rehearsal.calibrated_posteriors", "toy-interpolation-1", "mohgp"),
-    ("baselines.rehearsal.checkable", "missing-frames", "lds"),
-    ("baselines.rehearsal.in_training", "subject-35-missing", "channel-kriging"),
-    ("baselines.rehearsal.lost_channels", "missing-frames", "lds"),
-    ("baselines.rehearsal.left_out", "toy-interpolation-1", "mohgp"),
-    ("baselines.rehearsal.ratios", "toy-interpolation-1", "mohgp"),
+    ("baselines.calibrated", "toy-interpolation-1", "mohgp"),
+    ("baselines.calibration.error_ratios", "toy-interpolation-1", "mohgp"),
+    ("baselines.calibration.held_out_gaps", "missing-frames", "lds"),
+    ("baselines.calibration.held_out_recordings", "subject-35-missing", "channel-kriging"),
+    ("baselines.calibration.leave_one_out", "toy-interpolation-1", "mohgp"),
+    ("baselines.calibration.variance_check", "missing-frames", "lds"),
+    ("baselines.calibration.ways", "missing-frames", "lds"),
     ("baselines.common.checks", "toy-interpolation-1", "trivial"),
     ("baselines.common.padded_sequences", "missing-frames", "lds"),
     ("baselines.common.recordings", "toy-interpolation-1", "trivial"),
-    ("baselines.rehearsal.rehearsing", "subject-35-missing", "channel-kriging"),
     ("baselines.common.scaling", "toy-interpolation-1", "mohgp"),
     ("baselines.common.shortest_path", "missing-frames", "pose-viterbi"),
     ("baselines.common.signs", "toy-interpolation-1", "mohgp"),
-    ("baselines.rehearsal.stand_ins", "subject-35-missing", "channel-kriging"),
     ("baselines.gp.solvers.threads", "toy-interpolation-1", "mohgp"),
     ("baselines.common.transitions", "missing-frames", "knn"),
-    ("baselines.rehearsal.trials", "missing-frames", "lds"),
-    ("baselines.rehearsal.variance_check", "missing-frames", "lds"),
-    ("baselines.rehearsal.widening", "missing-frames", "lds"),
     ("baselines.common.validation", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.prior.kernels", "toy-interpolation-1", "mohgp"),
     ("baselines.gp.solvers.latent_split.split_gradient", "toy-interpolation-1", "mohgp"),
@@ -186,7 +184,7 @@ def test_code_that_poses_or_fits_is_part_of_the_fit_key(append, module, task, mo
 def test_every_module_that_models_have_in_common_is_among_those():
     shared = {
         f"baselines.{package.__name__.rpartition('.')[2]}.{module.name}"
-        for package in (common, rehearsal)
+        for package in (calibration, common)
         for module in pkgutil.iter_modules(package.__path__)
     }
     assert shared <= {module for module, _, _ in FIT_PATH}

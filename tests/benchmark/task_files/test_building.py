@@ -7,6 +7,7 @@ from own_files import write_csv
 from mocapbench.baselines.interpolation import LinearImputer
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.runs.keys import fit_contents
+from mocapbench.benchmark.runs.request import entrants
 from mocapbench.benchmark.task_files.building import build_task
 from mocapbench.benchmark.task_files.task_file import TaskFile
 from mocapbench.benchmark.task_files.uniting import united_task_files
@@ -95,6 +96,16 @@ def test_a_task_is_alike_in_all_profiles_and_names_its_models(check):
     assert profile.cases == ("a", "b")
     assert {"linear", "knn"}.isdisjoint(profile.opt_in)
     assert {"hold", "gpdm"} <= set(profile.opt_in)
+
+
+def test_a_model_takes_part_without_its_calibration_where_the_file_names_it(check):
+    text = TEXT.format("others")
+    task = build_task(check('models = ["lds", "lds-uncalibrated"]\n' + text))
+    (entrant,) = task.entrants
+    assert (entrant.label, entrant.model) == ("lds-uncalibrated",) * 2
+    assert {"lds", "lds-uncalibrated"}.isdisjoint(task.profiles["paper"].opt_in)
+    assert {e.label for e in entrants(task)} > {"lds", "lds-uncalibrated"}
+    assert build_task(check('models = ["lds"]\n' + text)).entrants == ()
 
 
 def test_each_length_of_gaps_is_a_case(check):

@@ -33,7 +33,7 @@ class Intervals(Imputer):
     def impute(self, recordings):
         return [Prediction.around(recording, 0.0, 1e4) for recording in recordings]
 
-    def as_claimed(self, recordings):
+    def impute_uncalibrated(self, recordings):
         return [Prediction.around(recording, 0.0, 1e-12) for recording in recordings]
 
 
@@ -137,7 +137,7 @@ def test_models_are_compared_without_checks_and_the_intervals_of_the_best_are_ch
         len(hold_out.truth) for hold_out in first
     )
     assert len(chosen.in_intervals) == sum(len(hold_out.entries) for hold_out in first)
-    assert workers.asked == ["as_claimed"] * (len(workers.asked) - 3) + ["impute"] * 3
+    assert workers.asked == ["impute_uncalibrated"] * (len(workers.asked) - 3) + ["impute"] * 3
     in_two_waves = [seconds for _, seconds in workers.limits[-3:]]
     assert 2 * max(in_two_waves) <= 0.5 * 64.0
 
@@ -148,7 +148,7 @@ def test_intervals_that_there_are_not_or_not_in_time_hold_nothing(waves, hidden,
     only("linear")
     workers = Here()
     assert choose(problem, workers, 64.0, lambda *_: None).in_intervals == ()
-    assert set(workers.asked) == {"as_claimed"}
+    assert set(workers.asked) == {"impute_uncalibrated"}
     only("intervals")
     workers = SlowToCalibrate()
     assert choose(problem, workers, 64.0, lambda *_: None).in_intervals == ()

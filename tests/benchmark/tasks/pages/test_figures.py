@@ -3,7 +3,16 @@
 import joblib
 import pytest
 
-from mocapbench.benchmark import MODELS, TASKS, Internals, Request, Solved, archive_at, plan
+from mocapbench.benchmark import (
+    MODELS,
+    TASKS,
+    Internals,
+    Request,
+    Solved,
+    archive_at,
+    find_calibration,
+    plan,
+)
 from mocapbench.benchmark.runs.fitting.solve import solve, train
 from mocapbench.reports import Motions
 from mocapbench.reports.figures.pictures.draw import draw
@@ -38,7 +47,8 @@ def _fit(job, problem):
     budget = {name: value for name, value in BUDGET.items() if name in job.parameters}
     parameters = {**job.parameters, **budget}
     random_state = job.training_seeds.random_state("init")
-    fitted = train(problem, MODELS.get(job.model), parameters, random_state)
+    model, calibration = MODELS.get(job.model), find_calibration(job.model)
+    fitted = train(problem, model, parameters, random_state, calibration)
     return solve(problem, fitted, job.seeds.random_state("sample"))
 
 

@@ -2,19 +2,19 @@ from functools import partial
 
 import numpy as np
 import pytest
-from claiming import Claiming, Drifting
+from fixed_variance import Drifting, FixedVariance
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines import FAM, GPLVM, LDS, LowRank, Prediction
-from mocapbench.baselines.rehearsal.ratios import (
+from mocapbench.baselines import FAM, GPLVM, LDS, Calibrated, LowRank
+from mocapbench.baselines.calibration.error_ratios import (
     geometric_ratios,
     mean_ratios,
-    squared_ratios,
+    sum_ratios,
 )
-from mocapbench.baselines.rehearsal.trials import remoteness, trial_masks
-from mocapbench.baselines.rehearsal.variance_check import VarianceCheck
-from mocapbench.baselines.rehearsal.widening import widened
+from mocapbench.baselines.calibration.held_out_gaps import hold_out_gaps, remoteness
+from mocapbench.baselines.calibration.variance_check import VarianceCheck
+from mocapbench.baselines.calibration.ways import calibrate, impute_held_out
 from mocapbench.datasets import Recording
 
 
@@ -29,38 +29,28 @@ def noise(name, scales, n_frames=200):
     return full.hide(hidden)
 
 
-@pytest.mark.parametrize("model", [LDS, LowRank, FAM])
-def test_a_model_claims_the_means_that_it_fills_with(model):
-    recording = noise("r", np.array([1.0, 3.0]), 150)
-    fitted = model().fit([recording, noise("other", np.array([2.0, 1.0]), 150)])
-    (filled,), (claimed,) = fitted.impute([recording]), fitted.as_claimed([recording])
-    np.testing.assert_array_equal(filled.mean, claimed.mean)
-    assert (filled.variance[~recording.visible] > 0.0).all()
-
-
 @settings(max_examples=30, deadline=None)
 @given(st.lists(st.floats(0.1, 10.0), min_size=1, max_size=4), st.floats(0.01, 100.0))
-def test_means_stay_and_variances_lie_between_what_trials_show_and_what_is_claimed(scales, claim):
-    """Larger is what the mean of trials shows to be too small, smaller what all show too large."""
-    recording, model = noise("r", np.array(scales)), Claiming(claim)
-    (before,), (after,) = model.as_claimed([recording]), widened(model, [recording])
+def test_means_stay_and_variances_are_what_held_out_gaps_show(scales, nominal):
+    """Larger where the mean of all sets shows them too small, smaller where each says so."""
+    recording, model = noise("r", np.array(scales)), FixedVariance(nominal)
+    (before,), (after,) = model.impute([recording]), calibrate(model, (), [recording])
     np.testing.assert_array_equal(after.mean, before.mean)
     assert (after.variance[recording.visible] == 0.0).all()
     mean, worst = ratios(recording, model)
     expected = np.maximum(mean, np.clip(4.0 * worst, 1e-4, 1.0))
-    np.testing.assert_allclose(after.variance[90] / claim, expected)
+    np.testing.assert_allclose(after.variance[90] / nominal, expected)
 
 
-class Knowing(Claiming):
+class Knowing(FixedVariance):
     """Knows how small its variances may be."""
 
     def __init__(self, variance, least):
         super().__init__(variance)
         self.least = least
 
-    def least_claimed(self, recordings):
-        claimed = self.as_claimed(recordings)
-        return [Prediction(each.mean, np.full(each.mean.shape, self.least)) for each in claimed]
+    def least_variances(self, recordings):
+        return [np.full(recording.values.shape, self.least) for recording in recordings]
 
 
 @settings(max_examples=30, deadline=None)
@@ -69,34 +59,34 @@ class Knowing(Claiming):
     st.floats(0.01, 100.0),
     st.floats(0.01, 100.0),
 )
-def test_variances_are_as_small_as_trials_show_and_the_model_knows(scales, claim, least):
+def test_variances_are_as_small_as_held_out_gaps_show_and_the_model_knows(scales, nominal, least):
     """Neither makes them smaller alone, but for those that are more than four times too large."""
-    recording, model = noise("r", np.array(scales)), Knowing(claim, least)
-    (without,) = widened(Claiming(claim), [recording])
-    (prediction,) = widened(model, [recording])
-    check = VarianceCheck.of(recording)
-    answers = zip(check.copies, model.as_tried(check.trials()), strict=True)
-    shown = [mean_ratios(*squared_ratios(recording, mask, answer)) for mask, answer in answers]
+    recording, model = noise("r", np.array(scales)), Knowing(nominal, least)
+    (without,) = calibrate(FixedVariance(nominal), (), [recording])
+    (prediction,) = calibrate(model, (), [recording])
+    check = VarianceCheck(recording)
+    answers = zip(check.copies, model.impute(check.recordings()), strict=True)
+    shown = [mean_ratios(*sum_ratios(recording, mask, answer)) for mask, answer in answers]
     mean, _ = ratios(recording, model)
-    both = np.maximum(claim * np.max([mean, *shown], axis=0), least)
+    both = np.maximum(nominal * np.max([mean, *shown], axis=0), least)
     np.testing.assert_allclose(prediction.variance[90], np.minimum(without.variance[90], both))
 
 
 def test_where_copies_are_shorter_what_a_model_knows_makes_no_variance_smaller():
     recording = walk(80)
-    assert (VarianceCheck.of(recording).steepest > 1.0).all()
+    assert (VarianceCheck(recording).steepest > 1.0).all()
     (without,), (prediction,) = (
-        widened(model, [recording]) for model in (Claiming(10.0), Knowing(10.0, 1e-6))
+        calibrate(model, (), [recording]) for model in (FixedVariance(10.0), Knowing(10.0, 1e-6))
     )
     hidden = ~recording.visible
     np.testing.assert_array_equal(prediction.variance[hidden], without.variance[hidden])
 
 
 def ratios(recording, model):
-    """Return the mean over trials of squared errors to claims, and that of the worst: (D,) each."""
-    check = VarianceCheck.of(recording)
-    answers = zip(check.copies, model.as_tried(check.trials()), strict=True)
-    shown = [squared_ratios(recording, mask, answer) for mask, answer in answers]
+    """Return the mean error ratio over the sets, and that of the worst: (D,) each."""
+    check = VarianceCheck(recording)
+    answers = zip(check.copies, model.impute(check.recordings()), strict=True)
+    shown = [sum_ratios(recording, mask, answer) for mask, answer in answers]
     assert len(shown) == 3
     worst = np.max([geometric_ratios(*one) for one in shown], axis=0)
     return mean_ratios(*np.sum(shown, axis=0)), worst
@@ -104,32 +94,32 @@ def ratios(recording, model):
 
 def test_where_copies_are_shorter_variances_keep_room_for_errors_to_grow():
     recording, model = walk(80), Drifting(3.0)
-    check, hidden = VarianceCheck.of(recording), ~recording.visible
+    check, hidden = VarianceCheck(recording), ~recording.visible
     assert len(check.copies) == 3
     assert (check.steepest > 1.0).all()
-    answers = zip(check.copies, model.as_tried(check.trials()), strict=False)
-    shown = [squared_ratios(recording, mask, answer) for mask, answer in answers]
+    answers = zip(check.copies, model.impute(check.recordings()), strict=False)
+    shown = [sum_ratios(recording, mask, answer) for mask, answer in answers]
     worst = np.max([geometric_ratios(*one) for one in shown], axis=0)
     expected = np.clip(4.0 * worst * check.steepest, 1e-4, 1.0)
-    (before,), (after,) = model.as_claimed([recording]), widened(model, [recording])
+    (before,), (after,) = model.impute([recording]), calibrate(model, (), [recording])
     ratios = after.variance[hidden] / before.variance[hidden]
     factors = np.broadcast_to(expected, hidden.shape)[hidden]
     np.testing.assert_allclose(ratios, factors)
     assert np.median(factors) < 1.0
 
 
-def test_fewer_than_three_trials_make_no_variance_smaller():
+def test_fewer_than_three_sets_make_no_variance_smaller():
     hidden = np.zeros((60, 1), dtype=bool)
     hidden[8:56] = True
     values = np.sin(np.arange(60.0))[:, None]
     recording = Recording("r", np.arange(60) / 30, values, ("c",), ("",)).hide(hidden)
-    assert len(VarianceCheck.of(recording).copies) == 1
-    (prediction,) = widened(Claiming(1e6), [recording])
+    assert len(VarianceCheck(recording).copies) == 1
+    (prediction,) = calibrate(FixedVariance(1e6), (), [recording])
     np.testing.assert_array_equal(prediction.variance[hidden], 1e6)
 
 
 def test_a_marker_that_travels_is_not_doubted_by_the_length_of_its_way():
-    """`LDS` claims a share of a channel's spread, but errs no more than if it stayed."""
+    """`LDS` predicts a share of a channel's spread, but errs no more than if it stayed."""
     times, rng = np.arange(240) / 100, np.random.default_rng(0)
     values = np.column_stack([np.sin(12.6 * times + k) for k in range(4)])
     values += 0.01 * rng.normal(size=values.shape)
@@ -137,10 +127,10 @@ def test_a_marker_that_travels_is_not_doubted_by_the_length_of_its_way():
     hidden = np.zeros(values.shape, dtype=bool)
     hidden[100:130, 0] = True
     given = Recording("r", times, values, tuple("abcd"), ("m",) * 4).hide(hidden)
-    model = LDS(n_states=10).fit([given])
-    (claimed,), (prediction,) = model.as_claimed([given]), model.impute([given])
+    model = Calibrated(LDS(n_states=10)).fit([given])
+    (nominal,), (prediction,) = model.model_.impute([given]), model.impute([given])
     errors = np.abs(prediction.mean - values)[hidden] / np.sqrt(prediction.variance[hidden])
-    assert prediction.variance[hidden].max() < 0.05 * claimed.variance[hidden].max()
+    assert prediction.variance[hidden].max() < 0.05 * nominal.variance[hidden].max()
     assert errors.max() < 3.0
 
 
@@ -153,21 +143,21 @@ def test_geometric_ratios_lie_between_that_of_the_channel_and_that_of_all(ratios
     np.testing.assert_allclose(np.log(moved), expected, atol=1e-9)
 
 
-def test_one_channel_of_large_claims_is_seen_beside_others_whose_claims_are_right():
-    """Their mean is that of the others, its own trials say otherwise."""
+def test_one_channel_of_large_variances_is_seen_beside_others_whose_variances_are_right():
+    """Their mean is that of the others, its own held-out gaps say otherwise."""
     sums, counts = np.array([40e-4, 40.0, 40.0]), np.full(3, 40)
     assert mean_ratios(sums, counts)[0] > 0.1
     assert geometric_ratios(sums, counts)[0] < 1e-3
 
 
 @pytest.mark.parametrize("scale", [3.0, 30.0])
-def test_a_claim_that_is_too_small_becomes_what_trials_show(scale):
-    (prediction,) = widened(Claiming(1.0), [noise("r", np.array([scale, scale]))])
+def test_a_variance_that_is_too_small_becomes_what_held_out_gaps_show(scale):
+    (prediction,) = calibrate(FixedVariance(1.0), (), [noise("r", np.array([scale, scale]))])
     np.testing.assert_allclose(prediction.variance[80:110], scale**2, rtol=0.3)
 
 
 def test_doubt_does_not_vanish_where_a_model_errs_nowhere():
-    (prediction,) = widened(Claiming(1.0), [noise("r", np.zeros(2))])
+    (prediction,) = calibrate(FixedVariance(1.0), (), [noise("r", np.zeros(2))])
     np.testing.assert_array_equal(prediction.variance[80:110], 1e-4)
 
 
@@ -178,7 +168,7 @@ def test_variances_are_finite_whatever_is_visible(seed, share):
     values = rng.normal(size=(40, 2))
     complete = Recording("r", np.arange(40) / 30, values, ("a", "b"), ("", ""))
     recording = complete.hide(rng.random(values.shape) > share)
-    (prediction,) = widened(Claiming(1.0), [recording])
+    (prediction,) = calibrate(FixedVariance(1.0), (), [recording])
     assert (prediction.variance[~recording.visible] >= 1e-4).all()
     assert np.isfinite(prediction.variance).all()
 
@@ -195,9 +185,9 @@ def walk(*lengths, n_channels=40):
 
 
 def shown(recording, model, channels):
-    """Return the mean ratio of squared errors to claims in copies, and the distances there."""
-    check, hidden = VarianceCheck.of(recording), ~recording.visible
-    answers = model.as_claimed([recording.hide(mask) for mask in check.copies])
+    """Return the mean error ratio in copies, and the distances there."""
+    check, hidden = VarianceCheck(recording), ~recording.visible
+    answers = model.impute([recording.hide(mask) for mask in check.copies])
     ratios = [
         (recording.values - answer.mean)[:, channels] ** 2
         / np.where(mask, answer.variance, 1.0)[:, channels]
@@ -210,14 +200,14 @@ def shown(recording, model, channels):
 
 
 @pytest.mark.parametrize(
-    ("claimed", "least", "most"), [(0.0, 0.6, 0.6), (0.7, 0.1, 0.5), (1.0, 0.0, 0.2)]
+    ("power", "least", "most"), [(0.0, 0.6, 0.6), (0.7, 0.1, 0.5), (1.0, 0.0, 0.2)]
 )
-def test_where_copies_are_shorter_than_the_gap_the_growth_of_errors_goes_on(claimed, least, most):
-    """Squared errors of a random walk grow with the length, and the claim with a power of it."""
-    recording, model, every = walk(120), Drifting(claimed), slice(None)
+def test_where_copies_are_shorter_than_the_gap_the_growth_of_errors_goes_on(power, least, most):
+    """Squared errors of a random walk grow with the length, and the variance with a power of it."""
+    recording, model, every = walk(120), Drifting(power), slice(None)
     mean, copy, gap = shown(recording, model, every)
     assert copy < gap
-    (prediction,), (before,) = widened(model, [recording]), model.as_claimed([recording])
+    (prediction,), (before,) = calibrate(model, (), [recording]), model.impute([recording])
     hidden = ~recording.visible
     factor = (prediction.variance[hidden] / before.variance[hidden]).mean()
     grown = np.log(max(factor, 1.0) / max(mean, 1.0)) / np.log(gap / copy)
@@ -228,8 +218,8 @@ def test_growth_is_of_channels_whose_copies_are_short():
     recording, model = walk(4, 120), Drifting()
     alone = walk(4)
     hidden = ~recording.visible
-    (both,) = widened(model, [recording])
-    assert VarianceCheck.of(alone).halves == []
+    (both,) = calibrate(model, (), [recording])
+    assert VarianceCheck(alone).halves == []
     mean, _, _ = shown(recording, model, slice(0, None, 2))
     of_short_gaps = both.variance[hidden[:, 0], 0].mean()
     pooled = shown(recording, model, slice(None))[0]
@@ -237,18 +227,18 @@ def test_growth_is_of_channels_whose_copies_are_short():
 
 
 def test_copies_that_are_as_long_as_the_gap_are_enough():
-    assert VarianceCheck.of(walk(20)).halves == []
+    assert VarianceCheck(walk(20)).halves == []
 
 
 def test_each_channel_is_checked_by_itself():
     recording = noise("r", np.array([1.0, 10.0]))
-    (prediction,) = widened(Claiming(1.0), [recording])
+    (prediction,) = calibrate(FixedVariance(1.0), (), [recording])
     assert prediction.variance[90, 1] > 3.0 * prediction.variance[90, 0]
 
 
-def test_a_recording_without_a_trial_keeps_its_variance():
+def test_a_recording_without_held_out_gaps_keeps_its_variance():
     recording = Recording("r", np.arange(2.0), [[1.0], [np.nan]], ("c",), ("",))
-    (prediction,) = widened(Claiming(5.0), [recording])
+    (prediction,) = calibrate(FixedVariance(5.0), (), [recording])
     assert prediction.variance[1, 0] == 5.0
 
 
@@ -256,35 +246,36 @@ SHORT_SEARCH = {"n_latent": 1, "max_iter": 2, "fill_iter": 2, "random_state": 0}
 
 
 @pytest.mark.parametrize("model", [LDS, LowRank, FAM, partial(GPLVM, **SHORT_SEARCH)])
-def test_a_model_learns_anew_for_trials_of_what_it_has_learnt_from(model):
+def test_a_model_learns_anew_for_gaps_held_out_of_what_it_has_learnt_from(model):
     recording, other = noise("r", np.array([1.0, 3.0]), 150), noise("other", np.array([2.0, 1.0]))
     fitted = model().fit([recording, other])
-    trial, stranger = (
-        given.hide(trial_masks(given)[0]) for given in (recording, noise("new", np.ones(2)))
+    shown, stranger = (
+        given.hide(hold_out_gaps(given)[0]) for given in (recording, noise("new", np.ones(2)))
     )
-    expected = [model().fit([trial, other]).as_claimed([trial]), fitted.as_claimed([stranger])]
-    for answer, (alone,) in zip(fitted.as_tried([trial, stranger]), expected, strict=True):
+    expected = [model().fit([shown, other]).impute([shown]), fitted.impute([stranger])]
+    answers = impute_held_out(fitted, [recording, other], [shown, stranger])
+    for answer, (alone,) in zip(answers, expected, strict=True):
         np.testing.assert_allclose(answer.mean, alone.mean)
         np.testing.assert_allclose(answer.variance, alone.variance)
-    assert not np.allclose(fitted.as_claimed([trial])[0].variance, expected[0][0].variance)
+    assert not np.allclose(fitted.impute([shown])[0].variance, expected[0][0].variance)
 
 
-def test_a_trial_that_leaves_too_little_to_learn_from_is_answered_as_learnt():
+def test_where_too_little_is_left_to_learn_from_the_model_answers_as_learnt():
     """No two of the frames that it leaves follow each other."""
     times = np.arange(14.0)
     values = np.sin(times[:, None] / [3.0, 4.0, 2.0])
     full = Recording("a", times / 30, values, ("a", "b", "c"), ("deg",) * 3)
     given = full.hide(~np.isin(times, [0, 2, 3, 5, 7, 9, 11, 13])[:, None])
     fitted = GPLVM(**SHORT_SEARCH).fit([given])
-    trial = given.hide((times == 3)[:, None])
-    (tried,), (claimed,) = fitted.as_tried([trial]), fitted.as_claimed([trial])
-    np.testing.assert_array_equal(tried.mean, claimed.mean)
-    assert np.isfinite(fitted.impute([given])[0].variance).all()
+    shown = given.hide((times == 3)[:, None])
+    (held_out,), (nominal,) = impute_held_out(fitted, [given], [shown]), fitted.impute([shown])
+    np.testing.assert_array_equal(held_out.mean, nominal.mean)
+    assert np.isfinite(calibrate(fitted, [given], [given])[0].variance).all()
 
 
 def test_neither_order_nor_company_matters():
     recordings = [noise("a", np.array([2.0, 3.0])), noise("bb", np.array([5.0, 1.0]))]
-    model = LDS(n_states=2).fit(recordings)
+    model = Calibrated(LDS(n_states=2)).fit(recordings)
     here = model.impute(recordings)
     there = model.impute(recordings[::-1])[::-1]
     alone = [model.impute([recording])[0] for recording in recordings]

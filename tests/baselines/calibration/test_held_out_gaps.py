@@ -3,14 +3,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines.rehearsal.trials import (
-    N_TRIALS,
+from mocapbench.baselines.calibration.held_out_gaps import (
+    N_SETS,
     copies,
     copies_or_islands,
-    halved,
+    halve_gaps,
+    hold_out_gaps,
     long_copies,
     remoteness,
-    trial_masks,
 )
 from mocapbench.basics.gaps import runs
 from mocapbench.datasets import Recording
@@ -41,18 +41,18 @@ def stretches(*lengths):
 @pytest.mark.parametrize(("length", "hides"), [(4, 0), (5, 0), (6, 4), (9, 4)])
 def test_long_copies_have_a_frame_without_a_visible_neighbour(length, hides):
     """A stretch keeps a visible frame at each end; what is shorter than three is left out."""
-    masks = trial_masks(stretches(length, length, length), long_copies)
+    masks = hold_out_gaps(stretches(length, length, length), long_copies)
     assert {mask.sum() for mask in masks} == ({hides} if hides else set())
-    assert trial_masks(stretches(length, length, length))
+    assert hold_out_gaps(stretches(length, length, length))
 
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10_000))
-def test_a_trial_hides_visible_entries_of_the_channels_with_gaps_and_leaves_most(seed):
+def test_held_out_gaps_hide_visible_entries_of_the_channels_with_gaps_and_leave_most(seed):
     given = with_gaps(seed)
     hidden = ~given.visible
-    masks = trial_masks(given)
-    assert len(masks) <= N_TRIALS
+    masks = hold_out_gaps(given)
+    assert len(masks) <= N_SETS
     for mask in masks:
         assert mask.any()
         assert not (mask & hidden).any()
@@ -65,7 +65,7 @@ def test_a_trial_hides_visible_entries_of_the_channels_with_gaps_and_leaves_most
 def test_no_copy_is_longer_than_the_longest_gap_or_touches_one_between_visible_frames(seed):
     given = with_gaps(seed)
     hidden = ~given.visible
-    for mask in trial_masks(given):
+    for mask in hold_out_gaps(given):
         for d in range(4):
             gaps, copies = runs(hidden[:, d]), runs(mask[:, d])
             assert max(map(len, copies), default=0) <= max(map(len, gaps), default=0)
@@ -79,7 +79,7 @@ def test_no_copy_is_longer_than_the_longest_gap_or_touches_one_between_visible_f
 def test_copies_of_a_gap_that_reaches_an_end_have_visible_frames_on_one_side_only(length, at_start):
     hidden = np.zeros((60, 2), dtype=bool)
     hidden[slice(0, length) if at_start else slice(60 - length, 60)] = True
-    masks = trial_masks(recording(hidden))
+    masks = hold_out_gaps(recording(hidden))
     assert len(masks) == 2
     for mask in masks:
         visible = np.flatnonzero(~(hidden | mask)[:, 0])
@@ -88,12 +88,12 @@ def test_copies_of_a_gap_that_reaches_an_end_have_visible_frames_on_one_side_onl
         assert len(copy) == length or 4 * len(copy) > 60 - length
 
 
-@pytest.mark.parametrize(("n_visible", "n_trials"), [(1, 0), (2, 0), (3, 1)])
-def test_a_trial_leaves_two_frames(n_visible, n_trials):
+@pytest.mark.parametrize(("n_visible", "n_sets"), [(1, 0), (2, 0), (3, 1)])
+def test_held_out_gaps_leave_two_frames(n_visible, n_sets):
     hidden = np.ones((12, 1), dtype=bool)
     hidden[4 : 4 + n_visible] = False
-    masks = trial_masks(recording(hidden))
-    assert (len(masks) > 0) == (n_trials > 0)
+    masks = hold_out_gaps(recording(hidden))
+    assert (len(masks) > 0) == (n_sets > 0)
     assert all((~(hidden | mask)).sum() >= 2 for mask in masks)
 
 
@@ -101,7 +101,7 @@ def test_a_gap_in_all_channels_beside_others_has_whole_frames_as_copies():
     hidden = np.zeros((100, 4), dtype=bool)
     hidden[40:45] = True
     hidden[10:18, 0], hidden[45:50, 3] = True, True  # the second continues the gap in all
-    for mask in trial_masks(recording(hidden)):
+    for mask in hold_out_gaps(recording(hidden)):
         (whole,) = runs(mask.all(axis=1))
         assert len(whole) == 5
         lengths = [sorted(map(len, runs(column))) for column in mask.T]
@@ -111,10 +111,10 @@ def test_a_gap_in_all_channels_beside_others_has_whole_frames_as_copies():
 def test_a_lost_channel_does_not_count_for_whole_frames():
     hidden = np.zeros((100, 6), dtype=bool)
     hidden[40:45], hidden[:, 5] = True, True
-    masks = trial_masks(recording(hidden))
+    masks = hold_out_gaps(recording(hidden))
     assert [int(mask.sum()) for mask in masks] == [25, 25, 25]
     hidden[10:18, 0] = True
-    for mask in trial_masks(recording(hidden)):
+    for mask in hold_out_gaps(recording(hidden)):
         assert len(np.flatnonzero(mask[:, :5].all(axis=1))) == 5
         assert not mask[:, 5].any()
 
@@ -122,14 +122,14 @@ def test_a_lost_channel_does_not_count_for_whole_frames():
 def test_a_gap_in_all_channels_is_tried_in_each_where_no_frame_is_free_in_all():
     hidden = np.indices((120, 12)).sum(axis=0) % 10 == 0
     hidden[50:60] = True
-    for mask in trial_masks(recording(hidden)):
+    for mask in hold_out_gaps(recording(hidden)):
         assert (mask.sum(axis=0) > 1).all()
 
 
 def test_a_gap_at_an_end_that_is_longer_in_one_channel_keeps_one_sided_copies():
     hidden = np.zeros((100, 6), dtype=bool)
     hidden[:6], hidden[:20, 5] = True, True
-    first, *_ = trial_masks(recording(hidden))
+    first, *_ = hold_out_gaps(recording(hidden))
     np.testing.assert_array_equal(np.flatnonzero(first[:, 0]), np.arange(6, 12))
     np.testing.assert_array_equal(np.flatnonzero(first[:, 5]), np.arange(20, 40))
 
@@ -137,8 +137,8 @@ def test_a_gap_at_an_end_that_is_longer_in_one_channel_keeps_one_sided_copies():
 def test_frames_hidden_as_a_whole_have_whole_frames_as_copies():
     hidden = np.zeros((50, 3), dtype=bool)
     hidden[4:35] = True
-    masks = trial_masks(recording(hidden))
-    assert len(masks) == N_TRIALS
+    masks = hold_out_gaps(recording(hidden))
+    assert len(masks) == N_SETS
     for mask in masks:
         assert (mask.all(axis=1) == mask.any(axis=1)).all()
 
@@ -146,23 +146,23 @@ def test_frames_hidden_as_a_whole_have_whole_frames_as_copies():
 def test_a_copy_is_as_long_as_the_gap_where_there_is_room():
     hidden = np.zeros((100, 2), dtype=bool)
     hidden[40:50, 0] = True
-    assert [int(mask[:, 0].sum()) for mask in trial_masks(recording(hidden))] == [10, 10, 10]
+    assert [int(mask[:, 0].sum()) for mask in hold_out_gaps(recording(hidden))] == [10, 10, 10]
 
 
 @pytest.mark.parametrize("n_visible", [0, 1, 2, 50])
 def test_there_is_none_without_room_or_without_a_gap(n_visible):
     hidden = np.ones((50, 2), dtype=bool)
     hidden[:n_visible] = False
-    assert trial_masks(recording(hidden)) == []
+    assert hold_out_gaps(recording(hidden)) == []
 
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10_000), st.integers(3, 12))
-def test_where_single_frames_are_visible_a_trial_makes_one_gap_of_two(seed, n_visible):
+def test_where_single_frames_are_visible_a_held_out_gap_makes_one_of_two(seed, n_visible):
     places = 1 + 2 * np.random.default_rng(seed).choice(29, n_visible, replace=False)
     hidden = np.ones((60, 2), dtype=bool)
     hidden[places] = False
-    masks = trial_masks(recording(hidden), copies_or_islands)
+    masks = hold_out_gaps(recording(hidden), copies_or_islands)
     assert masks
     for mask in masks:
         assert not (mask & hidden).any()
@@ -173,19 +173,19 @@ def test_where_single_frames_are_visible_a_trial_makes_one_gap_of_two(seed, n_vi
 def test_a_long_gap_has_no_copy_of_a_single_frame_among_the_islands():
     hidden = np.ones((60, 1), dtype=bool)
     hidden[[10, 20, 21, 22, 30]] = False
-    alone, *_ = trial_masks(recording(hidden))
+    alone, *_ = hold_out_gaps(recording(hidden))
     assert np.flatnonzero(alone).tolist() == [21]
-    for mask in trial_masks(recording(hidden), copies_or_islands):
+    for mask in hold_out_gaps(recording(hidden), copies_or_islands):
         assert np.flatnonzero(mask).tolist() != [21]
 
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10_000))
-def test_a_halved_trial_hides_half_of_each_stretch_and_borders_on_what_it_did(seed):
+def test_a_halved_gap_hides_half_of_each_stretch_and_borders_on_what_it_did(seed):
     given = with_gaps(seed)
     beside = np.pad(~given.visible, ((1, 1), (0, 0)), constant_values=True)
-    for mask in trial_masks(given):
-        half = halved(~given.visible, mask)
+    for mask in hold_out_gaps(given):
+        half = halve_gaps(~given.visible, mask)
         assert not (half & ~mask).any()
         for d in range(4):
             for stretch in runs(mask[:, d]):
@@ -208,12 +208,12 @@ def test_remoteness_is_the_distance_to_the_nearest_visible_frame_of_the_channel(
     assert remoteness(throughout, throughout).tolist() == [0, 0]
 
 
-def test_each_channel_of_a_halved_trial_keeps_the_side_of_its_own_gap():
+def test_each_channel_of_halved_gaps_keeps_the_side_of_its_own_gap():
     hidden = np.zeros((35, 2), dtype=bool)
     hidden[7:11, 0] = hidden[31:35, 1] = True
-    trial = np.zeros_like(hidden)
-    trial[27:31] = True
-    half = halved(hidden, trial)
+    held_out = np.zeros_like(hidden)
+    held_out[27:31] = True
+    half = halve_gaps(hidden, held_out)
     assert np.flatnonzero(half[:, 0]).tolist() == [28, 29]
     assert np.flatnonzero(half[:, 1]).tolist() == [29, 30]
 
@@ -225,7 +225,7 @@ def test_copies_of_several_gaps_hide_at_most_fifteen_percent(lengths):
     visible = np.zeros(24, dtype=bool)
     hidden = np.concatenate([np.r_[visible, np.ones(length, dtype=bool)] for length in lengths])
     hidden = np.concatenate([hidden, visible])[:, None]
-    for mask in trial_masks(recording(hidden)):
+    for mask in hold_out_gaps(recording(hidden)):
         assert mask.sum() <= max(0.15 * (~hidden).sum(), *lengths)
 
 
@@ -239,6 +239,6 @@ def test_copies_of_successive_gaps_are_a_golden_section_of_the_recording_apart()
         asked.append(place)
         return copies(blocked, gap, place)
 
-    assert len(trial_masks(recording(hidden), watched)) == N_TRIALS
-    steps = np.diff(np.reshape(asked, (N_TRIALS, 3)), axis=1) % 1.0
+    assert len(hold_out_gaps(recording(hidden), watched)) == N_SETS
+    steps = np.diff(np.reshape(asked, (N_SETS, 3)), axis=1) % 1.0
     np.testing.assert_allclose(steps, (np.sqrt(5.0) - 1.0) / 2.0)

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from claiming import Claiming
+from fixed_variance import FixedVariance
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mocapbench.baselines import FAM, LDS, LowRank
-from mocapbench.baselines.rehearsal.lost_channels import lost_trials
-from mocapbench.baselines.rehearsal.widening import widened
+from mocapbench.baselines import FAM, LDS, Calibrated, LowRank
+from mocapbench.baselines.calibration.held_out_gaps import hold_out_channels
+from mocapbench.baselines.calibration.ways import calibrate
 from mocapbench.datasets import Recording
 
 UNITS = ("deg",) * 5 + ("mm",) * 3
@@ -33,27 +33,27 @@ def without(recording, lost, gap=slice(0, 0)):
 @given(lost=st.sets(st.integers(0, 7), max_size=7))
 def test_other_channels_of_the_unit_take_the_place_of_lost_ones(lost):
     units, hidden = np.array(UNITS), np.isin(np.arange(8), [*lost])
-    masks = lost_trials(without(noise("new"), lost))
+    masks = hold_out_channels(without(noise("new"), lost))
     assert len(masks) <= 3
     for mask in masks:
         np.testing.assert_array_equal(mask.any(axis=0), mask.all(axis=0))
-        places = mask.all(axis=0)
-        assert not (places & hidden).any()
+        positions = mask.all(axis=0)
+        assert not (positions & hidden).any()
         for unit in ("deg", "mm"):
             of_unit = units == unit
             n_shown, n_lost = (of_unit & ~hidden).sum(), (of_unit & hidden).sum()
-            assert (places & of_unit).sum() == min(n_lost, n_shown // 2)
+            assert (positions & of_unit).sum() == min(n_lost, n_shown // 2)
 
 
-def test_the_trials_hide_different_channels():
-    masks = lost_trials(without(noise("new"), [0]))
+def test_different_channels_are_held_out():
+    masks = hold_out_channels(without(noise("new"), [0]))
     assert len({mask.tobytes() for mask in masks}) == 3
 
 
 def factors(given, training):
     (before,), (after,) = (
-        Claiming().as_claimed([given]),
-        widened(Claiming(), [given], learnt_from=training),
+        FixedVariance().impute([given]),
+        calibrate(FixedVariance(), training, [given]),
     )
     np.testing.assert_array_equal(after.mean, before.mean)
     hidden = ~given.visible
@@ -65,31 +65,29 @@ def factors(given, training):
 def test_the_factor_is_the_geometric_mean_of_what_both_show(own, there):
     recording = without(noise("new", own), [1])
     training = [noise(name, there) for name in "abc"]
-    masks = np.any(lost_trials(recording), axis=0)
-    in_trials = np.mean(recording.values[masks] ** 2)
+    masks = np.any(hold_out_channels(recording), axis=0)
+    in_channels = np.mean(recording.values[masks] ** 2)
     in_training = np.mean([one.values[:, 1] ** 2 for one in training])
-    expected = max(np.sqrt(in_trials * in_training), 1.0)
+    expected = max(np.sqrt(in_channels * in_training), 1.0)
     np.testing.assert_allclose(factors(recording, training)[:, 1], expected, rtol=1e-9)
 
 
-def test_claims_are_never_made_smaller():
+def test_variances_are_never_made_smaller():
     training = [noise(name, 0.1) for name in "abc"]
     assert (factors(without(noise("new", 0.1), [1]), training)[:, 1] == 1.0).all()
 
 
 def test_without_training_to_hold_out_the_recording_alone_decides():
     recording = without(noise("new", 5.0), [1])
-    in_trials = np.mean(recording.values[np.any(lost_trials(recording), axis=0)] ** 2)
-    np.testing.assert_allclose(factors(recording, [recording])[:, 1], in_trials)
-    assert in_trials > 4.0
+    in_channels = np.mean(recording.values[np.any(hold_out_channels(recording), axis=0)] ** 2)
+    np.testing.assert_allclose(factors(recording, [recording])[:, 1], in_channels)
+    assert in_channels > 4.0
 
 
-def test_other_gaps_keep_what_their_trials_show():
+def test_other_gaps_keep_what_their_copies_show():
     training, gap = [noise(name, 3.0) for name in "abc"], slice(40, 50)
     recording = without(noise("new", 3.0), [1], gap)
-    (alone,), (both,) = (
-        widened(Claiming(), [recording], learnt_from=known) for known in ((), training)
-    )
+    (alone,), (both,) = (calibrate(FixedVariance(), known, [recording]) for known in ((), training))
     others = np.arange(8) != 1
     np.testing.assert_array_equal(both.variance[:, others], alone.variance[:, others])
     assert (both.variance[:, 1] > 4.0).all()
@@ -98,9 +96,7 @@ def test_other_gaps_keep_what_their_trials_show():
 def test_a_recording_without_lost_channels_is_left_alone():
     training = [noise(name, 3.0) for name in "abc"]
     recording = without(noise("new", 3.0), [], slice(40, 50))
-    (alone,), (both,) = (
-        widened(Claiming(), [recording], learnt_from=known) for known in ((), training)
-    )
+    (alone,), (both,) = (calibrate(FixedVariance(), known, [recording]) for known in ((), training))
     np.testing.assert_array_equal(both.variance, alone.variance)
 
 
@@ -116,16 +112,16 @@ def limbs(name, seed):
 
 @pytest.mark.parametrize("model", [LDS(), FAM(n_restarts=1, random_state=0), LowRank()])
 def test_intervals_of_a_stranger_s_lost_channels_hold_most_of_the_truth(model):
-    held, claimed = [], []
+    calibrated, nominal = [], []
     for seed in range(1, 7):
         training = [limbs(f"t{k}", 100 * seed + k) for k in range(4)]
         truth = limbs("new", seed)
         hidden = np.zeros(truth.values.shape, dtype=bool)
         hidden[:, 2:4] = True
-        fitted = model.fit(training)
-        answers = [f([truth.hide(hidden)])[0] for f in (fitted.as_claimed, fitted.impute)]
-        for kept, answer in zip((claimed, held), answers, strict=True):
+        fitted = Calibrated(model).fit(training)
+        answers = [one.impute([truth.hide(hidden)])[0] for one in (fitted.model_, fitted)]
+        for kept, answer in zip((nominal, calibrated), answers, strict=True):
             off = np.abs(answer.mean - truth.values)[hidden]
             kept.append(np.mean(off < 1.96 * np.sqrt(answer.variance[hidden])))
-    assert np.mean(claimed) < 0.75
-    assert np.mean(held) > 0.85
+    assert np.mean(nominal) < 0.75
+    assert np.mean(calibrated) > 0.85

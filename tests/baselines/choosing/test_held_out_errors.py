@@ -3,8 +3,8 @@ import pytest
 from samples import gap
 
 from mocapbench.baselines.choosing.candidates import FittedCandidates
+from mocapbench.baselines.choosing.held_out_errors import HeldOutErrors
 from mocapbench.baselines.choosing.parts import parts_of
-from mocapbench.baselines.choosing.rehearsals import Rehearsals
 from mocapbench.baselines.protocols import Imputer, Prediction
 from mocapbench.datasets import Recording
 
@@ -31,32 +31,32 @@ class Watching(Imputer):
 
 def watched(fitted, given):
     model = Watching()
-    return model, Rehearsals(fitted, FittedCandidates({"zero": model}), given)
+    return model, HeldOutErrors(fitted, FittedCandidates({"zero": model}), given)
 
 
-def test_real_gaps_stay_hidden_in_rehearsals():
+def test_real_gaps_stay_hidden_where_others_are_held_out():
     given = gap(walk("new"), 20, 28)
-    model, rehearsals = watched([walk("one")], given)
-    assert len(rehearsals.own()) == 3
+    model, errors = watched([walk("one")], given)
+    assert len(errors.in_recording()) == 3
     assert all(not seen.visible[20:28].any() for seen in model.given)
 
 
 def test_errors_are_those_of_the_copies_in_units_of_the_spread():
     given = gap(walk("new"), 20, 28)
-    _, rehearsals = watched([walk("one")], given)
-    for mask, products in zip(rehearsals.trials, rehearsals.own(), strict=True):
-        expected = np.mean((given.values / rehearsals.scale)[mask] ** 2)
+    _, errors = watched([walk("one")], given)
+    for mask, products in zip(errors.held_out, errors.in_recording(), strict=True):
+        expected = np.mean((given.values / errors.scale)[mask] ** 2)
         assert products.loc["zero", "zero"] == pytest.approx(expected)
 
 
 def test_products_are_means_over_hidden_entries_and_covariances_of_errors():
     fitted, given = [walk("one"), walk("two", phase=1.0)], gap(walk("new"), 20, 28)
     candidates = FittedCandidates.of(fitted)
-    rehearsals = Rehearsals(fitted, candidates, given)
-    mask, products = rehearsals.trials[0], rehearsals.own()[0]
+    errors = HeldOutErrors(fitted, candidates, given)
+    mask, products = errors.held_out[0], errors.in_recording()[0]
     means = candidates.means(given.hide(mask))
     linear, spline = (
-        ((means[name] - given.values) / rehearsals.scale)[mask] for name in ("linear", "pchip")
+        ((means[name] - given.values) / errors.scale)[mask] for name in ("linear", "pchip")
     )
     assert products.loc["linear", "pchip"] == pytest.approx(np.mean(linear * spline))
     assert np.linalg.eigvalsh(products).min() > -1e-9 * np.trace(products)
@@ -74,31 +74,31 @@ def swings(name, phase=0.0):
     return Recording(name, np.arange(60) / 30, values, tuple("abcdef"), ("",) * 6)
 
 
-def test_channels_hidden_throughout_are_rehearsed_in_others_and_never_short():
+def test_for_channels_hidden_throughout_others_are_held_out_and_never_short():
     hidden = np.zeros((60, 6), dtype=bool)
     hidden[:, 2] = True
     hidden[20:52, 4] = True  # longer than any copy of it
-    _, rehearsals = watched([swings("one"), swings("two", 1.0)], swings("new").hide(hidden))
-    parts = parts_of(rehearsals.given)
-    assert rehearsals.are_short(parts[""])
-    assert not rehearsals.are_short(parts[", whole channels"])
-    own = rehearsals.own(parts[", whole channels"])
+    _, errors = watched([swings("one"), swings("two", 1.0)], swings("new").hide(hidden))
+    parts = parts_of(errors.given)
+    assert errors.are_short(parts[""])
+    assert not errors.are_short(parts[", whole channels"])
+    own = errors.in_recording(parts[", whole channels"])
     of_channels = [products for products in own if not products.empty]
     assert len(of_channels) == 3
-    rehearsed = [m & parts[", whole channels"].entries(hidden | m) for m in rehearsals.trials]
-    counted = [mask & rehearsals.given.visible for mask in rehearsed if mask.any()]
-    assert rehearsals.n_entries(parts[", whole channels"]) == np.sum(counted)
+    of_part = [m & parts[", whole channels"].entries(hidden | m) for m in errors.held_out]
+    counted = [mask & errors.given.visible for mask in of_part if mask.any()]
+    assert errors.n_entries(parts[", whole channels"]) == np.sum(counted)
     for mask, products in zip(counted, of_channels, strict=True):
-        expected = np.mean((rehearsals.given.values / rehearsals.scale)[mask] ** 2)
+        expected = np.mean((errors.given.values / errors.scale)[mask] ** 2)
         assert products.loc["zero", "zero"] == pytest.approx(expected)
-    assert len([one for one in rehearsals.own(parts[""]) if not one.empty]) == len(own) - 3
+    assert len([one for one in errors.in_recording(parts[""]) if not one.empty]) == len(own) - 3
 
 
 @pytest.mark.parametrize("n_frames", [40, 60, 90])
 def test_training_recordings_take_the_place_of_the_one_to_fill(n_frames):
     fitted = [walk("one", n_frames), walk("two", n_frames, 1.0)]
     given = gap(walk("new"), 20, 40)
-    found = Rehearsals(fitted, FittedCandidates.of(fitted), given).in_training()
+    found = HeldOutErrors(fitted, FittedCandidates.of(fitted), given).elsewhere()
     assert len(found) == 2
     for with_gaps, with_copies in found:
         assert set(with_gaps) == set(with_copies) >= {"linear", "lds", "pose-kriging"}
@@ -106,7 +106,7 @@ def test_training_recordings_take_the_place_of_the_one_to_fill(n_frames):
 
 def test_copies_as_long_as_the_gaps_are_not_compared_with_them():
     fitted = [walk("one"), walk("two", phase=1.0)]
-    found = Rehearsals(fitted, FittedCandidates.of(fitted), gap(walk("new"), 20, 24)).in_training()
+    found = HeldOutErrors(fitted, FittedCandidates.of(fitted), gap(walk("new"), 20, 24)).elsewhere()
     assert [(with_gaps.empty, with_copies.empty) for with_gaps, with_copies in found] == [
         (False, True),
         (False, True),
@@ -115,16 +115,16 @@ def test_copies_as_long_as_the_gaps_are_not_compared_with_them():
 
 def test_a_copy_that_fits_in_one_place_only_is_compared_with_the_gap_in_training():
     fitted = [walk("one"), walk("two", phase=1.0)]
-    rehearsals = Rehearsals(fitted, FittedCandidates.of(fitted), gap(walk("new"), 8, 56))
-    assert len(rehearsals.trials) == 1
-    assert rehearsals.are_short()
-    assert not any(with_copies.empty for _, with_copies in rehearsals.in_training())
+    errors = HeldOutErrors(fitted, FittedCandidates.of(fitted), gap(walk("new"), 8, 56))
+    assert len(errors.held_out) == 1
+    assert errors.are_short()
+    assert not any(with_copies.empty for _, with_copies in errors.elsewhere())
 
 
 def test_one_training_recording_cannot_be_left_out():
     fitted = [walk("one")]
     assert (
-        Rehearsals(fitted, FittedCandidates.of(fitted), gap(walk("new"), 20, 40)).in_training()
+        HeldOutErrors(fitted, FittedCandidates.of(fitted), gap(walk("new"), 20, 40)).elsewhere()
         == []
     )
 
@@ -135,6 +135,6 @@ def test_of_many_training_recordings_three_are_held_out_in_one_fit(monkeypatch):
     monkeypatch.setattr(
         FittedCandidates, "anew", lambda self, recordings: fits.append(recordings) or self
     )
-    found = Rehearsals(fitted, FittedCandidates({}), gap(walk("new"), 20, 40)).in_training()
+    found = HeldOutErrors(fitted, FittedCandidates({}), gap(walk("new"), 20, 40)).elsewhere()
     assert len(found) == 3
     assert [len(recordings) for recordings in fits] == [13]

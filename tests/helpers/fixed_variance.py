@@ -1,15 +1,14 @@
-"""Models that fill without learning, and claim variances that may be too small or too large."""
+"""Models that fill without learning, with variances that may be too small or too large."""
 
 import numpy as np
 
-from mocapbench.baselines import Prediction
-from mocapbench.baselines.rehearsal.checkable import Widened
+from mocapbench.baselines import FrameImputer, Prediction
 
-__all__ = ["Claiming", "Drifting"]
+__all__ = ["Drifting", "FixedVariance", "KeepsRecordings"]
 
 
-class Claiming(Widened):
-    """Predicts 0 and claims one variance."""
+class FixedVariance(FrameImputer):
+    """Predicts 0 with one variance."""
 
     def __init__(self, variance=1.0):
         self.variance = variance
@@ -18,14 +17,17 @@ class Claiming(Widened):
         return self
 
     def impute(self, recordings):
-        return self.as_claimed(recordings)
-
-    def as_claimed(self, recordings):
         return [Prediction.around(recording, 0.0, self.variance) for recording in recordings]
 
 
-class Drifting(Widened):
-    """Predicts the last visible value, and claims a power of the time since."""
+class KeepsRecordings(FixedVariance):
+    """Says that it learns nothing in `fit`."""
+
+    learns_in_fit = False
+
+
+class Drifting(FrameImputer):
+    """Predicts the last visible value, with a power of the time since as its variance."""
 
     def __init__(self, power=0.0):
         self.power = power
@@ -34,12 +36,9 @@ class Drifting(Widened):
         return self
 
     def impute(self, recordings):
-        return self.as_claimed(recordings)
+        return [self.hold_last(recording) for recording in recordings]
 
-    def as_claimed(self, recordings):
-        return [self.held(recording) for recording in recordings]
-
-    def held(self, recording):
+    def hold_last(self, recording):
         frames = np.arange(len(recording.times))[:, None]
         last = np.maximum.accumulate(np.where(recording.visible, frames, 0))
         mean = np.take_along_axis(recording.values, last, axis=0)
