@@ -37,7 +37,7 @@ from .problems.body import Body, JointAngles, JointPositions
 from .problems.cluster import ClusterProblem, Clusters
 from .problems.impute import FilledRecordings, ImputeProblem
 from .problems.internals import Internals
-from .problems.masks import Run, hide_all_but, hide_frames, hide_runs
+from .problems.masks import hide_all_but, hide_frames, hide_runs
 from .problems.recover import Covariances, RecoverProblem
 from .problems.synthesise import Samples, SynthesiseProblem
 from .problems.unit import Unit
@@ -98,7 +98,6 @@ __all__ = [
     "Record",
     "RecoverProblem",
     "Request",
-    "Run",
     "RunDirectory",
     "RunState",
     "Samples",

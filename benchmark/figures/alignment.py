@@ -10,8 +10,8 @@ from sklearn.decomposition import PCA
 from mocapbench.baselines import StatePath
 from mocapbench.basics.arrays import Array
 from mocapbench.benchmark.figures.solved import Solved
+from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number
 from mocapbench.benchmark.problems.cluster import ClusterProblem, Clusters
-from mocapbench.benchmark.problems.cycle import Alignment
 from mocapbench.reports import Curve, Illustration, Panel
 
 __all__ = ["draw_alignments"]
@@ -52,8 +52,9 @@ def _second_component(recordings: Sequence[Array]) -> list[Array]:
     return [analysis.transform(values)[:, 1] for values in recordings]
 
 
-def _cycles(alignment: Alignment) -> list[Array]:
-    return [_progress(path, alignment.cycle_length) for path in alignment.paths]
+def _cycles(alignment: Arrays) -> list[Array]:
+    n_states = int(alignment["cycle_length"])
+    return [_progress(path, n_states) for path in arrays_by_number("path", alignment)]
 
 
 def _progress(path: StatePath, n_states: int) -> Array:

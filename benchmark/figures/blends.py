@@ -46,18 +46,13 @@ def _picture(
 ) -> Illustration:
     problem, blend = solved.problem, answer.blend
     assert blend is not None
-    first, second = (_name(problem, answer, cluster) for cluster in blend.clusters)
+    first, second = (_name(problem, answer, cluster) for cluster in blend["blended"].tolist())
+    one, between, other = blend["blend"]
     recording = problem.train[0]
-    times = np.arange(len(blend.between)) * np.diff(recording.times).mean()
-    motion = Recording(TRANSITION, times, blend.between, recording.channels, recording.units)
-    curves = [
-        _panel(
-            motion,
-            channel,
-            {TRANSITION: blend.between, first: blend.first, second: blend.second},
-        )
-        for channel in channels
-    ]
+    times = np.arange(len(between)) * np.diff(recording.times).mean()
+    motion = Recording(TRANSITION, times, between, recording.channels, recording.units)
+    groups = {TRANSITION: between, first: one, second: other}
+    curves = [_panel(motion, channel, groups) for channel in channels]
     caption = (
         f"a transition from {first} to {second}: the mean cycles of two styles of {label}, "
         "mixed by a weight that changes smoothly from one to the other. A cluster is named "

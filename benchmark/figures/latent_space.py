@@ -11,9 +11,9 @@ import numpy as np
 
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.figures.stick_figures import strip
+from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number, with_prefix
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.benchmark.problems.internals import Internals
-from mocapbench.benchmark.problems.latent import LatentSpace, LatentWalks
 from mocapbench.datasets import Recording
 from mocapbench.reports import Illustration, Path3D, Picture, Space
 
@@ -39,23 +39,23 @@ def draw_latent_spaces(
     spaces = [
         _space(solved.task, label, of_label.latent_space, of_label.latent_walks)
         for label, of_label in internals.items()
-        if of_label.latent_space is not None and of_label.latent_space.cloud is not None
+        if of_label.latent_space is not None and "latent-cloud" in of_label.latent_space
     ]
     return [*spaces, *_walks(solved, internals)]
 
 
-def _space(task: str, label: str, space: LatentSpace, walks: LatentWalks | None) -> Space:
-    listed = ", ".join(f"{name} {float(value):.3g}" for name, value in space.properties.items())
-    walked = (
-        f"; the mean prediction and fair samples of {len(walks.mean)} frames from the first one"
-        if walks is not None
-        else ""
-    )
+def _space(task: str, label: str, space: Arrays, walks: Arrays | None) -> Space:
+    properties = with_prefix("property", space)
+    listed = ", ".join(f"{name} {float(value):.3g}" for name, value in properties.items())
+    walked = ""
+    if walks is not None:
+        n_frames = len(walks["latent-mean"])
+        walked = f"; the mean prediction and fair samples of {n_frames} frames from the first one"
     caption = (
         f"latent positions of the training frames by {label}, and the confidence −ln σ² with "
         f"which poses are reconstructed around them{walked}. Kernels: {listed}."
     )
-    cloud = np.asarray(space.cloud, dtype=np.float64)
+    cloud = np.asarray(space["latent-cloud"], dtype=np.float64)
     return Space(
         task,
         f"Latent space of {label}",
@@ -67,11 +67,12 @@ def _space(task: str, label: str, space: LatentSpace, walks: LatentWalks | None)
     )
 
 
-def _paths(space: LatentSpace, walks: LatentWalks | None) -> Iterator[Path3D]:
-    yield from (Path3D(points, TRAINING) for points in space.paths)
+def _paths(space: Arrays, walks: Arrays | None) -> Iterator[Path3D]:
+    yield from (Path3D(points, TRAINING) for points in arrays_by_number("latent-path", space))
     if walks is not None:
-        yield from (Path3D(points, SAMPLE) for points in walks.samples)
-        yield Path3D(walks.mean, MEAN)
+        samples = arrays_by_number("latent-sample", walks)
+        yield from (Path3D(points, SAMPLE) for points in samples)
+        yield Path3D(walks["latent-mean"], MEAN)
 
 
 def _walks(
@@ -87,7 +88,7 @@ def _walks(
     if body is None or not walks:
         return ()
     step = float(np.diff(about.times).mean())
-    longest = max(len(walk.mean_poses) for walk in walks.values())
+    longest = max(len(walk["walk-mean"]) for walk in walks.values())
     times = np.linspace(0.0, step * (longest - 1), longest)
     panels = tuple(
         strip(
@@ -97,7 +98,7 @@ def _walks(
             f"{label}: {group}, ",
         )
         for label, walk in walks.items()
-        for poses, group in ((walk.mean_poses, MEAN), (walk.sample_poses, SAMPLE))
+        for poses, group in ((walk["walk-mean"], MEAN), (walk["walk-sample"], SAMPLE))
     )
     caption = (
         "mean poses along the mean prediction and along one fair sample of the latent dynamics, "

@@ -7,7 +7,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-__all__ = ["Arrays", "arrays_by_number", "with_numbers", "with_prefix"]
+__all__ = ["Arrays", "arrays_by_number", "select_arrays", "with_numbers", "with_prefix"]
 
 Arrays = Mapping[str, NDArray[Any]]
 
@@ -27,3 +27,8 @@ def with_prefix(prefix: str, arrays: Arrays) -> dict[str, NDArray[Any]]:
     """Return the arrays whose names begin with ``prefix`` and a hyphen, by the rest of the name."""
     start = f"{prefix}-"
     return {n.removeprefix(start): a for n, a in arrays.items() if n.startswith(start)}
+
+
+def select_arrays(arrays: Arrays, *beginnings: str) -> Arrays:
+    """Return the arrays whose names begin with one of ``beginnings``, by their whole names."""
+    return {name: array for name, array in arrays.items() if name.startswith(beginnings)}

@@ -5,9 +5,7 @@ After Pan and Torresani 2009 (HLM), §4.2 and Figure 3.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import combinations
-from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,46 +15,17 @@ from mocapbench.benchmark.problems.arrays import Arrays
 from mocapbench.benchmark.problems.base import InvalidPredictionError
 from mocapbench.datasets import FrameByChannel
 
-__all__ = ["N_FRAMES", "Blend", "blend_of"]
+__all__ = ["N_FRAMES", "blend_of"]
 
 N_FRAMES = 75
 """Two and a half seconds at 30 Hz: two cycles of a walk, or so."""
 
 
-@dataclass(frozen=True, eq=False)
-class Blend:
-    """A transition between two styles.
-
-    Parameters
-    ----------
-    first, between, second : ndarray of shape (N, D)
-        The first style, the transition and the second style, on the same states of the cycle.
-    clusters : tuple of two int
-        The clusters that are the styles.
-    """
-
-    first: FrameByChannel
-    between: FrameByChannel
-    second: FrameByChannel
-    clusters: tuple[int, int]
-
-    def to_arrays(self) -> Arrays:
-        """Return ``blend`` (3, N, D) and ``blended`` (2,)."""
-        motions = np.stack([self.first, self.between, self.second])
-        return {"blend": motions, "blended": np.array(self.clusters)}
-
-    @classmethod
-    def from_arrays(cls, arrays: Arrays) -> Self | None:
-        """Return the blend that `to_arrays` turned into ``arrays``, None if there is none."""
-        if "blend" not in arrays:
-            return None
-        one, other = arrays["blended"].tolist()
-        first, between, second = arrays["blend"]
-        return cls(first, between, second, (one, other))
-
-
-def blend_of(model: Blender, labels: NDArray[np.intp], n_channels: int) -> Blend | None:
+def blend_of(model: Blender, labels: NDArray[np.intp], n_channels: int) -> Arrays | None:
     """Return a transition between the two styles that differ most; None if all are in one cluster.
+
+    It is ``blend`` (3, N, D), the first style, the transition and the second style on the same
+    states of the cycle, and ``blended`` (2,), the clusters that are the styles.
 
     Raises
     ------
@@ -75,7 +44,8 @@ def blend_of(model: Blender, labels: NDArray[np.intp], n_channels: int) -> Blend
     share = (0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, N_FRAMES)))[:, None]
     weights = (1.0 - share) * alone[first] + share * alone[second]
     between = _blend_styles(model, weights, n_channels)
-    return Blend(pure[first], between, pure[second], (first, second))
+    motions = np.stack([pure[first], between, pure[second]])
+    return {"blend": motions, "blended": np.array([first, second])}
 
 
 def _blend_styles(model: Blender, weights: NDArray[np.float64], n_channels: int) -> FrameByChannel:

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocapbench.baselines import Clusterer
-from mocapbench.benchmark.problems.arrays import Arrays
+from mocapbench.benchmark.problems.arrays import Arrays, select_arrays
 from mocapbench.benchmark.problems.base import InvalidPredictionError, Problem
-from mocapbench.benchmark.problems.blending import Blend, blend_of
-from mocapbench.benchmark.problems.cycle import Alignment, alignment_of
+from mocapbench.benchmark.problems.blending import blend_of
+from mocapbench.benchmark.problems.cycle import alignment_of
 from mocapbench.datasets import Skeleton
 from mocapbench.metrics import Clustering
 
@@ -27,25 +27,26 @@ class Clusters:
     ----------
     labels : ndarray of int, shape (K,)
         The cluster of each recording.
-    alignment : Alignment or None
-        Of a model that aligns.
-    blend : Blend or None
-        Of a model that blends styles and has found two or more.
+    alignment : mapping of str to ndarray, or None
+        Of a model that aligns: see `alignment_of`.
+    blend : mapping of str to ndarray, or None
+        Of a model that blends styles and has found two or more: see `blend_of`.
     """
 
     labels: NDArray[np.intp]
-    alignment: Alignment | None = None
-    blend: Blend | None = None
+    alignment: Arrays | None = None
+    blend: Arrays | None = None
 
     def to_arrays(self) -> Arrays:
         """Return ``labels``, and the arrays of the alignment and the blend."""
-        parts = (part.to_arrays() for part in (self.alignment, self.blend) if part is not None)
-        return {"labels": self.labels, **{n: a for arrays in parts for n, a in arrays.items()}}
+        return {"labels": self.labels, **(self.alignment or {}), **(self.blend or {})}
 
     @classmethod
     def from_arrays(cls, arrays: Arrays) -> Self:
         """Return the answer that `to_arrays` turned into ``arrays``."""
-        return cls(arrays["labels"], Alignment.from_arrays(arrays), Blend.from_arrays(arrays))
+        alignment = select_arrays(arrays, "cycle_length", "path-")
+        blend = select_arrays(arrays, "blend", "blended")
+        return cls(arrays["labels"], alignment or None, blend or None)
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,48 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Self
 
 import numpy as np
 
-from mocapbench.baselines import Aligner, StatePath
-from mocapbench.benchmark.problems.arrays import Arrays, arrays_by_number, with_numbers
+from mocapbench.baselines import Aligner
+from mocapbench.benchmark.problems.arrays import Arrays, with_numbers
 from mocapbench.benchmark.problems.base import InvalidPredictionError
 from mocapbench.datasets import Recording
 
-__all__ = ["Alignment", "alignment_of"]
+__all__ = ["alignment_of"]
 
 
-@dataclass(frozen=True, eq=False)
-class Alignment:
-    """The state of the common cycle that each frame of each recording is in.
+def alignment_of(model: Aligner, recordings: Sequence[Recording]) -> Arrays:
+    """Return the state of the common cycle that each frame of the training recordings is in.
 
-    Parameters
-    ----------
-    cycle_length : int
-        The number of states M.
-    paths : tuple of ndarray of int, each of shape (N_k,)
-        States 0 … M − 1.
-    """
-
-    cycle_length: int
-    paths: tuple[StatePath, ...]
-
-    def to_arrays(self) -> Arrays:
-        """Return ``cycle_length`` and ``path-k`` of recording k."""
-        return {"cycle_length": np.array(self.cycle_length), **with_numbers("path", self.paths)}
-
-    @classmethod
-    def from_arrays(cls, arrays: Arrays) -> Self | None:
-        """Return the alignment that `to_arrays` turned into ``arrays``, None if there is none."""
-        if "cycle_length" not in arrays:
-            return None
-        return cls(int(arrays["cycle_length"]), arrays_by_number("path", arrays))
-
-
-def alignment_of(model: Aligner, recordings: Sequence[Recording]) -> Alignment:
-    """Return the alignment of the recordings that ``model`` was fitted to.
+    They are ``path-k`` (N_k,) of recording k, with states 0 … M − 1, and ``cycle_length``, which
+    is M.
 
     Raises
     ------
@@ -64,4 +38,4 @@ def alignment_of(model: Aligner, recordings: Sequence[Recording]) -> Alignment:
             f"path_: expected states 0 to {model.cycle_length_ - 1}, "
             f"got {states.min()} to {states.max()}"
         )
-    return Alignment(model.cycle_length_, paths)
+    return {"cycle_length": np.array(model.cycle_length_), **with_numbers("path", paths)}

@@ -9,8 +9,8 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from mocapbench.benchmark.problems.arrays import Arrays, with_prefix
-from mocapbench.benchmark.problems.latent import LatentSpace, LatentWalks, space_of, walks_of
+from mocapbench.benchmark.problems.arrays import Arrays, select_arrays, with_prefix
+from mocapbench.benchmark.problems.latent import space_of, walks_of
 from mocapbench.datasets import FrameByChannel, Frames, Recording
 
 __all__ = ["Internals", "Trend", "internals_of"]
@@ -44,14 +44,14 @@ class Internals:
     trend : Trend or None
     coregionalisation : mapping of str to ndarray of shape (Q, D, D)
         The matrices B_q of each layer; empty for a model without them.
-    latent_space : LatentSpace or None
-    latent_walks : LatentWalks or None
+    latent_space, latent_walks : mapping of str to ndarray, or None
+        See `space_of` and `walks_of`.
     """
 
     trend: Trend | None = None
     coregionalisation: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
-    latent_space: LatentSpace | None = None
-    latent_walks: LatentWalks | None = None
+    latent_space: Arrays | None = None
+    latent_walks: Arrays | None = None
 
     def to_arrays(self) -> Arrays:
         """Return the arrays of all of them, by name."""
@@ -59,9 +59,8 @@ class Internals:
             f"coregionalisation-{layer}": matrices
             for layer, matrices in self.coregionalisation.items()
         }
-        for part in (self.trend, self.latent_space, self.latent_walks):
-            arrays.update(part.to_arrays() if part is not None else {})
-        return arrays
+        trend = self.trend.to_arrays() if self.trend is not None else {}
+        return {**arrays, **trend, **(self.latent_space or {}), **(self.latent_walks or {})}
 
     @classmethod
     def from_arrays(cls, arrays: Arrays) -> Self:
@@ -69,8 +68,8 @@ class Internals:
         return cls(
             Trend.from_arrays(arrays),
             with_prefix("coregionalisation", arrays),
-            LatentSpace.from_arrays(arrays),
-            LatentWalks.from_arrays(arrays),
+            select_arrays(arrays, "property-", "latent-path-", "latent-cloud") or None,
+            select_arrays(arrays, "latent-mean", "latent-sample-", "walk-") or None,
         )
 
 

@@ -2,30 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from mocapbench.datasets import Mask, Recording
 
-__all__ = ["Run", "hide_all_but", "hide_frames", "hide_runs"]
-
-
-@dataclass(frozen=True)
-class Run:
-    """Some channels hidden for some frames in a row.
-
-    Parameters
-    ----------
-    channels : tuple of str
-    start, length : int
-        The first hidden frame, counted from 0, and how many there are.
-    """
-
-    channels: tuple[str, ...]
-    start: int
-    length: int
+__all__ = ["hide_all_but", "hide_frames", "hide_runs"]
 
 
 def hide_all_but(rng: np.random.Generator, n_visible: int, n_frames: int, n_channels: int) -> Mask:
@@ -49,8 +32,14 @@ def hide_frames(start: int, stop: int, n_frames: int, n_channels: int) -> Mask:
     return np.repeat(hidden[:, None], n_channels, axis=1)
 
 
-def hide_runs(runs: Iterable[Run], recording: Recording) -> Mask:
+def hide_runs(runs: Iterable[tuple[Sequence[str], int, int]], recording: Recording) -> Mask:
     """Return a mask (N, D) of runs of frames, each in some channels.
+
+    Parameters
+    ----------
+    runs : iterable of tuple
+        Of each its channels, its first frame, counted from 0, and how many frames it has.
+    recording : Recording
 
     Raises
     ------
@@ -58,15 +47,15 @@ def hide_runs(runs: Iterable[Run], recording: Recording) -> Mask:
         If a run does not lie within the recording, or one of its channels is not in it.
     """
     hidden = np.zeros(recording.values.shape, dtype=bool)
-    for run in runs:
-        stop, n_frames = run.start + run.length, len(hidden)
-        missing = sorted({*run.channels} - {*recording.channels})
-        if missing or not 0 <= run.start < stop <= n_frames:
+    for channels, start, length in runs:
+        stop, n_frames = start + length, len(hidden)
+        missing = sorted({*channels} - {*recording.channels})
+        if missing or not 0 <= start < stop <= n_frames:
             raise ValueError(
                 f"recording {recording.name!r}: expected a run of its channels within its "
-                f"{n_frames} frames, got frames [{run.start}, {stop}) and unknown channels "
+                f"{n_frames} frames, got frames [{start}, {stop}) and unknown channels "
                 f"{missing}"
             )
-        columns = [recording.channels.index(channel) for channel in run.channels]
-        hidden[run.start : stop, columns] = True
+        columns = [recording.channels.index(channel) for channel in channels]
+        hidden[start:stop, columns] = True
     return hidden

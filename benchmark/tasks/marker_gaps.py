@@ -14,7 +14,7 @@ import numpy as np
 
 from mocapbench.benchmark.problems.body import JointPositions
 from mocapbench.benchmark.problems.impute import ImputeProblem
-from mocapbench.benchmark.problems.masks import Run, hide_runs
+from mocapbench.benchmark.problems.masks import hide_runs
 from mocapbench.benchmark.tasks.base import Case, Profile, Task, on_recordings
 from mocapbench.benchmark.tasks.pages.marker_gaps import PAGE
 from mocapbench.benchmark.tasks.seeds import Seeds
@@ -108,7 +108,7 @@ def marker_gaps_problem(
     joints = tuple(segment.name for segment in skeleton.segments[1:])
     rng = replace(seeds, address=seeds.address._replace(case=place)).generator("mask")
     runs = [
-        Run(_channels(names), _start(rng.random(), n_hidden, recording), n_hidden)
+        (_channels(names), _start(rng.random(), n_hidden, recording), n_hidden)
         for names in PLACES[place](rng, joints)
     ]
     return ImputeProblem.of_one(

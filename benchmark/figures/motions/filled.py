@@ -8,7 +8,7 @@ import numpy as np
 
 from mocapbench.benchmark.figures.motions.chosen import choose_entrants
 from mocapbench.benchmark.figures.motions.placing import PlacesJoints, place_joints
-from mocapbench.benchmark.figures.motions.played import Pair, build_player
+from mocapbench.benchmark.figures.motions.played import build_player
 from mocapbench.benchmark.figures.motions.window import ShownWindow
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
@@ -51,9 +51,9 @@ def draw_filled_motion(
     if body is None or not np.isfinite(truth).all():
         return ()
     entrants = choose_entrants(solved, n_most)
-    means = [solved.answers[label].predictions[0].mean for label in entrants.labels]
+    means = [solved.answers[label].predictions[0].mean for label in entrants[0]]
     filled = [np.where(shown.visible, truth, mean[window.part]) for mean in means]
     true, *made = place_joints(body, shown, [truth, *filled])
-    pairs = [Pair("truth", true, positions) for positions in made]
+    pairs = [("truth", true, positions) for positions in made]
     caption = f"{given.name}, shaded where something is hidden.{remark}"
     return (build_player(solved, body, window, entrants=entrants, pairs=pairs, caption=caption),)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -18,20 +18,9 @@ from mocapbench.reports import Motion, Motions
 __all__ = ["Pair", "build_player"]
 
 
-class Pair(NamedTuple):
-    """What an entrant made, and what it is compared with.
-
-    Parameters
-    ----------
-    against : str
-        Name of the truth.
-    truth, made : ndarray of shape (P, J, 3)
-        Positions of joints in the `ShownWindow.part`, in centimetres.
-    """
-
-    against: str
-    truth: FrameByJointBy3
-    made: FrameByJointBy3
+Pair = tuple[str, FrameByJointBy3, FrameByJointBy3]
+"""The name of a truth, and the joints (P, J, 3) of it and of what an entrant made of it, in the
+`ShownWindow.part` and in centimetres."""
 
 
 def build_player(
@@ -59,21 +48,22 @@ def build_player(
     joints = tuple(segment.name for segment in body.skeleton.segments)
     rows, shown = window.rows, window.times[window.rows]
     kept = rows - rows[0]
-    seen = [side_view(pair.truth[kept], pair.made[kept], joints) for pair in pairs]
+    seen = [side_view(truth[kept], made[kept], joints) for _, truth, made in pairs]
+    names, (labels, beside, phrase) = [name for name, _, _ in pairs], entrants
     return Motions(
         task=solved.task,
         title="Motion",
-        caption=f"{caption} {_extent(window.times, shown)}. {entrants.phrase}.",
+        caption=f"{caption} {_extent(window.times, shown)}. {phrase}.",
         interval=float(np.diff(shown).mean()),
         joints=joints,
         parents=body.skeleton.parents,
         hidden=window.hidden[rows],
-        truths={pair.against: truth for pair, (truth, _) in zip(pairs, seen, strict=True)},
+        truths={name: truth for name, (truth, _) in zip(names, seen, strict=True)},
         motions=tuple(
-            Motion(label, made, pair.against)
-            for label, pair, (_, made) in zip(entrants.labels, pairs, seen, strict=True)
+            Motion(label, made, name)
+            for label, name, (_, made) in zip(labels, names, seen, strict=True)
         ),
-        beside=entrants.beside,
+        beside=beside,
     )
 
 

@@ -38,7 +38,7 @@ def draw_sampled_motion(
         return ()
     entrants = choose_entrants(solved, n_most)
     window = ShownWindow(problem.times, np.zeros(len(problem.times), dtype=bool))
-    samples = [solved.answers[label].values[0] for label in entrants.labels]
+    samples = [solved.answers[label].values[0] for label in entrants[0]]
     values = [motion[window.part] for motion in (*problem.references, *samples)]
     like = replace(problem.train[0], times=problem.times[window.part], values=values[0])
     motions = [on_the_spot(motion) for motion in place_joints(body, like, values)]
@@ -56,4 +56,4 @@ def _beside_nearest(sample: FrameByJointBy3, references: Sequence[FrameByJointBy
     """Return a sample and the reference of least mean distance of joints, frame by frame."""
     distances = [norm(sample - reference, axis=-1).mean() for reference in references]
     nearest = int(np.argmin(distances))
-    return Pair(f"reference {nearest + 1}", references[nearest], sample)
+    return f"reference {nearest + 1}", references[nearest], sample

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.benchmark import ClusterProblem, Clusters, Solved, draw_alignments
-from mocapbench.benchmark.problems.cycle import Alignment
+from mocapbench.benchmark.problems.arrays import with_numbers
 from mocapbench.datasets import Recording, Skeleton
 
 TIMES = np.arange(6.0) / 30
@@ -24,7 +24,9 @@ def test_each_model_that_aligns_has_a_panel_beside_the_recordings(problem):
     path = np.array([2, 3, 0, 2, 3, 1])
     answers = {
         "groups only": Clusters(LABELS),
-        "aligner": Clusters(LABELS, Alignment(4, (path, path, path))),
+        "aligner": Clusters(
+            LABELS, {"cycle_length": np.array(4), **with_numbers("path", [path] * 3)}
+        ),
     }
     (illustration,) = draw_alignments(Solved("style-clustering", problem, answers))
     before, after = illustration.panels

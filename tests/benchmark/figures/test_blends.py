@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mocapbench.benchmark import ClusterProblem, Clusters, Solved, draw_blends
-from mocapbench.benchmark.problems.blending import N_FRAMES, Blend
+from mocapbench.benchmark.problems.blending import N_FRAMES
 from mocapbench.datasets import GaitLibrary, Recording, hlm_features
 
 CHANNELS = ("lfemur.rx", "ltibia.rx")
@@ -21,7 +21,7 @@ def problem():
 
 def test_it_is_drawn_as_stick_figures_and_as_curves_between_the_styles(problem):
     still = np.tile(problem.train[0].values[0], (N_FRAMES, 1))
-    blend = Blend(still - 1.0, still, still + 1.0, (0, 2))
+    blend = {"blend": np.stack([still - 1.0, still, still + 1.0]), "blended": np.array([0, 2])}
     solved = Solved("style-clustering", problem, {"poses": Clusters(LABELS, blend=blend)})
     (illustration,) = draw_blends(solved, CHANNELS)
     strip, *curves = illustration.panels

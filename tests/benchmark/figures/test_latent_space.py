@@ -48,7 +48,7 @@ def test_latent_spaces_of_three_dimensions_are_shown(solved):
 
 def test_the_cloud_has_the_confidence_for_its_values(solved):
     gplvm, *_ = FIGURE(solved)
-    stored = solved.internals["gplvm-window"].latent_space.cloud
+    stored = solved.internals["gplvm-window"].latent_space["latent-cloud"]
     np.testing.assert_array_equal(gplvm.cloud, stored[:, :3])
     np.testing.assert_array_equal(gplvm.values, stored[:, 3])
 

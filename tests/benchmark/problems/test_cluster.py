@@ -3,8 +3,7 @@ import pytest
 
 from mocapbench.baselines import Aligner, Clusterer
 from mocapbench.benchmark import ClusterProblem, Clusters, InvalidPredictionError
-from mocapbench.benchmark.problems.blending import Blend
-from mocapbench.benchmark.problems.cycle import Alignment
+from mocapbench.benchmark.problems.arrays import arrays_by_number, with_numbers
 from mocapbench.datasets import Recording, Skeleton
 from mocapbench.metrics import purity
 
@@ -64,8 +63,8 @@ def test_clusters_are_set_beside_the_classes(problem):
 
 def test_a_model_that_aligns_leaves_its_paths(problem):
     answer = _answer(problem, FixedAligner())
-    assert answer.alignment.cycle_length == 4
-    assert [path.tolist() for path in answer.alignment.paths] == [
+    assert answer.alignment["cycle_length"] == 4
+    assert [path.tolist() for path in arrays_by_number("path", answer.alignment)] == [
         [0, 1, 2],
         [1, 2, 3, 0, 1],
         [3, 0, 2, 3],
@@ -84,8 +83,10 @@ def test_paths_of_a_model_that_aligns_are_checked(problem):
 
 
 LABELS = np.array([0, 0, 2])
-ALIGNMENT = Alignment(4, tuple(np.arange(n) % 4 for n in range(1, 13)))
-BLEND = Blend(*np.random.default_rng(0).normal(size=(3, 75, 2)), clusters=(0, 2))
+PATHS = with_numbers("path", (np.arange(n) % 4 for n in range(1, 13)))
+ALIGNMENT = {"cycle_length": np.array(4), **PATHS}
+MOTIONS = np.random.default_rng(0).normal(size=(3, 75, 2))
+BLEND = {"blend": MOTIONS, "blended": np.array([0, 2])}
 
 
 @pytest.mark.parametrize("alignment", [None, ALIGNMENT])

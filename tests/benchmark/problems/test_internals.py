@@ -3,8 +3,8 @@ import pytest
 
 from mocapbench.baselines import MOHGP, Oracle, Trivial
 from mocapbench.benchmark import Internals
+from mocapbench.benchmark.problems.arrays import with_numbers
 from mocapbench.benchmark.problems.internals import Trend, internals_of
-from mocapbench.benchmark.problems.latent import LatentSpace, LatentWalks
 
 
 @pytest.fixture(scope="module")
@@ -34,13 +34,19 @@ def test_a_model_leaves_what_it_has_and_no_more(toy):
 RNG = np.random.default_rng(0)
 TREND = Trend(*RNG.random((3, 5)))
 MATRICES = {"parent": RNG.random((3, 2, 2)), "child-of": RNG.random((1, 2, 2))}
-SPACE = LatentSpace(
-    {"SNR(α)": np.asarray(3.5), "CLS-β": np.asarray(2)},
-    tuple(RNG.random((11, 4, 3))),
-    RNG.random((8, 4)).astype(np.float32),
-)
-PROPERTIES = LatentSpace({"SNR(α)": np.asarray(3.5)})
-WALKS = LatentWalks(RNG.random((6, 3)), tuple(RNG.random((2, 6, 3))), *RNG.random((2, 6, 5)))
+PROPERTIES = {"property-SNR(α)": np.asarray(3.5)}
+SPACE = {
+    **PROPERTIES,
+    "property-CLS-β": np.asarray(2),
+    **with_numbers("latent-path", RNG.random((11, 4, 3))),
+    "latent-cloud": RNG.random((8, 4)).astype(np.float32),
+}
+WALKS = {
+    "latent-mean": RNG.random((6, 3)),
+    **with_numbers("latent-sample", RNG.random((2, 6, 3))),
+    "walk-mean": RNG.random((6, 5)),
+    "walk-sample": RNG.random((6, 5)),
+}
 OF_ANSWERS = ("mean-0", "path-0", "labels", "samples", "blend", "covariance-child")
 
 

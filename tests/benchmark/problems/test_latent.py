@@ -19,5 +19,5 @@ def test_spaces_of_other_than_three_dimensions_leave_their_parameters_only(train
 
 def test_the_cloud_is_as_confident_as_the_model(train):
     model = GPLVM(max_iter=1).fit(train)
-    cloud = internals_of(model, train).latent_space.cloud.astype(float)
+    cloud = internals_of(model, train).latent_space["latent-cloud"].astype(float)
     np.testing.assert_allclose(model.confidence(cloud[:, :3]), cloud[:, 3], rtol=1e-4, atol=1e-4)

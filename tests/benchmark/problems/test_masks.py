@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mocapbench.benchmark import Run, hide_all_but, hide_frames, hide_runs
+from mocapbench.benchmark import hide_all_but, hide_frames, hide_runs
 from mocapbench.datasets import Recording
 
 
@@ -23,7 +23,7 @@ WAVES = Recording("waves", np.arange(6.0), np.zeros((6, 3)), ("a", "b", "c"), ("
 
 
 def test_each_run_hides_its_channels_for_its_length_and_runs_add_up():
-    hidden = hide_runs([Run(("a", "c"), 1, 2), Run(("c",), 2, 3)], WAVES)
+    hidden = hide_runs([(("a", "c"), 1, 2), (("c",), 2, 3)], WAVES)
     assert hidden.T.astype(int).tolist() == [
         [0, 1, 1, 0, 0, 0],
         [0, 0, 0, 0, 0, 0],
@@ -31,9 +31,7 @@ def test_each_run_hides_its_channels_for_its_length_and_runs_add_up():
     ]
 
 
-@pytest.mark.parametrize(
-    "run", [Run(("a",), -1, 2), Run(("a",), 5, 2), Run(("a",), 2, 0), Run(("d",), 1, 2)]
-)
+@pytest.mark.parametrize("run", [(("a",), -1, 2), (("a",), 5, 2), (("a",), 2, 0), (("d",), 1, 2)])
 def test_a_run_beyond_the_recording_is_refused_by_name(run):
     with pytest.raises(ValueError, match="recording 'waves': expected a run of its channels"):
         hide_runs([run], WAVES)
