@@ -24,7 +24,7 @@ from .figures.trend import draw_trends
 from .formats import format_for
 from .gate.regression_check import check
 from .inspection.explanation import explain
-from .inspection.forecast_output import lacking, lacking_line
+from .inspection.forecast import lacking, lacking_line
 from .inspection.left_out import left_out_lines
 from .inspection.output import explanation_table, state_lines, state_table
 from .inspection.planned import forecast_text, plan_table

@@ -1,45 +1,74 @@
-"""What a planned run will do: how many jobs of which kind, and for how long."""
+"""What a planned run will do: how many jobs of which kind, for how long, and how that is known."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.inspection.explanation import Explanation, Step
-from mocapbench.benchmark.inspection.work import ExpectedWork, work_of
+from mocapbench.benchmark.inspection.fit_seconds import MEASURED
+from mocapbench.benchmark.inspection.work import Basis, ExpectedWork, work_of
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.job import Job
 
-__all__ = ["Forecast", "forecast"]
+__all__ = ["expect_work", "forecast_lines", "lacking", "lacking_line"]
+
+_STEPS = {
+    Step.SKIP: "done already",
+    Step.FIT: "to fit and score",
+    Step.PREDICT: "to predict by a shared fit",
+    Step.SCORE: "only to score",
+    Step.CANNOT: "without their recordings",
+}
 
 
-@dataclass(frozen=True)
-class Forecast:
-    """What a planned run will do.
+def lacking(jobs: Sequence[Job]) -> tuple[str, ...]:
+    """Return the addresses of the recordings that ``jobs`` need and that are not at hand."""
+    return tuple(dict.fromkeys(uri for job in jobs for uri in job.missing))
+
+
+def lacking_line(jobs: Sequence[Job], remedy: str) -> str:
+    """Return how many of ``jobs`` lack recordings, and what to do about it."""
+    count = sum(bool(job.missing) for job in jobs)
+    recordings = format_count(len(lacking(jobs)), "recording")
+    return f"data missing: {count} of {len(jobs)} jobs lack {recordings}; {remedy}"
+
+
+def forecast_lines(
+    jobs: Sequence[Job],
+    explanations: Sequence[Explanation],
+    out: Path,
+    profile: str,
+    n_workers: int | None,
+) -> Iterator[str]:
+    """Yield what a run will do, how long it takes, and how that is known.
 
     Parameters
     ----------
-    profile : str
-    steps : mapping of Step to int
-        How many jobs are skipped, fitted, only scored, or cannot run.
-    now : ExpectedWork
-        With the recordings that are here.
-    with_all : ExpectedWork
-        With all recordings that the jobs need.
+    jobs, explanations, out, profile
+        See `expect_work`.
+    n_workers : int or None
+        How many jobs run at once; None if a cluster decides.
     """
+    counts = Counter(item.step for item in explanations)
+    steps = ", ".join(f"{counts[step]} {_STEPS[step]}" for step in Step if counts[step])
+    yield f"in {out}: {steps or 'nothing to do'}"
+    now, with_all = expect_work(jobs, explanations, out, profile)
+    if not with_all.seconds:
+        return
+    if now.seconds:
+        yield f"time: {now.in_words(n_workers)}"
+    if with_all != now:
+        yield f"time with the missing recordings: {with_all.in_words(n_workers)}"
+    yield from _describe_bases(with_all, profile)
 
-    profile: str
-    steps: Mapping[Step, int]
-    now: ExpectedWork
-    with_all: ExpectedWork
 
-
-def forecast(
+def expect_work(
     jobs: Sequence[Job], explanations: Sequence[Explanation], out: Path, profile: str
-) -> Forecast:
-    """Return what a run will do.
+) -> tuple[ExpectedWork, ExpectedWork]:
+    """Return the work with the recordings that are here, and with all that the jobs need.
 
     Parameters
     ----------
@@ -52,20 +81,27 @@ def forecast(
         Of the run; tells how long a fit takes of which there is no record.
     """
     records = RunDirectory(out).records() if RunDirectory.is_run(out) else []
-    steps = Counter(item.step for item in explanations)
     to_fit = [item.address for item in explanations if item.step is Step.FIT]
     predicted = {_fit_shared_by(job) for job in jobs if not job.missing}  # by then
-    lacking = {
+    without = {
         _fit_shared_by(job): job.address for job in jobs if _fit_shared_by(job) not in predicted
     }
-    return Forecast(
-        profile,
-        {step: steps[step] for step in Step if steps[step]},
+    return (
         work_of(to_fit, records, profile),
-        work_of([*to_fit, *lacking.values()], records, profile),
+        work_of([*to_fit, *without.values()], records, profile),
     )
 
 
 def _fit_shared_by(job: Job) -> str:
     """Return what the jobs that share a fit have in common."""
     return job.training_key or job.fit_key
+
+
+def _describe_bases(work: ExpectedWork, profile: str) -> Iterator[str]:
+    by = work.known_by
+    fits = (f"{basis} ({format_count(by[basis], 'fit')})" for basis in Basis if by[basis])
+    yield f"estimated by {', by '.join(fits)}"
+    measured = MEASURED[profile]
+    if measured != profile and by.keys() - {Basis.RECORDS}:
+        longer = f"the developers ran {measured}, whose fits are shorter than {profile}'s"
+        yield f"{longer}: take the time as a lower limit"

@@ -10,8 +10,7 @@ from rich.table import Column, Table
 
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.inspection.explanation import explain
-from mocapbench.benchmark.inspection.forecast import forecast
-from mocapbench.benchmark.inspection.forecast_output import (
+from mocapbench.benchmark.inspection.forecast import (
     forecast_lines,
     lacking,
     lacking_line,
@@ -51,8 +50,7 @@ def forecast_text(
         What to do about missing recordings.
     """
     yield format_count(len(planned), "job")
-    expected = forecast(planned, explain(planned, out), out, profile)
-    yield from forecast_lines(expected, out, n_workers)
+    yield from forecast_lines(planned, explain(planned, out), out, profile, n_workers)
     if lacking(planned):
         yield lacking_line(planned, remedy)
 

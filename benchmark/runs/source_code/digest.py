@@ -49,8 +49,8 @@ def source_digest(module: str, within: tuple[str, ...]) -> str:
             pending += _reached_from(*one, within, module)
     # The first goes without its name: a user's file has no lasting one as a module.
     names = sorted({name for name, _ in reached} - {module})
-    others = (f"\0{name}\0{read(name).code}" for name in names)
-    message = "".join([read(module).code, *others])
+    others = (f"\0{name}\0{read(name)[0]}" for name in names)
+    message = "".join([read(module)[0], *others])
     return hashlib.sha256(message.encode()).hexdigest()
 
 
@@ -58,8 +58,8 @@ def _reached_from(
     name: str, whole: bool, within: tuple[str, ...], root: str
 ) -> Iterator[tuple[str, bool]]:
     """Yield the modules that count with one, and whether all that they import counts too."""
-    imports = read(name).imports if whole else read(name).used
-    near = (item for item in imports if _near(item[0], within, root))
+    _, imports, used = read(name)
+    near = (item for item in (imports if whole else used) if _near(item[0], within, root))
     found = (definer(*item) for item in near)
     yield from ((other, True) for other in found if _counts(other, within, root))
     home, *inner = name.split(".")

@@ -11,11 +11,10 @@ from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.util import decode_source
 from pathlib import Path
 from types import FunctionType, ModuleType
-from typing import NamedTuple
 
 from mocapbench.reports.bundle.task_page import TaskPage
 
-__all__ = ["Module", "definer", "read"]
+__all__ = ["definer", "read"]
 
 _COMPILED = {*EXTENSION_SUFFIXES, ".so", ".pyd"}
 
@@ -24,18 +23,17 @@ Import = tuple[str, str]
 """A module, and the name that is imported from it; empty where the module itself is."""
 
 
-class Module(NamedTuple):
-    """A module's code without comments, docstrings and layout, and what it imports."""
-
-    code: str
-    imports: tuple[Import, ...]
-    used: tuple[Import, ...]
-    """Of a package: what it imports and does not merely pass on."""
-
-
 @cache
-def read(module: str) -> Module:
-    """Return the code of a module and what it imports; of compiled code, its digest."""
+def read(module: str) -> tuple[str, tuple[Import, ...], tuple[Import, ...]]:
+    """Return the code of a module and what it imports; of compiled code, its digest.
+
+    Returns
+    -------
+    code : str
+        Without comments, docstrings and layout.
+    imports, used : tuple of Import
+        All that it imports; and of a package, what of that it does not merely pass on.
+    """
     tree = ast.parse(_source(module))
     nodes = [*ast.walk(tree)]
     imports = (*_imports(module, nodes),)
@@ -45,7 +43,7 @@ def read(module: str) -> Module:
     for node in nodes:
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
             node.body = [statement for statement in node.body if not _is_prose(statement)]
-    return Module(ast.unparse(tree), every, used)
+    return ast.unparse(tree), every, used
 
 
 def _is_prose(statement: ast.stmt) -> bool:

@@ -1,13 +1,19 @@
 """What a planned run will do, and how long it is expected to take."""
 
+from collections import Counter
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.inspection.explanation import Step, explain
-from mocapbench.benchmark.inspection.forecast import forecast
-from mocapbench.benchmark.inspection.forecast_output import forecast_lines, lacking, lacking_line
+from mocapbench.benchmark.inspection.forecast import (
+    expect_work,
+    forecast_lines,
+    lacking,
+    lacking_line,
+)
 from mocapbench.benchmark.inspection.work import Basis, ExpectedWork
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.plan import plan
@@ -25,38 +31,47 @@ def done(store, job, seconds):
     store.save(job.record(Status.OK, fit_seconds=seconds, predict_seconds=0.0))
 
 
-def of(planned, out, profile="quick"):
-    return forecast(planned, explain(planned, out), out, profile)
+def steps_of(planned, out):
+    return Counter(explanation.step for explanation in explain(planned, out))
+
+
+def work_of(planned, out, profile="quick"):
+    """Return the work with the recordings that are here, and with all."""
+    return expect_work(planned, explain(planned, out), out, profile)
+
+
+def lines_of(planned, out, n_workers, profile="quick"):
+    return [*forecast_lines(planned, explain(planned, out), out, profile, n_workers)]
 
 
 def test_without_records_the_developers_know(tmp_path):
     planned = jobs(("knn",), TASKS[:1])
-    found = of(planned, tmp_path / "none")
-    assert found.steps == {Step.FIT: len(planned)}
-    assert found.now.known_by == {Basis.TYPICAL: len(planned)}
-    assert found.now.total > 0
+    now, _ = work_of(planned, tmp_path / "none")
+    assert steps_of(planned, tmp_path / "none") == {Step.FIT: len(planned)}
+    assert now.known_by == {Basis.TYPICAL: len(planned)}
+    assert now.total > 0
 
 
 def test_records_of_the_entrant_go_first_and_what_is_done_takes_no_time(tmp_path):
     first, *rest = planned = jobs(("knn", "trivial"), TASKS[:1])
     store = RunDirectory.create(tmp_path / "run")
     done(store, first, 7.0)
-    found = of(planned, store.path)
+    now, _ = work_of(planned, store.path)
     others = sum(job.address.label == first.address.label for job in rest)
-    assert found.steps == {Step.SKIP: 1, Step.FIT: len(rest)}
-    assert found.now.known_by == {Basis.RECORDS: others, Basis.TYPICAL: len(rest) - others}
-    assert found.now.seconds.count(7.0) == others
+    assert steps_of(planned, store.path) == {Step.SKIP: 1, Step.FIT: len(rest)}
+    assert now.known_by == {Basis.RECORDS: others, Basis.TYPICAL: len(rest) - others}
+    assert now.seconds.count(7.0) == others
 
 
 def test_jobs_that_share_a_fit_count_as_one(tmp_path):
     request = Request("smoke", ("missing-frames",), ("knn",), ("synthetic*",), folds=3)
     first, *rest = planned = plan(request, archive_at(None))
-    found = of(planned, tmp_path / "none", "smoke")
-    assert found.steps == {Step.FIT: 1, Step.PREDICT: len(rest)}
-    assert len(found.now.seconds) == 1
+    now, _ = work_of(planned, tmp_path / "none", "smoke")
+    assert steps_of(planned, tmp_path / "none") == {Step.FIT: 1, Step.PREDICT: len(rest)}
+    assert len(now.seconds) == 1
     store = RunDirectory.create(tmp_path / "run")
     done(store, first, 7.0)  # its fitted model has ended with the run
-    assert of(planned, store.path, "smoke").steps == {
+    assert steps_of(planned, store.path) == {
         Step.SKIP: 1,
         Step.FIT: 1,
         Step.PREDICT: len(rest) - 1,
@@ -66,16 +81,17 @@ def test_jobs_that_share_a_fit_count_as_one(tmp_path):
 def test_an_entrant_that_nobody_ran_is_expected_to_take_the_mean(tmp_path):
     (job, *_) = planned = jobs(("knn",), TASKS[:1], folds=1)
     renamed = [type(job)(**{**vars(job), "address": job.address._replace(label="new")})]
-    assert of(renamed, tmp_path).now.known_by == {Basis.MEAN: 1}
+    now, _ = work_of(renamed, tmp_path)
+    assert now.known_by == {Basis.MEAN: 1}
     assert len(planned) > 1
 
 
 def test_a_fit_that_cases_share_counts_once(tmp_path):
     planned = jobs(("replay",), ("walking-synthesis",), profile="paper", folds=1)
     fits = {job.fit_key for job in planned}
-    found = of(planned, tmp_path / "none", "paper")
+    _, with_all = work_of(planned, tmp_path / "none", "paper")
     assert len(fits) < len(planned)
-    assert len(found.with_all.seconds) == len(fits)
+    assert len(with_all.seconds) == len(fits)
     first_run = explain(planned, tmp_path / "none")
     RunDirectory.create(tmp_path / "empty")
     assert [e.step for e in explain(planned, tmp_path / "empty")] == [e.step for e in first_run]
@@ -84,23 +100,23 @@ def test_a_fit_that_cases_share_counts_once(tmp_path):
 @pytest.mark.usefixtures("nothing_here")
 def test_missing_recordings_are_counted_with_and_without(tmp_path):
     planned = jobs(("trivial",))
-    found, short = of(planned, tmp_path), sum(bool(job.missing) for job in planned)
-    assert found.steps[Step.CANNOT] == short > 0
+    (now, with_all), short = work_of(planned, tmp_path), sum(bool(job.missing) for job in planned)
+    assert steps_of(planned, tmp_path)[Step.CANNOT] == short > 0
     trainings = {job.training_key for job in planned if job.missing}
     assert "" not in trainings
-    assert len(found.with_all.seconds) == len(found.now.seconds) + len(trainings)
+    assert len(with_all.seconds) == len(now.seconds) + len(trainings)
     assert "cmu:35_03" in lacking(planned)
     assert not any(uri.startswith("gait:") for uri in lacking(planned))
     line = lacking_line(planned, "do this")
     assert line == f"data missing: {short} of {len(planned)} jobs lack 11 recordings; do this"
-    lines = list(forecast_lines(found, tmp_path, 2))
+    lines = lines_of(planned, tmp_path, 2)
     assert any(line.startswith("time with the missing recordings: about") for line in lines)
 
 
 @pytest.mark.parametrize(("profile", "limited"), [("quick", False), ("paper", True)])
 def test_the_words_say_how_the_time_is_known(tmp_path, profile, limited):
     planned = jobs(("knn",), TASKS[:1], profile)
-    lines = list(forecast_lines(of(planned, tmp_path / "run", profile), tmp_path / "run", 2))
+    lines = lines_of(planned, tmp_path / "run", 2, profile)
     assert lines[0] == f"in {tmp_path / 'run'}: {len(planned)} to fit and score"
     assert "with 2 jobs at once" in lines[1]
     assert lines[2] == (
@@ -111,7 +127,7 @@ def test_the_words_say_how_the_time_is_known(tmp_path, profile, limited):
 
 def test_a_cluster_decides_how_many_jobs_run_at_once(tmp_path):
     planned = jobs(("knn",), TASKS[:1])
-    text = " ".join(forecast_lines(of(planned, tmp_path / "run"), tmp_path / "run", None))
+    text = " ".join(lines_of(planned, tmp_path / "run", None))
     assert "divided among the workers of the cluster" in text
     assert "at once" not in text
 
@@ -121,7 +137,7 @@ def test_a_run_that_is_done_takes_no_time(tmp_path):
     store = RunDirectory.create(tmp_path / "run")
     for job in planned:
         done(store, job, 1.0)
-    lines = list(forecast_lines(of(planned, store.path), store.path, 2))
+    lines = lines_of(planned, store.path, 2)
     assert lines == [f"in {store.path}: {len(planned)} done already"]
 
 

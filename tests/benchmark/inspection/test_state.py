@@ -8,8 +8,7 @@ import pytest
 from mocapbench.benchmark.archives import archive_at
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.inspection.explanation import explain
-from mocapbench.benchmark.inspection.forecast import forecast
-from mocapbench.benchmark.inspection.forecast_output import forecast_lines
+from mocapbench.benchmark.inspection.forecast import expect_work, forecast_lines
 from mocapbench.benchmark.inspection.output import state_lines
 from mocapbench.benchmark.inspection.state import run_state
 from mocapbench.benchmark.inspection.work import Basis
@@ -80,11 +79,11 @@ def test_what_is_left_takes_as_long_as_a_dry_run_says(tmp_path, done):
         if job.address.label in done and job.address.fold == 0:
             store.save(job.record(Status.OK, fit_seconds=0.01, predict_seconds=0.01))
     store.save_plan(plan_document(planned, workers=2, provenance={"profile": "quick"}))
-    dry = forecast(planned, explain(planned, store.path), store.path, "quick")
+    dry = planned, explain(planned, store.path), store.path, "quick"
     state = run_state(store)
-    assert state.work_left == dry.now
+    assert state.work_left == expect_work(*dry)[0]
     assert Basis.TYPICAL in state.work_left.known_by
-    (line,) = (line for line in forecast_lines(dry, store.path, 2) if line.startswith("time: "))
+    (line,) = (line for line in forecast_lines(*dry, 2) if line.startswith("time: "))
     assert f"time left: {line.removeprefix('time: ')}" in [*state_lines(state, NOW)]
 
 
