@@ -21,11 +21,6 @@ LISTS = {
 }
 
 NAMESAKES = {
-    # A prior's matrices, and the figure of them, which users import.
-    "Coregionalisation": [
-        "baselines/gp/prior/coregionalisation",
-        "benchmark/figures/coregionalisation",
-    ],
     # Users import both.
     "Motion": ["datasets/acclaim/motion", "reports/bundle/motions"],
 }
