@@ -6,6 +6,7 @@ from own_files import write_csv
 
 from mocapbench.baselines.interpolation import LinearImputer
 from mocapbench.benchmark.archives import archive_at
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.runs.keys import fit_contents
 from mocapbench.benchmark.runs.request import entrants
 from mocapbench.benchmark.task_files.building import build_task
@@ -166,6 +167,10 @@ def test_keys_cover_the_protocol_and_no_prose(check):
 def test_a_task_file_returns_from_what_json_can_hold(check):
     file = check(TEXT.format("others"))
     assert TaskFile.from_plain(file.to_plain()) == file
+    for name in file.to_plain():
+        damaged = {each: value for each, value in file.to_plain().items() if each != name}
+        with pytest.raises(UsageError, match="damaged task file; run `mocapbench run` with"):
+            TaskFile.from_plain(damaged)
 
 
 def test_task_files_of_merged_runs_have_the_recordings_of_all(check):
