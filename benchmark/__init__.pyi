@@ -24,10 +24,9 @@ from .figures.trend import draw_trends
 from .formats import format_for
 from .gate.regression_check import check
 from .inspection.explanation import explain
-from .inspection.forecast import lacking, lacking_line
+from .inspection.forecast import forecast_text, lacking, lacking_line, plan_table
 from .inspection.left_out import left_out_lines
 from .inspection.output import explanation_table, state_lines, state_table
-from .inspection.planned import forecast_text, plan_table
 from .inspection.recordings import DataRequest, data_totals, next_data_step
 from .inspection.state import RunState, run_state
 from .merging.merge import merge

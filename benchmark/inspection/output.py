@@ -9,8 +9,7 @@ from datetime import UTC, datetime
 from rich.table import Column, Table
 
 from mocapbench.basics.words import format_count
-from mocapbench.benchmark.inspection.changes import Change, in_words
-from mocapbench.benchmark.inspection.explanation import Explanation, Step
+from mocapbench.benchmark.inspection.explanation import Change, Explanation, Step, in_words
 from mocapbench.benchmark.inspection.state import RunState
 from mocapbench.benchmark.runs import progress
 from mocapbench.benchmark.runs.key_parts import DIGEST

@@ -6,8 +6,7 @@ from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from mocapbench.benchmark.inspection.fit_seconds import MEASURED
-from mocapbench.benchmark.inspection.work import ExpectedWork, work_of
+from mocapbench.benchmark.inspection.work import MEASURED, ExpectedWork, work_of
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.plan_document import PlannedJob, planned_jobs
 from mocapbench.benchmark.runs.record import Record, Status

@@ -11,9 +11,12 @@ from typing import Any
 
 from mocapbench.basics.whole_files import write_bytes
 from mocapbench.benchmark.errors import UsageError
-from mocapbench.benchmark.merging.plans import unite_plans
-from mocapbench.benchmark.merging.records import unite_fits, unite_records
-from mocapbench.benchmark.merging.sources import read_source
+from mocapbench.benchmark.merging.reconcile import (
+    read_source,
+    unite_fits,
+    unite_plans,
+    unite_records,
+)
 from mocapbench.benchmark.runs.directory import RunDirectory
 from mocapbench.benchmark.runs.key_parts import KeyEntry
 

@@ -6,10 +6,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from mocapbench.benchmark.figures.motions.chosen import choose_entrants
 from mocapbench.benchmark.figures.motions.placing import PlacesJoints, place_joints
-from mocapbench.benchmark.figures.motions.played import build_player
-from mocapbench.benchmark.figures.motions.window import ShownWindow
+from mocapbench.benchmark.figures.motions.played import ShownWindow, build_player, choose_entrants
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.impute import FilledRecordings, ImputeProblem
 from mocapbench.reports import Motions

@@ -1,21 +1,119 @@
-"""Pairs of a truth and what an entrant made of it, as a player shows them."""
+"""A player of motions: which entrants and frames it shows, and what beside which truth."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mocapbench.benchmark.figures.motions.chosen import Chosen
+from mocapbench.basics.words import format_count
 from mocapbench.benchmark.figures.motions.placing import PlacesJoints
 from mocapbench.benchmark.figures.motions.side_view import side_view
-from mocapbench.benchmark.figures.motions.window import ShownWindow
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.datasets import FrameByJointBy3, Frames
 from mocapbench.reports import Motion, Motions
 
-__all__ = ["Pair", "build_player"]
+__all__ = [
+    "LONGEST",
+    "Chosen",
+    "Pair",
+    "ShownWindow",
+    "build_player",
+    "choose_entrants",
+    "shown_frames",
+]
+
+Chosen = tuple[tuple[str, ...], str, str]
+"""The labels of entrants, best first; the one to show beside the first; and which they are."""
+
+
+def choose_entrants(solved: Solved[Any, Any], n_most: int) -> Chosen:
+    """Return the best entrants by the task's first metric, and the best interpolation.
+
+    Returns
+    -------
+    labels : tuple of str
+        Best first.
+    beside : str
+        The one to show beside the first: the best interpolation, else the second.
+    phrase : str
+        Which they are, for a caption.
+    """
+    ranked = [label for label in solved.ranking if label in solved.answers]
+    ranked += [label for label in solved.answers if label not in ranked]
+    best, others = ranked[:n_most], ranked[n_most:]
+    first = [label for label in ranked if label in solved.interpolations][:1]
+    labels = (*best, *(label for label in others if label in first))
+    beside = next((label for label in (*first, *labels[1:2]) if label != labels[0]), labels[0])
+    order = f"best first by {solved.metric} here" if solved.ranking else "in the order of the task"
+    if not others:
+        return labels, beside, f"All {format_count(len(labels), 'entrant')}, {order}"
+    added = " and the best interpolation" if len(labels) > n_most else ""
+    return labels, beside, f"The first {n_most} of {len(ranked)} entrants{added}, {order}"
+
+
+LONGEST = 10.0
+"""Seconds."""
+_RATE = 30.0
+"""Frames per second at the least, where a recording has them; fewer than twice as many."""
+_TOLERANCE = 1.001  # 59.99 frames per second are 60
+
+
+class ShownWindow(NamedTuple):
+    """The part of a recording that a player shows.
+
+    Parameters
+    ----------
+    times : ndarray of shape (N,)
+        Of all frames, in seconds.
+    hidden : ndarray of bool of shape (N,)
+        Of which frames something is hidden.
+    """
+
+    times: Frames
+    hidden: NDArray[np.bool_]
+
+    @property
+    def rows(self) -> NDArray[np.intp]:
+        """The frames to show; see `shown_frames`."""
+        return shown_frames(self.times, self.hidden)
+
+    @property
+    def part(self) -> slice:
+        """The first to the last of them, with all between."""
+        rows = self.rows
+        return slice(int(rows[0]), int(rows[-1]) + 1)
+
+
+def shown_frames(times: Frames, hidden: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Return which frames to show: at most `LONGEST`, with the first hidden ones in their middle.
+
+    Parameters
+    ----------
+    times : ndarray of shape (N,)
+        In seconds.
+    hidden : ndarray of bool of shape (N,)
+        All False where nothing is hidden.
+    """
+    step = max(int(_TOLERANCE * _frame_rate(times) / _RATE), 1)
+    rows = np.arange(0, len(times), step)
+    first = int(np.argmax(hidden))
+    stop = min(_end_of_run(hidden, first), int(np.searchsorted(times, times[first] + LONGEST)))
+    middle = (times[first] + times[stop - 1]) / 2.0
+    start = np.clip(middle - LONGEST / 2.0, times[0], max(times[-1] - LONGEST, times[0]))
+    return np.asarray(rows[(times[rows] >= start) & (times[rows] <= start + LONGEST)])
+
+
+def _frame_rate(times: Frames) -> float:
+    return float((len(times) - 1) / (times[-1] - times[0])) if len(times) > 1 else _RATE
+
+
+def _end_of_run(hidden: NDArray[np.bool_], first: int) -> int:
+    """Return where the run of equal values from ``first`` on has ended."""
+    changes = np.flatnonzero(hidden[first:] != hidden[first])
+    return first + int(changes[0]) if len(changes) else len(hidden)
 
 
 Pair = tuple[str, FrameByJointBy3, FrameByJointBy3]

@@ -8,10 +8,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.linalg import norm
 
-from mocapbench.benchmark.figures.motions.chosen import choose_entrants
 from mocapbench.benchmark.figures.motions.placing import on_the_spot, place_joints
-from mocapbench.benchmark.figures.motions.played import Pair, build_player
-from mocapbench.benchmark.figures.motions.window import ShownWindow
+from mocapbench.benchmark.figures.motions.played import (
+    Pair,
+    ShownWindow,
+    build_player,
+    choose_entrants,
+)
 from mocapbench.benchmark.figures.solved import Solved
 from mocapbench.benchmark.problems.synthesise import Samples, SynthesiseProblem
 from mocapbench.datasets import FrameByJointBy3

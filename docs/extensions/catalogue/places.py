@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from catalogue.reference import Stored, Today
-from mocapbench.benchmark.inspection.fit_seconds import alike, typical
+from mocapbench.benchmark.inspection.work import alike, typical
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.reports.analysis.standings import Standing, standings
 from mocapbench.reports.front.answers import TESTED

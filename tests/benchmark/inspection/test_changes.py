@@ -1,7 +1,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mocapbench.benchmark.inspection.changes import Change, changes, in_words
+from mocapbench.benchmark.inspection.explanation import Change, changes, in_words
 
 PARTS = st.dictionaries(st.sampled_from("abcde"), st.sampled_from(["1", "2", "sha256:3"]))
 

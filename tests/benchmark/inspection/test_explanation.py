@@ -6,8 +6,7 @@ import importlib.metadata
 import pytest
 
 from mocapbench.benchmark.archives import archive_at
-from mocapbench.benchmark.inspection.changes import Change
-from mocapbench.benchmark.inspection.explanation import Step, explain
+from mocapbench.benchmark.inspection.explanation import Change, Step, explain
 from mocapbench.benchmark.inspection.output import explanation_table
 from mocapbench.benchmark.plugins import load_plugin
 from mocapbench.benchmark.registry import METRICS, TASKS

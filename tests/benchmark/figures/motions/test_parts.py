@@ -6,10 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mocapbench.benchmark import JointAngles, Solved
-from mocapbench.benchmark.figures.motions.chosen import choose_entrants
 from mocapbench.benchmark.figures.motions.placing import on_the_spot, place_joints
+from mocapbench.benchmark.figures.motions.played import LONGEST, choose_entrants, shown_frames
 from mocapbench.benchmark.figures.motions.side_view import side_view
-from mocapbench.benchmark.figures.motions.window import LONGEST, shown_frames
 from mocapbench.datasets import GaitLibrary, hlm_features
 
 JOINTS = ("root", "lfemur", "rfemur", "head")

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from mocapbench.benchmark.inspection.fit_seconds import MEASURED, alike, of_records, typical
+from mocapbench.benchmark.inspection.work import MEASURED, alike, of_records, typical
 from mocapbench.benchmark.runs.record import Record, Status
 from mocapbench.benchmark.tasks.address import Address
 from mocapbench.benchmark.tasks.base import PROFILES
