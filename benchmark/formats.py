@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.missing_values import tell_missing
 from mocapbench.benchmark.registry import FORMATS
-from mocapbench.datasets import Format, FormatError, Recording
+from mocapbench.datasets import Format, FormatError, FormatWarning, Recording, unwrap_angles
 from mocapbench.datasets.formats.strays import is_unlabelled
 
 __all__ = ["format_for", "read_measured"]
@@ -41,8 +43,8 @@ def format_for(path: str | Path) -> Format:
 def read_measured(path: str | Path, rate: float | None = None) -> Recording:
     """Return the recording of a file without what no model is to be judged by.
 
-    These are results of a model of the body and markers that nobody named. A file that has nothing
-    else is read as it is.
+    These are values that stand for missing ones, which are hidden, results of a model of the body,
+    and markers that nobody named. A file that has no other channels keeps those.
 
     Raises
     ------
@@ -52,7 +54,11 @@ def read_measured(path: str | Path, rate: float | None = None) -> Recording:
         As `format_for`.
     """
     file = format_for(path)
-    recording = file.read(path, rate)
+    stated = file.read_as_stated(path, rate)
+    mask, remarks = tell_missing(stated)
+    for text in remarks:
+        warnings.warn(f"{stated.name}: {text}", FormatWarning, stacklevel=2)
+    recording = unwrap_angles(stated.hide(mask))
     results = file.results(Path(path), recording.channels)
     others = {*results, *filter(is_unlabelled, recording.channels)}
     kept = [name for name in recording.channels if name not in others]

@@ -16,8 +16,11 @@ from mocapbench import benchmark as bench
 from mocapbench import reports
 from mocapbench.benchmark import filling
 from mocapbench.benchmark.cli.console import LiteralConsole
+from mocapbench.benchmark.cli.failures import explain
 from mocapbench.benchmark.cli.options import Plugins, load_plugins
-from mocapbench.benchmark.errors import UsageError
+from mocapbench.benchmark.errors import ExitCode, UsageError
+from mocapbench.benchmark.missing_values import choose_missing_rule
+from mocapbench.datasets import FormatError
 
 if TYPE_CHECKING:
     from mocapbench.benchmark.filling import FilledFile, InputFile, OutputPaths, Workers
@@ -65,6 +68,12 @@ def fill(
         bool,
         typer.Option("--insert-missing", help="Add the rows that a table lacks, and fill them."),
     ] = False,
+    missing: Annotated[
+        str | None,
+        typer.Option(
+            help="What marks missing values where motion cannot tell: zeros, held, a number, none."
+        ),
+    ] = None,
     plugin: Plugins = None,
 ) -> None:
     """Fill the gaps of your own recordings.
@@ -75,25 +84,60 @@ def fill(
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
     entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap)
-    reading = filling.Reading(rate, min_likelihood, insert_missing)
-    inputs, left_out = filling.read_input_files(files, train or (), reading, entries)
-    for source in inputs:
-        if model == filling.BEST:
-            filling.require_room(source.problem)
-        else:
-            filling.require_candidate(model, source.problem)
-    for reason in left_out:
-        console.print(f"left out: {reason}", soft_wrap=True, highlight=False)
+    reading = filling.Reading(
+        rate, min_likelihood, insert_missing, choose_missing_rule(missing)
+    )
+
+    def check(source: InputFile) -> None:
+        _require_fillable(source, model, outputs[source.path])
+
+    inputs, refused = filling.read_input_files(files, train or (), reading, entries, check)
+    codes = [_explain_refusal(error, console) for error in refused]
     try:
         with filling.Workers(bench.n_cores(), plugins) as workers:
             for source in inputs:
-                _fill_file(source, model, workers, budget, outputs[source.path], console)
+                paths = outputs[source.path]
+                codes.append(_fill_file(source, model, workers, budget, paths, console))
     except KeyboardInterrupt:
         console.print("interrupted; files that were filled are kept, others were not written")
         raise
+    raise typer.Exit(max(codes, default=ExitCode.OK))
+
+
+def _require_fillable(source: InputFile, model: str, outputs: OutputPaths) -> None:
+    """Refuse a file that the model cannot fill, or whose outputs cannot be written."""
+    if model == filling.BEST:
+        filling.require_room(source.problem)
+    else:
+        filling.require_candidate(model, source.problem)
+    filling.require_writable(source, outputs)
+
+
+def _explain_refusal(error: Exception, console: LiteralConsole) -> ExitCode:
+    """Say why a file is not filled, and return the exit code for it."""
+    if isinstance(error, filling.NothingToFillError):
+        console.print(f"left out: {error}", soft_wrap=True, highlight=False)
+        return ExitCode.OK
+    return explain(error)
 
 
 def _fill_file(
+    source: InputFile,
+    model: str,
+    workers: Workers,
+    budget: float,
+    outputs: OutputPaths,
+    console: LiteralConsole,
+) -> ExitCode:
+    """Fill a file, say why if that is impossible, and return the exit code for it."""
+    try:
+        _fill_and_write(source, model, workers, budget, outputs, console)
+    except (UsageError, FormatError, OSError) as error:
+        return explain(error)
+    return ExitCode.OK
+
+
+def _fill_and_write(
     source: InputFile,
     model: str,
     workers: Workers,

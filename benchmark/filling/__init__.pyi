@@ -3,9 +3,10 @@ from .choosing.choice import require_room
 from .filled_file import BEST, FilledFile, fill
 from .input_files import InputFile, read_input_files
 from .messages import describe_choice, describe_fill, list_remarks
-from .output_files import OutputPaths, name_output_files, write
+from .output_files import OutputPaths, name_output_files, require_writable, write
 from .page import compose_page
 from .reading import Reading
+from .requests.refusals import NothingToFillError
 from .requests.request import NamedEntries
 from .workers import Workers
 
@@ -14,6 +15,7 @@ __all__ = [
     "FilledFile",
     "InputFile",
     "NamedEntries",
+    "NothingToFillError",
     "OutputPaths",
     "Reading",
     "Workers",
@@ -26,5 +28,6 @@ __all__ = [
     "read_input_files",
     "require_candidate",
     "require_room",
+    "require_writable",
     "write",
 ]

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
+from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.filling.gap_problem import GapProblem, select_channels
 from mocapbench.benchmark.filling.reading import Reading
 from mocapbench.benchmark.filling.requests.channels import match_channels
 from mocapbench.benchmark.filling.requests.refusals import NothingToFillError
 from mocapbench.benchmark.filling.requests.request import FillRequest, NamedEntries, select
-from mocapbench.datasets import Format, Recording, check_alike
+from mocapbench.datasets import Format, FormatError, Recording, check_alike
 from mocapbench.datasets.formats.strays import is_unlabelled
 
 __all__ = ["InputFile", "read_input_files"]
@@ -33,12 +34,15 @@ class InputFile:
     train : tuple of Recording
         Other files that models learn from, with the channels of the file, in its order; unlabelled
         markers and results of a model that they lack are hidden throughout.
+    remarks : tuple of str
+        What is to be said of missing values in the files.
     """
 
     path: Path
     format: Format
     request: FillRequest
     train: tuple[Recording, ...]
+    remarks: tuple[str, ...] = ()
 
     @property
     def problem(self) -> GapProblem:
@@ -53,11 +57,13 @@ class InputFile:
 
 
 def read_input_files(
-    files: Sequence[Path], train: Sequence[Path], reading: Reading, entries: NamedEntries
-) -> tuple[list[InputFile], list[str]]:
-    """Return the files to fill, and why others are left out: there is nothing to fill in them.
-
-    All of them are read, and those to fill are found to be usable.
+    files: Sequence[Path],
+    train: Sequence[Path],
+    reading: Reading,
+    entries: NamedEntries,
+    check: Callable[[InputFile], None],
+) -> tuple[list[InputFile], list[Exception]]:
+    """Return the files to fill, and why others cannot be filled or need not be.
 
     Parameters
     ----------
@@ -67,40 +73,51 @@ def read_input_files(
         How all of them are read.
     entries : NamedEntries
         What to fill in each file.
+    check : callable
+        Refuses a file for other reasons, by an error.
+
+    Returns
+    -------
+    inputs : list of InputFile
+    refused : list of Exception
+        A `NothingToFillError` where nothing is to be filled.
 
     Raises
     ------
     FormatError
-        If a file cannot be read, or one to learn from lacks a channel of it, or has other units or
-        another rate.
+        If a file to learn from cannot be read, or as the first file where none can be filled.
     UsageError
-        If there is nothing to fill in any file, or nothing to fill it from.
+        As the first file where none can be filled.
     """
     others = {path.resolve(): reading.read(path) for path in train}
     inputs: list[InputFile] = []
-    left_out: list[NothingToFillError] = []
+    refused: list[Exception] = []
     for path in files:
         try:
-            inputs.append(_read_input_file(path, others, reading, entries))
-        except NothingToFillError as error:
-            left_out.append(error)
+            source = _read_input_file(path, others, reading, entries)
+            check(source)
+            inputs.append(source)
+        except (FormatError, UsageError, OSError) as error:
+            refused.append(error)
     if not inputs:
-        raise left_out[0]
-    return inputs, [str(error) for error in left_out]
+        raise min(refused, key=lambda error: isinstance(error, NothingToFillError))
+    return inputs, refused
 
 
 def _read_input_file(
-    path: Path, others: dict[Path, Recording], reading: Reading, entries: NamedEntries
+    path: Path,
+    others: Mapping[Path, tuple[Recording, tuple[str, ...]]],
+    reading: Reading,
+    entries: NamedEntries,
 ) -> InputFile:
-    file, recording = reading.format_of(path), reading.read(path)
+    file, (recording, remarks) = reading.format_of(path), reading.read(path)
     results = file.results(path, recording.channels)
-    train = tuple(
-        _match_channels(other, recording, results)
-        for file, other in others.items()
-        if file != path.resolve()
-    )
-    check_alike([recording, *train])
-    return InputFile(path, file, select(recording, entries, train, results), train)
+    train = {other: told for other, told in others.items() if other != path.resolve()}
+    alike = tuple(_match_channels(one, recording, results) for one, _ in train.values())
+    check_alike([recording, *alike])
+    of_train = (f"{other.name}: {text}" for other, (_, said) in train.items() for text in said)
+    request = select(recording, entries, alike, results)
+    return InputFile(path, file, request, alike, (*remarks, *of_train))
 
 
 def _match_channels(other: Recording, recording: Recording, results: Sequence[str]) -> Recording:

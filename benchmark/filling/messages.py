@@ -14,7 +14,6 @@ from mocapbench.benchmark.filling.filled_file import FilledFile
 from mocapbench.benchmark.filling.jumps import find_jumps
 from mocapbench.benchmark.filling.requests.names import name_markers
 from mocapbench.benchmark.filling.requests.request import FillRequest
-from mocapbench.benchmark.filling.requests.zeros import describe_zeros
 
 __all__ = ["describe_choice", "describe_fill", "list_remarks"]
 
@@ -193,7 +192,7 @@ def _warn_of_doubts(filled: FilledFile) -> Iterator[str]:
     yield from _warn_of_replaced_values(request)
     yield from _warn_of_jumps(filled)
     yield from _warn_of_long_intervals(request)
-    yield from filter(None, [describe_zeros(request.given)])
+    yield from filled.source.remarks
 
 
 def _warn_of_few_visible(filled: FilledFile) -> Iterator[str]:

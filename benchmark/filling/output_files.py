@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pandas as pd
@@ -12,9 +13,17 @@ from mocapbench.basics.whole_files import write_text
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.files import ENTRIES, require_short_names, require_writable_folder
 from mocapbench.benchmark.filling.filled_file import FilledFile
+from mocapbench.benchmark.filling.input_files import InputFile
+from mocapbench.datasets import FrameByChannel
 from mocapbench.reports import csv_text
 
-__all__ = ["OutputPaths", "name_output_files", "tabulate_entries", "write"]
+__all__ = [
+    "OutputPaths",
+    "name_output_files",
+    "require_writable",
+    "tabulate_entries",
+    "write",
+]
 
 OutputPaths = tuple[Path, Path, Path]
 """The files that are written for one file: its copy, the table, and the page.
@@ -29,8 +38,7 @@ def name_output_files(files: Sequence[Path], folder: Path) -> list[OutputPaths]:
     Raises
     ------
     UsageError
-        If the folder is a file or cannot be written to, a file to write exists, has too long a
-        name, or two have one name.
+        If the folder is a file or cannot be written to, or two files would have one name.
     """
     if folder.exists() and not folder.is_dir():
         raise UsageError(f"--out: expected a folder, got the file {folder}; name another")
@@ -38,19 +46,51 @@ def name_output_files(files: Sequence[Path], folder: Path) -> list[OutputPaths]:
     names = [(file.name, f"{file.name}{ENTRIES}", f"{file.name}.html") for file in files]
     outputs = [(folder / copy, folder / table, folder / page) for copy, table, page in names]
     paths = [path for of_one_file in outputs for path in of_one_file]
-    require_short_names("--out", paths)
-    existing = [path for path in paths if path.exists()]
-    if existing:
-        raise UsageError(
-            f"--out: expected no file called {existing[0]}, which would be overwritten; "
-            "name another folder, or delete it"
-        )
     if len(set(paths)) < len(paths):
         raise UsageError(
             "expected files of different names, since all are written to one folder; "
             "fill them one by one, each with its own --out"
         )
     return outputs
+
+
+def require_writable(source: InputFile, outputs: OutputPaths) -> None:
+    """Refuse a file whose outputs could not be written, before anything is computed.
+
+    A copy is written elsewhere, in which the nearest visible values stand for those to be filled.
+
+    Raises
+    ------
+    UsageError
+        If an output exists or has too long a name.
+    FormatError
+        If the format cannot write the copy.
+    """
+    require_short_names("--out", outputs)
+    existing = [path for path in outputs if path.exists()]
+    if existing:
+        raise UsageError(
+            f"--out: expected no file called {existing[0]}, which would be overwritten; "
+            "name another folder, or delete it"
+        )
+    request = source.request
+    stand_ins = request.given.with_values(_hold_nearest(request.given.values))
+    with TemporaryDirectory() as folder:
+        copy_path = Path(folder, outputs[0].name)
+        source.format.write(copy_path, stand_ins, like=source.path, replaced=request.target)
+
+
+def _hold_nearest(values: FrameByChannel) -> FrameByChannel:
+    """Return values (N, D) with the nearest visible one in place of each NaN, or else 0."""
+    result, frames = np.zeros_like(values), np.arange(len(values))
+    for channel, column in enumerate(values.T):
+        (seen,) = np.nonzero(~np.isnan(column))
+        if len(seen):
+            after = seen[np.searchsorted(seen, frames).clip(max=len(seen) - 1)]
+            before = seen[(np.searchsorted(seen, frames, "right") - 1).clip(min=0)]
+            nearer = np.abs(frames - before) <= np.abs(after - frames)
+            result[:, channel] = column[np.where(nearer, before, after)]
+    return result
 
 
 def write(filled: FilledFile, outputs: OutputPaths, page: str) -> None:

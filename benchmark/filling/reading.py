@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 from mocapbench.benchmark.errors import UsageError
 from mocapbench.benchmark.formats import format_for
-from mocapbench.datasets import Format, Recording
+from mocapbench.benchmark.missing_values import MissingRule, tell_missing
+from mocapbench.datasets import Format, Recording, unwrap_angles
 
 __all__ = ["Reading"]
 
@@ -24,24 +25,34 @@ class Reading(NamedTuple):
         Entries that a file finds less likely are hidden.
     insert_missing : bool
         Whether frames of which a file has no row are read as hidden, and rows are added.
+    missing : callable
+        What tells missing values.
     """
 
     rate: float | None = None
     min_likelihood: float | None = None
     insert_missing: bool = False
+    missing: MissingRule = tell_missing
 
     def format_of(self, path: Path) -> Format:
         """Return the format in which a file is read and written."""
         kind = format_for(path)
         return kind.with_missing_rows() if self.insert_missing else kind
 
-    def read(self, path: Path) -> Recording:
-        """Return the recording of a file under its path, since models want distinct names."""
-        kind = self.format_of(path)
-        recording = replace(kind.read(path, self.rate), name=str(path))
+    def read(self, path: Path) -> tuple[Recording, tuple[str, ...]]:
+        """Return the recording of a file, and what is to be said of its missing values.
+
+        It has the name of its path, since models want distinct names.
+        """
+        stated = self.format_of(path).read_as_stated(path, self.rate)
+        likely = self._hide_unlikely(path, replace(stated, name=str(path)))
+        mask, remarks = self.missing(likely)
+        return unwrap_angles(likely.hide(mask)), remarks
+
+    def _hide_unlikely(self, path: Path, recording: Recording) -> Recording:
         if self.min_likelihood is None:
             return recording
-        likelihoods = kind.likelihoods(path)
+        likelihoods = self.format_of(path).likelihoods(path)
         if likelihoods is None:
             raise UsageError(
                 f"{path}: expected a column of likelihoods for --min-likelihood, such as "

@@ -182,7 +182,28 @@ class Format(ABC):
             If the suffix is another, a library is missing, or the file cannot be read, is malformed
             or does not fit in memory.
         """
-        return unwrap_angles(self._raw(Path(path), rate))
+        return unwrap_angles(self.read_as_stated(path, rate))
+
+    def read_as_stated(self, path: str | Path, rate: float | None = None) -> Recording:
+        """Return the recording with angles as they stand in the file, else as `read`.
+
+        Raises
+        ------
+        FormatError
+            As `read`.
+        """
+        path = Path(path)
+        self._check_suffix(path)
+        if self.needs is not None and find_spec(self.needs.package) is None:
+            raise MissingExtraError(str(path), *self.needs)
+        if rate is not None and not (isfinite(rate) and rate > 0):
+            raise FormatError(str(path), "a positive rate", f"{rate:g}", "name frames per second")
+        with _plain_errors(path):
+            size = path.stat().st_size
+            check_fits(str(path), size, self.memory_per_byte * size)
+            recording = self.load(path, rate)
+            _check_texts(path.name, recording)
+            return recording
 
     def write(
         self, path: str | Path, filled: Recording, like: str | Path, replaced: Mask | None = None
@@ -213,7 +234,7 @@ class Format(ABC):
         if path.resolve() == like.resolve():
             advice = "choose another name or folder"
             raise FormatError(str(path), "another file than the one read", "the same", advice)
-        raw = self._raw(like, rate=1.0)  # a rate, as times are not written
+        raw = self.read_as_stated(like, rate=1.0)  # a rate, as times are not written
         _check_shape(filled, raw, path)
         new = (~raw.visible if replaced is None else np.asarray(replaced, dtype=bool)) & (
             filled.visible
@@ -221,19 +242,6 @@ class Format(ABC):
         values = wrap_angles(filled.values, raw.hide(new), new)
         with _plain_errors(path), stage_file(path) as temporary:
             self.save(temporary, values, new, like)
-
-    def _raw(self, path: Path, rate: float | None) -> Recording:
-        self._check_suffix(path)
-        if self.needs is not None and find_spec(self.needs.package) is None:
-            raise MissingExtraError(str(path), *self.needs)
-        if rate is not None and not (isfinite(rate) and rate > 0):
-            raise FormatError(str(path), "a positive rate", f"{rate:g}", "name frames per second")
-        with _plain_errors(path):
-            size = path.stat().st_size
-            check_fits(str(path), size, self.memory_per_byte * size)
-            recording = self.load(path, rate)
-            _check_texts(path.name, recording)
-            return recording
 
     def _check_suffix(self, path: Path) -> None:
         if path.suffix.lower() not in self.suffixes:

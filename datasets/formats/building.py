@@ -25,9 +25,9 @@ def even_times(n_frames: int, rate: float) -> Frames:
 def warn_of_missing_rows(file: str, times: Frames) -> None:
     """Warn where times (N,) jump by as much as two frames or more, for rows were left out there."""
     steps = np.diff(times)
-    usual = np.median(steps) if len(steps) else np.inf
-    jumps = np.flatnonzero((steps > _JUMP * usual) & (usual > 0))
-    if len(jumps):
+    usual = float(np.median(steps)) if len(steps) else 0.0
+    jumps = np.flatnonzero(steps > _JUMP * usual)
+    if len(jumps) and usual > 0:
         n_missing = int(np.sum(np.round(steps[jumps] / usual) - 1))
         warnings.warn(
             f"{file}: expected a frame every {usual:g} s, got {len(jumps)} longer steps, the first "

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from mocapbench.basics.words import format_count
 from mocapbench.benchmark.errors import UsageError, first_of
 from mocapbench.benchmark.filling.requests.names import name_markers
-from mocapbench.benchmark.filling.requests.zeros import describe_zeros
+from mocapbench.benchmark.missing_values import undecided_values
 from mocapbench.datasets import Recording
 
 __all__ = ["NothingToFillError", "explain_no_gap", "explain_nothing_known"]
@@ -39,7 +39,7 @@ def explain_no_gap(
     hints = (
         f"{recording.name}: expected a gap, got all {which} visible; name what to fill with "
         "--frames, such as 120:180",
-        describe_zeros(recording),
+        undecided_values(recording),
     )
     return ". ".join(filter(None, hints)).rstrip(".")
 

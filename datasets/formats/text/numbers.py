@@ -10,7 +10,14 @@ import numpy as np
 
 __all__ = ["format_number", "is_missing", "is_number", "looks_numeric", "numeric"]
 
-_MISSING = frozenset({"", "nan", "na", "null"})
+_MISSING = frozenset(
+    [
+        *("nan", "na", "n/a", "null", "none", "missing", "-", "--", "---", "?"),
+        *("#n/a", "#num!", "#value!", "#div/0!", "nan(ind)", "nan(snan)"),
+        *("1.#ind", "1.#ind00", "1.#qnan", "1.#qnan0", "1.#snan"),
+    ]
+)
+"""Of Excel, R, Python, databases, the C library of Microsoft, and people."""
 _NUMERIC = re.compile(
     r"""\s*[+\-−]?
     (?=[.,]?\d)
@@ -22,8 +29,12 @@ _NUMERIC = re.compile(
 
 
 def is_missing(cell: str) -> bool:
-    """Return whether a cell says that there is no value: empty, NaN, NA or null in any case."""
-    return cell.strip().lower() in _MISSING
+    """Return whether a cell says that there is no value: empty, NaN, NA, null and the like.
+
+    Upper and lower case make no difference, nor does a sign before NaN.
+    """
+    word = cell.strip().lower()
+    return not word or word in _MISSING or (word[0] in "+-" and word[1:] in _MISSING)
 
 
 def is_number(cell: str, decimal: str) -> bool:

@@ -14,7 +14,7 @@ from c3d_files import write_bytes
 from mocapbench.benchmark import FORMATS, format_for
 from mocapbench.benchmark.cli import fill as command
 from mocapbench.benchmark.filling.workers import Workers
-from mocapbench.datasets import AcclaimFormat, C3DFormat, CSVFormat
+from mocapbench.datasets import AcclaimFormat, C3DFormat, CSVFormat, FormatError, TRCFormat
 from mocapbench.datasets.formats import memory
 
 HEADER = "time,hip [deg],knee [deg],height [cm]"
@@ -118,13 +118,16 @@ def test_a_folder_that_cannot_be_written_to_is_refused_before_anything_is_tried(
     assert not (tmp_path / "new").exists()
 
 
-def test_no_file_is_filled_where_one_has_no_room_for_trials(cli, walk, tmp_path, out):
+def test_a_file_without_room_for_hold_outs_is_refused_and_others_are_filled(
+    cli, walk, tmp_path, out
+):
     lost = save(tmp_path / "lost.csv", rows(gap=range(N_FRAMES)))
     whole = save(tmp_path / "whole.csv", rows(gap=()))
-    assert cli("fill", walk, lost, "--train", whole, "--out", out) == 2
+    fill = ("fill", walk, lost, "--train", whole, "--budget", "2", "--out", out)
+    assert cli(*fill) == 2
     assert "lost" in cli.printed
     assert "expected a visible stretch to try models on" in cli.printed
-    assert not out.exists() or not list(out.iterdir())
+    assert {path.name for path in out.glob("*.csv.html")} == {"walk.csv.html"}
 
 
 def test_files_of_one_name_are_refused(cli, walk, tmp_path, out):
@@ -216,16 +219,50 @@ def test_an_empty_channel_stays_empty_while_others_are_filled(cli, tmp_path, out
 MARKER = "time,RKNE.x [mm],RKNE.y [mm],RKNE.z [mm]"
 
 
-@pytest.mark.parametrize(("gap", "code"), [(range(50, 60), 0), ((), 2)])
-def test_zeros_that_may_mark_missing_values_are_said_and_kept(cli, tmp_path, out, gap, code):
-    lines = rows(gap=gap)
-    for line in lines[20:30]:
-        line[1:] = ["0"] * 3
-    path = save(tmp_path / "marker.csv", lines, MARKER)
-    assert cli("fill", path, "--model", "linear", "--out", out) == code
-    assert "RKNE is exactly 0, 0, 0 in 10 frames" in " ".join(cli.printed.split())
-    for filled in out.glob("marker.csv"):
-        assert (CSVFormat().read(filled).values[20:30] == 0.0).all()
+def marker_with(tmp_path, word, height):
+    """Return a file of a marker, whose frames 20 to 29 have a word for each coordinate."""
+    lines = rows(gap=())
+    for frame, line in enumerate(lines):
+        around = [f"{2 * np.sin(frame):.4f}", f"{2 * np.cos(1.3 * frame):.4f}", str(height)]
+        line[1:] = [word] * 3 if 20 <= frame < 30 else around
+    return save(tmp_path / "marker.csv", lines, MARKER)
+
+
+def test_zeros_that_are_far_from_a_marker_are_filled(cli, tmp_path, out):
+    path = marker_with(tmp_path, "0", 90)
+    assert cli("fill", path, "--model", "linear", "--out", out) == 0
+    said = "RKNE is exactly 0, 0, 0 in 10 frames, far from where it is before and after: this is"
+    assert said in " ".join(cli.printed.split())
+    assert said in " ".join((out / "marker.csv.html").read_text().split())
+    values = CSVFormat().read(out / "marker.csv").values
+    assert (values[20:30, 2] == 90).all()
+    assert cli("fill", path, "--model", "linear", "--missing", "none", "--out", out / "none") == 2
+    assert "expected a gap, got all entries visible" in cli.printed
+
+
+def test_zeros_near_a_marker_are_said_kept_and_filled_on_demand(cli, tmp_path, out):
+    path = marker_with(tmp_path, "0", 1)
+    assert cli("fill", path, "--model", "linear", "--out", out) == 2
+    said = "RKNE is exactly 0, 0, 0 in 10 frames and elsewhere in others: if that marks missing"
+    assert said in " ".join(cli.printed.split())
+    assert cli("fill", path, "--model", "linear", "--missing", "zeros", "--out", out) == 0
+    assert "30 entries count as missing, as --missing says" in " ".join(cli.printed.split())
+    assert (CSVFormat().read(out / "marker.csv").values[20:30, 2] == 1).all()
+
+
+@pytest.mark.parametrize("word", ["-99", "5.5"])
+def test_a_number_for_missing_values_can_be_named(cli, tmp_path, out, word):
+    path = marker_with(tmp_path, word, 90)
+    assert cli("fill", path, "--model", "linear", f"--missing={word}", "--out", out) == 0
+    before, after = (p.read_text().splitlines() for p in (path, out / "marker.csv"))
+    changed = [n for n, pair in enumerate(zip(before, after, strict=True)) if pair[0] != pair[1]]
+    assert changed == [*range(21, 31)]
+
+
+@pytest.mark.parametrize("word", ["nothing", "nan", "inf", ""])
+def test_what_marks_missing_values_is_a_word_or_a_number(cli, walk, out, word):
+    assert cli("fill", walk, f"--missing={word}", "--model", "linear", "--out", out) == 2
+    assert "--missing: expected zeros, held, none or a number such as 9999999, got" in cli.printed
 
 
 def test_files_with_nothing_to_fill_are_left_out_and_the_others_filled(cli, walk, tmp_path, out):
@@ -241,12 +278,61 @@ def test_files_with_nothing_to_fill_are_left_out_and_the_others_filled(cli, walk
     assert {path.name for path in (out / "short").glob("*.html")} == {"other.csv.html"}
 
 
-def test_a_file_that_cannot_be_read_stops_all_before_anything_is_written(cli, walk, tmp_path, out):
+def test_a_file_that_cannot_be_read_is_said_by_the_exit_code_and_others_are_filled(
+    cli, walk, tmp_path, out
+):
     broken = save(tmp_path / "broken.csv", changed(7, 1, "n/a!"))
     complete = save(tmp_path / "complete.csv", rows(gap=()))
     assert cli("fill", walk, complete, broken, "--model", "linear", "--out", out) == 2
     assert "broken.csv, line 9: expected a number" in cli.printed
-    assert not out.exists()
+    assert f"left out: {complete}" in cli.printed
+    assert {path.name for path in out.glob("*.html")} == {"walk.csv.html"}
+    assert cli("fill", broken, complete, "--model", "linear", "--out", out / "none") == 2
+    assert "broken.csv, line 9: expected a number" in cli.printed
+    assert not (out / "none").exists()
+
+
+def test_what_cannot_be_written_is_refused_before_any_model_runs(
+    cli, walk, tmp_path, out, monkeypatch
+):
+    def refuse(self, path, values, new, like):
+        raise FormatError(like.name, "another file", "this one", "export it again")
+
+    csv_given = shutil.copy(walk, tmp_path / "other.csv")
+    trc = format_files.sample("trc", tmp_path)
+    monkeypatch.setattr(TRCFormat, "save", refuse)
+    monkeypatch.setattr(Workers, "submit", lambda *args, **kwargs: pytest.fail("a model runs"))
+    assert cli("fill", trc, "--model", "linear", "--out", out) == 2
+    assert "expected another file, got this one; export it again" in cli.printed
+    monkeypatch.undo()
+    monkeypatch.setattr(TRCFormat, "save", refuse)
+    assert cli("fill", trc, csv_given, "--model", "linear", "--out", out) == 2
+    assert {path.name for path in out.glob("*.html")} == {"other.csv.html"}
+    (out / "walk.csv.html").write_text("mine")
+    assert cli("fill", walk, trc, "--model", "linear", "--out", out) == 2
+    assert "walk.csv.html, which would be overwritten" in cli.printed
+
+
+PICKY = """
+import numpy as np
+from mocapbench.baselines import LinearImputer
+class Picky(LinearImputer):
+    def impute(self, recordings):
+        if max((~one.visible).sum() for one in recordings) > 20:
+            raise ValueError("too much is hidden")
+        return super().impute(recordings)
+MODELS = {"picky": Picky}
+"""
+
+
+def test_a_model_that_fails_on_one_file_leaves_the_others(cli, walk, tmp_path, out):
+    plugin = tmp_path / "picky.py"
+    plugin.write_text(PICKY)
+    long = save(tmp_path / "long.csv", rows(gap=range(20, 70)))
+    fill = ("fill", long, walk, "--plugin", plugin, "--model", "picky", "--out", out)
+    assert cli(*fill) == 2
+    assert "picky did not fill it: " in cli.printed
+    assert {path.name for path in out.glob("*.html")} == {"walk.csv.html"}
 
 
 def test_everything_hidden_is_refused(cli, walk, out):

@@ -122,13 +122,22 @@ def test_rotations_are_unwrapped_in_and_wrapped_out(read, tmp_path):
     assert lines[1:] == ["0,170", "1,-179.5", "2,-169.75", "3,-160"]
 
 
-@pytest.mark.parametrize("mark", ["-", "n/a", "lost", "#N/A"])
+@pytest.mark.parametrize("mark", ["x", "lost", "0-0", "#REF!"])
 @pytest.mark.parametrize("n_marked", [1, 5, 8])
 def test_a_column_of_numbers_is_never_taken_for_text(read, mark, n_marked):
     """However many of its cells are no numbers, if these are alike."""
     rows = [f"{k},{k},{mark if k < n_marked else k}" for k in range(10)]
     with pytest.raises(FormatError, match=rf"line 2: .* a number, got '{mark}' in column 'knee'; "):
         read("\n".join(["time,hip,knee", *rows]))
+
+
+WORDS = ("", "NaN", "-nan", "+NAN", "NA", "n/a", "#N/A", "null", "None", "-", "--", "?", "1.#QNAN")
+
+
+@pytest.mark.parametrize("word", [*WORDS, "-1.#IND", "-nan(ind)", "#DIV/0!", " nan ", "missing"])
+def test_words_of_many_programs_mark_missing_values(read, word):
+    values = read(f"time,hip,knee\n0,1,{word}\n1,{word},3\n2,3,4\n").values
+    assert np.array_equal(values, [[1, np.nan], [np.nan, 3], [3, 4]], equal_nan=True)
 
 
 def test_labels_with_a_number_among_them_are_text(read):

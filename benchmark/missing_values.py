@@ -1,0 +1,310 @@
+"""Missing values that a file writes as numbers: zeros, a number such as 9999999, held values.
+
+Some programs write 0, 0, 0 where a marker was not seen, some a number that nothing measures, some
+the last position again. Motion tells such values by rules that real motion does not meet; where a
+rule cannot tell, values stay, and the user may say what marks missing ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from math import isfinite, nan
+
+import numpy as np
+
+from mocapbench.baselines.common.markers import markers_of
+from mocapbench.basics.arrays import Array
+from mocapbench.basics.gaps import run_bounds
+from mocapbench.basics.words import format_count, join_names
+from mocapbench.benchmark.errors import UsageError
+from mocapbench.datasets import Mask, Recording
+
+__all__ = ["MissingRule", "choose_missing_rule", "tell_missing", "undecided_values"]
+
+_NAMED = 4
+"""Markers that a sentence names at most."""
+_READ_AS_MISSING = "this is read as missing (--missing none keeps it)."
+_FAR, _LONG = 3.0, 0.95
+"""How many times as far as a long step, which is that quantile of its steps, a marker is from the
+origin beside zeros."""
+_ABOVE_NINES, _ABOVE_ALL, _REPEATED, _FEWEST_NINES = 2.0, 1000.0, 3, 3
+"""How many times as large as all others a number of nines is, or one that occurs so often."""
+_LEAST_HELD, _LEAP, _LEAST_STEP, _COARSE = 5, 2.0, 1 / 3, 0.05
+"""Frames that a value is held, at least; how many times as long as those around it the step is that
+ends it, and as long as usual the step beside one that is held at an end; share of coordinates that
+repeat by themselves in files of so few digits that all may."""
+
+
+Told = tuple[Mask, tuple[str, ...]]
+"""Entries (N, D) whose values stand for missing ones, and sentences that say which and why."""
+MissingRule = Callable[[Recording], Told]
+"""What tells missing values of a recording whose angles are as the file has them."""
+
+
+def choose_missing_rule(text: str | None) -> MissingRule:
+    """Return the rule for what the user says marks missing values.
+
+    Parameters
+    ----------
+    text : str or None
+        ``zeros``, ``held``, ``none`` or a number; None leaves it to motion (`tell_missing`).
+
+    Raises
+    ------
+    UsageError
+        If it is something else.
+    """
+    if text is None:
+        return tell_missing
+    if text in _MARKS:
+        return partial(_tell_marked, _MARKS[text])
+    try:
+        number = float(text)
+    except ValueError:
+        number = nan
+    if not isfinite(number):
+        raise UsageError(
+            f"--missing: expected zeros, held, none or a number such as 9999999, got {text!r}"
+        )
+    return partial(_tell_marked, partial(_equal_values, number))
+
+
+def tell_missing(recording: Recording) -> Told:
+    """Return which values stand for missing ones by rules that real motion does not meet.
+
+    Parameters
+    ----------
+    recording : Recording
+        With angles as the file has them.
+    """
+    mask, remarks = _nothing(recording), []
+    for rule in (_tell_zeros, _tell_number, _tell_held):
+        told, texts = rule(recording.hide(mask))
+        mask |= told
+        remarks += texts
+    return mask, tuple(filter(None, [*remarks, undecided_values(recording.hide(mask))]))
+
+
+def _tell_marked(mark: Callable[[Recording], Mask], recording: Recording) -> Told:
+    mask = mark(recording)
+    entries = format_count(int(mask.sum()), "entry counts", "entries count")
+    return mask, (f"{entries} as missing, as --missing says.",) if mask.any() else ()
+
+
+def undecided_values(recording: Recording) -> str:
+    """Return which values may stand for missing ones where no rule tells it."""
+    zeros = {name: int(rows.sum()) for name, rows in _zero_rows(recording).items()}
+    held = {
+        name: max(stop - start for start, stop in runs)
+        for name, runs in _held_runs(recording).items()
+    }
+    sentences = (
+        _count_frames(zeros, "exactly 0, 0, 0 in {} and elsewhere in others", "zeros"),
+        _count_frames(held, "exactly where the frame before has it for {}", "held"),
+    )
+    return " ".join(filter(None, sentences))
+
+
+def _count_frames(frames: Mapping[str, int], where: str, mark: str) -> str:
+    """Return a sentence on the markers that are somewhere in some frames, if there are any."""
+    if not frames:
+        return ""
+    are, each = ("is", "") if len(frames) == 1 else ("are", "up to ")
+    count = each + format_count(max(frames.values()), "frame")
+    return (
+        f"{join_names([*frames], _NAMED)} {are} {where.format(count)}: if that marks missing "
+        f"values, --missing {mark} has them filled."
+    )
+
+
+def _tell_zeros(recording: Recording) -> Told:
+    """Tell zeros by their distance from where the marker is before and after them.
+
+    If they stand for missing values of one marker, they do so for all of the file.
+    """
+    markers = markers_of(recording.channels, recording.units)
+    rows = _zero_rows(recording)
+    far = {
+        name: int(at.sum())
+        for name, at in rows.items()
+        if _is_far(recording.values[:, list(markers[name])], at)
+    }
+    mask = np.zeros(recording.values.shape, dtype=bool)
+    if not far:
+        return mask, ()
+    for places in map(list, markers.values()):
+        mask[:, places] = (recording.values[:, places] == 0.0).all(axis=1)[:, None]
+    are, it_is = ("is", "it is") if len(far) == 1 else ("are", "they are")
+    frames = "up to " * (len(far) > 1) + format_count(max(far.values()), "frame")
+    return (
+        mask,
+        (
+            f"{join_names([*far], _NAMED)} {are} exactly 0, 0, 0 in {frames}, "
+            f"far from where {it_is} before and after: {_READ_AS_MISSING}",
+        ),
+    )
+
+
+def _zero_rows(recording: Recording) -> dict[str, Mask]:
+    """Return the frames (N,) in which each marker that is elsewhere in others is at the origin."""
+    found = {}
+    for name, places in markers_of(recording.channels, recording.units).items():
+        values = recording.values[:, list(places)]
+        rows = (values == 0.0).all(axis=1)
+        if rows.any() and (np.nan_to_num(values) != 0.0).any():
+            found[name] = rows
+    return found
+
+
+def _is_far(values: Array, zero: Mask) -> bool:
+    """Return whether a marker (N, 3) is so far from the origin beside all zeros that none is real.
+
+    Far is three times the distance of a long step of its own, for each frame to the zeros.
+    """
+    (seen,) = np.nonzero(np.isfinite(values).all(axis=1) & ~zero)
+    steps = np.linalg.norm(np.diff(values[seen], axis=0), axis=1)[np.diff(seen) == 1]
+    if not len(steps):
+        return False
+    longest = np.quantile(steps, _LONG)
+    for start, stop in run_bounds(zero).tolist():
+        before, after = seen[seen < start][-1:], seen[seen >= stop][:1]
+        beside = np.concatenate([before, after])
+        apart = np.concatenate([start - before, after - stop + 1])
+        if (np.linalg.norm(values[beside], axis=1) <= _FAR * longest * apart).any():
+            return False
+    return True
+
+
+def _tell_number(recording: Recording) -> Told:
+    """Tell a number that nothing measures: of nines alone, or far beyond all of its channel."""
+    values = recording.values
+    sizes = np.abs(np.nan_to_num(values))
+    largest = sizes.max(axis=0, initial=0.0)
+    at = np.equal(sizes, largest)
+    rest = np.where(at, 0.0, sizes).max(axis=0, initial=0.0)
+    nines = np.array([_is_nines(size) for size in largest], dtype=bool)
+    often = at.sum(axis=0) >= _REPEATED
+    told = (rest > 0) & (
+        (nines & (largest > _ABOVE_NINES * rest)) | (often & (largest > _ABOVE_ALL * rest))
+    )
+    numbers = np.unique(values[at & told])
+    remarks = (
+        f"{number:.10g} stands where nothing else of the channel is near: {_READ_AS_MISSING}"
+        for number in numbers
+    )
+    return np.isin(values, numbers), tuple(remarks)
+
+
+def _is_nines(size: float) -> bool:
+    digits = f"{size:.10g}".replace(".", "")
+    return len(digits) >= _FEWEST_NINES and set(digits) == {"9"}
+
+
+def _tell_held(recording: Recording) -> Told:
+    """Tell held values by a sudden end, where the marker leaps to where it has been going."""
+    markers = markers_of(recording.channels, recording.units)
+    mask = np.zeros(recording.values.shape, dtype=bool)
+    told: dict[str, int] = {}
+    for name, runs in _held_runs(recording).items():
+        places = list(markers[name])
+        for start, stop in runs:
+            if _is_sudden(recording.values[:, places], start, stop):
+                mask[start:stop, places] = True
+                told[name] = told.get(name, 0) + stop - start
+    if not told:
+        return mask, ()
+    keep = "keeps" if len(told) == 1 else "keep"
+    frames = "up to " * (len(told) > 1) + format_count(max(told.values()), "frame")
+    return (
+        mask,
+        (
+            f"{join_names([*told], _NAMED)} {keep} the position of the frame before for {frames} "
+            f"while others move, and leap on: {_READ_AS_MISSING}",
+        ),
+    )
+
+
+def _held_runs(recording: Recording) -> dict[str, list[tuple[int, int]]]:
+    """Return the frames [start, stop) in which each marker is exactly where it was before.
+
+    At least half of the others, and two, move meanwhile. Where coordinates have so few digits that
+    single ones repeat often, all may, and nothing is returned of the marker.
+    """
+    markers = markers_of(recording.channels, recording.units)
+    if not markers:
+        return {}
+    values = recording.values[:, [list(places) for places in markers.values()]]  # (N, M, 3)
+    seen = np.asarray(np.isfinite(values).all(axis=2))
+    both = np.zeros(seen.shape, dtype=bool)
+    both[1:] = seen[1:] & seen[:-1]
+    same = _repeat_last(values)
+    held = same.all(axis=2) & both
+    moving = (both & ~held).sum(axis=1)
+    others_move = moving >= np.maximum(2, both.sum(axis=1) / 2)
+    found = {}
+    for place, name in enumerate(markers):
+        steps = same[both[:, place] & ~held[:, place], place]
+        if len(steps) and steps.mean() <= _COARSE:
+            runs = run_bounds(held[:, place] & others_move).tolist()
+            found[name] = [(start, stop) for start, stop in runs if stop - start >= _LEAST_HELD]
+    return {name: runs for name, runs in found.items() if runs}
+
+
+def _is_sudden(values: Array, start: int, stop: int) -> bool:
+    """Return whether a marker (N, 3) that is held in frames [start, stop) leaps before or after.
+
+    What comes to rest slows down before, and what starts to move does so slowly.
+    """
+    steps = np.linalg.norm(np.diff(values, axis=0, prepend=np.nan), axis=1)
+    usual = np.median(steps[steps > 0])
+    before, leap, after = (
+        steps[frame] if frame < len(steps) else np.nan for frame in (start - 1, stop, stop + 1)
+    )
+    if np.isnan(leap) or np.isnan(before):  # at the end or the beginning
+        return bool(np.nanmax([before, leap, 0.0]) >= _LEAST_STEP * usual)
+    return bool(leap > _LEAP * np.nanmax([before, after]))
+
+
+def _nothing(recording: Recording) -> Mask:
+    return np.zeros(recording.values.shape, dtype=bool)
+
+
+def _all_zeros(recording: Recording) -> Mask:
+    """Return where markers, and channels of no marker, are 0."""
+    return _in_whole_markers(recording, np.equal(recording.values, 0.0))
+
+
+def _all_held(recording: Recording) -> Mask:
+    """Return where markers, and channels of no marker, keep the value of the frame before.
+
+    Those that never change keep it, too.
+    """
+    whole = _in_whole_markers(recording, _repeat_last(recording.values))
+    return whole & ~whole[1:].all(axis=0)
+
+
+def _equal_values(number: float, recording: Recording) -> Mask:
+    return np.equal(recording.values, number)
+
+
+def _repeat_last(values: Array) -> Mask:
+    """Return where values (N, ...) are those of the frame before."""
+    same = np.zeros(values.shape, dtype=bool)
+    same[1:] = np.equal(values[1:], values[:-1])
+    return same
+
+
+def _in_whole_markers(recording: Recording, mask: Mask) -> Mask:
+    """Return the mask without entries of markers of which not all three coordinates are in it."""
+    result = mask.copy()
+    for places in map(list, markers_of(recording.channels, recording.units).values()):
+        result[:, places] = mask[:, places].all(axis=1, keepdims=True)
+    return result
+
+
+_MARKS: Mapping[str, Callable[[Recording], Mask]] = {
+    "zeros": _all_zeros,
+    "held": _all_held,
+    "none": _nothing,
+}
