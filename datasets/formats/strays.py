@@ -20,7 +20,7 @@ _STRAY = re.compile(
     | [*]?u_\d+
     )
     (-\d+)?  # of several with one name
-    ([._:\s-][xyz])?""",
+    [._:\s-][xyz]""",
     re.IGNORECASE | re.VERBOSE,
 )
 
