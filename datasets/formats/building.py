@@ -22,16 +22,17 @@ def even_times(n_frames: int, rate: float) -> Frames:
     return np.arange(n_frames) / rate
 
 
-def warn_of_missing_rows(file: str, times: Frames) -> None:
-    """Warn where times (N,) jump by as much as two frames or more, for rows were left out there."""
-    steps = np.diff(times)
-    usual = float(np.median(steps)) if len(steps) else 0.0
+def warn_of_missing_rows(recording: Recording) -> None:
+    """Warn where times jump by nearly two frames or more, for rows were left out there."""
+    steps = np.diff(recording.times)
+    usual = np.median(steps) if len(steps) else np.inf
     jumps = np.flatnonzero(steps > _JUMP * usual)
-    if len(jumps) and usual > 0:
-        n_missing = int(np.sum(np.round(steps[jumps] / usual) - 1))
+    if len(jumps):
+        n_missing = np.round(steps[jumps] / usual - 1.0).sum()
         warnings.warn(
-            f"{file}: expected a frame every {usual:g} s, got {len(jumps)} longer steps, the first "
-            f"after {times[jumps[0]]:g} s: about {n_missing} rows are missing, which stay so",
+            f"{recording.name}: expected a frame every {usual:g} s, got {len(jumps)} longer steps, "
+            f"the first after {recording.times[jumps[0]]:g} s: about {n_missing:.0f} rows are "
+            "missing, which stay so",
             FormatWarning,
             stacklevel=2,
         )

@@ -45,10 +45,11 @@ class TRCFormat(Format):
         _check_end(path.name, parsed, len(values))
         _warn_of_counts(path.name, parsed, len(values))
         times = values[:, 0] if rate is None else even_times(len(values), rate)
-        warn_of_missing_rows(path.name, times)
         channels = marker_channels(parsed.markers)
         units = [parsed.head.facts.get("Units", "")] * len(channels)
-        return recording_of(path.name, times, values[:, 1:], channels, units)
+        recording = recording_of(path.name, times, values[:, 1:], channels, units)
+        warn_of_missing_rows(recording)
+        return recording
 
     def save(self, path: Path, values: FrameByChannel, new: Mask, like: Path) -> None:
         """Write the file's lines with the new coordinates."""
