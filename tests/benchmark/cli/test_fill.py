@@ -6,10 +6,11 @@ import re
 import shutil
 from pathlib import Path
 
+import ezc3d
 import format_files
 import numpy as np
 import pytest
-from c3d_files import write_bytes
+from c3d_files import text, write_bytes
 
 from mocapbench.benchmark import FORMATS, format_for
 from mocapbench.benchmark.cli import fill as command
@@ -442,6 +443,38 @@ def test_an_interrupt_has_its_own_exit_code(cli, walk, out, monkeypatch):
     monkeypatch.setattr(Workers, "submit", interrupt)
     assert cli("fill", walk, "--model", "linear", "--out", out) == 130
     assert not out.exists()
+
+
+@pytest.mark.parametrize("stray", ["*{}", "New 000{}", "Unlabeled 120{}", "U_{}", ""])
+def test_strays_are_left_alone_and_counted_whoever_made_the_file(cli, tmp_path, out, stray):
+    values = np.random.default_rng(0).uniform(-9, 9, (60, 6, 3)).cumsum(axis=0)
+    values[20:30, 1] = values[5:, 2:4] = np.nan
+    labels = ["LKNE", "RKNE", *map(stray.format, range(2)), "LANK", "RANK"]
+    given = write_bytes(tmp_path / "a.c3d", values, labels=[], parameters=named(labels))
+    assert cli("fill", given, "--model", "linear", "--out", out) == 0
+    assert "linear filled 30 entries in 1 gap." in cli.printed
+    assert "2 unlabelled markers (" in cli.printed
+    assert "2 unlabelled markers (" in (out / "a.c3d.html").read_text()
+
+
+def named(labels, **groups):
+    """Return the parameters of points that have labels, and of those that groups name."""
+    named = {f"POINT:{group}": text(*names, width=16) for group, names in groups.items()}
+    return {"POINT:LABELS": text(*labels, width=16), **named}
+
+
+def test_results_of_a_model_are_filled_if_they_are_named(cli, tmp_path, out):
+    values = np.random.default_rng(0).uniform(-9, 9, (60, 4, 3)).cumsum(axis=0)
+    values[20:30, :3] = np.nan
+    parameters = named(["LKNE", "LKneeAngles", "Power", "RKNE"], POWERS=["Power"])
+    given = write_bytes(tmp_path / "a.c3d", values, labels=[], parameters=parameters)
+    for channels, filled in ((None, [0]), ("(LKnee|Power).*", [1, 2]), (".*", [0, 1, 2])):
+        folder = out / str(len(filled))
+        options = ("--channels", channels) if channels else ()
+        assert cli("fill", given, *options, "--model", "linear", "--out", folder) == 0
+        points = ezc3d.c3d(str(folder / "a.c3d"))["data"]["points"][0, :, 20:30]
+        assert [place for place in range(4) if not np.isnan(points[place]).any()] == [*filled, 3]
+        shutil.rmtree(folder)
 
 
 @pytest.mark.parametrize("rate", ["0", "-1", "nan"])

@@ -2,12 +2,17 @@
 
 import re
 import warnings
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
 from format_files import markers, with_gap, write_trc
+from hypothesis import given as drawn_from
+from hypothesis import strategies as st
 
 from mocapbench.datasets import FormatError, TRCFormat
+from mocapbench.datasets.formats.markers.channels import marker_channels
 
 TRC = TRCFormat()
 
@@ -202,3 +207,46 @@ def test_no_other_character_is_written(given, tmp_path, change):
     again = TRC.read(out)
     assert np.array_equal(again.values[odd.visible], odd.values[odd.visible])
     assert (again.values[~odd.visible] == 12345.5).all()
+
+
+LABELS = st.lists(st.sampled_from(["", "LKNE", "R.Knee Lat", "*12", "Fuß", "a-b", "7"]), max_size=6)
+NUMBERS = st.one_of(st.none(), st.floats(-1e4, 1e4).map(lambda value: round(value, 3)))
+
+
+@st.composite
+def wild_texts(draw):
+    """Draw a text with its names and rows: counts, blanks, separators and ends of any kind."""
+    names = [*draw(LABELS), "LAST"]
+    row = st.lists(NUMBERS, min_size=3 * len(names), max_size=3 * len(names))
+    rows = draw(st.lists(row, min_size=1, max_size=5))
+    separator, end = draw(st.sampled_from("\t;,")), draw(st.sampled_from(["\n", "\r\n", "\r"]))
+    counts = [draw(st.sampled_from(["", "3", "7.0", " 12 ", "many"])) for _ in range(2)]
+    facts = [["DataRate", "NumFrames", "NumMarkers", "Units"], ["100", *counts, "mm"]]
+    above = [name for label in names for name in (label, "", "")]
+    cells = [
+        [str(k), f"{k / 100}", *("" if value is None else f"{value}" for value in one)]
+        for k, one in enumerate(rows)
+    ]
+    head = [["PathFileType", "4"], *facts, ["Frame#", "Time", *above]]
+    axes = draw(st.sampled_from([[], [["", "", "X1", "Y1", "Z1"]], [["", "", "X1"], [""]]]))
+    lines = [separator.join(line) for line in (*head, *axes, *cells)]
+    blanks = draw(st.sampled_from([end, end * 2]))
+    return blanks.join(lines) + draw(st.sampled_from(["", end, end * 3])), names, rows
+
+
+@pytest.mark.filterwarnings("ignore:wild.trc. expected")
+@drawn_from(wild_texts())
+def test_any_head_leaves_the_rows_to_be_read_and_written(drawn):
+    text, names, rows = drawn
+    with TemporaryDirectory() as folder:
+        like, out = Path(folder, "wild.trc"), Path(folder, "out.trc")
+        like.write_text(text, newline="", encoding="utf-8")
+        recording = TRC.read(like)
+        assert recording.channels == marker_channels(names)
+        expected = np.array(rows, dtype=float)
+        assert np.array_equal(recording.values, expected, equal_nan=True)
+        TRC.write(out, recording, like)
+        assert out.read_bytes() == like.read_bytes()
+        TRC.write(out, recording.with_values(np.nan_to_num(expected, nan=0.125)), like)
+        again = TRC.read(out).values
+        assert np.array_equal(again, np.where(np.isnan(expected), 0.125, expected))
