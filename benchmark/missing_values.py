@@ -78,7 +78,8 @@ def tell_missing(recording: Recording) -> Told:
     recording : Recording
         With angles as the file has them.
     """
-    mask, remarks = _nothing(recording), []
+    mask = _nothing(recording)
+    remarks: list[str] = []
     for rule in (_tell_zeros, _tell_number, _tell_held):
         told, texts = rule(recording.hide(mask))
         mask |= told

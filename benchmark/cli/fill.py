@@ -84,9 +84,7 @@ def fill(
     console, plugins = LiteralConsole(), load_plugins(plugin)
     outputs = dict(zip(files, filling.name_output_files(files, out), strict=True))
     entries = filling.NamedEntries(_parse_frames(frames), channels, max_gap)
-    reading = filling.Reading(
-        rate, min_likelihood, insert_missing, choose_missing_rule(missing)
-    )
+    reading = filling.Reading(rate, min_likelihood, insert_missing, choose_missing_rule(missing))
 
     def check(source: InputFile) -> None:
         _require_fillable(source, model, outputs[source.path])

@@ -229,3 +229,19 @@ def test_a_recording_without_any_value_has_none_to_tell():
         mask, remarks = tell_missing(empty)
     assert not mask.any()
     assert remarks == ()
+
+
+ENTRIES = st.sampled_from([np.nan, 0.0, 1.0, 1.5, -2.0, 9999.0, 1e30, 1e-300])
+
+
+@given(st.lists(st.lists(ENTRIES, min_size=7, max_size=7), min_size=1, max_size=30))
+def test_whatever_stands_in_a_file_only_visible_entries_are_told(rows):
+    channels = [*(f"{name}.{axis}" for name in "AB" for axis in "xyz"), "C"]
+    recording = Recording("any", np.arange(len(rows)) / 10, rows, channels, ["mm"] * 7)
+    with warnings.catch_warnings(action="error"):
+        mask, remarks = tell_missing(recording)
+    assert not (mask & ~recording.visible).any()
+    assert len(remarks) >= mask.any()
+    for marker in (slice(0, 3), slice(3, 6)):
+        zero = (recording.values[:, marker] == 0.0) & mask[:, marker]
+        assert (zero.all(axis=1) == zero.any(axis=1)).all()
