@@ -209,6 +209,17 @@ def test_no_other_character_is_written(given, tmp_path, change):
     assert (again.values[~odd.visible] == 12345.5).all()
 
 
+@pytest.mark.parametrize("between", ["\t\t", " ", "  \t "])
+def test_facts_are_known_whatever_stands_between_them(given, between):
+    lines = given.read_bytes().decode().splitlines()
+    lines[2] = between.join(lines[2].replace("\t40\t", "\t41\t").split("\t"))
+    given.write_text("\n".join(lines))
+    with pytest.warns(
+        UserWarning, match="expected NumFrames to be 41, as line 3 says, got 40 rows"
+    ):
+        assert set(TRC.read(given).units) == {"mm"}
+
+
 LABELS = st.lists(st.sampled_from(["", "LKNE", "R.Knee Lat", "*12", "Fuß", "a-b", "7"]), max_size=6)
 NUMBERS = st.one_of(st.none(), st.floats(-1e4, 1e4).map(lambda value: round(value, 3)))
 
